@@ -1,0 +1,36 @@
+#pragma once
+// The sRGB transfer curve (IEC 61966-2-1).
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace rs {
+
+inline float linear_from_srgb(float encoded) {
+    return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
+}
+
+inline float srgb_from_linear(float linear) {
+    return linear <= 0.0031308F ? linear * 12.92F : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
+}
+
+// Of an 8-bit code, by table.
+inline float linear_from_srgb8(std::uint8_t code) {
+    static const std::array<float, 256> kTable = [] {
+        std::array<float, 256> table{};
+        for (int i = 0; i < 256; ++i)
+            table[static_cast<std::size_t>(i)] = linear_from_srgb(static_cast<float>(i) / 255.0F);
+        return table;
+    }();
+    return kTable[code];
+}
+
+// Rounded to the nearest code; values outside of 0..1 are clamped, NaN gives 0.
+inline std::uint8_t srgb8_from_linear(float linear) {
+    if (!(linear > 0)) return 0;
+    if (linear >= 1) return 255;
+    return static_cast<std::uint8_t>(std::lround(srgb_from_linear(linear) * 255.0F));
+}
+
+}  // namespace rs

@@ -1,0 +1,63 @@
+#pragma once
+// The payloads of an .rso file's chunks, one pair of functions per chunk: encode/FORMAT.md, section "Chunks".
+//
+// Parsers check what they need in order to read and to allocate safely: sizes, counts and caps; what the numbers mean
+// is validate_object()'s to check. A parser's error message has no file name: the caller knows it.
+
+#include "rayspace/container.hpp"
+#include "rayspace/ray_space_object.hpp"
+#include "rayspace/result.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace rs::object_chunks {
+
+inline constexpr ChunkName kHead = {'H', 'E', 'A', 'D'};
+inline constexpr ChunkName kRig = {'R', 'I', 'G', 'J'};
+inline constexpr ChunkName kViews = {'V', 'I', 'E', 'W'};
+inline constexpr ChunkName kRing = {'R', 'I', 'N', 'G'};
+inline constexpr ChunkName kMap = {'R', 'M', 'A', 'P'};
+inline constexpr ChunkName kPicture = {'P', 'I', 'C', 'T'};
+
+inline constexpr std::size_t kMaxName_bytes = 255;
+inline constexpr std::uint64_t kMaxRigJson_bytes = std::uint64_t{16} << 20;
+
+using Payload = std::vector<std::byte>;
+
+// HEAD: object.name, units_per_radius, width and height; as many (empty) views and rings as there will be.
+Payload head_payload(const RaySpaceObject& object);
+Status parse_head(std::span<const std::byte> payload, RaySpaceObject& object);
+
+// RIGJ: object.rig_json as it is.
+Payload rig_payload(const RaySpaceObject& object);
+Status parse_rig_text(std::span<const std::byte> payload, RaySpaceObject& object);
+
+// VIEW: what a view is without its lines. object.views has its size from HEAD.
+Payload views_payload(const RaySpaceObject& object);
+Status parse_views(std::span<const std::byte> payload, RaySpaceObject& object);
+
+// RING r: everything of object.rings[r] but its cells, and the lines of the ring's views. A view that another ring has
+// already is refused.
+Payload ring_payload(const RaySpaceObject& object, std::size_t ring);
+Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, std::size_t ring);
+
+// RMAP r: the cells, run-length coded along u. `ring` has its sizes from RING.
+Payload map_payload(const Ring& ring);
+Status parse_map(std::span<const std::byte> payload, Ring& ring);
+
+// PICT v.
+Payload picture_payload(const PlanarPicture& picture);
+Status parse_picture(std::span<const std::byte> payload, int width, int height, PlanarPicture& picture);
+std::uint64_t raw_picture_bytes(int width, int height);
+
+// The chunks of an object in the order of the file. Needs the rings' view lists only.
+struct ChunkKey {
+    ChunkName name{};
+    std::uint32_t index = 0;
+    bool operator==(const ChunkKey&) const = default;
+};
+std::vector<ChunkKey> chunk_order(const RaySpaceObject& object);
+
+}  // namespace rs::object_chunks

@@ -1,0 +1,49 @@
+#pragma once
+// Progress of long work. Libraries take a `Progress*` (null = silent) and call advance(); the tools give a ProgressBar,
+// which draws "label [=====>   ]  45 %  12 s left" on stderr: redrawn in place on a terminal, a line at every tenth
+// otherwise, nothing at all for work that ends within half a second.
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+namespace rs {
+
+class Progress {
+public:
+    virtual ~Progress() = default;
+    // Starts a piece of work of `total` steps; ends the piece before it, if any.
+    virtual void start(const std::string& label, std::int64_t total) = 0;
+    // Thread-safe.
+    virtual void advance(std::int64_t steps = 1) = 0;
+    virtual void finish() = 0;
+};
+
+class ProgressBar final : public Progress {
+public:
+    explicit ProgressBar(bool quiet = false);
+    ~ProgressBar() override;
+
+    void start(const std::string& label, std::int64_t total) override;
+    void advance(std::int64_t steps = 1) override;
+    void finish() override;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    void draw(Clock::time_point now, bool last);
+
+    std::mutex mutex_;
+    std::string label_;
+    std::int64_t total_ = 0;
+    std::int64_t done_ = 0;
+    int last_tenth_ = -1;
+    bool quiet_ = false;
+    bool terminal_ = false;
+    bool drawn_ = false;
+    bool running_ = false;
+    Clock::time_point begun_{};
+    Clock::time_point last_draw_{};
+};
+
+}  // namespace rs
