@@ -1,0 +1,57 @@
+#include "engine/core/compare.hpp"
+
+#include "rayspace/picture_io.hpp"
+#include "rayspace/picture_metrics.hpp"
+#include "rayspace/rig.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <optional>
+
+namespace rs::engine {
+namespace {
+
+Result<ComparedView> compare_view(const Renderer& renderer, const std::filesystem::path& folder, const RigView& view) {
+    const std::filesystem::path path = picture_path(folder, view);
+    const Result<Image<Rgba8>> truth = read_picture(path);
+    if (!truth) return truth.error();
+    if (truth->width() != view.camera.width || truth->height() != view.camera.height) {
+        return Error{path.string() + ": has another size than its frame in " + kRigFileName + " says; make them agree"};
+    }
+    const Result<ViewRegisters> registers = prepare_view(renderer.object(), view.camera);
+    if (!registers) return Error{path.string() + ": " + registers.error().message};
+    Image<Rgba8> rendered(view.camera.width, view.camera.height);
+    renderer.render(*registers, rendered);
+    const PictureDifference difference = compare_pictures(rendered, *truth);
+    return ComparedView{view.file_path, difference.psnr_db(), difference.ssim};
+}
+
+}  // namespace
+
+Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesystem::path& set, Progress* progress) {
+    const Result<Rig> rig = read_rig(set);
+    if (!rig) return rig.error();
+    if (rig->views.empty()) return Error{set.string() + ": holds no frames to compare with"};
+    const std::filesystem::path folder = std::filesystem::is_directory(set) ? set : set.parent_path();
+
+    const int count = static_cast<int>(rig->views.size());
+    std::vector<std::optional<Result<ComparedView>>> results(rig->views.size());
+    if (progress != nullptr) progress->start("comparing", count);
+    tbb::parallel_for(0, count, [&](int i) {
+        const auto n = static_cast<std::size_t>(i);
+        results[n] = compare_view(renderer, folder, rig->views[n]);
+        if (progress != nullptr) progress->advance();
+    });
+    if (progress != nullptr) progress->finish();
+
+    Comparison comparison;
+    for (const auto& result : results) {
+        if (!*result) return result->error();
+        comparison.views.push_back(**result);
+        comparison.mean_psnr_db += (*result)->psnr_db / count;
+        comparison.mean_ssim += (*result)->ssim / count;
+    }
+    return comparison;
+}
+
+}  // namespace rs::engine

@@ -1,0 +1,48 @@
+#include "engine/core/texel_store.hpp"
+
+#include "rayspace/yuv.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <limits>
+#include <string>
+
+namespace rs::engine {
+
+Result<TexelStore> TexelStore::create(const RaySpaceObject& object) {
+    TexelStore store;
+    store.width_ = object.width;
+    store.height_ = object.height;
+    const std::int64_t picture_size = std::int64_t{object.width} * object.height;
+    std::int64_t size = 1;
+    for (const PlanarPicture& picture : object.pictures) {
+        store.picture_start_.push_back(static_cast<std::int32_t>(size));
+        if (!picture.empty()) size += picture_size;
+        if (size > std::numeric_limits<std::int32_t>::max()) {
+            return Error{object.name +
+                         ": its pictures have more than 2^31 pixels, which the renderer cannot address; "
+                         "encode the object with fewer or smaller pictures"};
+        }
+    }
+    store.texels_.resize(static_cast<std::size_t>(size));
+    store.spans_.resize(object.pictures.size() * static_cast<std::size_t>(object.width));
+
+    tbb::parallel_for(std::size_t{0}, object.pictures.size(), [&](std::size_t p) {
+        const PlanarPicture& picture = object.pictures[p];
+        if (picture.empty()) return;
+        for (int column = 0; column < object.width; ++column) {
+            Rgba8* texel = store.texels_.data() + store.column_start(static_cast<int>(p), column);
+            RowSpan span;
+            for (int row = 0; row < object.height; ++row) {
+                texel[row] = rgba_at(picture, column, row);
+                if (texel[row].a == 0) continue;
+                if (span.end == 0) span.begin = row;
+                span.end = row + 1;
+            }
+            store.spans_[p * static_cast<std::size_t>(object.width) + static_cast<std::size_t>(column)] = span;
+        }
+    });
+    return store;
+}
+
+}  // namespace rs::engine

@@ -1,0 +1,89 @@
+// The core's speed beside cv::remap (8UC4, nearest) at the same output size, in one run, on two threads.
+//
+//     bench_core --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
+//
+// Both write 1024x1024 pixels of four bytes from 512x512 pictures. The core renders an orbit around a 90-view object,
+// so that every frame reads other pictures; cv::remap reads one picture through a fixed-point map of the same scale,
+// its fastest form. Compare items_per_second (pixels).
+
+#include "engine/core/reconstruct.hpp"
+#include "engine/core/renderer.hpp"
+#include "rayspace/conventions.hpp"
+#include "tests/support/ring_object.hpp"
+
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+#include <opencv2/imgproc.hpp>
+
+#include <vector>
+
+namespace rs {
+namespace {
+
+constexpr int kSide = 1024;
+constexpr int kThreads = 2;
+
+const test::RingObjectOptions kRing{
+    .views = 90, .width = 512, .height = 512, .fl_px = 1.4 * 512, .x_cells = 512, .u_cells = 512};
+
+const RaySpaceObject& object() {
+    static const RaySpaceObject kObject = test::ring_object(kRing);
+    return kObject;
+}
+
+std::vector<engine::ViewRegisters> orbit() {
+    std::vector<engine::ViewRegisters> views;
+    const Rig rig = make_ring(
+        {.count = 61, .distance = 3.5, .fl_px = 1.4 * kSide, .width = kSide, .height = kSide, .first_rad = 0.01});
+    for (const RigView& view : rig.views) views.push_back(*engine::prepare_view(object(), view.camera));
+    return views;
+}
+
+void core(benchmark::State& state) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
+    const engine::Renderer renderer = *engine::Renderer::create(object());
+    const std::vector<engine::ViewRegisters> views = orbit();
+    Image<Rgba8> out(kSide, kSide);
+    std::size_t next = 0;
+    for (auto _ : state) {
+        renderer.render(views[next++ % views.size()], out);
+        benchmark::DoNotOptimize(out.data());
+    }
+    state.SetItemsProcessed(state.iterations() * kSide * kSide);
+}
+BENCHMARK(core)->UseRealTime()->MinTime(1);
+
+void scalar_definition(benchmark::State& state) {
+    const std::vector<engine::ViewRegisters> views = orbit();
+    Image<Rgba8> out(kSide, kSide);
+    std::size_t next = 0;
+    for (auto _ : state) engine::reconstruct_scalar(object(), views[next++ % views.size()], out);
+    state.SetItemsProcessed(state.iterations() * kSide * kSide);
+}
+BENCHMARK(scalar_definition)->UseRealTime();
+
+void cv_remap(benchmark::State& state) {
+    cv::setNumThreads(kThreads);
+    cv::Mat source(512, 512, CV_8UC4);
+    cv::randu(source, 0, 255);
+    cv::Mat x(kSide, kSide, CV_32F), y(kSide, kSide, CV_32F), fixed, fraction;
+    for (int j = 0; j < kSide; ++j) {
+        for (int i = 0; i < kSide; ++i) {
+            x.at<float>(j, i) = static_cast<float>(i) * 0.5F;
+            y.at<float>(j, i) = static_cast<float>(j) * 0.5F;
+        }
+    }
+    cv::convertMaps(x, y, fixed, fraction, CV_16SC2, true);
+    cv::Mat out(kSide, kSide, CV_8UC4);
+    for (auto _ : state) {
+        cv::remap(source, out, fixed, cv::Mat(), cv::INTER_NEAREST);
+        benchmark::DoNotOptimize(out.data);
+    }
+    state.SetItemsProcessed(state.iterations() * kSide * kSide);
+}
+BENCHMARK(cv_remap)->UseRealTime()->MinTime(1);
+
+}  // namespace
+}  // namespace rs
+
+BENCHMARK_MAIN();
