@@ -1,0 +1,99 @@
+#include "encode/build.hpp"
+
+#include "encode/raymap/captured_view.hpp"
+#include "encode/raymap/rings.hpp"
+#include "rayspace/conventions.hpp"
+#include "rayspace/yuv.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <optional>
+
+namespace rs::encode {
+namespace {
+
+Status check_options(const PlaneMapOptions& map, std::size_t rings) {
+    if (map.planes < kMinPlanes || map.planes > kMaxPlanes) {
+        return Error{"--planes " + std::to_string(map.planes) + ": must be " + std::to_string(kMinPlanes) + ".." +
+                     std::to_string(kMaxPlanes)};
+    }
+    if (map.x_cells < 1 || map.x_cells > kMaxMapSide || map.u_cells < 1 || map.u_cells > kMaxMapSide) {
+        return Error{"--raymap " + std::to_string(map.x_cells) + "x" + std::to_string(map.u_cells) +
+                     ": both must be 1.." + std::to_string(kMaxMapSide)};
+    }
+    if (rings > static_cast<std::size_t>(kMaxRings)) {
+        return Error{"the cameras form " + std::to_string(rings) + " rings of different elevation, more than " +
+                     std::to_string(kMaxRings) + "; a capture set is one or a few turns about the Y axis"};
+    }
+    return {};
+}
+
+Rig in_object_radii(Rig rig) {
+    for (RigView& view : rig.views) {
+        view.camera.world_from_camera[3] = glm::dvec4(view.camera.centre() / rig.object_radius, 1);
+    }
+    return rig;
+}
+
+Status read_all_pictures(const CaptureSet& set, RaySpaceObject& object, Progress* progress) {
+    const int count = static_cast<int>(set.upright.views.size());
+    object.pictures.resize(set.upright.views.size());
+    std::vector<std::optional<Error>> errors(set.upright.views.size());
+    std::atomic<bool> failed = false;
+    if (progress != nullptr) progress->start("pictures", count);
+    tbb::parallel_for(0, count, [&](int i) {
+        if (failed) return;
+        const Result<Image<Rgba8>> picture = read_upright_picture(set, i);
+        if (!picture) {
+            errors[static_cast<std::size_t>(i)] = picture.error();
+            failed = true;
+            return;
+        }
+        object.pictures[static_cast<std::size_t>(i)] = planar_from_rgba(*picture);
+        if (progress != nullptr) progress->advance();
+    });
+    if (progress != nullptr) progress->finish();
+    for (const auto& error : errors) {
+        if (error) return *error;
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& options, Progress* progress) {
+    const std::vector<ViewRing> rings = find_rings(set.upright);
+    if (const Status status = check_options(options.map, rings.size()); !status) return status.error();
+
+    BuiltObject built;
+    RaySpaceObject& object = built.object;
+    object.name = options.name;
+    object.units_per_radius = set.upright.object_radius;
+    object.rig_json = rig_to_json(set.upright);
+    object.width = set.width;
+    object.height = set.height;
+
+    const Rig rig = in_object_radii(set.upright);
+    for (const RigView& view : rig.views) object.views.push_back(captured_view(view.camera, options.map.planes));
+    if (progress != nullptr) progress->start("RS map", static_cast<std::int64_t>(rings.size()));
+    for (const ViewRing& ring : rings) {
+        object.rings.push_back(make_plane_map(rig, ring, options.map));
+        const double cells = cells_between_views(rig, ring, options.map);
+        if (cells > 0 && cells < 2) {
+            built.warnings.push_back(
+                "the RS map has fewer than 2 cells of u between neighbouring views, so a captured "
+                "pose may be answered by a neighbour; give --raymap more cells of u");
+        }
+        if (progress != nullptr) progress->advance();
+    }
+    if (progress != nullptr) progress->finish();
+    if (rings.size() > 1) {
+        built.warnings.push_back("the cameras form " + std::to_string(rings.size()) +
+                                 " rings of different elevation; the nearest ring answers a view");
+    }
+    if (const Status status = read_all_pictures(set, object, progress); !status) return status.error();
+    return built;
+}
+
+}  // namespace rs::encode

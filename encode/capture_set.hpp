@@ -1,0 +1,35 @@
+#pragma once
+// A capture set as the encoder takes it: cameras checked, made upright where they are not, pictures read on demand.
+//
+// The engine walks pictures down their columns, so every stored picture must be that of an upright camera: each column
+// a vertical plane of rays. Pictures of a rig whose cameras are upright already are used as they are, untouched.
+// Otherwise every picture is resampled once, in linear light, to an upright camera at the same place (a rotation about
+// the camera's own centre, so no ray is lost but those outside of the frame).
+
+#include "rayspace/image.hpp"
+#include "rayspace/progress.hpp"
+#include "rayspace/result.hpp"
+#include "rayspace/rig.hpp"
+
+#include <filesystem>
+
+namespace rs::encode {
+
+struct CaptureSet {
+    std::filesystem::path folder;
+    Rig captured;  // as read
+    Rig upright;   // the cameras of the pictures that read_upright_picture returns; object_radius is set
+    bool resampled = false;
+    int width = 0;  // px, of the upright pictures
+    int height = 0;
+};
+
+// Reads transforms.json, checks that every picture is there with its size, plans the upright cameras, and measures the
+// object radius from the silhouettes where the rig does not give it. Cameras may be pitched up to 60 degrees.
+// Errors: no views, missing or unreadable pictures, differing sizes, a camera within the object radius.
+Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress* progress = nullptr);
+
+// Picture `view` of the set, seen by upright.views[view].camera. Thread-safe.
+Result<Image<Rgba8>> read_upright_picture(const CaptureSet& set, int view);
+
+}  // namespace rs::encode

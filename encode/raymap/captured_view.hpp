@@ -1,0 +1,14 @@
+#pragma once
+// From a floating-point camera to the integers of a CapturedView (rayspace/ray_space_object.hpp).
+
+#include "rayspace/camera.hpp"
+#include "rayspace/ray_space_object.hpp"
+
+namespace rs::encode {
+
+// `camera` is upright and in object radii, farther than 1.2 from the Y axis and nearer than 200. With C its centre, r
+// and f its right and forward vectors and t a plane's tangent, the plane point x t is seen at axial depth
+// l = -C.f + x (t.f) in column cx + fl_x (-C.r + x (t.r)) / l.
+CapturedView captured_view(const Camera& camera, int planes);
+
+}  // namespace rs::encode
