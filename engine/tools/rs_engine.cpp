@@ -1,6 +1,8 @@
 // rs-engine: ray-space object + viewpoint -> pictures.
 
 #include "engine/core/compare.hpp"
+#include "engine/core/conformance.hpp"
+#include "engine/core/contact_sheet.hpp"
 #include "engine/core/orbit.hpp"
 #include "engine/core/renderer.hpp"
 #include "rayspace/conventions.hpp"
@@ -31,9 +33,17 @@ struct RenderArguments {
     std::string at = "0,0,0";
     std::string size;
     int orbit = 0;
+    int sheet_columns = 0;
     double fov_deg = 0;
     double frames_per_second = 30;
     int level = kProgressiveLevels - 1;
+    bool quiet = false;
+};
+
+struct ConformanceArguments {
+    std::string object;
+    int views = 40;
+    std::uint64_t seed = 1;
     bool quiet = false;
 };
 
@@ -161,6 +171,22 @@ Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras
     return staged->commit();
 }
 
+Status write_picture(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments) {
+    if (cameras.size() > 1 && arguments.sheet_columns == 0) {
+        return Error{arguments.output + ": " + std::to_string(cameras.size()) +
+                     " views do not fit one picture; give --sheet COLUMNS, or a folder or an .mp4 to -o"};
+    }
+    std::vector<Image<Rgba8>> pictures;
+    for (const Camera& camera : cameras) {
+        Result<Image<Rgba8>> picture = render_camera(renderer, camera);
+        if (!picture) return picture.error();
+        pictures.push_back(std::move(*picture));
+    }
+    if (arguments.sheet_columns == 0) return write_png(arguments.output, pictures.front());
+    constexpr Rgba8 kBackdrop{96, 98, 102, 255};
+    return write_png(arguments.output, contact_sheet(pictures, arguments.sheet_columns, kBackdrop));
+}
+
 Status run_render(const RenderArguments& arguments) {
     const int ways = (arguments.orbit > 0) + !arguments.poses.empty() + !arguments.eye.empty();
     if (ways != 1) return Error{"say what to render: one of --orbit N, --poses transforms.json or --eye X,Y,Z"};
@@ -173,13 +199,23 @@ Status run_render(const RenderArguments& arguments) {
     const std::string extension = std::filesystem::path(arguments.output).extension().string();
     if (extension == ".mp4") return write_video(*renderer, *cameras, arguments, progress);
     if (extension != ".png") return write_folder(*renderer, *cameras, arguments, progress);
-    if (cameras->size() != 1) {
-        return Error{arguments.output + ": " + std::to_string(cameras->size()) +
-                     " views do not fit one picture; give a folder or an .mp4 to -o"};
+    return write_picture(*renderer, *cameras, arguments);
+}
+
+Status run_conformance(const ConformanceArguments& arguments) {
+    const Result<RaySpaceObject> object = read_object(arguments.object);
+    if (!object) return object.error();
+    ProgressBar progress(arguments.quiet);
+    const Result<ConformanceReport> report = check_conformance(*object, arguments.views, arguments.seed, &progress);
+    if (!report) return report.error();
+    std::printf("%s: %d views (%d upright), %lld pixels, %lld of the object: %lld differ from the definition\n",
+                arguments.object.c_str(), report->views, report->upright_views, static_cast<long long>(report->pixels),
+                static_cast<long long>(report->object_pixels), static_cast<long long>(report->different_pixels));
+    if (report->different_pixels != 0) {
+        return Error{arguments.object +
+                     ": the core's pictures are not those of the definition; this is a defect of the renderer"};
     }
-    const Result<Image<Rgba8>> picture = render_camera(*renderer, cameras->front());
-    if (!picture) return picture.error();
-    return write_png(arguments.output, *picture);
+    return {};
 }
 
 Status run_compare(const CompareArguments& arguments) {
@@ -221,12 +257,15 @@ void add_render(CLI::App& app, std::function<Status()>& run) {
     command->add_option("--fps", arguments->frames_per_second, "frames per second of an .mp4")
         ->check(CLI::Range(1.0, 240.0))
         ->capture_default_str();
+    command->add_option("--sheet", arguments->sheet_columns, "with FILE.png: all views on one sheet, so many in a row")
+        ->check(CLI::Range(1, 100));
     command->add_option("--level", arguments->level, "load only every 8th (0), 4th (1), 2nd (2) picture or all (3)")
         ->check(CLI::Range(0, kProgressiveLevels - 1))
         ->capture_default_str();
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
     command->footer(
         "Examples:\n  rs-engine render vase.rso --orbit 120 -o vase.mp4\n"
+        "  rs-engine render vase.rso --orbit 12 --sheet 4 --size 256x256 -o sheet.png\n"
         "  rs-engine render vase.rso --eye 3,0.5,2 --size 800x800 -o view.png\n"
         "  rs-engine render vase.rso --poses held-out/transforms.json -o rendered");
     command->callback([arguments, &run] { run = [arguments] { return run_render(*arguments); }; });
@@ -246,6 +285,20 @@ void add_compare(CLI::App& app, std::function<Status()>& run) {
     command->callback([arguments, &run] { run = [arguments] { return run_compare(*arguments); }; });
 }
 
+void add_conformance(CLI::App& app, std::function<Status()>& run) {
+    auto arguments = std::make_shared<ConformanceArguments>();
+    CLI::App* command = app.add_subcommand(
+        "conformance", "Render random views with the plain definition and with the core, and compare bit for bit");
+    command->add_option("OBJECT", arguments->object, "ray-space object, .rso")->required();
+    command->add_option("--views", arguments->views, "how many views")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command->add_option("--seed", arguments->seed, "which views")->capture_default_str();
+    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
+    command->footer("Example:\n  rs-engine conformance vase.rso --views 100");
+    command->callback([arguments, &run] { run = [arguments] { return run_conformance(*arguments); }; });
+}
+
 }  // namespace
 }  // namespace rs::engine
 
@@ -253,9 +306,11 @@ int main(int argc, char** argv) {
     using namespace rs::engine;
     CLI::App app("Renders ray-space objects.", "rs-engine");
     app.footer(
-        "Examples:\n  rs-engine render vase.rso --orbit 120 -o vase.mp4\n  rs-engine compare vase.rso vase-held-out");
+        "Examples:\n  rs-engine render vase.rso --orbit 120 -o vase.mp4\n  rs-engine compare vase.rso vase-held-out\n"
+        "  rs-engine conformance vase.rso");
     std::function<rs::Status()> run;
     add_render(app, run);
     add_compare(app, run);
+    add_conformance(app, run);
     return rs::tool_main(app, argc, argv, run);
 }

@@ -1,0 +1,50 @@
+# shellcheck shell=bash
+# Sourced by demo.sh and test.sh: installs what is missing and configures a build. Says what it does.
+
+BUILD_PACKAGES=(
+  g++ cmake ninja-build pkg-config
+  libopencv-dev libopenimageio-dev openimageio-tools libglm-dev libembree-dev libassimp-dev libcli11-dev libspdlog-dev
+  nlohmann-json3-dev libtbb-dev libhwy-dev libepoxy-dev libegl-dev libgl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
+  libxxhash-dev
+)
+# shellcheck disable=SC2034  # used by the scripts that source this file
+TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 shellcheck)
+
+say() { printf '\n== %s\n' "$*"; }
+
+fail() {
+  printf '%s: error: %s\n' "$(basename "$0")" "$*" >&2
+  exit 1
+}
+
+install_packages() {
+  local missing=() package
+  for package in "$@"; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+  done
+  if [ ${#missing[@]} -eq 0 ]; then
+    say "All ${#} packages are here"
+    return
+  fi
+  local sudo=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || fail "these packages are missing: ${missing[*]}; install them as root, or install sudo"
+    sudo=(sudo)
+  fi
+  say "Installing ${#missing[@]} missing packages: ${missing[*]}"
+  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq || fail "apt-get update failed; is the network there?"
+  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
+    fail "apt-get could not install: ${missing[*]}"
+}
+
+# configure FOLDER [cmake options]: a Ninja build in FOLDER.
+configure() {
+  local folder=$1 log
+  shift
+  mkdir -p "$folder"
+  log=$folder/configure.log
+  cmake -S . -B "$folder" -G Ninja "$@" >"$log" 2>&1 || {
+    cat "$log" >&2
+    fail "the build could not be configured"
+  }
+}

@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# The main job, from nothing to a walk around: installs what is missing, builds the tools, and
+#
+#   ./demo.sh                   traces two objects on a turntable,
+#   ./demo.sh FOLDER_OF_PHOTOS  or takes your turntable photographs,
+#
+# encodes them, checks the files and the renderer bit for bit, renders an orbit video and a contact sheet, and puts the
+# objects on a floor. Everything lands in demo-out/. Further arguments after the folder go to `rs-capture import`.
+set -euo pipefail
+cd "$(dirname "$0")"
+FROM=$OLDPWD
+. .ci/setup.sh
+
+OUT=demo-out
+BIN=build/release/bin
+VIEWS=${RAYSPACE_DEMO_VIEWS:-90}
+SIZE=${RAYSPACE_DEMO_SIZE:-400x400}
+SPP=${RAYSPACE_DEMO_SPP:-12}
+OBJECTS=${RAYSPACE_DEMO_OBJECTS:-vase doll}
+
+PHOTOS=
+if [ $# -gt 0 ]; then
+  case $1 in
+    -h | --help)
+      sed -n '2,9s/^# \{0,1\}//p' "$0"
+      exit 0
+      ;;
+    /*) PHOTOS=$1 ;;
+    *) PHOTOS=$FROM/$1 ;;
+  esac
+  shift
+  [ -d "$PHOTOS" ] || fail "$PHOTOS: there is no such folder; give a folder of turntable photographs"
+fi
+
+install_packages "${BUILD_PACKAGES[@]}"
+
+say "Building the tools"
+configure build/release -DCMAKE_BUILD_TYPE=Release
+cmake --build build/release -j "$(nproc)" --target rs-capture rs-encode rs-engine rs-view
+
+mkdir -p "$OUT"
+TABLE=()
+
+# step LABEL FILE COMMAND...: runs the command and notes its time and the size of what it made.
+step() {
+  local label=$1 file=$2 begun size=
+  shift 2
+  say "$label"
+  begun=$(date +%s.%N)
+  "$@"
+  [ -n "$file" ] && size=$(du -sh --apparent-size "$file" | cut -f1)
+  TABLE+=("$(printf '%-34s %7.1f s  %7s  %s' "$label" "$(echo "$begun $(date +%s.%N)" | awk '{print $2 - $1}')" "${size:--}" "${file:-}")")
+}
+
+# from_set NAME: everything after the capture set $OUT/NAME-set.
+from_set() {
+  local name=$1
+  step "$name: encode" "$OUT/$name.rso" "$BIN/rs-encode" build "$OUT/$name-set" -o "$OUT/$name.rso" --name "$name"
+  step "$name: verify" "" "$BIN/rs-encode" verify "$OUT/$name.rso"
+  step "$name: bit-accuracy" "" "$BIN/rs-engine" conformance "$OUT/$name.rso" --views 40
+  step "$name: orbit video" "$OUT/$name-orbit.mp4" "$BIN/rs-engine" render "$OUT/$name.rso" --orbit 180 -o "$OUT/$name-orbit.mp4"
+  step "$name: contact sheet" "$OUT/$name-sheet.png" "$BIN/rs-engine" render "$OUT/$name.rso" --orbit 12 --sheet 4 -o "$OUT/$name-sheet.png"
+}
+
+if [ -n "$PHOTOS" ]; then
+  NAME=$(basename "$PHOTOS")
+  step "$NAME: import photographs" "$OUT/$NAME-set" "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/$NAME-set" "$@"
+  from_set "$NAME"
+  SHOW=(--object "$OUT/$NAME.rso")
+else
+  SHOW=()
+  for name in $OBJECTS; do
+    step "$name: trace $VIEWS pictures" "$OUT/$name-set" "$BIN/rs-capture" synth "datasets-synthetic/recipes/$name.json" \
+      -o "$OUT/$name-set" --views "$VIEWS" --size "$SIZE" --spp "$SPP"
+    from_set "$name"
+    SHOW+=(--object "$OUT/$name.rso@$((${#SHOW[@]} - 1)).2,0,0")
+  done
+fi
+step "showroom" "$OUT/showroom.png" "$BIN/rs-view" "${SHOW[@]}" -o "$OUT/showroom.png"
+
+printf '\n%-34s %9s  %7s  %s\n' "step" "time" "size" "file"
+printf '%s\n' "${TABLE[@]}"
+say "Done. Look at $OUT/: the contact sheets, the orbit videos and showroom.png"

@@ -1,0 +1,25 @@
+#pragma once
+// Does the fast core compute what engine/RECONSTRUCTION.md says, on this machine and this object?
+
+#include "rayspace/progress.hpp"
+#include "rayspace/ray_space_object.hpp"
+#include "rayspace/result.hpp"
+
+#include <cstdint>
+
+namespace rs::engine {
+
+struct ConformanceReport {
+    int views = 0;
+    int upright_views = 0;
+    std::int64_t pixels = 0;
+    std::int64_t object_pixels = 0;     // with alpha above 0
+    std::int64_t different_pixels = 0;  // 0 = bit for bit equal
+};
+
+// Renders `views` random views (three of four upright, sizes up to 256x256, from 1.2 to 12 radii) with the scalar
+// definition and with the core, and counts pixels that differ. The same seed gives the same views.
+Result<ConformanceReport> check_conformance(const RaySpaceObject& object, int views, std::uint64_t seed,
+                                            Progress* progress = nullptr);
+
+}  // namespace rs::engine

@@ -1,0 +1,167 @@
+// Capture sets on disk -> objects: what is stored, what is refused, and what upright resampling does.
+
+#include "encode/build.hpp"
+#include "encode/upright_resampling.hpp"
+#include "rayspace/conventions.hpp"
+#include "rayspace/object_file.hpp"
+#include "rayspace/picture_metrics.hpp"
+#include "rayspace/ray_space.hpp"
+#include "rayspace/yuv.hpp"
+#include "tests/support/drawn_set.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <fstream>
+
+namespace rs::encode {
+namespace {
+
+Rig small_ring(double elevation_deg, int count = 8) {
+    Rig rig = make_ring({.count = count,
+                         .distance = 3.5,
+                         .elevation_rad = radians(elevation_deg),
+                         .fl_px = 130,
+                         .width = 96,
+                         .height = 80});
+    rig.object_radius = 0.9;
+    return rig;
+}
+
+std::string error_of_set(const std::filesystem::path& folder) {
+    const Result<CaptureSet> set = open_capture_set(folder);
+    if (!set) return set.error().message;
+    const Result<BuiltObject> built = build_object(*set, {});
+    return built ? "" : built.error().message;
+}
+
+TEST(Build, UprightPicturesAreStoredAsTheyAreAndComeBackFromTheFile) {
+    const test::TemporaryFolder folder;
+    test::write_drawn_set(folder / "set", small_ring(0));
+    const Result<CaptureSet> set = open_capture_set(folder / "set");
+    ASSERT_TRUE(set.ok()) << set.error().message;
+    EXPECT_FALSE(set->resampled);
+    const Result<BuiltObject> built = build_object(*set, {.map = {}, .name = "balls"});
+    ASSERT_TRUE(built.ok()) << built.error().message;
+    EXPECT_TRUE(built->warnings.empty());
+    for (std::size_t i = 0; i < 8; ++i) {
+        const Image<Rgba8> truth = test::drawn_picture(set->captured.views[i].camera);
+        EXPECT_EQ(built->object.pictures[i], planar_from_rgba(truth));
+    }
+    ASSERT_TRUE(write_object(folder / "balls.rso", built->object).ok());
+    const Result<RaySpaceObject> read = read_object(folder / "balls.rso");
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    EXPECT_EQ(read->views, built->object.views);
+    EXPECT_EQ(read->rings, built->object.rings);
+    EXPECT_EQ(read->pictures, built->object.pictures);
+
+    // extract: the stored pictures as a capture set that can be built again.
+    ASSERT_TRUE(extract_pictures(*read, folder / "extracted").ok());
+    const Result<CaptureSet> again = open_capture_set(folder / "extracted");
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    const Result<Image<Rgba8>> picture = read_upright_picture(*again, 3);
+    ASSERT_TRUE(picture.ok());
+    EXPECT_EQ(*picture, rgba_from_planar(built->object.pictures[3]));
+}
+
+TEST(Build, TheRadiusComesFromTheSilhouettesWhereTheRigDoesNotSay) {
+    const test::TemporaryFolder folder;
+    Rig rig = small_ring(0, 36);
+    rig.object_radius = 0;
+    test::write_drawn_set(folder / "set", rig);
+    const Result<CaptureSet> set = open_capture_set(folder / "set");
+    ASSERT_TRUE(set.ok()) << set.error().message;
+    // The outermost ball reaches hypot(0.6, 0.1) + 0.25 from the axis; a pixel is 3.5 / 130 = 0.027 there.
+    EXPECT_NEAR(set->upright.object_radius, std::hypot(0.6, 0.1) + 0.25, 0.03);
+}
+
+TEST(Build, CamerasThatLookDownAreMadeUpright) {
+    const test::TemporaryFolder folder;
+    test::write_drawn_set(folder / "set", small_ring(20));
+    const Result<CaptureSet> set = open_capture_set(folder / "set");
+    ASSERT_TRUE(set.ok()) << set.error().message;
+    EXPECT_TRUE(set->resampled);
+    EXPECT_EQ(set->width % 2, 0);
+    double worst = 99;
+    for (int i = 0; i < 8; ++i) {
+        const Camera& camera = set->upright.views[static_cast<std::size_t>(i)].camera;
+        EXPECT_TRUE(is_upright(camera));
+        const Result<Image<Rgba8>> picture = read_upright_picture(*set, i);
+        ASSERT_TRUE(picture.ok());
+        ASSERT_EQ(picture->width(), set->width);
+        worst = std::min(worst, compare_pictures_psnr(*picture, test::drawn_picture(camera)).psnr_db());
+    }
+    EXPECT_GT(worst, 26);  // resampling softens edges; a wrong homography gives below 15
+}
+
+TEST(UprightResampling, TheSameCameraGivesTheSamePicture) {
+    const Camera camera = small_ring(0).views[1].camera;
+    const Image<Rgba8> picture = test::drawn_picture(camera);
+    EXPECT_GT(compare_pictures_psnr(resampled_picture(camera, camera, picture), picture).psnr_db(), 55);
+}
+
+TEST(UprightResampling, OccupiedBoxIsTight) {
+    Image<Rgba8> picture(10, 8);
+    EXPECT_TRUE(occupied_box(picture).empty());
+    picture(3, 2).a = 1;
+    picture(6, 5).a = 255;
+    const PixelBox box = occupied_box(picture);
+    EXPECT_EQ(box.x0, 3);
+    EXPECT_EQ(box.y0, 2);
+    EXPECT_EQ(box.x1, 7);
+    EXPECT_EQ(box.y1, 6);
+}
+
+TEST(BuildErrors, NameThePictureAndTheRemedy) {
+    const test::TemporaryFolder folder;
+    test::write_drawn_set(folder / "set", small_ring(0));
+    EXPECT_EQ(error_of_set(folder / "set"), "");
+
+    std::filesystem::rename(folder / "set" / "3.png", folder / "away.png");
+    EXPECT_NE(error_of_set(folder / "set").find("3.png"), std::string::npos);
+
+    std::filesystem::copy_file(folder / "away.png", folder / "set" / "3.png");
+    std::filesystem::resize_file(folder / "set" / "3.png", std::filesystem::file_size(folder / "away.png") / 2);
+    EXPECT_NE(error_of_set(folder / "set").find("3.png"), std::string::npos);
+
+    ASSERT_TRUE(write_png(folder / "set" / "3.png", Image<Rgba8>(90, 80)).ok());
+    const std::string other_size = error_of_set(folder / "set");
+    EXPECT_NE(other_size.find("3.png"), std::string::npos);
+    EXPECT_NE(other_size.find("90x80"), std::string::npos);
+    EXPECT_EQ(other_size.find('\n'), std::string::npos);
+
+    EXPECT_NE(error_of_set(folder / "nowhere").find("nowhere"), std::string::npos);
+}
+
+TEST(BuildErrors, ASetThatIsAllTransparentHasNoRadius) {
+    const test::TemporaryFolder folder;
+    Rig rig = small_ring(0, 3);
+    rig.object_radius = 0;
+    test::write_drawn_set(folder / "set", rig);
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(write_png(folder / "set" / (std::to_string(i) + ".png"), Image<Rgba8>(96, 80)).ok());
+    }
+    EXPECT_NE(error_of_set(folder / "set").find("transparent"), std::string::npos);
+}
+
+TEST(BuildErrors, ACameraInsideOfTheObjectIsRefused) {
+    const test::TemporaryFolder folder;
+    Rig rig = small_ring(0, 3);
+    rig.object_radius = 3.4;
+    test::write_drawn_set(folder / "set", rig);
+    EXPECT_NE(error_of_set(folder / "set").find("object_radius"), std::string::npos);
+}
+
+TEST(BuildErrors, OptionsOutOfRangeAreNamed) {
+    const test::TemporaryFolder folder;
+    test::write_drawn_set(folder / "set", small_ring(0, 3));
+    const Result<CaptureSet> set = open_capture_set(folder / "set");
+    ASSERT_TRUE(set.ok());
+    for (const PlaneMapOptions map : {PlaneMapOptions{.planes = 2}, PlaneMapOptions{.planes = 65},
+                                      PlaneMapOptions{.x_cells = 0}, PlaneMapOptions{.u_cells = 5000}}) {
+        const Result<BuiltObject> built = build_object(*set, {.map = map, .name = "set"});
+        ASSERT_FALSE(built.ok());
+        EXPECT_EQ(built.error().message.rfind("--", 0), 0U) << built.error().message;
+    }
+}
+
+}  // namespace
+}  // namespace rs::encode
