@@ -34,6 +34,15 @@ Result<Image<Rgba8>> read_captured_picture(const CaptureSet& set, int view) {
     return picture;
 }
 
+// The names of lens distortion in rigs of NeRF tools; an object's pictures must be free of it.
+std::string distortion_in(const nlohmann::json& extras) {
+    for (const char* key : {"k1", "k2", "k3", "k4", "p1", "p2"}) {
+        const auto found = extras.find(key);
+        if (found != extras.end() && found->is_number() && found->get<double>() != 0) return key;
+    }
+    return "";
+}
+
 Status check_views(const CaptureSet& set) {
     const std::string where = (set.folder / kRigFileName).string();
     if (set.captured.views.empty()) return Error{where + ": holds no frames; a capture set needs at least one picture"};
@@ -46,6 +55,12 @@ Status check_views(const CaptureSet& set) {
                          std::to_string(view.camera.height) + " pixels, but the first picture is " +
                          std::to_string(first.width) + "x" + std::to_string(first.height) +
                          "; all pictures of an object must have one size"};
+        }
+        std::string distortion = distortion_in(set.captured.extras);
+        if (distortion.empty()) distortion = distortion_in(view.extras);
+        if (!distortion.empty()) {
+            return Error{where + ": frame " + std::to_string(i) + " has lens distortion (" + distortion +
+                         " is not 0); undistort the pictures first"};
         }
         if (std::abs(std::asin(std::clamp(view.camera.forward().y, -1.0, 1.0))) > kSteepestPitch_rad) {
             return Error{

@@ -60,6 +60,10 @@ private:
     std::string marker_;
 };
 
+// Removes every temporary file and folder of this process that is not committed yet. For the moment before a process is
+// ended from outside (interruption.hpp): whoever still writes to them will fail. Thread-safe.
+void remove_staged_output();
+
 // The whole file, refused when it is larger than `cap_bytes`.
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t cap_bytes);
 

@@ -29,7 +29,8 @@ struct PictureInfo {
 Result<PictureInfo> read_picture_info(const std::filesystem::path& path);
 
 // Any picture format that OpenImageIO reads, as 8-bit sRGB with straight alpha (255 where the file has none). Grey is
-// spread to RGB; 16-bit and float files are converted (float as linear light). Associated alpha is undone.
+// spread to RGB; 16-bit and float files are converted (float as linear light). Associated alpha is undone. EXIF
+// orientation is not applied: pixels stay where the camera model has them. A damaged or truncated file is an error.
 Result<Image<Rgba8>> read_picture(const std::filesystem::path& path);
 
 // Linear-light float RGBA, alpha straight: EXR and HDR as they are, 8- and 16-bit files through the sRGB curve.

@@ -111,8 +111,13 @@ Status run_info(const ObjectArguments& arguments) {
 }
 
 Status run_verify(const ObjectArguments& arguments) {
-    // Reading everything checks every checksum and every bound of FORMAT.md.
-    const Result<RaySpaceObject> object = read_object(arguments.object);
+    const Result<ContainerReader> container = ContainerReader::open(arguments.object);
+    if (!container) return container.error();
+    // Every chunk, also those that an object is read without, and then every bound of FORMAT.md.
+    for (const ChunkEntry& entry : container->table()) {
+        if (const auto payload = container->read(entry); !payload) return payload.error();
+    }
+    const Result<RaySpaceObject> object = read_object(*container);
     if (!object) return object.error();
     std::printf("%s: sound (%zu pictures, %zu rings)\n", arguments.object.c_str(), object->pictures.size(),
                 object->rings.size());

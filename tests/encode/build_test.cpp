@@ -150,6 +150,17 @@ TEST(BuildErrors, ACameraInsideOfTheObjectIsRefused) {
     EXPECT_NE(error_of_set(folder / "set").find("object_radius"), std::string::npos);
 }
 
+TEST(BuildErrors, DistortedPicturesAreRefused) {
+    const test::TemporaryFolder folder;
+    Rig rig = small_ring(0, 3);
+    rig.extras["k1"] = 0.0;
+    test::write_drawn_set(folder / "straight", rig);
+    EXPECT_EQ(error_of_set(folder / "straight"), "");
+    rig.extras["k1"] = -0.1;
+    test::write_drawn_set(folder / "bent", rig);
+    EXPECT_NE(error_of_set(folder / "bent").find("k1"), std::string::npos);
+}
+
 TEST(BuildErrors, OptionsOutOfRangeAreNamed) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", small_ring(0, 3));

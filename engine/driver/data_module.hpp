@@ -1,0 +1,74 @@
+#pragma once
+// The ray-space data module: the interface between an application and whatever renders (paper, section 6). Objects are
+// loaded and evicted, views are asked for a cycle at a time, pictures are handed out when they are ready.
+//
+// A *rendering cycle* is a list of views that are rendered together. Cycles wait in a queue and are rendered in order
+// on a thread of the module, so submit() does not block while a picture is drawn. The executor is the software core.
+//
+// Thread-safety: every member function may be called from any thread.
+
+#include "rayspace/camera.hpp"
+#include "rayspace/image.hpp"
+#include "rayspace/ray_space_object.hpp"
+#include "rayspace/result.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace rs::engine {
+
+struct ObjectHandle {
+    std::uint32_t number = 0;  // 0 = none; numbers are never used twice
+    bool operator==(const ObjectHandle&) const = default;
+};
+
+struct ViewRequest {
+    ObjectHandle object;
+    Camera camera;  // in the units of the object's rig
+};
+
+struct CycleHandle {
+    std::uint64_t number = 0;
+};
+
+struct DataModuleLimits {
+    int objects = 20;          // loaded at a time
+    int views_per_cycle = 15;  // the board's; see model/board_limits.hpp
+    int cycles_in_flight = 2;  // queued, being rendered, or rendered and not yet retrieved: double buffering
+};
+
+class DataModule {
+public:
+    explicit DataModule(const DataModuleLimits& limits = {});
+    ~DataModule();  // waits for the cycle being rendered; drops queued ones
+    DataModule(const DataModule&) = delete;
+    DataModule& operator=(const DataModule&) = delete;
+
+    // Reads, checks and prepares an object. Fails when the file does, or when too many are loaded.
+    Result<ObjectHandle> load(const std::filesystem::path& path);
+    Result<ObjectHandle> load(RaySpaceObject object);
+
+    // The object takes no new views; its memory goes when the cycles that use it are done.
+    Status evict(ObjectHandle object);
+
+    // The object without its pictures, while it is loaded.
+    Result<std::shared_ptr<const RaySpaceObject>> describe(ObjectHandle object) const;
+
+    // Queues a cycle. Fails, with nothing queued, when a view's object is not loaded or its camera cannot be rendered
+    // (prepare_view), when there are too many views, or when cycles_in_flight are already under way: retrieve one
+    // first.
+    Result<CycleHandle> submit(const std::vector<ViewRequest>& views);
+
+    [[nodiscard]] bool ready(CycleHandle cycle) const;
+
+    // Waits for a cycle and hands out its pictures, one per view in the order of submit(). Each cycle once.
+    Result<std::vector<Image<Rgba8>>> retrieve(CycleHandle cycle);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace rs::engine

@@ -1,0 +1,139 @@
+#include "engine/tools/measure_commands.hpp"
+
+#include "engine/core/compare.hpp"
+#include "engine/core/conformance.hpp"
+#include "engine/model/board_limits.hpp"
+#include "rayspace/object_file.hpp"
+#include "rayspace/progress.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+namespace rs::engine {
+namespace {
+
+struct ConformanceArguments {
+    std::string object;
+    int views = 40;
+    std::uint64_t seed = 1;
+    bool quiet = false;
+};
+
+struct CompareArguments {
+    std::string object;
+    std::string set;
+    bool quiet = false;
+    bool json = false;
+};
+
+Status run_conformance(const ConformanceArguments& arguments) {
+    const Result<RaySpaceObject> object = read_object(arguments.object);
+    if (!object) return object.error();
+    ProgressBar progress(arguments.quiet);
+    const Result<ConformanceReport> report = check_conformance(*object, arguments.views, arguments.seed, &progress);
+    if (!report) return report.error();
+    std::printf("%s: %d views (%d upright), %lld pixels, %lld of the object: %lld differ from the definition\n",
+                arguments.object.c_str(), report->views, report->upright_views, static_cast<long long>(report->pixels),
+                static_cast<long long>(report->object_pixels), static_cast<long long>(report->different_pixels));
+    if (report->different_pixels != 0) {
+        return Error{arguments.object +
+                     ": the core's pictures are not those of the definition; this is a defect of the renderer"};
+    }
+    return {};
+}
+
+Result<Renderer> open_renderer(const std::string& path) {
+    Result<RaySpaceObject> object = read_object(path);
+    if (!object) return object.error();
+    return Renderer::create(std::move(*object));
+}
+
+Status run_compare(const CompareArguments& arguments) {
+    const Result<Renderer> renderer = open_renderer(arguments.object);
+    if (!renderer) return renderer.error();
+    ProgressBar progress(arguments.quiet);
+    const Result<Comparison> comparison = compare_with_set(*renderer, arguments.set, &progress);
+    if (!comparison) return comparison.error();
+    if (arguments.json) {
+        nlohmann::json json{{"views", nlohmann::json::array()},
+                            {"mean_psnr_db", comparison->mean_psnr_db},
+                            {"mean_ssim", comparison->mean_ssim}};
+        for (const ComparedView& view : comparison->views) {
+            json["views"].push_back({{"picture", view.picture}, {"psnr_db", view.psnr_db}, {"ssim", view.ssim}});
+        }
+        std::cout << json.dump(2) << '\n';
+        return {};
+    }
+    for (const ComparedView& view : comparison->views) {
+        std::printf("%-24s %6.2f dB  SSIM %.4f\n", view.picture.c_str(), view.psnr_db, view.ssim);
+    }
+    std::printf("%-24s %6.2f dB  SSIM %.4f\n", "mean", comparison->mean_psnr_db, comparison->mean_ssim);
+    return {};
+}
+
+Status run_board(const std::vector<std::string>& paths) {
+    const BoardLimits limits;
+    std::vector<RaySpaceObject> objects;
+    std::printf("%-28s %9s %9s %9s %9s %9s  MB\n", "object", "luma", "chroma", "alpha", "RS map", "total");
+    for (const std::string& path : paths) {
+        Result<RaySpaceObject> object = read_object(path, {.max_level = -1});
+        if (!object) return object.error();
+        const BoardFootprint f = board_footprint(*object, limits);
+        const auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / 1e6; };
+        std::printf("%-28s %9.2f %9.2f %9.2f %9.2f %9.2f\n", object->name.c_str(), megabytes(f.luma_bytes),
+                    megabytes(f.chroma_bytes), megabytes(f.alpha_bytes), megabytes(f.map_bytes),
+                    megabytes(f.total_bytes()));
+        objects.push_back(std::move(*object));
+    }
+    std::printf("%-28s %49.2f\n", "image buffer", static_cast<double>(image_buffer_bytes(limits)) / 1e6);
+    for (const RaySpaceObject& object : objects) {
+        if (const Status status = fits_board(object, limits); !status) return status;
+    }
+    if (const Status status = fit_board_together(objects, limits); !status) return status;
+    std::printf("all fit on the published board (%llu bytes)\n", static_cast<unsigned long long>(limits.memory_bytes));
+    return {};
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, std::function<Status()>& run) {
+    auto arguments = std::make_shared<CompareArguments>();
+    CLI::App* command =
+        app.add_subcommand("compare",
+                           "Render every pose of a capture set and print PSNR and SSIM against its pictures.\n"
+                           "RGB premultiplied by alpha, 8 bit, over pixels where either picture's alpha is above 0");
+    command->add_option("OBJECT", arguments->object, "ray-space object, .rso")->required();
+    command->add_option("SET", arguments->set, "capture set with the true pictures")->required();
+    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
+    command->add_flag("--json", arguments->json, "as JSON");
+    command->footer("Example:\n  rs-engine compare vase.rso vase-held-out --json");
+    command->callback([arguments, &run] { run = [arguments] { return run_compare(*arguments); }; });
+}
+
+void add_conformance_command(CLI::App& app, std::function<Status()>& run) {
+    auto arguments = std::make_shared<ConformanceArguments>();
+    CLI::App* command = app.add_subcommand(
+        "conformance", "Render random views with the plain definition and with the core, and compare bit for bit");
+    command->add_option("OBJECT", arguments->object, "ray-space object, .rso")->required();
+    command->add_option("--views", arguments->views, "how many views")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command->add_option("--seed", arguments->seed, "which views")->capture_default_str();
+    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
+    command->footer("Example:\n  rs-engine conformance vase.rso --views 100");
+    command->callback([arguments, &run] { run = [arguments] { return run_conformance(*arguments); }; });
+}
+
+void add_board_command(CLI::App& app, std::function<Status()>& run) {
+    auto objects = std::make_shared<std::vector<std::string>>();
+    CLI::App* command = app.add_subcommand(
+        "board", "Say how much memory of the published hardware board objects take, and whether they fit");
+    command->add_option("OBJECT", *objects, "ray-space objects, .rso")->required();
+    command->footer("Example:\n  rs-engine board vase.rso doll.rso");
+    command->callback([objects, &run] { run = [objects] { return run_board(*objects); }; });
+}
+
+}  // namespace rs::engine

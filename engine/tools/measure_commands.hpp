@@ -1,0 +1,16 @@
+#pragma once
+// `rs-engine compare`, `conformance` and `board`: how good, how exact and how large an object is.
+
+#include "rayspace/result.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+
+namespace rs::engine {
+
+void add_compare_command(CLI::App& app, std::function<Status()>& run);
+void add_conformance_command(CLI::App& app, std::function<Status()>& run);
+void add_board_command(CLI::App& app, std::function<Status()>& run);
+
+}  // namespace rs::engine

@@ -1,0 +1,34 @@
+#include "rayspace/interruption.hpp"
+
+#include "rayspace/file_output.hpp"
+
+#include <pthread.h>
+
+namespace rs {
+
+InterruptionGuard::InterruptionGuard() {
+    sigemptyset(&watched_);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&watched_, signal);
+    // A signal handler may do next to nothing; a thread that waits for the signal may do anything.
+    pthread_sigmask(SIG_BLOCK, &watched_, &mask_before_);
+    watcher_ = std::thread([this] { watch(); });
+}
+
+InterruptionGuard::~InterruptionGuard() {
+    done_ = true;
+    pthread_kill(watcher_.native_handle(), SIGTERM);  // wakes the watcher, and only it
+    watcher_.join();
+    pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
+}
+
+void InterruptionGuard::watch() {
+    int received = 0;
+    if (sigwait(&watched_, &received) != 0 || done_) return;
+    remove_staged_output();
+    // To the shell the program ended by the signal, as it would have without this guard.
+    std::signal(received, SIG_DFL);
+    pthread_sigmask(SIG_UNBLOCK, &watched_, nullptr);
+    std::raise(received);
+}
+
+}  // namespace rs

@@ -1,0 +1,300 @@
+#include "rayspace/object_chunks.hpp"
+
+#include "rayspace/byte_stream.hpp"
+#include "rayspace/conventions.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace rs::object_chunks {
+namespace {
+
+constexpr std::size_t kView_bytes = 16;
+constexpr std::size_t kRingFixed_bytes = 28;
+constexpr std::size_t kLine_bytes = 16;
+constexpr std::size_t kPictureHeader_bytes = 16;
+constexpr std::uint8_t kRawCoding = 0;
+
+Error wrong_size(std::uint64_t found, std::uint64_t expected) {
+    return Error{"is " + std::to_string(found) + " bytes long instead of " + std::to_string(expected)};
+}
+
+Error out_of_range(const char* what, std::uint64_t found, std::uint64_t lowest, std::uint64_t highest) {
+    return Error{std::string(what) + " is " + std::to_string(found) + "; it must be " + std::to_string(lowest) + ".." +
+                 std::to_string(highest)};
+}
+
+Payload payload_of(const ByteWriter& writer) {
+    return {writer.bytes().begin(), writer.bytes().end()};
+}
+
+std::string text_of(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace
+
+// ---------------------------------------------------------------------------------------------------------------- HEAD
+
+Payload head_payload(const RaySpaceObject& object) {
+    ByteWriter out;
+    out.put(static_cast<std::uint32_t>(object.width));
+    out.put(static_cast<std::uint32_t>(object.height));
+    out.put(static_cast<std::uint32_t>(object.views.size()));
+    out.put(static_cast<std::uint32_t>(object.rings.size()));
+    out.put(object.units_per_radius);
+    out.put(static_cast<std::uint32_t>(object.name.size()));
+    out.put(object.name);
+    return payload_of(out);
+}
+
+Status parse_head(std::span<const std::byte> payload, RaySpaceObject& object) {
+    ByteReader in(payload);
+    const auto width = in.get<std::uint32_t>();
+    const auto height = in.get<std::uint32_t>();
+    const auto views = in.get<std::uint32_t>();
+    const auto rings = in.get<std::uint32_t>();
+    object.units_per_radius = in.get_double();
+    const auto name_bytes = in.get<std::uint32_t>();
+    if (!in.ok()) return Error{"is too short"};
+    if (width < 1 || width > kMaxPictureSide_px)
+        return out_of_range("the pictures' width", width, 1, kMaxPictureSide_px);
+    if (height < 1 || height > kMaxPictureSide_px) {
+        return out_of_range("the pictures' height", height, 1, kMaxPictureSide_px);
+    }
+    if (views < 1 || views > kMaxViews) return out_of_range("the number of views", views, 1, kMaxViews);
+    if (rings < 1 || rings > kMaxRings) return out_of_range("the number of rings", rings, 1, kMaxRings);
+    if (name_bytes > kMaxName_bytes) return out_of_range("the name's length", name_bytes, 0, kMaxName_bytes);
+    if (in.left() != name_bytes) return wrong_size(payload.size(), payload.size() - in.left() + name_bytes);
+    object.width = static_cast<int>(width);
+    object.height = static_cast<int>(height);
+    object.views.resize(views);
+    object.rings.resize(rings);
+    object.pictures.resize(views);
+    object.name = text_of(in.take(name_bytes));
+    return {};
+}
+
+// ---------------------------------------------------------------------------------------------------------------- RIGJ
+
+Payload rig_payload(const RaySpaceObject& object) {
+    const auto bytes = std::as_bytes(std::span(object.rig_json));
+    return {bytes.begin(), bytes.end()};
+}
+
+Status parse_rig_text(std::span<const std::byte> payload, RaySpaceObject& object) {
+    if (payload.size() > kMaxRigJson_bytes)
+        return out_of_range("the rig's length", payload.size(), 0, kMaxRigJson_bytes);
+    object.rig_json = text_of(payload);
+    return {};
+}
+
+// ---------------------------------------------------------------------------------------------------------------- VIEW
+
+Payload views_payload(const RaySpaceObject& object) {
+    ByteWriter out;
+    for (const CapturedView& view : object.views) {
+        out.put(view.cx_q16);
+        out.put(view.cy_q16);
+        out.put(view.fl_y_q16);
+        out.put(view.height_q20);
+    }
+    return payload_of(out);
+}
+
+Status parse_views(std::span<const std::byte> payload, RaySpaceObject& object) {
+    if (payload.size() != object.views.size() * kView_bytes) {
+        return wrong_size(payload.size(), object.views.size() * kView_bytes);
+    }
+    ByteReader in(payload);
+    for (CapturedView& view : object.views) {
+        view.cx_q16 = in.get<std::int32_t>();
+        view.cy_q16 = in.get<std::int32_t>();
+        view.fl_y_q16 = in.get<std::int32_t>();
+        view.height_q20 = in.get<std::int32_t>();
+    }
+    return {};
+}
+
+// ---------------------------------------------------------------------------------------------------------------- RING
+
+Payload ring_payload(const RaySpaceObject& object, std::size_t index) {
+    const Ring& ring = object.rings[index];
+    ByteWriter out;
+    out.put(ring.elevation_udeg);
+    out.put(static_cast<std::uint16_t>(ring.planes));
+    out.put(static_cast<std::uint16_t>(ring.views.size()));
+    out.put(static_cast<std::uint16_t>(ring.x_cells));
+    out.put(static_cast<std::uint16_t>(ring.u_cells));
+    out.put(ring.x_half_q20);
+    out.put(ring.x_cells_per_unit_q12);
+    out.put(ring.u_half_q28);
+    out.put(ring.u_cells_per_unit_q12);
+    for (const std::uint16_t view : ring.views) out.put(view);
+    for (const std::uint16_t view : ring.views) {
+        for (const CapturedLine& line : object.views[view].lines) {
+            out.put(line.l0_q20);
+            out.put(line.l1_q30);
+            out.put(line.q0_q16);
+            out.put(line.q1_q16);
+        }
+    }
+    return payload_of(out);
+}
+
+Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, std::size_t index) {
+    Ring& ring = object.rings[index];
+    ByteReader in(payload);
+    ring.elevation_udeg = in.get<std::int32_t>();
+    const auto planes = in.get<std::uint16_t>();
+    const auto view_count = in.get<std::uint16_t>();
+    const auto x_cells = in.get<std::uint16_t>();
+    const auto u_cells = in.get<std::uint16_t>();
+    ring.x_half_q20 = in.get<std::int32_t>();
+    ring.x_cells_per_unit_q12 = in.get<std::int32_t>();
+    ring.u_half_q28 = in.get<std::int32_t>();
+    ring.u_cells_per_unit_q12 = in.get<std::int32_t>();
+    if (!in.ok()) return Error{"is too short"};
+    if (planes < kMinPlanes || planes > kMaxPlanes) {
+        return out_of_range("the number of planes", planes, kMinPlanes, kMaxPlanes);
+    }
+    if (view_count < 1 || view_count > object.views.size()) {
+        return out_of_range("the number of views", view_count, 1, object.views.size());
+    }
+    if (x_cells < 1 || x_cells > kMaxMapSide) return out_of_range("the map's size along x", x_cells, 1, kMaxMapSide);
+    if (u_cells < 1 || u_cells > kMaxMapSide) return out_of_range("the map's size along u", u_cells, 1, kMaxMapSide);
+    const std::size_t expected_bytes = kRingFixed_bytes + view_count * (sizeof(std::uint16_t) + planes * kLine_bytes);
+    if (payload.size() != expected_bytes) return wrong_size(payload.size(), expected_bytes);
+    ring.planes = planes;
+    ring.x_cells = x_cells;
+    ring.u_cells = u_cells;
+    ring.views.resize(view_count);
+    for (std::uint16_t& view : ring.views) {
+        view = in.get<std::uint16_t>();
+        if (view >= object.views.size()) return out_of_range("a view's number", view, 0, object.views.size() - 1);
+        if (!object.views[view].lines.empty()) {
+            return Error{"names view " + std::to_string(view) + " a second time; a view belongs to one ring, once"};
+        }
+        object.views[view].lines.resize(planes);
+    }
+    for (const std::uint16_t view : ring.views) {
+        for (CapturedLine& line : object.views[view].lines) {
+            line.l0_q20 = in.get<std::int32_t>();
+            line.l1_q30 = in.get<std::int32_t>();
+            line.q0_q16 = in.get<std::int32_t>();
+            line.q1_q16 = in.get<std::int32_t>();
+        }
+    }
+    return {};
+}
+
+// ---------------------------------------------------------------------------------------------------------------- RMAP
+
+Payload map_payload(const Ring& ring) {
+    ByteWriter out;
+    const auto u_cells = static_cast<std::size_t>(ring.u_cells);
+    for (std::size_t begin = 0; begin < ring.cells.size(); begin += u_cells) {
+        const std::span<const std::uint16_t> row = std::span(ring.cells).subspan(begin, u_cells);
+        std::vector<std::pair<std::uint16_t, std::uint16_t>> runs;
+        for (const std::uint16_t view : row) {
+            if (runs.empty() || runs.back().first != view) runs.emplace_back(view, std::uint16_t{0});
+            ++runs.back().second;
+        }
+        out.put(static_cast<std::uint16_t>(runs.size()));
+        for (const auto& [view, length] : runs) {
+            out.put(view);
+            out.put(length);
+        }
+    }
+    return payload_of(out);
+}
+
+Status parse_map(std::span<const std::byte> payload, Ring& ring) {
+    constexpr std::size_t kShortestRow_bytes = 6;  // one run
+    const std::size_t rows = static_cast<std::size_t>(ring.planes) * static_cast<std::size_t>(ring.x_cells);
+    const auto u_cells = static_cast<std::size_t>(ring.u_cells);
+    if (payload.size() < rows * kShortestRow_bytes)
+        return Error{"is too short for its " + std::to_string(rows) + " rows"};
+    ring.cells.resize(rows * u_cells);
+    ByteReader in(payload);
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::span<std::uint16_t> cells = std::span(ring.cells).subspan(row * u_cells, u_cells);
+        const auto runs = in.get<std::uint16_t>();
+        std::size_t filled = 0;
+        for (std::size_t run = 0; run < runs; ++run) {
+            const auto view = in.get<std::uint16_t>();
+            const auto length = in.get<std::uint16_t>();
+            if (!in.ok()) return Error{"ends inside row " + std::to_string(row)};
+            if (length < 1 || length > u_cells - filled) {
+                return Error{"row " + std::to_string(row) + " has a run of " + std::to_string(length) +
+                             " cells where 1.." + std::to_string(u_cells - filled) + " fit"};
+            }
+            std::fill_n(cells.begin() + static_cast<std::ptrdiff_t>(filled), length, view);
+            filled += length;
+        }
+        if (filled != u_cells) {
+            return Error{"row " + std::to_string(row) + " fills " + std::to_string(filled) + " cells instead of " +
+                         std::to_string(u_cells)};
+        }
+    }
+    if (!in.at_end()) return Error{"goes on behind its last row"};
+    return {};
+}
+
+// ---------------------------------------------------------------------------------------------------------------- PICT
+
+std::uint64_t raw_picture_bytes(int width, int height) {
+    const auto area = [](int w, int h) { return static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h); };
+    return 2 * area(width, height) + 2 * area(half_size(width), half_size(height));
+}
+
+Payload picture_payload(const PlanarPicture& picture) {
+    ByteWriter out;
+    out.reserve(kPictureHeader_bytes + raw_picture_bytes(picture.y.width(), picture.y.height()));
+    out.put(kRawCoding);
+    out.put_zeros(kPictureHeader_bytes - sizeof kRawCoding);
+    for (const Image<std::uint8_t>* plane : {&picture.y, &picture.u, &picture.v, &picture.a}) out.put(plane->pixels());
+    return payload_of(out);
+}
+
+Status parse_picture(std::span<const std::byte> payload, int width, int height, PlanarPicture& picture) {
+    ByteReader in(payload);
+    const auto coding = in.get<std::uint8_t>();
+    if (!in.ok()) return Error{"is empty"};
+    if (coding != kRawCoding) {
+        return Error{"has picture coding " + std::to_string(coding) + ", which is not known here; update these tools"};
+    }
+    if (!in.take_zeros(kPictureHeader_bytes - sizeof kRawCoding)) return Error{"has reserved bytes that are not zero"};
+    const std::uint64_t expected_bytes = raw_picture_bytes(width, height);
+    if (in.left() != expected_bytes) return wrong_size(payload.size(), kPictureHeader_bytes + expected_bytes);
+    picture.y = Image<std::uint8_t>(width, height);
+    picture.u = Image<std::uint8_t>(half_size(width), half_size(height));
+    picture.v = Image<std::uint8_t>(half_size(width), half_size(height));
+    picture.a = Image<std::uint8_t>(width, height);
+    for (Image<std::uint8_t>* plane : {&picture.y, &picture.u, &picture.v, &picture.a}) {
+        const auto bytes = in.take(plane->pixels().size());
+        std::memcpy(plane->data(), bytes.data(), bytes.size());
+    }
+    return {};
+}
+
+// --------------------------------------------------------------------------------------------------------------- order
+
+std::vector<ChunkKey> chunk_order(const RaySpaceObject& object) {
+    std::vector<ChunkKey> order = {{kHead, 0}, {kRig, 0}, {kViews, 0}};
+    for (std::uint32_t r = 0; r < object.rings.size(); ++r) {
+        order.push_back({kRing, r});
+        order.push_back({kMap, r});
+    }
+    for (int level = 0; level < kProgressiveLevels; ++level) {
+        for (const Ring& ring : object.rings) {
+            for (std::size_t n = 0; n < ring.views.size(); ++n) {
+                if (progressive_level(static_cast<int>(n)) == level) order.push_back({kPicture, ring.views[n]});
+            }
+        }
+    }
+    return order;
+}
+
+}  // namespace rs::object_chunks

@@ -1,0 +1,191 @@
+#include "rayspace/object_file.hpp"
+
+#include "rayspace/container_layout.hpp"
+#include "rayspace/object_chunks.hpp"
+
+#include <algorithm>
+
+namespace rs {
+
+using namespace object_chunks;
+
+namespace {
+
+Error in_chunk(const std::string& where, ChunkKey key, const Status& status) {
+    return Error{where + ": chunk " + to_string(key.name) + " " + std::to_string(key.index) + ": " +
+                 status.error().message};
+}
+
+Payload payload_of(const RaySpaceObject& object, ChunkKey key) {
+    if (key.name == kHead) return head_payload(object);
+    if (key.name == kRig) return rig_payload(object);
+    if (key.name == kViews) return views_payload(object);
+    if (key.name == kRing) return ring_payload(object, key.index);
+    if (key.name == kMap) return map_payload(object.rings[key.index]);
+    RS_CHECK(key.name == kPicture);
+    return picture_payload(object.pictures[key.index]);
+}
+
+// Reads one object; holds what the steps share.
+class ObjectReader {
+public:
+    ObjectReader(const ContainerReader& container, const ReadObjectOptions& options)
+        : container_(container), options_(options) {}
+
+    Result<RaySpaceObject> read() {
+        if (const Status status = read_geometry(); !status) return status.error();
+        if (const Status status = check_chunks(); !status) return status.error();
+        if (const Status status = check_memory(); !status) return status.error();
+        if (const Status status = read_maps(); !status) return status.error();
+        if (const Status status = read_pictures(); !status) return status.error();
+        if (const Status status = validate_object(object_, container_.where()); !status) return status.error();
+        return std::move(object_);
+    }
+
+private:
+    // parse(payload) of one chunk, which must be there.
+    template <class Parse>
+    Status read_chunk(ChunkKey key, Parse&& parse) {
+        const ChunkEntry* const entry = container_.find(key.name, key.index);
+        if (entry == nullptr) {
+            return Error{container_.where() + ": has no chunk " + to_string(key.name) + " " +
+                         std::to_string(key.index)};
+        }
+        if (entry->size_bytes > options_.memory_cap_bytes) return too_large(entry->size_bytes);
+        const auto payload = container_.read(*entry);
+        if (!payload) return payload.error();
+        if (const Status status = parse(std::span<const std::byte>(*payload)); !status) {
+            return in_chunk(container_.where(), key, status);
+        }
+        return {};
+    }
+
+    // Everything that is small: its size is bound by counts that are checked before.
+    Status read_geometry() {
+        using Bytes = std::span<const std::byte>;
+        if (Status s = read_chunk({kHead, 0}, [&](Bytes b) { return parse_head(b, object_); }); !s) return s;
+        if (Status s = read_chunk({kRig, 0}, [&](Bytes b) { return parse_rig_text(b, object_); }); !s) return s;
+        if (Status s = read_chunk({kViews, 0}, [&](Bytes b) { return parse_views(b, object_); }); !s) return s;
+        for (std::uint32_t r = 0; r < object_.rings.size(); ++r) {
+            if (Status s = read_chunk({kRing, r}, [&](Bytes b) { return parse_ring(b, object_, r); }); !s) return s;
+        }
+        return {};
+    }
+
+    // The file holds the chunks of this object, in the format's order, and else only what may be skipped.
+    Status check_chunks() const {
+        const std::vector<ChunkKey> expected = chunk_order(object_);
+        std::size_t next = 0;
+        for (const ChunkEntry& entry : container_.table()) {
+            const ChunkKey key{entry.name, entry.index};
+            if (next < expected.size() && key == expected[next]) {
+                ++next;
+            } else if (entry.name[0] >= 'A' && entry.name[0] <= 'Z') {
+                return Error{container_.where() + ": chunk " + to_string(entry.name) + " " +
+                             std::to_string(entry.index) +
+                             " is unknown or out of place; update these tools if the file is newer than they are"};
+            }
+        }
+        if (next == expected.size()) return {};
+        return Error{container_.where() + ": has no chunk " + to_string(expected[next].name) + " " +
+                     std::to_string(expected[next].index) + " in its place"};
+    }
+
+    Status check_memory() const {
+        // No product here reaches 2^64: every factor is capped by conventions.hpp.
+        std::uint64_t needed_bytes = 0;
+        std::uint64_t pictures = 0;
+        for (const Ring& ring : object_.rings) {
+            needed_bytes += sizeof(std::uint16_t) * static_cast<std::uint64_t>(ring.planes) *
+                            static_cast<std::uint64_t>(ring.x_cells) * static_cast<std::uint64_t>(ring.u_cells);
+            for (std::size_t n = 0; n < ring.views.size(); ++n) pictures += is_wanted(n) ? 1 : 0;
+        }
+        needed_bytes += pictures * raw_picture_bytes(object_.width, object_.height);
+        return needed_bytes <= options_.memory_cap_bytes ? Status{} : Status{too_large(needed_bytes)};
+    }
+
+    Status read_maps() {
+        for (std::uint32_t r = 0; r < object_.rings.size(); ++r) {
+            const auto parse = [&](std::span<const std::byte> b) { return parse_map(b, object_.rings[r]); };
+            if (Status status = read_chunk({kMap, r}, parse); !status) return status;
+        }
+        return {};
+    }
+
+    Status read_pictures() {
+        for (const Ring& ring : object_.rings) {
+            for (std::size_t n = 0; n < ring.views.size(); ++n) {
+                if (!is_wanted(n)) continue;
+                const std::uint16_t view = ring.views[n];
+                const auto parse = [&](std::span<const std::byte> b) {
+                    return parse_picture(b, object_.width, object_.height, object_.pictures[view]);
+                };
+                if (Status status = read_chunk({kPicture, view}, parse); !status) return status;
+            }
+        }
+        return {};
+    }
+
+    [[nodiscard]] bool is_wanted(std::size_t n) const {
+        return progressive_level(static_cast<int>(n)) <= options_.max_level;
+    }
+
+    [[nodiscard]] Error too_large(std::uint64_t needed_bytes) const {
+        const auto mebibytes = [](std::uint64_t bytes) {
+            return std::to_string((bytes + (1U << 20) - 1) >> 20) + " MiB";
+        };
+        return Error{container_.where() + ": needs " + mebibytes(needed_bytes) + " of memory, more than the " +
+                     mebibytes(options_.memory_cap_bytes) + " allowed; load fewer levels or raise the limit"};
+    }
+
+    const ContainerReader& container_;
+    const ReadObjectOptions& options_;
+    RaySpaceObject object_;
+};
+
+}  // namespace
+
+Status write_object(const std::filesystem::path& path, const RaySpaceObject& object, Progress* progress) {
+    if (Status status = validate_object(object, path.string()); !status) return status;
+    for (std::size_t i = 0; i < object.pictures.size(); ++i) {
+        if (object.pictures[i].empty()) {
+            return Error{path.string() + ": picture " + std::to_string(i) +
+                         " is not loaded; an object is written whole"};
+        }
+    }
+    const std::vector<ChunkKey> order = chunk_order(object);
+    auto writer = ContainerWriter::create(path, static_cast<std::uint32_t>(order.size()));
+    if (!writer) return writer.error();
+    if (progress != nullptr) progress->start("writing", static_cast<std::int64_t>(order.size()));
+    for (const ChunkKey key : order) {
+        if (Status status = writer->add(key.name, key.index, payload_of(object, key)); !status) return status;
+        if (progress != nullptr) progress->advance();
+    }
+    Status status = writer->commit();
+    if (progress != nullptr) progress->finish();
+    return status;
+}
+
+Result<RaySpaceObject> read_object(const ContainerReader& container, const ReadObjectOptions& options) {
+    return ObjectReader(container, options).read();
+}
+
+Result<RaySpaceObject> read_object(const std::filesystem::path& path, const ReadObjectOptions& options) {
+    const auto container = ContainerReader::open(path);
+    if (!container) return container.error();
+    return read_object(*container, options);
+}
+
+std::vector<ChunkSummary> summarise_chunks(const ContainerReader& container) {
+    std::vector<ChunkSummary> summaries;
+    for (const ChunkEntry& entry : container.table()) {
+        const std::string name = to_string(entry.name);
+        auto found = std::find_if(summaries.begin(), summaries.end(), [&](const auto& s) { return s.name == name; });
+        if (found == summaries.end()) found = summaries.insert(found, {name, 0, 0});
+        ++found->count;
+        found->size_bytes += entry.size_bytes;
+    }
+    return summaries;
+}
+
+}  // namespace rs

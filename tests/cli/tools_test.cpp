@@ -1,0 +1,93 @@
+// The tools as a user meets them: help, usage errors, and the whole way from a scene to a rendered view.
+
+#include "rayspace/picture_io.hpp"
+#include "rayspace/picture_metrics.hpp"
+#include "rayspace/rig.hpp"
+#include "tests/support/drawn_set.hpp"
+#include "tests/support/run_tool.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rs {
+namespace {
+
+const std::vector<std::string> kTools = {"rs-capture", "rs-encode", "rs-engine", "rs-view"};
+
+TEST(Help, EveryToolExplainsItselfWithExamples) {
+    const test::TemporaryFolder folder;
+    for (const std::string& tool : kTools) {
+        const test::ToolRun run = test::run_tool(folder.path(), tool, {"--help"});
+        EXPECT_EQ(run.exit_code, 0) << tool;
+        EXPECT_NE(run.out.find("Example"), std::string::npos) << tool;
+        EXPECT_EQ(run.err, "") << tool;
+    }
+}
+
+TEST(Help, WrongUsageIsExitCodeTwoAndOneLine) {
+    const test::TemporaryFolder folder;
+    for (const std::string& tool : kTools) {
+        const test::ToolRun run = test::run_tool(folder.path(), tool, {"--no-such-option"});
+        EXPECT_EQ(run.exit_code, 2) << tool;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_NE(run.err.find("--help"), std::string::npos) << run.err;
+    }
+}
+
+TEST(WholeWay, AMeshBecomesAnObjectThatGivesItsPicturesBack) {
+    const test::TemporaryFolder folder;
+    const auto in = [&](const char* name) { return (folder / name).string(); };
+    const auto run = [&](const std::string& tool, const std::vector<std::string>& arguments) {
+        const test::ToolRun result = test::run_tool(folder.path(), tool, arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result;
+    };
+    {
+        std::ofstream mesh(folder / "box.obj");
+        mesh << "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+                "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+    }
+    run("rs-capture",
+        {"synth", in("box.obj"), "-o", in("set"), "--views", "12", "--size", "64x64", "--spp", "4", "-q"});
+    run("rs-encode", {"build", in("set"), "-o", in("box.rso"), "-q"});
+    run("rs-encode", {"verify", in("box.rso")});
+    run("rs-encode", {"extract", in("box.rso"), "-o", in("pictures"), "-q"});
+    run("rs-engine", {"conformance", in("box.rso"), "--views", "8", "-q"});
+    run("rs-engine", {"render", in("box.rso"), "--poses", in("set"), "-o", in("rendered"), "-q"});
+
+    // Rendered at the captured poses: the stored pictures, pixel for pixel.
+    const Result<Rig> rendered = read_rig(folder / "rendered");
+    const Result<Rig> stored = read_rig(folder / "pictures");
+    ASSERT_TRUE(rendered.ok() && stored.ok());
+    ASSERT_EQ(rendered->views.size(), 12U);
+    for (std::size_t i = 0; i < 12; ++i) {
+        const auto a = read_picture(picture_path(folder / "rendered", rendered->views[i]));
+        const auto b = read_picture(picture_path(folder / "pictures", stored->views[i]));
+        ASSERT_TRUE(a.ok() && b.ok());
+        EXPECT_GT(compare_pictures_psnr(*a, *b).object_pixels, 300);
+        EXPECT_EQ(*a, *b);
+    }
+
+    run("rs-engine", {"render", in("box.rso"), "--eye", "2,1.5,2", "--size", "80x60", "-o", in("view.png"), "-q"});
+    const auto view = read_picture(folder / "view.png");
+    ASSERT_TRUE(view.ok());
+    EXPECT_EQ(view->width(), 80);
+    run("rs-engine", {"render", in("box.rso"), "--orbit", "10", "--size", "64x64", "-o", in("orbit.mp4"), "-q"});
+    EXPECT_GT(std::filesystem::file_size(folder / "orbit.mp4"), 1000U);
+    run("rs-engine", {"render", in("box.rso"), "--orbit", "6", "--sheet", "3", "-o", in("sheet.png"), "-q"});
+    const auto sheet = read_picture(folder / "sheet.png");
+    ASSERT_TRUE(sheet.ok());
+    EXPECT_EQ(sheet->width(), 192);
+    EXPECT_EQ(sheet->height(), 128);
+
+    const test::ToolRun compare = run("rs-engine", {"compare", in("box.rso"), in("set"), "--json", "-q"});
+    const auto json = nlohmann::json::parse(compare.out);
+    EXPECT_EQ(json["views"].size(), 12U);
+    EXPECT_GT(json["mean_psnr_db"].get<double>(), 30);
+    const auto info = nlohmann::json::parse(run("rs-encode", {"info", in("box.rso"), "--json"}).out);
+    EXPECT_EQ(info["views"], 12);
+    EXPECT_EQ(info["rings"][0]["planes"], 12);
+}
+
+}  // namespace
+}  // namespace rs

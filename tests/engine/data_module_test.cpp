@@ -1,0 +1,108 @@
+// The data module: objects in and out, cycles in order, double buffering, use from several threads.
+
+#include "engine/driver/data_module.hpp"
+#include "engine/core/renderer.hpp"
+#include "tests/support/ring_object.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace rs::engine {
+namespace {
+
+const test::RingObjectOptions kSmall{.views = 10, .width = 40, .height = 40, .fl_px = 55};
+
+Camera pose(std::size_t i) {
+    return test::ring_rig(kSmall).views[i].camera;
+}
+
+TEST(DataModule, HandsOutTheViewsInTheOrderAsked) {
+    const RaySpaceObject object = test::ring_object(kSmall);
+    DataModule module;
+    const Result<ObjectHandle> handle = module.load(object);
+    ASSERT_TRUE(handle.ok());
+    const Result<CycleHandle> cycle = module.submit({{*handle, pose(3)}, {*handle, pose(7)}});
+    ASSERT_TRUE(cycle.ok());
+    const auto pictures = module.retrieve(*cycle);
+    ASSERT_TRUE(pictures.ok());
+    ASSERT_EQ(pictures->size(), 2U);
+    EXPECT_EQ((*pictures)[0], rgba_from_planar(object.pictures[3]));
+    EXPECT_EQ((*pictures)[1], rgba_from_planar(object.pictures[7]));
+    EXPECT_FALSE(module.retrieve(*cycle).ok());  // each cycle once
+}
+
+TEST(DataModule, HoldsTwoCyclesAndRefusesAThird) {
+    DataModule module;
+    const Result<ObjectHandle> handle = module.load(test::ring_object(kSmall));
+    ASSERT_TRUE(handle.ok());
+    const auto first = module.submit({{*handle, pose(0)}});
+    const auto second = module.submit({{*handle, pose(1)}});
+    ASSERT_TRUE(first.ok() && second.ok());
+    const auto third = module.submit({{*handle, pose(2)}});
+    ASSERT_FALSE(third.ok());
+    EXPECT_NE(third.error().message.find("retrieve one first"), std::string::npos);
+    ASSERT_TRUE(module.retrieve(*second).ok());  // in any order
+    EXPECT_TRUE(module.ready(*first));           // it was queued before the second
+    EXPECT_TRUE(module.submit({{*handle, pose(2)}}).ok());
+}
+
+TEST(DataModule, AnEvictedObjectFinishesItsCycleAndTakesNoNewOne) {
+    const RaySpaceObject object = test::ring_object(kSmall);
+    DataModule module({.objects = 1});
+    const Result<ObjectHandle> handle = module.load(object);
+    ASSERT_TRUE(handle.ok());
+    EXPECT_FALSE(module.load(object).ok());  // full
+    const auto cycle = module.submit({{*handle, pose(5)}});
+    ASSERT_TRUE(cycle.ok());
+    ASSERT_TRUE(module.evict(*handle).ok());
+    EXPECT_FALSE(module.submit({{*handle, pose(5)}}).ok());
+    EXPECT_FALSE(module.describe(*handle).ok());
+    EXPECT_FALSE(module.evict(*handle).ok());
+    const auto pictures = module.retrieve(*cycle);
+    ASSERT_TRUE(pictures.ok());
+    EXPECT_EQ(pictures->front(), rgba_from_planar(object.pictures[5]));
+    const Result<ObjectHandle> next = module.load(object);
+    ASSERT_TRUE(next.ok());
+    EXPECT_FALSE(*next == *handle);
+}
+
+TEST(DataModule, RefusesABadViewWithNothingQueued) {
+    DataModule module;
+    const Result<ObjectHandle> handle = module.load(test::ring_object(kSmall));
+    ASSERT_TRUE(handle.ok());
+    Camera bad = pose(0);
+    bad.fl_x = 0;
+    for (int n = 0; n < 5; ++n) EXPECT_FALSE(module.submit({{*handle, pose(0)}, {*handle, bad}}).ok());
+    EXPECT_FALSE(module.submit(std::vector<ViewRequest>(16, {*handle, pose(0)})).ok());
+    RaySpaceObject damaged = test::ring_object(kSmall);
+    damaged.rings[0].cells[5] = 999;
+    EXPECT_FALSE(module.load(damaged).ok());
+    EXPECT_TRUE(module.submit({{*handle, pose(0)}}).ok());
+}
+
+TEST(DataModule, ServesSeveralThreads) {
+    const RaySpaceObject object = test::ring_object(kSmall);
+    DataModule module({.objects = 8, .cycles_in_flight = 4});
+    std::vector<std::thread> threads;
+    std::vector<int> right(4);
+    for (std::size_t t = 0; t < 4; ++t) {
+        threads.emplace_back([&, t] {
+            for (std::size_t n = 0; n < 25; ++n) {
+                const Result<ObjectHandle> handle = module.load(object);
+                if (!handle) continue;
+                const std::size_t view = (t + n) % 10;
+                const auto cycle = module.submit({{*handle, pose(view)}});
+                if (cycle && module.evict(*handle)) {
+                    const auto pictures = module.retrieve(*cycle);
+                    right[t] += pictures && pictures->front() == rgba_from_planar(object.pictures[view]);
+                }
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (const int count : right) EXPECT_EQ(count, 25);
+}
+
+}  // namespace
+}  // namespace rs::engine

@@ -1,0 +1,20 @@
+#pragma once
+// What libFuzzer and the replay test call: each takes any bytes, must return 0, and stops the program where the code
+// under test breaks a promise. The corpus of fuzz_NAME is corpus/NAME.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace rs::fuzz {
+
+// The bytes as an .rso file; once as they are, once with the checksums of header and table made to fit.
+int fuzz_container(const std::uint8_t* data, std::size_t size);
+
+// Chunks of an object, framed as chunk_soup.hpp says, in a container that is well formed: the checks behind the
+// checksums.
+int fuzz_object(const std::uint8_t* data, std::size_t size);
+
+// The bytes as a transforms.json.
+int fuzz_rig(const std::uint8_t* data, std::size_t size);
+
+}  // namespace rs::fuzz

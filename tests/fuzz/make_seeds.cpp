@@ -1,0 +1,63 @@
+// Writes the seed files of the corpus: `make_fuzz_seeds tests/fuzz/corpus`. Run it again when the format changes.
+#include "rayspace/file_output.hpp"
+#include "rayspace/object_file.hpp"
+#include "tests/fuzz/chunk_soup.hpp"
+#include "tests/support/small_object.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace rs;
+
+Status write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
+    auto file = StagedFile::create(path);
+    if (!file) return file.error();
+    if (Status status = file->write(bytes); !status) return status;
+    return file->commit();
+}
+
+Status write_seeds(const fs::path& corpus) {
+    test::SmallObjectOptions one_ring;
+    one_ring.views_per_ring = 3;
+    one_ring.planes = 3;
+    one_ring.x_cells = 2;
+    one_ring.u_cells = 3;
+    one_ring.width = 3;
+    one_ring.height = 2;
+    test::SmallObjectOptions two_rings = one_ring;
+    two_rings.rings = 2;
+    const std::pair<const char*, test::SmallObjectOptions> objects[] = {{"one-ring", one_ring},
+                                                                        {"two-rings", two_rings}};
+    for (const auto& [name, options] : objects) {
+        const fs::path file = corpus / "container" / (std::string("seed-") + name + ".rso");
+        if (Status status = write_object(file, test::small_object(options)); !status) return status;
+        const auto reader = ContainerReader::open(file);
+        if (!reader) return reader.error();
+        std::vector<fuzz::SoupChunk> chunks;
+        for (const ChunkEntry& entry : reader->table()) {
+            auto payload = reader->read(entry);
+            if (!payload) return payload.error();
+            chunks.push_back({entry.name, entry.index, std::move(payload).value()});
+        }
+        const auto input = fuzz::input_from_chunks(chunks);
+        const fs::path soup = corpus / "object" / (std::string("seed-") + name + ".chunks");
+        if (Status status = write_bytes(soup, std::as_bytes(std::span(input))); !status) return status;
+    }
+    return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: make_fuzz_seeds CORPUS-FOLDER\n");
+        return 2;
+    }
+    const Status status = write_seeds(argv[1]);
+    if (!status) std::fprintf(stderr, "make_fuzz_seeds: error: %s\n", status.error().message.c_str());
+    return status.ok() ? 0 : 1;
+}

@@ -1,0 +1,86 @@
+// Runs every file of the corpus through its fuzz entry: what a fuzzer found once must not come back.
+#include "rayspace/file_output.hpp"
+#include "rayspace/object_file.hpp"
+#include "tests/fuzz/chunk_soup.hpp"
+#include "tests/fuzz/entries.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <random>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace rs;
+using Entry = int (*)(const std::uint8_t*, std::size_t);
+
+std::vector<fs::path> corpus(const std::string& name) {
+    std::vector<fs::path> files;
+    for (const auto& entry :
+         fs::directory_iterator(fs::path(RAYSPACE_SOURCE_DIR) / "tests" / "fuzz" / "corpus" / name)) {
+        files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::vector<std::uint8_t> contents(const fs::path& path) {
+    const auto bytes = read_file(path, 1 << 24);
+    EXPECT_TRUE(bytes.ok()) << path;
+    if (!bytes) return {};
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(bytes->data());
+    return {first, first + bytes->size()};
+}
+
+void replay(const std::string& name, Entry entry) {
+    const auto files = corpus(name);
+    ASSERT_GE(files.size(), 2U);
+    for (const fs::path& file : files) {
+        SCOPED_TRACE(file.string());
+        const auto input = contents(file);
+        EXPECT_EQ(entry(input.data(), input.size()), 0);
+        // A few steps around each file, so that this test walks where the fuzzer would start.
+        std::mt19937 random(1);
+        for (int trial = 0; trial < 200; ++trial) {
+            auto mutated = input;
+            if (mutated.empty()) break;
+            for (int i = 0; i < 3; ++i) mutated[random() % mutated.size()] = static_cast<std::uint8_t>(random());
+            if (trial % 4 == 0) mutated.resize(random() % mutated.size());
+            EXPECT_EQ(entry(mutated.data(), mutated.size()), 0);
+        }
+    }
+}
+
+TEST(FuzzReplay, Container) {
+    replay("container", fuzz::fuzz_container);
+}
+TEST(FuzzReplay, Object) {
+    replay("object", fuzz::fuzz_object);
+}
+TEST(FuzzReplay, Rig) {
+    replay("rig", fuzz::fuzz_rig);
+}
+
+// The seeds are of use only as long as they pass all checks.
+TEST(FuzzReplay, SeedsAreValid) {
+    int seeds = 0;
+    for (const fs::path& file : corpus("object")) {
+        if (file.filename().string().rfind("seed-", 0) != 0) continue;
+        const auto container =
+            ContainerReader::over(fuzz::container_of(fuzz::chunks_from_input(contents(file))), file.string());
+        ASSERT_TRUE(container.ok()) << container.error().message;
+        const auto object = read_object(*container);
+        EXPECT_TRUE(object.ok()) << object.error().message;
+        ++seeds;
+    }
+    for (const fs::path& file : corpus("container")) {
+        if (file.filename().string().rfind("seed-", 0) != 0) continue;
+        EXPECT_TRUE(read_object(file).ok()) << file;
+        ++seeds;
+    }
+    EXPECT_GE(seeds, 3);
+}
+
+}  // namespace

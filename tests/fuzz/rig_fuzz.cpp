@@ -1,0 +1,30 @@
+#include "rayspace/rig.hpp"
+#include "tests/fuzz/entries.hpp"
+
+namespace rs::fuzz {
+
+int fuzz_rig(const std::uint8_t* data, std::size_t size) {
+    const auto rig = rig_from_json(std::string(reinterpret_cast<const char*>(data), size), "input");
+    if (!rig) {
+        RS_CHECK(rig.error().message.find('\n') == std::string::npos);
+        return 0;
+    }
+    // What was accepted must survive being written, to the last bit.
+    const auto again = rig_from_json(rig_to_json(*rig), "again");
+    RS_CHECK(again.ok());
+    RS_CHECK(again->views.size() == rig->views.size());
+    RS_CHECK(again->object_radius == rig->object_radius);
+    RS_CHECK(again->extras == rig->extras);
+    for (std::size_t i = 0; i < rig->views.size(); ++i) {
+        const RigView& a = rig->views[i];
+        const RigView& b = again->views[i];
+        RS_CHECK(a.file_path == b.file_path && a.depth_file_path == b.depth_file_path && a.extras == b.extras);
+        RS_CHECK(a.camera.width == b.camera.width && a.camera.height == b.camera.height);
+        RS_CHECK(a.camera.fl_x == b.camera.fl_x && a.camera.fl_y == b.camera.fl_y);
+        RS_CHECK(a.camera.cx == b.camera.cx && a.camera.cy == b.camera.cy);
+        RS_CHECK(a.camera.world_from_camera == b.camera.world_from_camera);
+    }
+    return 0;
+}
+
+}  // namespace rs::fuzz
