@@ -1,0 +1,223 @@
+#include "capture/photos/object_mask.hpp"
+
+#include "capture/photos/contrast_cut.hpp"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+// A backdrop with less colour than this looks like the shaded grey parts of an object.
+constexpr float kColourful = 15;
+
+// What the colour alone says where a shadow explains it: next to nothing, so that the contrast decides. Slightly in
+// favour of the object, or a closed border around a grey patch would have nothing to hold.
+constexpr float kShadowOrGrey = 0.08F;
+constexpr float kAlmostPlain = -0.4F;
+constexpr float kIsland = -0.1F;
+
+// A part of which no pixel is clearer than this is a shadow, not an object.
+constexpr float kStrong = 1;
+
+// Plain pixels lie within so many times the median difference between the pictures and the plate.
+constexpr float kNoiseMargin = 3;
+
+// A camera shakes and a border of the backdrop blurs: where a pixel seems to be the object, the plate a little beside
+// it may explain it.
+constexpr int kShake_px = 2;
+
+// 0 at `low`, 1 at `high`.
+float ramp(float value, float low, float high) {
+    return std::clamp((value - low) / (high - low), 0.0F, 1.0F);
+}
+
+bool is_colourful(const LinearRgb& colour) {
+    const Lab lab = lab_from_linear(colour);
+    return std::hypot(lab.a, lab.b) > kColourful;
+}
+
+float preference_against(const LinearRgb& pixel, const LinearRgb& behind, const MaskOptions& options) {
+    const bool colourful = is_colourful(behind);
+    const Explanation e = explain_by_backdrop(
+        pixel, behind, colourful ? options.min_shade_colourful : options.min_shade, options.max_shade);
+    const float plain_delta_e = colourful ? options.plain_colourful_delta_e : options.plain_delta_e;
+    if (e.plain <= plain_delta_e) return -kDecided;
+    const float tolerance = 1 + options.shadow_tolerance * std::max(0.0F, 1 - e.shade);
+    const float object = ramp(e.shaded, options.possible_delta_e * tolerance, options.certain_delta_e * tolerance);
+    if (object > 0) return std::max(kShadowOrGrey, object * kDecided);
+    const float plain = 1 - ramp(e.plain, plain_delta_e, 2 * plain_delta_e);
+    return plain > 0 ? plain * kAlmostPlain : kShadowOrGrey;
+}
+
+constexpr int kHoleRim_px = 2;
+constexpr double kTinyHole_px = 8;  // closed in pictures of any size
+// Of a true hole's inner part at least so much looks plain; measured on a shoe: loops of its straps 0.94 to 1.00, white
+// insoles 0.74 to 0.85.
+constexpr double kHoleShare = 0.9;
+
+// Connected parts of a binary picture; label 0 is what is outside all parts.
+class Parts {
+public:
+    Parts(const cv::Mat1b& picture, int connectivity) {
+        count_ = cv::connectedComponentsWithStats(picture, labels_, stats_, centroids_, connectivity);
+    }
+    [[nodiscard]] int count() const { return count_; }
+    [[nodiscard]] int label(int x, int y) const { return labels_(y, x); }
+    [[nodiscard]] int area(int label) const { return stats_.at<int>(label, cv::CC_STAT_AREA); }
+    [[nodiscard]] bool touches_border(int label) const {
+        const int x = stats_.at<int>(label, cv::CC_STAT_LEFT);
+        const int y = stats_.at<int>(label, cv::CC_STAT_TOP);
+        return x == 0 || y == 0 || x + stats_.at<int>(label, cv::CC_STAT_WIDTH) == labels_.cols ||
+               y + stats_.at<int>(label, cv::CC_STAT_HEIGHT) == labels_.rows;
+    }
+    // One value per label, 0 at first.
+    template <class T>
+    [[nodiscard]] std::vector<T> per_label() const {
+        return std::vector<T>(static_cast<std::size_t>(count_));
+    }
+
+private:
+    int count_ = 0;
+    cv::Mat1i labels_;
+    cv::Mat stats_;
+    cv::Mat centroids_;
+};
+
+// White patches of an object look like a white backdrop. What looks plain on a grey backdrop but is a small island, cut
+// off from the border of the picture, is no longer certain: it becomes a slight preference, and the contrast around it
+// decides.
+void doubt_small_islands(Image<float>& preference, ConstImageView<LinearRgb> plate, double max_island) {
+    cv::Mat1b plain(preference.height(), preference.width());
+    for (int y = 0; y < plain.rows; ++y) {
+        for (int x = 0; x < plain.cols; ++x) plain(y, x) = preference(x, y) <= -kDecided ? 255 : 0;
+    }
+    const Parts parts(plain, 4);
+    for (int y = 0; y < plain.rows; ++y) {
+        for (int x = 0; x < plain.cols; ++x) {
+            const int label = parts.label(x, y);
+            if (label == 0 || parts.touches_border(label)) continue;
+            const bool small = parts.area(label) < max_island * static_cast<double>(plain.total());
+            if (small && !is_colourful(plate(x, y))) preference(x, y) = kIsland;
+        }
+    }
+}
+
+// Keeps the parts of `mask` that hold a pixel which strongly speaks for the object, and are no specks.
+void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, double min_part) {
+    const Parts parts(mask, 8);
+    auto keep = parts.per_label<std::uint8_t>();
+    for (int y = 0; y < mask.rows; ++y) {
+        for (int x = 0; x < mask.cols; ++x) {
+            if (mask(y, x) != 0 && preference(x, y) >= kStrong) keep[static_cast<std::size_t>(parts.label(x, y))] = 1;
+        }
+    }
+    int largest = 0;
+    for (int label = 1; label < parts.count(); ++label) {
+        if (keep[static_cast<std::size_t>(label)] != 0) largest = std::max(largest, parts.area(label));
+    }
+    for (int y = 0; y < mask.rows; ++y) {
+        for (int x = 0; x < mask.cols; ++x) {
+            const int label = parts.label(x, y);
+            const bool solid =
+                label != 0 && keep[static_cast<std::size_t>(label)] != 0 && parts.area(label) >= min_part * largest;
+            mask(y, x) = solid ? 255 : 0;
+        }
+    }
+}
+
+// Closes the holes through which the backdrop is not really seen, and the tiny ones. A hole's rim is blurred, so its
+// inner part is asked where there is one: a true hole shows the plain backdrop all over, while a white inside of the
+// object is plain only here and there. A shadow counts as the backdrop where the backdrop has a colour to know it by.
+void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstImageView<LinearRgb> plate,
+                       double min_hole) {
+    cv::Mat1b outside;
+    cv::bitwise_not(mask, outside);
+    cv::Mat1b inner;
+    cv::erode(outside, inner, cv::Mat(), {-1, -1}, kHoleRim_px);
+    const Parts holes(outside, 4);
+    struct Tally {
+        int area = 0, seen = 0;              // of the whole hole
+        int inner_area = 0, inner_seen = 0;  // without its rim
+    };
+    auto tallies = holes.per_label<Tally>();
+    for (int y = 0; y < mask.rows; ++y) {
+        for (int x = 0; x < mask.cols; ++x) {
+            if (mask(y, x) != 0) continue;
+            const int seen = preference(x, y) < 0 || is_colourful(plate(x, y)) ? 1 : 0;
+            Tally& tally = tallies[static_cast<std::size_t>(holes.label(x, y))];
+            tally.area += 1;
+            tally.seen += seen;
+            tally.inner_area += inner(y, x) != 0 ? 1 : 0;
+            tally.inner_seen += inner(y, x) != 0 ? seen : 0;
+        }
+    }
+    for (int y = 0; y < mask.rows; ++y) {
+        for (int x = 0; x < mask.cols; ++x) {
+            const int label = holes.label(x, y);
+            if (label == 0 || holes.touches_border(label)) continue;
+            const Tally& tally = tallies[static_cast<std::size_t>(label)];
+            const bool shines_through =
+                tally.inner_area > 0 ? tally.inner_seen >= kHoleShare * tally.inner_area : 2 * tally.seen >= tally.area;
+            const bool tiny = tally.area < std::max(kTinyHole_px, min_hole * static_cast<double>(mask.total()));
+            if (!shines_through || tiny) mask(y, x) = 255;
+        }
+    }
+}
+
+}  // namespace
+
+MaskOptions mask_options_for(const Backdrop& backdrop) {
+    MaskOptions options;
+    if (backdrop.kind == BackdropKind::kBlack) options.min_shade = options.min_shade_colourful = options.max_shade = 1;
+    options.plain_delta_e = std::max(options.plain_delta_e, kNoiseMargin * backdrop.noise_delta_e);
+    options.plain_colourful_delta_e = std::max(options.plain_colourful_delta_e, kNoiseMargin * backdrop.noise_delta_e);
+    options.possible_delta_e = std::max(options.possible_delta_e, 1.5F * options.plain_delta_e);
+    options.certain_delta_e = std::max(options.certain_delta_e, 2 * options.possible_delta_e);
+    return options;
+}
+
+Image<float> object_preference(ConstImageView<Rgba8> photo, ConstImageView<LinearRgb> plate,
+                               const MaskOptions& options) {
+    RS_CHECK(photo.width() == plate.width() && photo.height() == plate.height());
+    Image<float> preference(photo.width(), photo.height());
+    for (int y = 0; y < photo.height(); ++y) {
+        for (int x = 0; x < photo.width(); ++x) {
+            const LinearRgb pixel = linear_rgb(photo(x, y));
+            const LinearRgb& behind = plate(x, y);
+            float best = preference_against(pixel, behind, options);
+            if (best > 0) {
+                for (const auto& [dx, dy] :
+                     {std::pair{-kShake_px, 0}, {kShake_px, 0}, {0, -kShake_px}, {0, kShake_px}}) {
+                    const LinearRgb& beside =
+                        plate(std::clamp(x + dx, 0, plate.width() - 1), std::clamp(y + dy, 0, plate.height() - 1));
+                    if (delta_e(lab_from_linear(beside), lab_from_linear(behind)) < options.plain_delta_e) continue;
+                    best = std::min(best, preference_against(pixel, beside, options));
+                }
+            }
+            preference(x, y) = best;
+        }
+    }
+    return preference;
+}
+
+Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, ConstImageView<LinearRgb> plate,
+                                const MaskOptions& options) {
+    RS_CHECK(photo.width() == plate.width() && photo.height() == plate.height());
+    Image<std::uint8_t> result(photo.width(), photo.height());
+    if (result.empty()) return result;
+    Image<float> preference = object_preference(photo, plate, options);
+    doubt_small_islands(preference, plate, options.max_island);
+    result = cut_by_contrast(photo, preference, {});
+    cv::Mat1b mask(result.height(), result.width(), result.data());
+    keep_solid_parts(mask, preference, options.min_part);
+    close_false_holes(mask, preference, plate, options.min_hole);
+    return result;
+}
+
+}  // namespace rs::capture

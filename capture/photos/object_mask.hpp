@@ -1,0 +1,43 @@
+#pragma once
+// Which pixels of a photograph show the object: yes or no. The soft edge comes after it, in soft_edge.hpp.
+//
+// Every pixel gets a preference: above 0 for the object, below 0 for the backdrop. Pixels that look like the plate are
+// surely backdrop, pixels that no shadow on the plate explains are surely object. What lies between (shadows on the
+// ground, grey or glossy parts of the object on white) says little alone, so a minimum cut decides it by where the
+// contrast is: a soft shadow fades into the backdrop without an edge, the object has one all around. Then specks
+// (chalk, dust, noise) go and holes through which the backdrop is not really seen are closed.
+
+#include "capture/photos/backdrop.hpp"
+#include "capture/photos/colour_difference.hpp"
+#include "rayspace/image.hpp"
+
+namespace rs::capture {
+
+// Differences are delta E, shades factors of linear light.
+struct MaskOptions {
+    float plain_delta_e = 2.5F;         // up to this from a grey plate: surely backdrop
+    float plain_colourful_delta_e = 6;  // the same for a plate that has a colour, which objects seldom share
+    float possible_delta_e = 10;        // from here on a pixel leans to the object, in full light ...
+    float certain_delta_e = 22;         // ... and from here on it is surely object
+    float shadow_tolerance = 1;         // both grow by this share of what the shadow takes away: objects tint shadows
+    float min_shade = 0.25F;  // light left in the deepest shadow on a grey backdrop (or black were a shadow) ...
+    float min_shade_colourful = 0.08F;  // ... and on one that has a colour
+    float max_shade = 1.15F;
+    double max_island = 0.003;  // plain grey patches smaller than this share of the picture may be the object's
+    double min_part = 0.01;     // parts smaller than this share of the largest are specks
+    double min_hole = 0.00004;  // holes smaller than this share of the picture are closed
+};
+
+// Options for a backdrop and its noise. A shadow on black cannot be seen, so it is not looked for.
+MaskOptions mask_options_for(const Backdrop& backdrop);
+
+// The preference, -kDecided..kDecided; the ends are certain.
+inline constexpr float kDecided = 4;
+Image<float> object_preference(ConstImageView<Rgba8> photo, ConstImageView<LinearRgb> plate,
+                               const MaskOptions& options);
+
+// 255 = object, 0 = backdrop. `plate` is linear light, in the photograph's size.
+Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, ConstImageView<LinearRgb> plate,
+                                const MaskOptions& options);
+
+}  // namespace rs::capture

@@ -1,0 +1,33 @@
+#pragma once
+// One quick look at all pictures of a turn: small copies, from which the repeat of the first picture and the backdrop
+// are judged before any picture is cut out. The pictures themselves are read again later, one by one, so the memory
+// needed does not grow with their size.
+
+#include "capture/photos/photo_folder.hpp"
+#include "rayspace/image.hpp"
+#include "rayspace/progress.hpp"
+#include "rayspace/result.hpp"
+
+#include <vector>
+
+namespace rs::capture {
+
+// Samples are at most this large, thumbnails at most kThumbnailSide_px.
+inline constexpr int kSampleSide_px = 1024;
+inline constexpr int kThumbnailSide_px = 160;
+inline constexpr int kMaxSamples = 48;
+
+struct Survey {
+    std::vector<Image<Rgba8>> thumbnails;    // [photo]
+    std::vector<Image<Rgba8>> samples;       // of at most kMaxSamples photos, evenly spread over the turn
+    std::vector<std::size_t> sample_photos;  // [sample] -> photo
+};
+
+// A picture made smaller by averaging, so that no side is longer than `side_px`; a copy where it is small enough.
+// Colours are averaged with alpha as their weight.
+Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px);
+
+// Reads every picture; fails at the first (in order) that cannot be read. Works on all cores.
+Result<Survey> survey_photos(const PhotoFolder& folder, Progress* progress);
+
+}  // namespace rs::capture

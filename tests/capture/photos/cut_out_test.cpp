@@ -1,0 +1,167 @@
+#include "capture/photos/cut_out.hpp"
+
+#include "capture/photos/foreground_colour.hpp"
+#include "tests/capture/photos/turn_of_pictures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rs::capture {
+namespace {
+
+Backdrop backdrop_of(const test::DrawnTurn& turn) {
+    Survey survey;
+    survey.samples = test::draw_photos(turn);
+    const Result<Backdrop> found = find_backdrop(survey, {}, "drawn");
+    EXPECT_TRUE(found.ok());
+    return *found;
+}
+
+struct Errors {
+    double alpha_in_band = 0;  // mean absolute, where the truth is fractional
+    double alpha_elsewhere = 0;
+    double colour_in_band = 0;  // mean absolute, sRGB codes, weighted by the true alpha
+    int band_pixels = 0;
+};
+
+Errors errors_of(const test::DrawnTurn& turn) {
+    const ObjectCutter cutter(backdrop_of(turn), turn.width, turn.height);
+    Errors sum;
+    double elsewhere = 0;
+    double weight = 0;
+    for (int i = 0; i < turn.views; i += 3) {
+        const test::DrawnView view = test::draw_view(turn, i);
+        const Image<Rgba8> cut = cutter.cut(view.photo);
+        for (int y = 0; y < turn.height; ++y) {
+            for (int x = 0; x < turn.width; ++x) {
+                const double truth = view.alpha(x, y);
+                const double wrong = std::abs(cut(x, y).a / 255.0 - truth);
+                if (truth > 0 && truth < 1) {
+                    sum.alpha_in_band += wrong;
+                    ++sum.band_pixels;
+                    const Rgba8& own = view.foreground(x, y);
+                    sum.colour_in_band += truth *
+                                          (std::abs(cut(x, y).r - own.r) + std::abs(cut(x, y).g - own.g) +
+                                           std::abs(cut(x, y).b - own.b)) /
+                                          3;
+                    weight += truth;
+                } else {
+                    sum.alpha_elsewhere += wrong;
+                    ++elsewhere;
+                }
+            }
+        }
+    }
+    sum.alpha_in_band /= sum.band_pixels;
+    sum.alpha_elsewhere /= elsewhere;
+    sum.colour_in_band /= weight;
+    return sum;
+}
+
+class CutOutOver : public testing::TestWithParam<Rgba8> {};
+
+TEST_P(CutOutOver, FindsAlphaAndColourOfTheEdge) {
+    test::DrawnTurn turn;
+    turn.backdrop = GetParam();
+    const Errors errors = errors_of(turn);
+    EXPECT_GT(errors.band_pixels, 300);
+    EXPECT_LT(errors.alpha_in_band, 0.06);
+    EXPECT_LT(errors.alpha_elsewhere, 0.002);
+    EXPECT_LT(errors.colour_in_band, 12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backdrops, CutOutOver,
+                         testing::Values(Rgba8{255, 255, 255, 255}, Rgba8{0, 0, 0, 255}, Rgba8{60, 70, 180, 255},
+                                         Rgba8{30, 160, 60, 255}, Rgba8{128, 128, 128, 255}));
+
+TEST(CutOut, LeavesASoftShadowOut) {
+    test::DrawnTurn turn;
+    turn.shadow = 0.5;  // light; sRGB 255 becomes 188 in the middle
+    turn.orbit_px = 30;
+    const ObjectCutter cutter(backdrop_of(turn), turn.width, turn.height);
+    for (int i = 0; i < turn.views; ++i) {
+        const test::DrawnView view = test::draw_view(turn, i);
+        const Image<Rgba8> cut = cutter.cut(view.photo);
+        double shadow_alpha = 0;
+        double missing = 0;
+        for (int y = 0; y < turn.height; ++y) {
+            for (int x = 0; x < turn.width; ++x) {
+                if (view.alpha(x, y) == 0) shadow_alpha += cut(x, y).a / 255.0;
+                if (view.alpha(x, y) == 1) missing += 1 - cut(x, y).a / 255.0;
+            }
+        }
+        // The disc covers 1256 px, its shadow about as many.
+        EXPECT_LT(shadow_alpha, 40) << "view " << i;
+        EXPECT_LT(missing, 15) << "view " << i;
+    }
+}
+
+TEST(CutOut, KeepsATrueHoleOpenAndAGreyInsideClosed) {
+    test::DrawnTurn turn;
+    const ObjectCutter cutter(backdrop_of(turn), turn.width, turn.height);
+    Image<Rgba8> photo(turn.width, turn.height, turn.backdrop);
+    for (int y = 20; y < 100; ++y) {
+        for (int x = 20; x < 120; ++x) photo(x, y) = {30, 90, 110, 255};
+    }
+    for (int y = 40; y < 60; ++y) {
+        for (int x = 30; x < 50; ++x) photo(x, y) = turn.backdrop;          // one sees through here
+        for (int x = 80; x < 110; ++x) photo(x, y) = {205, 205, 205, 255};  // grey leather
+    }
+    const Image<Rgba8> cut = cutter.cut(photo);
+    EXPECT_EQ(cut(40, 50).a, 0);
+    EXPECT_EQ(cut(95, 50).a, 255);
+    EXPECT_EQ(cut(95, 50), photo(95, 50));
+    EXPECT_EQ(cut(5, 5).a, 0);
+}
+
+TEST(CutOut, DropsSpecksOnTheBackdrop) {
+    test::DrawnTurn turn;
+    turn.backdrop = {60, 70, 180, 255};
+    const ObjectCutter cutter(backdrop_of(turn), turn.width, turn.height);
+    Image<Rgba8> photo = test::draw_view(turn, 0).photo;
+    for (int y = 100; y < 103; ++y) {
+        for (int x = 10; x < 13; ++x) photo(x, y) = {230, 230, 230, 255};  // chalk
+    }
+    EXPECT_EQ(cutter.cut(photo)(11, 101).a, 0);
+    photo(static_cast<int>(turn.axis_x_px), turn.height / 2) = {60, 70, 180, 255};  // one pixel of the disc
+    EXPECT_EQ(cutter.cut(photo)(static_cast<int>(turn.axis_x_px), turn.height / 2).a, 255);
+}
+
+TEST(CutOut, GivenAlphaComesOutExactly) {
+    Image<Rgba8> photo(60, 40, Rgba8{9, 9, 9, 0});
+    for (int y = 10; y < 30; ++y) {
+        for (int x = 10; x < 50; ++x) {
+            photo(x, y) = {static_cast<std::uint8_t>(3 * x), static_cast<std::uint8_t>(5 * y), 77,
+                           static_cast<std::uint8_t>(1 + 6 * (x - 10))};
+        }
+    }
+    const ObjectCutter cutter(Backdrop{}, 60, 40);
+    const Image<Rgba8> cut = cutter.cut(photo);
+    for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 60; ++x) {
+            if (photo(x, y).a > 0) {
+                ASSERT_EQ(cut(x, y), photo(x, y)) << x << "," << y;
+            } else {
+                ASSERT_EQ(cut(x, y).a, 0) << x << "," << y;
+            }
+        }
+    }
+    // Beyond the edge stand the edge's colours, not what was there: (49, 20) is the solid pixel nearest to (52, 20).
+    EXPECT_EQ(cut(52, 20).r, photo(49, 20).r);
+    EXPECT_EQ(cut(52, 20).b, 77);
+}
+
+TEST(BleedColours, ReachesAsFarAsItSays) {
+    Image<Rgba8> picture(100, 3, Rgba8{1, 2, 3, 0});
+    for (int y = 0; y < 3; ++y) picture(10, y) = {200, 100, 50, 255};
+    bleed_colours(picture);
+    EXPECT_EQ(picture(10 + kBleed_px, 1), (Rgba8{200, 100, 50, 0}));
+    EXPECT_EQ(picture(10 + kBleed_px + 2, 1), (Rgba8{0, 0, 0, 0}));
+    Image<Rgba8> empty(5, 5, Rgba8{9, 9, 9, 0});
+    bleed_colours(empty);
+    EXPECT_EQ(empty(2, 2), (Rgba8{0, 0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace rs::capture

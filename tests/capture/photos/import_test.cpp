@@ -1,0 +1,155 @@
+#include "capture/photos/import.hpp"
+
+#include "rayspace/picture_io.hpp"
+#include "rayspace/rig.hpp"
+#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+namespace rs::capture {
+namespace {
+
+using testing::HasSubstr;
+
+// photos/1.png .. N.png, drawn over white; the disc turns as `sense` says.
+class ImportTest : public testing::Test {
+protected:
+    void SetUp() override {
+        std::filesystem::create_directory(folder_ / "photos");
+        for (int i = 0; i < turn_.views; ++i) write(i + 1, test::draw_view(turn_, i).photo);
+        options_.photos = folder_ / "photos";
+        options_.output = folder_ / "set";
+        options_.turning = Turning::kClockwise;
+    }
+    void write(int number, const Image<Rgba8>& picture) const {
+        const Status status = write_png(photo(number), picture);
+        ASSERT_TRUE(status.ok()) << status.error().message;
+    }
+    [[nodiscard]] std::filesystem::path photo(int number) const {
+        return folder_ / "photos" / (std::to_string(number) + ".png");
+    }
+    // Everything in the test's folder besides the photographs.
+    [[nodiscard]] bool output_is_clean() const {
+        const std::filesystem::directory_iterator entries(folder_.path());
+        return std::all_of(begin(entries), end(entries),
+                           [](const auto& entry) { return entry.path().filename() == "photos"; });
+    }
+
+    test::TemporaryFolder folder_;
+    test::DrawnTurn turn_;
+    ImportOptions options_;
+};
+
+TEST_F(ImportTest, MakesACaptureSet) {
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_EQ(report->views, 12);
+    EXPECT_EQ(report->backdrop, BackdropKind::kWhite);
+    EXPECT_EQ(report->axis_from, "silhouettes");
+    EXPECT_NEAR(report->axis_x_px, turn_.axis_x_px, 0.6);
+    EXPECT_EQ(report->step_deg, 30);
+
+    const Result<Rig> rig = read_rig(options_.output);
+    ASSERT_TRUE(rig.ok()) << rig.error().message;
+    ASSERT_EQ(rig->views.size(), 12U);
+    EXPECT_EQ(rig->object_radius, 1);
+    EXPECT_EQ(rig->extras["photo_import"]["backdrop"], "white");
+    EXPECT_EQ(rig->views[10].extras["source_file"], "11.png") << "natural order";
+    for (int i = 0; i < 12; ++i) {
+        const RigView& view = rig->views[static_cast<std::size_t>(i)];
+        EXPECT_NEAR(view.camera.cx, report->axis_x_px, 1e-9);
+        const Result<Image<Rgba8>> cut = read_picture(picture_path(options_.output, view));
+        ASSERT_TRUE(cut.ok()) << cut.error().message;
+        const test::DrawnView truth = test::draw_view(turn_, i);
+        double wrong = 0;
+        for (int y = 0; y < turn_.height; ++y) {
+            for (int x = 0; x < turn_.width; ++x) wrong += std::abs((*cut)(x, y).a / 255.0 - truth.alpha(x, y));
+        }
+        EXPECT_LT(wrong, 0.02 * 3.14 * turn_.radius_px * turn_.radius_px) << "view " << i;
+    }
+}
+
+TEST_F(ImportTest, DropsTheRepeatedLastView) {
+    write(13, test::draw_view(turn_, 0).photo);
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_EQ(report->views, 12);
+    EXPECT_EQ(report->dropped_repeat, "13.png");
+    EXPECT_THAT(report->notes, testing::Contains(HasSubstr("13.png repeats 1.png")));
+}
+
+TEST_F(ImportTest, TakesWhatIsGiven) {
+    options_.axis_x_px = 77.25;
+    options_.degrees_per_view = 5;
+    options_.turning = Turning::kCounterClockwise;
+    options_.backdrop = *parse_backdrop("255,255,255");
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_EQ(report->backdrop, BackdropKind::kColour);
+    const Rig rig = *read_rig(options_.output);
+    EXPECT_EQ(rig.views[0].camera.cx, 77.25);
+    const glm::dvec3 second = rig.views[1].camera.centre();
+    EXPECT_NEAR(std::atan2(second.x, second.z), -radians(5), 1e-9);
+}
+
+TEST_F(ImportTest, SaysSoWhereThereIsNoFullTurn) {
+    options_.degrees_per_view = 5;
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_EQ(report->axis_from, "picture middle");
+    EXPECT_THAT(report->notes, testing::Contains(HasSubstr("--axis-x")));
+}
+
+TEST_F(ImportTest, ACorruptPictureLeavesNothing) {
+    const auto size = std::filesystem::file_size(photo(7));
+    std::filesystem::resize_file(photo(7), size / 2);
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_FALSE(report.ok());
+    EXPECT_THAT(report.error().message, HasSubstr("7.png"));
+    EXPECT_TRUE(output_is_clean());
+}
+
+TEST_F(ImportTest, AViewWithoutTheObjectLeavesNothing) {
+    write(5, Image<Rgba8>(turn_.width, turn_.height, turn_.backdrop));
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_FALSE(report.ok());
+    EXPECT_THAT(report.error().message, HasSubstr("5.png"));
+    EXPECT_TRUE(output_is_clean());
+}
+
+TEST_F(ImportTest, RefusesAFolderThatIsNotASet) {
+    std::filesystem::create_directory(options_.output);
+    std::ofstream(options_.output / "letter.txt") << "keep me";
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_FALSE(report.ok());
+    EXPECT_TRUE(std::filesystem::exists(options_.output / "letter.txt"));
+}
+
+TEST_F(ImportTest, ReplacesASetOfItsOwn) {
+    ASSERT_TRUE(import_photos(options_, nullptr).ok());
+    std::filesystem::remove(photo(12));
+    ASSERT_TRUE(import_photos(options_, nullptr).ok());
+    EXPECT_EQ(read_rig(options_.output)->views.size(), 11U);
+    EXPECT_FALSE(std::filesystem::exists(options_.output / "images" / "0011.png"));
+}
+
+TEST_F(ImportTest, RefusesOptionsOutOfRange) {
+    options_.fov_deg = 0.5;
+    EXPECT_FALSE(import_photos(options_, nullptr).ok());
+    options_.fov_deg = 25;
+    options_.degrees_per_view = 0;
+    EXPECT_FALSE(import_photos(options_, nullptr).ok());
+    options_.degrees_per_view.reset();
+    options_.axis_x_px = std::nan("");
+    EXPECT_FALSE(import_photos(options_, nullptr).ok());
+    EXPECT_TRUE(output_is_clean());
+}
+
+}  // namespace
+}  // namespace rs::capture

@@ -1,0 +1,66 @@
+#include "capture/photos/turning.hpp"
+
+#include "rayspace/conventions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rs::capture {
+namespace {
+
+constexpr int kViews = 36;
+constexpr double kRadius_px = 90;
+constexpr double kHeight_px = 130;
+constexpr double kAxis_px = 120;
+
+// An upright textured cylinder from far away, seen from `elevation_deg` above. Nearer means lower in the picture.
+Image<Rgba8> cylinder(double turned_rad, double elevation_deg, double contrast) {
+    const double e = radians(elevation_deg);
+    Image<Rgba8> picture(240, 220);
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            const double across = (x + 0.5 - kAxis_px) / kRadius_px;
+            if (std::abs(across) >= 1) continue;
+            const double azimuth = std::asin(across);  // 0 is the front, growing to the right
+            const double towards = kRadius_px * std::cos(azimuth);
+            const double up = (185 - (y + 0.5) + towards * std::sin(e)) / std::cos(e);
+            if (up < 0 || up > kHeight_px) continue;
+            const double t = azimuth - turned_rad;
+            const double texture =
+                std::sin(11 * t + 0.07 * up) * std::sin(0.21 * up - 5 * t) + std::sin(23 * t) * std::cos(0.16 * up);
+            const auto code = static_cast<std::uint8_t>(128 + contrast * texture / 2);
+            picture(x, y) = {code, code, code, 255};
+        }
+    }
+    return picture;
+}
+
+// `sense` +1: the texture moves to the right on the front.
+std::vector<Image<Rgba8>> turn(double sense, double elevation_deg, double contrast = 120) {
+    std::vector<Image<Rgba8>> views;
+    for (int i = 0; i < kViews; ++i) views.push_back(cylinder(sense * 2 * kPi * i / kViews, elevation_deg, contrast));
+    return views;
+}
+
+TEST(FindTurning, ReadsBothSensesFromAboveAndFromTheSide) {
+    for (const double elevation_deg : {0.0, 12.0}) {
+        EXPECT_EQ(find_turning(turn(-1, elevation_deg), kAxis_px, kRadius_px, true).turning, Turning::kClockwise);
+        EXPECT_EQ(find_turning(turn(1, elevation_deg), kAxis_px, kRadius_px, true).turning, Turning::kCounterClockwise);
+    }
+}
+
+TEST(FindTurning, WhatComesNearerSinks) {
+    const TurningEvidence evidence = find_turning(turn(-1, 12), kAxis_px, kRadius_px, true);
+    // A point at x goes towards the camera by x times the step, and sin(12 degrees) of that is seen as sinking.
+    EXPECT_NEAR(evidence.sink_slope, radians(360.0 / kViews) * std::sin(radians(12)), 0.01);
+    EXPECT_GT(evidence.sink_slope, 8 * evidence.sink_slope_error);
+}
+
+TEST(FindTurning, DecidesNothingWithoutTexture) {
+    EXPECT_FALSE(find_turning(turn(-1, 12, 4), kAxis_px, kRadius_px, true).turning.has_value());
+    EXPECT_FALSE(find_turning({}, kAxis_px, kRadius_px, true).turning.has_value());
+}
+
+}  // namespace
+}  // namespace rs::capture
