@@ -1,0 +1,16 @@
+// rs-capture: photographs or traced pictures -> a calibrated, matted capture set.
+
+#include "capture/tools/import_command.hpp"
+#include "capture/tools/synth_command.hpp"
+#include "rayspace/tool_main.hpp"
+
+#include <CLI/CLI.hpp>
+
+int main(int argc, char** argv) {
+    CLI::App app("Makes capture sets (pictures and transforms.json) of objects on a turntable", "rs-capture");
+    app.require_subcommand(1);
+    std::function<rs::Status()> run;
+    rs::capture::add_synth_command(app, run);
+    rs::capture::add_import_command(app, run);
+    return rs::tool_main(app, argc, argv, run);
+}

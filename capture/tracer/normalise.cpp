@@ -1,0 +1,44 @@
+#include "capture/tracer/normalise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rs::capture {
+
+namespace {
+
+template <class Visit>
+void for_each_used_vertex(const Scene& scene, Visit visit) {
+    for (const Mesh& mesh : scene.meshes) {
+        for (const glm::uvec3& t : mesh.triangles) {
+            for (int corner = 0; corner < 3; ++corner) visit(glm::dvec3(mesh.positions[t[corner]]));
+        }
+    }
+}
+
+}  // namespace
+
+Result<double> normalise_meshes(Scene& scene) {
+    glm::dvec3 lower(std::numeric_limits<double>::infinity());
+    glm::dvec3 upper(-std::numeric_limits<double>::infinity());
+    for_each_used_vertex(scene, [&](const glm::dvec3& p) {
+        lower = glm::min(lower, p);
+        upper = glm::max(upper, p);
+    });
+    const glm::dvec3 centre = 0.5 * (lower + upper);
+    double radius = 0;
+    for_each_used_vertex(scene, [&](const glm::dvec3& p) { radius = std::max(radius, glm::length(p - centre)); });
+    if (!(radius > 0.0) || !std::isfinite(radius)) {
+        return Error{scene.name + ": the meshes have no size; give it a mesh with triangles"};
+    }
+    for (Mesh& mesh : scene.meshes) {
+        for (glm::vec3& p : mesh.positions) p = glm::vec3((glm::dvec3(p) - centre) / radius);
+    }
+    double object_radius = 0;
+    for_each_used_vertex(scene,
+                         [&](const glm::dvec3& p) { object_radius = std::max(object_radius, std::hypot(p.x, p.z)); });
+    return object_radius;
+}
+
+}  // namespace rs::capture

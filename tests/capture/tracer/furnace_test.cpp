@@ -1,0 +1,96 @@
+// The white furnace: where the same light comes from everywhere, a surface that absorbs nothing cannot be told from it.
+
+#include "capture/tracer/microfacet.hpp"
+#include "tests/capture/tracer/test_shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace rs::capture::test {
+namespace {
+
+double furnace_mean(Mesh mesh, const Material& material, int samples = 64) {
+    Scene scene = scene_of(std::move(mesh), material);
+    scene.environment = constant_environment(1.0F);
+    RenderOptions options;
+    options.samples_per_pixel = samples;
+    options.max_bounces = 24;
+    return mean_radiance(render(std::move(scene), front_camera(3.5, 36.0, 48), options).picture).g;
+}
+
+TEST(Furnace, DiffuseReflectsAll) {
+    EXPECT_NEAR(furnace_mean(make_sphere(5), material_of(SurfaceKind::diffuse)), 1.0, 0.005);
+}
+
+TEST(Furnace, TranslucentPassesWhatItDoesNotReflect) {
+    Material petal = material_of(SurfaceKind::diffuse);
+    petal.translucency = 0.4F;
+    EXPECT_NEAR(furnace_mean(make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), petal), 1.0, 0.005);
+}
+
+TEST(Furnace, MirrorReflectsAll) {
+    EXPECT_NEAR(furnace_mean(make_sphere(5), material_of(SurfaceKind::mirror)), 1.0, 0.005);
+}
+
+TEST(Furnace, GlassLosesNothing) {
+    EXPECT_NEAR(furnace_mean(make_sphere(5), material_of(SurfaceKind::glass)), 1.0, 0.005);
+}
+
+TEST(Furnace, CoarseSmoothSphereLosesLittle) {
+    // 320 triangles: interpolated normals and facets disagree by up to 9 degrees.
+    EXPECT_NEAR(furnace_mean(make_sphere(2), material_of(SurfaceKind::diffuse)), 1.0, 0.01);
+    EXPECT_NEAR(furnace_mean(make_sphere(2), material_of(SurfaceKind::mirror)), 1.0, 0.005);
+    EXPECT_NEAR(furnace_mean(make_sphere(2), material_of(SurfaceKind::glass)), 1.0, 0.005);
+}
+
+TEST(Furnace, HalfReflectingSurfaceReflectsHalf) {
+    // Convex, so that nothing is reflected twice.
+    EXPECT_NEAR(furnace_mean(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.5F))), 0.5, 0.0025);
+    EXPECT_NEAR(furnace_mean(make_sphere(5), material_of(SurfaceKind::mirror, glm::vec3(0.5F))), 0.5, 0.0025);
+}
+
+class RoughFurnace : public testing::TestWithParam<float> {};
+
+TEST_P(RoughFurnace, CoatOverWhiteReflectsAll) {
+    EXPECT_NEAR(furnace_mean(make_sphere(5), material_of(SurfaceKind::glossy, glm::vec3(1.0F), GetParam())), 1.0,
+                0.005);
+}
+
+TEST_P(RoughFurnace, WhiteMetalReflectsAll) {
+    EXPECT_NEAR(furnace_mean(make_sphere(5), material_of(SurfaceKind::metal, glm::vec3(1.0F), GetParam())), 1.0, 0.005);
+}
+
+TEST(AlbedoTable, SingleScatteringAloneWouldLoseEnergy) {
+    // What the compensation makes up for: a rough mirror loses more than half of the light in one scattering, a smooth
+    // one nothing, and the loss grows with the roughness.
+    EXPECT_NEAR(AlbedoTable::conductor(kMinAlpha).mean(), 1.0F, 1e-3F);
+    EXPECT_NEAR(AlbedoTable::conductor(1.0F).mean(), 0.41F, 0.02F);
+    float last = 1.1F;
+    for (const float roughness : {0.1F, 0.25F, 0.5F, 0.75F, 1.0F}) {
+        const float mean = AlbedoTable::conductor(roughness * roughness).mean();
+        EXPECT_LT(mean, last);
+        last = mean;
+    }
+    // Of a smooth coat: the diffuse Fresnel reflectance of index 1.5, 0.092 (Duntley's value).
+    EXPECT_NEAR(AlbedoTable::dielectric(kMinAlpha, 1.5F).mean(), 0.092F, 0.002F);
+}
+
+TEST_P(RoughFurnace, ColouredSurfacesNeverGainEnergy) {
+    for (const SurfaceKind kind : {SurfaceKind::glossy, SurfaceKind::metal}) {
+        for (const float angle_deg : {0.0F, 50.0F, 80.0F}) {
+            // A flat quad, tilted: all pixels see it under about the same angle.
+            const float t = static_cast<float>(radians(static_cast<double>(angle_deg)));
+            const glm::vec3 across(2.0F * std::cos(t), 0.0F, 2.0F * std::sin(t));
+            const Mesh quad = make_quad(-0.5F * across - glm::vec3(0, 1, 0), across, {0, 2, 0});
+            const double mean = furnace_mean(quad, material_of(kind, glm::vec3(0.9F), GetParam()), 32);
+            EXPECT_LE(mean, 1.003) << "at " << angle_deg << " degrees";
+            EXPECT_GE(mean, kind == SurfaceKind::glossy ? 0.897 : 0.82) << "at " << angle_deg << " degrees";
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Roughness, RoughFurnace, testing::Values(0.1F, 0.25F, 0.5F, 0.75F, 1.0F));
+
+}  // namespace
+}  // namespace rs::capture::test

@@ -1,0 +1,197 @@
+// Light sources against the formulas of radiometry.
+
+#include "capture/tracer/environment_map.hpp"
+#include "capture/tracer/sampler.hpp"
+#include "tests/capture/tracer/test_shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rs::capture::test {
+namespace {
+
+constexpr float kPiF = 3.14159265F;
+
+RenderOptions direct_light(int samples) {
+    RenderOptions options;
+    options.samples_per_pixel = samples;
+    return options;
+}
+
+// A camera above the origin that sees a patch of the plane y = 0 of about 0.02 a side.
+Camera patch_camera() {
+    return look_at_camera({0, 1, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
+}
+Mesh floor_quad() {
+    return make_quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100});
+}
+
+TEST(DirectionalLight, LambertSphereFollowsItsFormula) {
+    Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.6F)));
+    const glm::vec3 to_light = glm::normalize(glm::vec3(1, 2, 2));
+    scene.directional_lights.push_back({-to_light, glm::vec3(3.0F)});
+    const Camera camera = front_camera(3.5, 36.0, 64);
+    const Rendering rendering = render(std::move(scene), camera, direct_light(16));
+    int compared = 0;
+    for (int y = 0; y < camera.height; ++y) {
+        for (int x = 0; x < camera.width; ++x) {
+            if (rendering.picture(x, y).a < 1.0F) continue;
+            const glm::dvec3 d = glm::normalize(camera.ray(x + 0.5, y + 0.5));
+            const double b = glm::dot(camera.centre(), d);
+            const double discriminant = b * b - glm::dot(camera.centre(), camera.centre()) + 1.0;
+            if (discriminant < 0.01) continue;  // at the limb a pixel spans too many normals
+            const glm::vec3 normal(camera.centre() + d * (-b - std::sqrt(discriminant)));
+            const float expected = 0.6F / kPiF * 3.0F * std::max(0.0F, glm::dot(normal, to_light));
+            EXPECT_NEAR(rendering.picture(x, y).g, expected, 0.012F) << x << ", " << y;
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 1000);
+}
+
+TEST(DirectionalLight, CoarseSphereShowsNoFacetsAtTheTerminator) {
+    // 320 triangles with smooth normals: the lit part must follow the smooth normal, not end at facet edges.
+    Scene scene = scene_of(make_sphere(2), material_of(SurfaceKind::diffuse));
+    scene.directional_lights.push_back({{-1, 0, 0}, glm::vec3(kPiF)});
+    const Camera camera = front_camera(8.0, 15.0, 64);
+    const Rendering rendering = render(std::move(scene), camera, direct_light(16));
+    for (int x = 36; x < 56; ++x) {
+        const double along = (x + 0.5 - 32.0) / camera.fl_x * 7.0;  // about where the ray meets the sphere
+        EXPECT_NEAR(rendering.picture(x, 32).g, along, 0.06) << x;
+    }
+}
+
+TEST(PointLight, FallsOffWithTheSquareOfDistance) {
+    double at_one = 0;
+    for (const float distance : {1.0F, 2.0F, 5.0F}) {
+        Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
+        scene.point_lights.push_back({{0, distance, 0}, glm::vec3(2.0F)});
+        const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(4)).picture).g;
+        EXPECT_NEAR(mean, 0.5 / kPi * 2.0 / (distance * distance), 2e-3 * mean);
+        if (distance == 1.0F) at_one = mean;
+        EXPECT_NEAR(mean * distance * distance, at_one, 2e-3 * at_one);
+    }
+}
+
+TEST(RectangleLight, GivesTheAnalyticFormFactor) {
+    // A 2 a by 2 b rectangle at height 1, centred above the point (Howell's catalogue, B-4, four quarters).
+    const double a = 1.5;
+    const double b = 0.5;
+    const double ra = std::sqrt(1 + a * a);
+    const double rb = std::sqrt(1 + b * b);
+    const double form_factor = 2 / kPi * (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb));
+    Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse, glm::vec3(0.7F)));
+    // cross(u, v) points down.
+    scene.rectangle_lights.push_back({{-1.5F, 1, -0.5F}, {3, 0, 0}, {0, 0, 1}, glm::vec3(4.0F)});
+    ASSERT_LT(glm::cross(glm::vec3(3, 0, 0), glm::vec3(0, 0, 1)).y, 0.0F);
+    const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(1024)).picture).g;
+    EXPECT_NEAR(mean, 0.7 * 4.0 * form_factor, 0.005 * mean);
+}
+
+TEST(RectangleLight, IsDarkFromBehindAndSeenInMirrorsOnly) {
+    Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::mirror, glm::vec3(0.9F)));
+    scene.rectangle_lights.push_back({{-5, 3, -5}, {10, 0, 0}, {0, 0, 10}, glm::vec3(4.0F)});
+    const Camera camera = patch_camera();  // below the light, which is larger than what it sees
+    EXPECT_NEAR(mean_radiance(render(scene, camera, direct_light(4)).picture).g, 0.9 * 4.0, 1e-4);
+    std::swap(scene.rectangle_lights[0].edge_u, scene.rectangle_lights[0].edge_v);
+    EXPECT_EQ(mean_radiance(render(scene, camera, direct_light(4)).picture).g, 0.0);
+}
+
+TEST(Emitter, LightsLikeARectangleOfTheSameSize) {
+    // Directly above the patch and off to the side, so that light samples and hits by chance both matter.
+    for (const float offset : {0.0F, 1.0F}) {
+        Scene by_light = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
+        by_light.rectangle_lights.push_back({{offset - 0.5F, 0.6F, -0.5F}, {1, 0, 0}, {0, 0, 1}, glm::vec3(2.0F)});
+        Scene by_mesh = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
+        Material lamp = material_of(SurfaceKind::diffuse, glm::vec3(0.0F));
+        lamp.emission = glm::vec3(2.0F);
+        lamp.two_sided = false;
+        by_mesh.materials.push_back(lamp);
+        by_mesh.meshes.push_back(make_quad({offset - 0.5F, 0.6F, -0.5F}, {1, 0, 0}, {0, 0, 1}));
+        by_mesh.meshes.back().material = 1;
+        // Below the lamp, for it hides the floor from above.
+        const Camera camera = look_at_camera({0, 0.4, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
+        const double expected = mean_radiance(render(by_light, camera, direct_light(512)).picture).g;
+        const double mean = mean_radiance(render(by_mesh, camera, direct_light(512)).picture).g;
+        EXPECT_GT(expected, 0.1);
+        EXPECT_NEAR(mean, expected, 0.01 * expected) << offset;
+    }
+}
+
+// A dim gradient with a small bright sun.
+Environment sunny_environment() {
+    Environment environment;
+    environment.pixels = Image<RgbaF>(64, 32);
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            const float v = 0.02F * static_cast<float>(32 - y) + 0.002F * static_cast<float>(x);
+            environment.pixels(x, y) = {v, 0.5F * v, 2.0F * v, 1};
+        }
+    }
+    environment.pixels(20, 7) = {300, 250, 200, 1};
+    environment.turn_rad = 0.7F;
+    environment.scale = 0.5F;
+    return environment;
+}
+
+TEST(EnvironmentMap, ImportanceSamplingEqualsTheIntegral) {
+    const Environment environment = sunny_environment();
+    const EnvironmentMap map(environment);
+    // Irradiance on a surface that looks up, by a fine midpoint rule.
+    glm::dvec3 irradiance(0);
+    constexpr int kRows = 512;
+    constexpr int kColumns = 2048;
+    for (int y = 0; y < kRows; ++y) {
+        const double polar = 0.5 * kPi * (y + 0.5) / kRows;
+        for (int x = 0; x < kColumns; ++x) {
+            const double phi = 2 * kPi * (x + 0.5) / kColumns;
+            const glm::dvec3 d(std::sin(polar) * std::sin(phi), std::cos(polar), std::sin(polar) * std::cos(phi));
+            const double weight = std::cos(polar) * std::sin(polar) * (0.5 * kPi / kRows) * (2 * kPi / kColumns);
+            irradiance += glm::dvec3(map.radiance(glm::vec3(d))) * weight;
+        }
+    }
+    Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
+    scene.environment = environment;
+    const glm::dvec3 mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(1024)).picture);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], irradiance[c] / kPi, 0.01 * mean[c]) << c;
+}
+
+TEST(EnvironmentMap, SamplesCarryTheirDensityWhichSumsToOne) {
+    const EnvironmentMap map(sunny_environment());
+    Sampler sampler(7, 0);
+    for (int i = 0; i < 2000; ++i) {
+        const EnvironmentMap::Sample drawn = map.sample(sampler.next_2d());
+        EXPECT_NEAR(glm::length(drawn.direction), 1.0F, 1e-5F);
+        EXPECT_NEAR(map.pdf(drawn.direction) / drawn.pdf, 1.0F, 1e-2F);
+    }
+    double sum = 0;
+    for (int y = 0; y < 512; ++y) {
+        const double polar = kPi * (y + 0.5) / 512;
+        for (int x = 0; x < 1024; ++x) {
+            const double phi = 2 * kPi * (x + 0.5) / 1024;
+            const glm::vec3 d(
+                glm::dvec3(std::sin(polar) * std::sin(phi), std::cos(polar), std::sin(polar) * std::cos(phi)));
+            sum += static_cast<double>(map.pdf(d)) * std::sin(polar) * (kPi / 512) * (2 * kPi / 1024);
+        }
+    }
+    EXPECT_NEAR(sum, 1.0, 2e-3);
+}
+
+TEST(EnvironmentMap, DirectionsFollowTheConvention) {
+    Environment environment;
+    environment.pixels = Image<RgbaF>(64, 32);
+    environment.pixels(48, 16) = {1, 0, 0, 1};  // a quarter turn from the middle column: +X
+    environment.pixels(5, 0) = {0, 1, 0, 1};    // top row: +Y
+    for (int x = 0; x < 64; ++x) environment.pixels(x, 0).g = 1;
+    const EnvironmentMap map(environment);
+    EXPECT_GT(map.radiance(glm::normalize(glm::vec3(1, -0.05F, 0.05F))).r, 0.5F);
+    EXPECT_GT(map.radiance({0, 1, 0}).g, 0.9F);
+    EXPECT_EQ(map.radiance({-1, 0, 0}).r, 0.0F);
+    environment.turn_rad = kPiF / 2;  // turning +X about Y by a quarter gives -Z
+    const EnvironmentMap turned(environment);
+    EXPECT_GT(turned.radiance(glm::normalize(glm::vec3(0.05F, -0.05F, -1))).r, 0.5F);
+}
+
+}  // namespace
+}  // namespace rs::capture::test

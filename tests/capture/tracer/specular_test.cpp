@@ -1,0 +1,153 @@
+// Directions behind mirrors and glass.
+
+#include "capture/tracer/environment_map.hpp"
+#include "capture/tracer/microfacet.hpp"
+#include "tests/capture/tracer/test_shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rs::capture::test {
+namespace {
+
+// Each direction has a colour of its own, which changes slowly.
+Environment compass_environment() {
+    Environment environment;
+    environment.pixels = Image<RgbaF>(256, 128);
+    for (int y = 0; y < 128; ++y) {
+        const double polar = kPi * (y + 0.5) / 128;
+        for (int x = 0; x < 256; ++x) {
+            const double phi = kPi * ((x + 0.5) / 128 - 1.0);
+            environment.pixels(x, y) = {static_cast<float>(1.0 + std::sin(polar) * std::sin(phi)),
+                                        static_cast<float>(1.0 + std::cos(polar)),
+                                        static_cast<float>(1.0 - std::sin(polar) * std::cos(phi)), 1};
+        }
+    }
+    return environment;
+}
+
+RenderOptions sharp(int samples) {
+    RenderOptions options;
+    options.samples_per_pixel = samples;
+    options.filter_radius_px = 1e-4F;
+    return options;
+}
+
+TEST(Mirror, ReflectsWhereTheLawSays) {
+    const glm::vec3 normal = glm::normalize(glm::vec3(0.3F, 0.4F, 1.0F));
+    const glm::vec3 across = glm::normalize(glm::cross(glm::vec3(0, 1, 0), normal));
+    const glm::vec3 along = glm::cross(normal, across);
+    Scene scene = scene_of(make_quad(-across - along, 2.0F * across, 2.0F * along), material_of(SurfaceKind::mirror));
+    scene.environment = compass_environment();
+    const Camera camera = front_camera(3.0, 20.0, 16);
+    const Rendering rendering = render(std::move(scene), camera, sharp(4));
+    for (int y = 0; y < 16; ++y) {
+        for (int x = 0; x < 16; ++x) {
+            const glm::vec3 out = glm::reflect(glm::normalize(glm::vec3(camera.ray(x + 0.5, y + 0.5))), normal);
+            const RgbaF& seen = rendering.picture(x, y);
+            ASSERT_EQ(seen.a, 1.0F);
+            EXPECT_NEAR(seen.r, 1.0F + out.x, 2e-3F);
+            EXPECT_NEAR(seen.g, 1.0F + out.y, 2e-3F);
+            EXPECT_NEAR(seen.b, 1.0F + out.z, 2e-3F);  // the middle column is -Z
+        }
+    }
+}
+
+// A slab 0 >= z >= -thickness that is larger than what the camera sees.
+void add_slab(Scene& scene, float thickness, int material) {
+    scene.meshes.push_back(make_quad({-50, -50, 0}, {100, 0, 0}, {0, 100, 0}));
+    scene.meshes.back().material = material;
+    scene.meshes.push_back(make_quad({-50, -50, -thickness}, {0, 100, 0}, {100, 0, 0}));
+    scene.meshes.back().material = material;
+}
+
+TEST(Glass, SlabShiftsRaysAsSnellSays) {
+    constexpr float kIor = 1.5F;
+    constexpr float kThickness = 0.8F;
+    Scene scene;
+    Material glass = material_of(SurfaceKind::glass);
+    glass.ior = kIor;
+    Material lamp = material_of(SurfaceKind::diffuse, glm::vec3(0.0F));
+    lamp.emission = glm::vec3(1.0F);
+    scene.materials = {glass, lamp};
+    add_slab(scene, kThickness, 0);
+    scene.meshes.push_back(make_quad({0, -50, -1}, {50, 0, 0}, {0, 100, 0}));  // shines where x > 0 on z = -1
+    scene.meshes.back().material = 1;
+    const Camera camera = look_at_camera({-2, 0.1, 2}, {0, 0, -1}, radians(20.0), 64, 8);
+    const Rendering rendering = render(std::move(scene), camera, sharp(64));
+    int lit = 0;
+    int dark = 0;
+    int moved_by_refraction = 0;
+    for (int x = 0; x < 64; ++x) {
+        const glm::dvec3 d = glm::normalize(camera.ray(x + 0.5, 4.5));
+        const glm::dvec2 sideways(d.x, d.y);  // sine of the angle, with its direction
+        const glm::dvec2 inside = sideways / static_cast<double>(kIor);
+        const double cos_outside = -d.z;
+        const double cos_inside = std::sqrt(1 - glm::dot(inside, inside));
+        glm::dvec2 p(camera.centre());
+        p += sideways / cos_outside * camera.centre().z;  // down to the slab
+        p += inside / cos_inside * static_cast<double>(kThickness);
+        p += sideways / cos_outside * (1.0 - static_cast<double>(kThickness));
+        const double straight = camera.centre().x + sideways.x / cos_outside * (camera.centre().z + 1);
+        if ((straight > 0) != (p.x > 0)) ++moved_by_refraction;
+        if (std::abs(p.x) < 2e-3) continue;
+        // Fresnel splits the light, so lit pixels are less than 1; dark ones get nothing at all.
+        if (p.x > 0) {
+            EXPECT_GT(rendering.picture(x, 4).g, 0.7F) << x;
+            ++lit;
+        } else {
+            EXPECT_LT(rendering.picture(x, 4).g, 0.15F) << x;
+            ++dark;
+        }
+    }
+    EXPECT_GT(lit, 10);
+    EXPECT_GT(dark, 10);
+    EXPECT_GT(moved_by_refraction, 3) << "a straight ray would give the same picture";
+}
+
+TEST(Glass, SlabReflectsAndPassesWhatFresnelSays) {
+    Scene scene;
+    Material glass = material_of(SurfaceKind::glass);
+    scene.materials = {glass};
+    add_slab(scene, 0.3F, 0);
+    // Red comes from before the slab, green from behind it.
+    scene.environment.pixels = Image<RgbaF>(256, 4);
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 256; ++x) {
+            const bool behind = x >= 64 && x < 192;  // the columns about -Z
+            scene.environment.pixels(x, y) = {behind ? 0.0F : 1.0F, behind ? 1.0F : 0.0F, 0, 1};
+        }
+    }
+    const Camera camera = look_at_camera({1.5, 0, 1.5}, {0, 0, 0}, radians(0.5), 16, 16);
+    const glm::dvec3 mean = mean_radiance(render(std::move(scene), camera, sharp(256)).picture);
+    const double once = static_cast<double>(fresnel_dielectric(std::sqrt(0.5F), 1.5F));
+    EXPECT_NEAR(once, 0.0502, 1e-3);  // tabulated: BK7-like glass at 45 degrees, unpolarised
+    EXPECT_NEAR(mean.r, 2 * once / (1 + once), 0.003);
+    EXPECT_NEAR(mean.g, (1 - once) / (1 + once), 0.003);
+}
+
+TEST(Glass, AbsorbsByTheLengthOfTheWay) {
+    Scene scene;
+    Material glass = material_of(SurfaceKind::glass, {0.5F, 0.25F, 1.0F});
+    glass.ior = 1.0F;  // no reflection, no refraction: only the way counts
+    scene.materials = {glass};
+    add_slab(scene, 2.0F, 0);
+    scene.environment = constant_environment(1.0F);
+    const glm::dvec3 mean = mean_radiance(render(std::move(scene), front_camera(3.0, 0.5, 8), sharp(1)).picture);
+    EXPECT_NEAR(mean.r, 0.25, 1e-3);
+    EXPECT_NEAR(mean.g, 0.0625, 1e-3);
+    EXPECT_NEAR(mean.b, 1.0, 1e-5);
+}
+
+TEST(Fresnel, KnownValues) {
+    EXPECT_NEAR(fresnel_dielectric(1.0F, 1.5F), 0.04F, 1e-6F);
+    EXPECT_NEAR(fresnel_dielectric(0.0F, 1.5F), 1.0F, 1e-5F);
+    EXPECT_NEAR(fresnel_dielectric(0.7F, 1.0F), 0.0F, 1e-6F);
+    // Beyond asin(1 / 1.5) = 41.8 degrees nothing leaves.
+    EXPECT_EQ(fresnel_dielectric(std::cos(static_cast<float>(radians(42.0))), 1.0F / 1.5F), 1.0F);
+    EXPECT_LT(fresnel_dielectric(std::cos(static_cast<float>(radians(41.0))), 1.0F / 1.5F), 1.0F);
+}
+
+}  // namespace
+}  // namespace rs::capture::test
