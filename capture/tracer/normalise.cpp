@@ -19,14 +19,14 @@ void for_each_used_vertex(const Scene& scene, Visit visit) {
 
 }  // namespace
 
-Result<double> normalise_meshes(Scene& scene) {
+Result<double> normalise_meshes(Scene& scene, ObjectCentre which) {
     glm::dvec3 lower(std::numeric_limits<double>::infinity());
     glm::dvec3 upper(-std::numeric_limits<double>::infinity());
     for_each_used_vertex(scene, [&](const glm::dvec3& p) {
         lower = glm::min(lower, p);
         upper = glm::max(upper, p);
     });
-    const glm::dvec3 centre = 0.5 * (lower + upper);
+    const glm::dvec3 centre = which == ObjectCentre::bounding_box ? 0.5 * (lower + upper) : glm::dvec3(0);
     double radius = 0;
     for_each_used_vertex(scene, [&](const glm::dvec3& p) { radius = std::max(radius, glm::length(p - centre)); });
     if (!(radius > 0.0) || !std::isfinite(radius)) {

@@ -6,10 +6,15 @@
 
 namespace rs::capture {
 
-// Moves the meshes so that the centre of their bounding box is the origin and scales them so that the farthest vertex
-// is at distance 1 from it. Only vertices that triangles use count. Lights and environment stay as they are. Returns
-// the object radius in the new units: the largest distance of a vertex from the Y axis. Fails where no triangle has a
-// size.
-Result<double> normalise_meshes(Scene& scene);
+// Which point of the meshes comes to stand on the turntable's axis, at height 0.
+enum class ObjectCentre {
+    bounding_box,  // the middle of the bounding box
+    mesh_origin,   // the origin of the mesh's own coordinates
+};
+
+// Moves the meshes so that their centre is the origin and scales them so that the farthest vertex is at distance 1 from
+// it. Only vertices that triangles use count. Lights and environment stay as they are. Returns the object radius in the
+// new units: the largest distance of a vertex from the Y axis. Fails where no triangle has a size.
+Result<double> normalise_meshes(Scene& scene, ObjectCentre which = ObjectCentre::bounding_box);
 
 }  // namespace rs::capture

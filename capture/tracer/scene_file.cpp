@@ -42,9 +42,13 @@ void apply_texture(const std::string& file, const std::filesystem::path& recipe,
     }
 }
 
-void load_mesh_object(RecipeReader& reader, const std::filesystem::path& recipe, Scene& scene) {
+void load_mesh_object(RecipeReader& reader, const std::filesystem::path& recipe, Scene& scene, ObjectCentre& centre) {
     std::string mesh_file;
     std::string texture_file;
+    std::string centre_name = "box";
+    reader.read("centre", centre_name);
+    if (centre_name != "box" && centre_name != "origin") reader.complain("centre", "must be \"box\" or \"origin\"");
+    centre = centre_name == "origin" ? ObjectCentre::mesh_origin : ObjectCentre::bounding_box;
     reader.read("mesh", mesh_file);
     reader.read("texture", texture_file);
     const nlohmann::json* material = reader.child("material");
@@ -71,10 +75,10 @@ void generate_object(RecipeReader& reader, const Generator& generator, std::uint
 }
 
 void load_object(const nlohmann::json& json, const std::filesystem::path& recipe, const Generator& generator,
-                 std::uint64_t seed, RecipeErrors& errors, Scene& scene) {
+                 std::uint64_t seed, RecipeErrors& errors, Scene& scene, ObjectCentre& centre) {
     RecipeReader reader(json, "object", errors);
     if (reader.has("mesh") == reader.has("generator")) return reader.complain("give one of \"mesh\" and \"generator\"");
-    if (reader.has("mesh")) return load_mesh_object(reader, recipe, scene);
+    if (reader.has("mesh")) return load_mesh_object(reader, recipe, scene, centre);
     generate_object(reader, generator, seed, scene);
 }
 
@@ -94,12 +98,12 @@ void override_materials(const nlohmann::json& json, RecipeErrors& errors, Scene&
     }
 }
 
-Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path) {
+Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path, ObjectCentre centre) {
     if (!is_lit(file.scene)) file.scene.environment = make_studio_environment(default_studio());
     // First the check: normalisation relies on valid indices.
     if (Status checked = check_scene(file.scene); !checked)
         return Error{path.string() + ": " + checked.error().message};
-    Result<double> radius = normalise_meshes(file.scene);
+    Result<double> radius = normalise_meshes(file.scene, centre);
     if (!radius) return Error{path.string() + ": " + radius.error().message};
     file.object_radius = *radius;
     return file;
@@ -129,8 +133,9 @@ Result<SceneFile> load_recipe(const std::filesystem::path& path, const Generator
     const nlohmann::json* lights = reader.child("lights");
     reader.finish();
     if (object == nullptr) errors.add("object", "is missing; give {\"mesh\": ...} or {\"generator\": ...}");
+    ObjectCentre centre = ObjectCentre::bounding_box;
     if (camera != nullptr) read_camera(*camera, errors, file.camera);
-    if (!errors.first) load_object(*object, path, generator, file.seed, errors, file.scene);
+    if (!errors.first) load_object(*object, path, generator, file.seed, errors, file.scene, centre);
     if (errors.first) return *errors.first;
 
     file.scene.name = name;
@@ -143,7 +148,7 @@ Result<SceneFile> load_recipe(const std::filesystem::path& path, const Generator
     }
     if (environment != nullptr) read_environment(*environment, path.parent_path(), errors, file.scene.environment);
     if (errors.first) return *errors.first;
-    return finish_scene(std::move(file), path);
+    return finish_scene(std::move(file), path, centre);
 }
 
 }  // namespace
@@ -158,7 +163,7 @@ Result<SceneFile> load_scene_file(const std::filesystem::path& path, const Gener
     if (!scene) return scene.error();
     SceneFile file;
     file.scene = std::move(scene).value();
-    return finish_scene(std::move(file), path);
+    return finish_scene(std::move(file), path, ObjectCentre::bounding_box);
 }
 
 }  // namespace rs::capture

@@ -16,7 +16,7 @@
 namespace rs::capture {
 
 struct SceneFile {
-    Scene scene;               // normalised: bounding box centre at the origin, farthest vertex at distance 1
+    Scene scene;               // normalised: centred (normalise.hpp), farthest vertex at distance 1
     double object_radius = 1;  // the largest distance of a vertex from the Y axis
     CameraRecipe camera;
     std::uint64_t seed = 1;

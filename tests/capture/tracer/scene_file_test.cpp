@@ -55,6 +55,17 @@ TEST_F(SceneFileTest, MeshAloneGetsStudioAndDefaultCamera) {
     EXPECT_EQ(file->scene.name, "bare");
 }
 
+TEST_F(SceneFileTest, KeepsTheMeshesOriginOnTheAxisWhereAsked) {
+    const Result<SceneFile> file = load(R"({"object": {"mesh": "quad.obj", "centre": "origin"}})");
+    ASSERT_TRUE(file) << file.error().message;
+    // The farthest vertex, (6, 2, 0), comes to distance 1 from the origin that the mesh has.
+    const glm::vec3 farthest = file->scene.meshes[0].positions[2];
+    EXPECT_NEAR(farthest.x, 6 / std::sqrt(40.0), 1e-6);
+    EXPECT_NEAR(farthest.y, 2 / std::sqrt(40.0), 1e-6);
+    EXPECT_NEAR(file->object_radius, 6 / std::sqrt(40.0), 1e-6);
+    EXPECT_THAT(error(R"({"object": {"mesh": "quad.obj", "centre": "middle"}})"), HasSubstr("object.centre"));
+}
+
 TEST_F(SceneFileTest, NormalisesToTheBoundingSphere) {
     const Result<SceneFile> file = load_scene_file(folder_ / "quad.obj", {});
     ASSERT_TRUE(file) << file.error().message;

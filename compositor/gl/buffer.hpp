@@ -1,0 +1,21 @@
+#pragma once
+// Bytes that shaders read: vertices and indices. Their content is fixed at creation.
+
+#include "compositor/gl/handle.hpp"
+
+#include <cstddef>
+#include <span>
+
+namespace rs::gl {
+
+class Buffer {
+public:
+    // Not empty.
+    explicit Buffer(std::span<const std::byte> bytes);
+    [[nodiscard]] unsigned name() const { return handle_.name(); }
+
+private:
+    Handle<Kind::kBuffer> handle_;
+};
+
+}  // namespace rs::gl

@@ -1,0 +1,40 @@
+#pragma once
+// An OpenGL 4.5 core context without a window or a display: EGL on Mesa's surfaceless platform, drawing only into
+// framebuffers. Where there is no GPU Mesa draws on the CPU.
+//
+// Everything below compositor/ draws with the same conventions, set at creation: the picture's first row is its top
+// (glClipControl GL_UPPER_LEFT), and depth runs from 1 at the near plane to 0 at infinity (reversed; nearer is
+// greater).
+
+#include "rayspace/result.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rs::gl {
+
+struct ContextOptions {
+    bool debug = false;  // a debug context: take_errors() then tells every error with the driver's words
+};
+
+// Current on the thread that created it, where all work with it must be done. Move-only.
+class Context {
+public:
+    // Fails, saying what is missing, where EGL, the platform or OpenGL 4.5 cannot be had.
+    static Result<Context> create_surfaceless(const ContextOptions& options = {});
+    Context(Context&&) noexcept;
+    Context& operator=(Context&&) noexcept;
+    ~Context();
+
+    [[nodiscard]] const std::string& device_name() const;
+    // The OpenGL errors since the last call, one line each.
+    [[nodiscard]] std::vector<std::string> take_errors();
+
+private:
+    struct State;
+    explicit Context(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace rs::gl

@@ -1,0 +1,72 @@
+#include "compositor/gl/framebuffer.hpp"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <string>
+
+namespace rs::gl {
+namespace {
+
+Handle<Kind::kRenderbuffer> new_renderbuffer(GLenum format, int width, int height, int samples) {
+    unsigned name = 0;
+    glCreateRenderbuffers(1, &name);
+    glNamedRenderbufferStorageMultisample(name, samples > 1 ? samples : 0, format, width, height);
+    return Handle<Kind::kRenderbuffer>(name);
+}
+
+}  // namespace
+
+Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
+    RS_CHECK(width >= 1 && height >= 1 && samples >= 1);
+    GLint largest = 0;
+    GLint most_samples = 1;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    if (width > largest || height > largest) {
+        return Error{"OpenGL: a picture of " + size + " is larger than the driver's " + std::to_string(largest) +
+                     " pixels a side; ask for a smaller one"};
+    }
+    Framebuffer made;
+    made.width_ = width;
+    made.height_ = height;
+    made.samples_ = std::min(samples, std::max(most_samples, 1));
+    made.colour_ = new_renderbuffer(GL_SRGB8_ALPHA8, width, height, made.samples_);
+    made.depth_ = new_renderbuffer(GL_DEPTH_COMPONENT32F, width, height, made.samples_);
+    unsigned name = 0;
+    glCreateFramebuffers(1, &name);
+    made.handle_ = Handle<Kind::kFramebuffer>(name);
+    glNamedFramebufferRenderbuffer(name, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, made.colour_.name());
+    glNamedFramebufferRenderbuffer(name, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, made.depth_.name());
+    if (glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        return Error{"OpenGL: the driver cannot draw into a picture of " + size + "; ask for a smaller one"};
+    }
+    return made;
+}
+
+void Framebuffer::begin(const glm::vec3& background) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
+    glViewport(0, 0, width_, height_);
+    glDepthMask(GL_TRUE);  // it holds for clears too
+    const float colour[] = {background.r, background.g, background.b, 1.0F};
+    glClearNamedFramebufferfv(handle_.name(), GL_COLOR, 0, colour);
+    const float infinity = 0;
+    glClearNamedFramebufferfv(handle_.name(), GL_DEPTH, 0, &infinity);
+}
+
+void Framebuffer::resolve_to(const Framebuffer& target) const {
+    RS_CHECK(target.width_ == width_ && target.height_ == height_ && target.samples_ == 1);
+    glBlitNamedFramebuffer(handle_.name(), target.handle_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
+                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+Image<Rgba8> Framebuffer::read_picture() const {
+    RS_CHECK(samples_ == 1);
+    Image<Rgba8> picture(width_, height_);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, handle_.name());
+    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, picture.data());
+    return picture;
+}
+
+}  // namespace rs::gl

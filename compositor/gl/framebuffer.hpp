@@ -1,0 +1,37 @@
+#pragma once
+// What is drawn into: sRGB colour (blended as linear light), float depth.
+
+#include "compositor/gl/handle.hpp"
+#include "rayspace/image.hpp"
+#include "rayspace/result.hpp"
+
+#include <glm/glm.hpp>
+
+namespace rs::gl {
+
+class Framebuffer {
+public:
+    // Sides 1..kMaxPictureSide_px. `samples` per pixel (1 = no multisampling) is lowered to what the driver has. Fails
+    // where the driver cannot make one of this size.
+    static Result<Framebuffer> create(int width, int height, int samples);
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int height() const { return height_; }
+
+    // Draws go here from now on. Clears colour (linear light) and depth (to infinity).
+    void begin(const glm::vec3& background) const;
+    // Averages the samples into `target`, which has the same size and one sample.
+    void resolve_to(const Framebuffer& target) const;
+    // Waits for all drawing. One sample only.
+    [[nodiscard]] Image<Rgba8> read_picture() const;
+
+private:
+    Framebuffer() = default;
+    Handle<Kind::kRenderbuffer> colour_;
+    Handle<Kind::kRenderbuffer> depth_;
+    Handle<Kind::kFramebuffer> handle_;
+    int width_ = 0;
+    int height_ = 0;
+    int samples_ = 1;
+};
+
+}  // namespace rs::gl

@@ -1,0 +1,37 @@
+#pragma once
+// The ownership of one OpenGL name. Names belong to the context that was current when they were made; it must be
+// current again when they are released, and outlive them.
+
+#include <utility>
+
+namespace rs::gl {
+
+enum class Kind { kProgram, kBuffer, kVertexArray, kTexture, kRenderbuffer, kFramebuffer };
+
+void release(Kind kind, unsigned name);
+
+// Move-only; 0 is no name.
+template <Kind kind>
+class Handle {
+public:
+    Handle() = default;
+    explicit Handle(unsigned name) : name_(name) {}
+    Handle(Handle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    Handle& operator=(Handle&& other) noexcept {
+        if (this != &other) {
+            if (name_ != 0) release(kind, name_);
+            name_ = std::exchange(other.name_, 0);
+        }
+        return *this;
+    }
+    ~Handle() {
+        if (name_ != 0) release(kind, name_);
+    }
+
+    [[nodiscard]] unsigned name() const { return name_; }
+
+private:
+    unsigned name_ = 0;
+};
+
+}  // namespace rs::gl

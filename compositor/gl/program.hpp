@@ -1,0 +1,36 @@
+#pragma once
+// A linked pair of a vertex and a fragment shader with its uniforms.
+
+#include "compositor/gl/handle.hpp"
+#include "rayspace/result.hpp"
+
+#include <glm/glm.hpp>
+
+#include <string>
+
+namespace rs::gl {
+
+class Program {
+public:
+    // GLSL sources. `what` names the program in the error, which quotes the compiler's log.
+    static Result<Program> create(const std::string& what, const std::string& vertex, const std::string& fragment);
+
+    // The name must be a uniform that the program uses, of the argument's type.
+    void set(const char* uniform, int value) const;
+    void set(const char* uniform, float value) const;
+    void set(const char* uniform, const glm::vec2& value) const;
+    void set(const char* uniform, const glm::ivec2& value) const;
+    void set(const char* uniform, const glm::vec3& value) const;
+    void set(const char* uniform, const glm::vec4& value) const;
+    void set(const char* uniform, const glm::mat3& value) const;
+    void set(const char* uniform, const glm::mat4& value) const;
+
+    [[nodiscard]] unsigned name() const { return handle_.name(); }
+
+private:
+    explicit Program(Handle<Kind::kProgram> handle) : handle_(std::move(handle)) {}
+    [[nodiscard]] int location(const char* uniform) const;
+    Handle<Kind::kProgram> handle_;
+};
+
+}  // namespace rs::gl

@@ -1,0 +1,39 @@
+#pragma once
+// Indexed triangles ready to be drawn, or no vertices at all for shaders that make theirs from gl_VertexID.
+
+#include "compositor/gl/buffer.hpp"
+#include "compositor/gl/handle.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rs::gl {
+
+// Attribute n of the vertex shader (location n) takes `floats` (1..4) floats at `offset_bytes` of each vertex.
+struct VertexAttribute {
+    int floats = 3;
+    unsigned offset_bytes = 0;
+};
+
+class VertexArray {
+public:
+    // Without vertices: draws `vertex_count` vertices as a triangle strip.
+    explicit VertexArray(int vertex_count);
+    // Triangles; neither span is empty.
+    VertexArray(std::span<const std::byte> vertices, int stride_bytes, const std::vector<VertexAttribute>& attributes,
+                std::span<const std::uint32_t> indices);
+
+    [[nodiscard]] unsigned name() const { return handle_.name(); }
+    [[nodiscard]] bool indexed() const { return indices_.has_value(); }
+    [[nodiscard]] int count() const { return count_; }  // of indices where indexed, else of vertices
+
+private:
+    std::optional<Buffer> vertices_;
+    std::optional<Buffer> indices_;
+    Handle<Kind::kVertexArray> handle_;
+    int count_ = 0;
+};
+
+}  // namespace rs::gl

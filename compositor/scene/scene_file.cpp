@@ -1,0 +1,172 @@
+#include "compositor/scene/scene_file.hpp"
+
+#include "compositor/scene/strict_json.hpp"
+#include "rayspace/file_output.hpp"
+#include "rayspace/linear_light.hpp"
+
+#include <cmath>
+
+namespace rs::compositor {
+namespace {
+
+constexpr std::uint64_t kMaxFile_bytes = std::uint64_t{64} << 20;
+constexpr std::size_t kMaxNodes = 4096;
+constexpr double kFarthest = 1e6;   // coordinates and lengths
+constexpr double kSmallest = 1e-6;  // what must be above 0
+constexpr double kBrightest = 100;
+
+glm::dvec3 take_position(JsonObject& object, const char* key) {
+    return object.take(key).triple(-kFarthest, kFarthest);
+}
+
+glm::vec3 colour(const JsonValue& value) {
+    const glm::vec3 srgb(value.triple(0, 1));
+    return {linear_from_srgb(srgb.r), linear_from_srgb(srgb.g), linear_from_srgb(srgb.b)};
+}
+
+glm::dvec3 take_direction(JsonObject& object, const char* key) {
+    const JsonValue value = object.take(key);
+    const glm::dvec3 direction = value.triple(-kFarthest, kFarthest);
+    if (glm::length(direction) < kSmallest) throw value.wrong("must be a direction, not 0, 0, 0");
+    return direction;
+}
+
+NodeTransform take_transform(JsonObject& node) {
+    NodeTransform transform;
+    if (node.has("translate")) transform.translation = take_position(node, "translate");
+    if (node.has("scale")) transform.scale = node.take("scale").number(kSmallest, kFarthest);
+    if (node.has("rotate")) {
+        JsonObject rotate(node.take("rotate"));
+        if (rotate.has("axis")) transform.axis = take_direction(rotate, "axis");
+        transform.angle_rad = radians(rotate.take("degrees").number(-36000, 36000));
+        rotate.expect_all_taken();
+    }
+    return transform;
+}
+
+// Walks the graph, keeping the chain of transforms on the way down.
+class NodeReader {
+public:
+    NodeReader(Scene& scene, std::filesystem::path folder) : scene_(scene), folder_(std::move(folder)) {}
+
+    void read_list(const JsonValue& list) {
+        const std::size_t count = list.list_size(0, kMaxNodes);
+        for (std::size_t i = 0; i < count; ++i) read_node(JsonObject(list.item(i)));
+    }
+
+private:
+    void read_node(JsonObject node) {
+        if (++nodes_ > kMaxNodes)
+            throw node.wrong("is one node too many; a scene may have " + std::to_string(kMaxNodes));
+        const bool is_object = node.has("object");
+        const bool is_box = node.has("box");
+        const bool is_group = node.has("group");
+        if (is_object + is_box + is_group != 1) {
+            throw node.wrong("must have exactly one of the keys object, box and group");
+        }
+        chain_.push_back(take_transform(node));
+        if (is_object) read_object_node(node);
+        if (is_box) read_box(node);
+        if (is_group) read_list(node.take("group"));
+        chain_.pop_back();
+        node.expect_all_taken();
+    }
+
+    void read_object_node(JsonObject& node) {
+        RaySpaceNode object;
+        object.file = folder_ / node.take("object").text();
+        object.chain = chain_;
+        if (node.has("standing")) object.standing = node.take("standing").boolean();
+        scene_.objects.push_back(std::move(object));
+    }
+
+    void read_box(JsonObject& node) {
+        GeometryNode box;
+        box.mesh = box_mesh(node.take("box").triple(kSmallest, kFarthest));
+        if (node.has("colour")) box.colour = colour(node.take("colour"));
+        box.chain = chain_;
+        scene_.geometry.push_back(std::move(box));
+    }
+
+    Scene& scene_;
+    std::filesystem::path folder_;
+    TransformChain chain_;
+    std::size_t nodes_ = 0;
+};
+
+Floor read_floor(JsonObject object) {
+    Floor floor;
+    if (object.has("height")) floor.height = object.take("height").number(-kFarthest, kFarthest);
+    if (object.has("radius")) floor.radius = object.take("radius").number(kSmallest, kFarthest);
+    if (object.has("square")) floor.square = object.take("square").number(kSmallest, kFarthest);
+    if (object.has("colours")) {
+        const JsonValue colours = object.take("colours");
+        colours.list_size(2, 2);
+        floor.colour_a = colour(colours.item(0));
+        floor.colour_b = colour(colours.item(1));
+    }
+    object.expect_all_taken();
+    return floor;
+}
+
+Lights read_lights(JsonObject object) {
+    Lights lights;
+    if (object.has("towards")) lights.towards = take_direction(object, "towards");
+    if (object.has("directional")) lights.directional = glm::vec3(object.take("directional").triple(0, kBrightest));
+    if (object.has("ambient")) lights.ambient = glm::vec3(object.take("ambient").triple(0, kBrightest));
+    object.expect_all_taken();
+    return lights;
+}
+
+CameraPose take_pose(JsonObject& object) {
+    const CameraPose pose{take_position(object, "eye"), take_position(object, "at")};
+    if (glm::distance(pose.eye, pose.at) < kSmallest) throw object.wrong("eye and at are the same point; move one");
+    return pose;
+}
+
+CameraPath read_camera(JsonObject object) {
+    CameraPath path;
+    if (object.has("fov_degrees")) path.fov_x_rad = radians(object.take("fov_degrees").number(1, 150));
+    if (object.has("path")) {
+        const JsonValue keys = object.take("path");
+        const std::size_t count = keys.list_size(1, 10000);
+        for (std::size_t i = 0; i < count; ++i) {
+            JsonObject key(keys.item(i));
+            path.keys.push_back(take_pose(key));
+            key.expect_all_taken();
+        }
+        path.frames = object.take("frames").whole_number(1, 100000);
+        if (object.has("closed")) path.closed = object.take("closed").boolean();
+    } else {
+        path.keys.push_back(take_pose(object));
+    }
+    object.expect_all_taken();
+    return path;
+}
+
+}  // namespace
+
+Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& path) {
+    try {
+        const nlohmann::json json = parse_json_text(text, path.string());
+        JsonObject top(JsonValue(json, path.string(), ""));
+        Scene scene;
+        if (top.has("background")) scene.background = colour(top.take("background"));
+        if (top.has("floor")) scene.floor = read_floor(JsonObject(top.take("floor")));
+        if (top.has("lights")) scene.lights = read_lights(JsonObject(top.take("lights")));
+        if (top.has("nodes")) NodeReader(scene, path.parent_path()).read_list(top.take("nodes"));
+        if (top.has("camera")) scene.camera = read_camera(JsonObject(top.take("camera")));
+        top.expect_all_taken();
+        return scene;
+    } catch (const MalformedJson& malformed) {
+        return Error{malformed.message};
+    }
+}
+
+Result<Scene> read_scene(const std::filesystem::path& path) {
+    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxFile_bytes);
+    if (!bytes) return bytes.error();
+    return scene_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,117 @@
+#include "compositor/scene/strict_json.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace rs::compositor {
+namespace {
+
+constexpr int kMaxNesting = 64;
+
+std::string shown(double number) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, number).ptr;
+    return {text, end};
+}
+
+}  // namespace
+
+nlohmann::json parse_json_text(const std::string& text, const std::string& file) {
+    const auto refuse_depth = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+        if (depth > kMaxNesting) {
+            throw MalformedJson{file + ": nests brackets more than " + std::to_string(kMaxNesting) +
+                                " deep; flatten its groups"};
+        }
+        return true;
+    };
+    try {
+        return nlohmann::json::parse(text, refuse_depth);
+    } catch (const nlohmann::json::parse_error& error) {
+        const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
+        throw MalformedJson{file + ": is not valid JSON at line " +
+                            std::to_string(1 + std::count(text.begin(), end, '\n')) + "; correct it there"};
+    } catch (const nlohmann::json::exception&) {
+        throw MalformedJson{file + ": holds a number that is out of range; correct it"};
+    }
+}
+
+JsonValue::JsonValue(const nlohmann::json& value, std::string file, std::string key)
+    : value_(&value), file_(std::move(file)), key_(std::move(key)) {}
+
+MalformedJson JsonValue::wrong(const std::string& what) const {
+    return {file_ + ": " + (key_.empty() ? "" : key_ + ": ") + what};
+}
+
+double JsonValue::number(double lowest, double highest) const {
+    const double number = value_->is_number() ? value_->get<double>() : NAN;
+    if (!(number >= lowest && number <= highest)) {
+        throw wrong("must be a number from " + shown(lowest) + " to " + shown(highest));
+    }
+    return number;
+}
+
+int JsonValue::whole_number(int lowest, int highest) const {
+    const double value = number(lowest, highest);
+    if (value != std::floor(value)) throw wrong("must be a whole number");
+    return static_cast<int>(value);
+}
+
+bool JsonValue::boolean() const {
+    if (!value_->is_boolean()) throw wrong("must be true or false");
+    return value_->get<bool>();
+}
+
+std::string JsonValue::text() const {
+    if (!value_->is_string()) throw wrong("must be a text in quotes");
+    auto text = value_->get<std::string>();
+    if (text.empty() || text.find('\0') != std::string::npos) throw wrong("must not be empty or hold zero characters");
+    return text;
+}
+
+glm::dvec3 JsonValue::triple(double lowest, double highest) const {
+    if (!value_->is_array() || value_->size() != 3) throw wrong("must be a list of three numbers");
+    return {item(0).number(lowest, highest), item(1).number(lowest, highest), item(2).number(lowest, highest)};
+}
+
+std::size_t JsonValue::list_size(std::size_t least, std::size_t most) const {
+    if (!value_->is_array()) throw wrong("must be a list [ ... ]");
+    if (value_->size() < least || value_->size() > most) {
+        throw wrong("must have " + std::to_string(least) + " to " + std::to_string(most) + " entries");
+    }
+    return value_->size();
+}
+
+JsonValue JsonValue::item(std::size_t i) const {
+    return {value_->at(i), file_, key_ + "[" + std::to_string(i) + "]"};
+}
+
+JsonValue JsonValue::child(const std::string& name) const {
+    return {value_->at(name), file_, key_.empty() ? name : key_ + "." + name};
+}
+
+JsonObject::JsonObject(const JsonValue& value) : JsonValue(value) {
+    if (!json().is_object()) throw wrong("must be an object { ... }");
+}
+
+bool JsonObject::has(const std::string& name) const {
+    asked_.insert(name);
+    return json().contains(name);
+}
+
+JsonValue JsonObject::take(const std::string& name) {
+    if (!has(name)) throw wrong(name + " is missing; add it");
+    taken_.insert(name);
+    return child(name);
+}
+
+void JsonObject::expect_all_taken() const {
+    for (const auto& [name, value] : json().items()) {
+        if (taken_.contains(name)) continue;
+        std::string known;
+        for (const std::string& asked : asked_) known += (known.empty() ? "" : ", ") + asked;
+        throw wrong("has a key '" + name + "' that means nothing here; it may have: " + known);
+    }
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,59 @@
+#include "compositor/scene/transform.hpp"
+
+#include "rayspace/check.hpp"
+
+#include <cmath>
+
+namespace rs::compositor {
+
+Similarity Similarity::inverse() const {
+    const glm::dmat3 back = glm::transpose(rotation);
+    return {back, back * (-translation) / scale, 1 / scale};
+}
+
+glm::dmat4 Similarity::matrix() const {
+    glm::dmat4 result(rotation * scale);
+    result[3] = glm::dvec4(translation, 1);
+    return result;
+}
+
+Similarity operator*(const Similarity& c_from_b, const Similarity& b_from_a) {
+    return {c_from_b.rotation * b_from_a.rotation, c_from_b.point(b_from_a.translation),
+            c_from_b.scale * b_from_a.scale};
+}
+
+Similarity NodeTransform::parent_from_node() const {
+    RS_CHECK(scale > 0 && glm::length(axis) > 0);
+    // Rodrigues' formula, column by column. A turn about Y leaves exact zeros, so that upright cameras stay upright.
+    const glm::dvec3 n = glm::normalize(axis);
+    const double c = std::cos(angle_rad);
+    const double s = std::sin(angle_rad);
+    const auto turned = [&](const glm::dvec3& v) {
+        return v * c + glm::cross(n, v) * s + n * (glm::dot(n, v) * (1 - c));
+    };
+    return {glm::dmat3(turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})), translation, scale};
+}
+
+Similarity world_from_node(const TransformChain& chain) {
+    Similarity result;
+    for (const NodeTransform& node : chain) result = result * node.parent_from_node();
+    return result;
+}
+
+glm::dvec3 viewpoint_in_node(const glm::dvec3& viewpoint, const TransformChain& over_viewpoint,
+                             const TransformChain& over_node) {
+    return world_from_node(over_node).inverse().point(world_from_node(over_viewpoint).point(viewpoint));
+}
+
+Camera camera_in_node(const Camera& camera_in_world, const Similarity& world_from_node) {
+    const Similarity node_from_world = world_from_node.inverse();
+    Camera camera = camera_in_world;
+    for (int axis = 0; axis < 3; ++axis) {
+        camera.world_from_camera[axis] =
+            glm::dvec4(node_from_world.direction(glm::dvec3(camera_in_world.world_from_camera[axis])), 0);
+    }
+    camera.world_from_camera[3] = glm::dvec4(node_from_world.point(camera_in_world.centre()), 1);
+    return camera;
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,196 @@
+// rs-view: a scene with ray-space objects -> composited frames.
+
+#include "compositor/gl/context.hpp"
+#include "compositor/scene/object_argument.hpp"
+#include "compositor/scene/scene_file.hpp"
+#include "compositor/viewer/frame_compositor.hpp"
+#include "compositor/viewer/framing.hpp"
+#include "rayspace/file_output.hpp"
+#include "rayspace/picture_io.hpp"
+#include "rayspace/progress.hpp"
+#include "rayspace/rig.hpp"
+#include "rayspace/tool_main.hpp"
+
+#include <cstdio>
+#include <tuple>
+
+namespace rs::compositor {
+namespace {
+
+constexpr double kRowSpacing = 2.2;  // between objects without a place of their own, object radii
+
+struct ViewArguments {
+    std::string scene;
+    std::vector<std::string> objects;
+    std::string output;
+    std::string eye;
+    std::string at;
+    std::string size = "1280x720";
+    double fov_deg = 0;
+    double frames_per_second = 30;
+    int orbit = 0;
+    bool quiet = false;
+};
+
+Result<Scene> asked_scene(const ViewArguments& arguments) {
+    Scene scene;
+    if (arguments.scene.empty()) {
+        scene.floor = Floor{};
+    } else {
+        Result<Scene> read = read_scene(arguments.scene);
+        if (!read) return read.error();
+        scene = std::move(*read);
+    }
+    const auto count = static_cast<double>(arguments.objects.size());
+    for (std::size_t i = 0; i < arguments.objects.size(); ++i) {
+        const double row_place = (static_cast<double>(i) - (count - 1) / 2) * kRowSpacing;
+        Result<RaySpaceNode> node = parse_object_argument(arguments.objects[i], {row_place, 0, 0});
+        if (!node) return node.error();
+        scene.objects.push_back(std::move(*node));
+    }
+    return scene;
+}
+
+// What the command line says about the camera outranks the scene file, and that the framing of the objects.
+Result<std::vector<Camera>> asked_cameras(const ViewArguments& arguments, const Scene& scene,
+                                          const std::vector<PlacedObject>& objects, PixelSize size) {
+    CameraPath path = scene.camera.value_or(CameraPath{});
+    if (arguments.fov_deg > 0) path.fov_x_rad = radians(arguments.fov_deg);
+    if (path.keys.empty()) {
+        path.keys = {framing_pose(objects, path.fov_x_rad, static_cast<double>(size.width) / size.height)};
+    }
+    if (!arguments.eye.empty() || !arguments.at.empty()) {
+        CameraPose pose = path.keys.front();
+        for (const auto& [text, option, point] :
+             {std::tuple{&arguments.eye, "--eye", &pose.eye}, std::tuple{&arguments.at, "--at", &pose.at}}) {
+            if (text->empty()) continue;
+            const Result<Triple> given = parse_triple(*text, option);
+            if (!given) return given.error();
+            *point = {given->x, given->y, given->z};
+        }
+        path.keys = {pose};
+        path.frames = 1;
+    }
+    const std::vector<CameraPose> poses =
+        arguments.orbit > 0 ? poses_around(path.keys.front(), arguments.orbit) : poses_along(path);
+    std::vector<Camera> cameras;
+    for (const CameraPose& pose : poses) {
+        if (glm::distance(pose.eye, pose.at) < 1e-6) {
+            return Error{"the eye and the point looked at are the same; move --eye or --at"};
+        }
+        cameras.push_back(look_at_camera(pose.eye, pose.at, path.fov_x_rad, size.width, size.height));
+    }
+    return cameras;
+}
+
+Status write_video(FrameCompositor& compositor, const std::vector<Camera>& cameras, const ViewArguments& arguments,
+                   Progress& progress) {
+    // H.264 at 4:2:0 wants even sizes: the last odd row or column is dropped.
+    const int width = cameras.front().width & ~1;
+    const int height = cameras.front().height & ~1;
+    Result<VideoWriter> video = VideoWriter::open(arguments.output, width, height, arguments.frames_per_second);
+    if (!video) return video.error();
+    for (const Camera& camera : cameras) {
+        const Result<Image<Rgba8>> frame = compositor.compose(camera);
+        if (!frame) return frame.error();
+        if (const Status status = video->add(frame->view().crop(0, 0, width, height)); !status) return status;
+        progress.advance();
+    }
+    return video->finish();
+}
+
+// The frames with the cameras that saw them, as a set of pictures that other tools can open.
+Status write_folder(FrameCompositor& compositor, const std::vector<Camera>& cameras, const ViewArguments& arguments,
+                    Progress& progress) {
+    Result<StagedFolder> staged = StagedFolder::create(arguments.output, kRigFileName);
+    if (!staged) return staged.error();
+    Rig rig;
+    for (const Camera& camera : cameras) {
+        char name[32];
+        std::snprintf(name, sizeof name, "%04zu.png", rig.views.size());
+        RigView view;
+        view.file_path = name;
+        view.camera = camera;
+        rig.views.push_back(view);
+        const Result<Image<Rgba8>> frame = compositor.compose(camera);
+        if (!frame) return frame.error();
+        if (const Status status = write_png(staged->temporary_path() / name, *frame); !status) return status;
+        progress.advance();
+    }
+    if (const Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
+    return staged->commit();
+}
+
+Status run_view(const ViewArguments& arguments) {
+    const Result<PixelSize> size = parse_size(arguments.size);
+    if (!size) return size.error();
+    const Result<Scene> scene = asked_scene(arguments);
+    if (!scene) return scene.error();
+    ProgressBar progress(arguments.quiet);
+    const Result<std::vector<PlacedObject>> objects = load_objects(*scene, &progress);
+    if (!objects) return objects.error();
+    const Result<std::vector<Camera>> cameras = asked_cameras(arguments, *scene, *objects, *size);
+    if (!cameras) return cameras.error();
+    const std::string extension = std::filesystem::path(arguments.output).extension().string();
+    if (extension == ".png" && cameras->size() != 1) {
+        return Error{arguments.output + ": " + std::to_string(cameras->size()) +
+                     " frames do not fit one picture; give a folder or an .mp4 to -o"};
+    }
+
+    Result<gl::Context> context = gl::Context::create_surfaceless();
+    if (!context) return context.error();
+    Result<FrameCompositor> compositor =
+        FrameCompositor::create(*scene, *objects, {.width = size->width, .height = size->height});
+    if (!compositor) return compositor.error();
+    progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
+    if (extension == ".mp4") return write_video(*compositor, *cameras, arguments, progress);
+    if (extension != ".png") return write_folder(*compositor, *cameras, arguments, progress);
+    const Result<Image<Rgba8>> frame = compositor->compose(cameras->front());
+    if (!frame) return frame.error();
+    return write_png(arguments.output, *frame);
+}
+
+}  // namespace
+}  // namespace rs::compositor
+
+int main(int argc, char** argv) {
+    using namespace rs::compositor;
+    CLI::App app("Composites ray-space objects and geometry into pictures or a video.", "rs-view");
+    ViewArguments arguments;
+    bool headless = false;
+    app.add_option("SCENE", arguments.scene, "scene file, .json (compositor/README.md)");
+    app.add_option("--object", arguments.objects,
+                   "FILE.rso[@X,Y,Z[,TURN_DEG[,SCALE]]]: an object whose foot stands at X,Y,Z, turned about Y; may be "
+                   "repeated. Objects without a place stand in a row. Without SCENE they get a floor")
+        ->type_name("OBJECT")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("-o,--output", arguments.output, "FILE.png, FILE.mp4 or a folder")->required();
+    app.add_flag("--headless", headless, "draw without a window or a display; the only mode, so it need not be given");
+    app.add_option("--eye", arguments.eye, "viewpoint X,Y,Z; of the scene file, or where all objects are in view")
+        ->type_name("X,Y,Z");
+    app.add_option("--at", arguments.at, "point looked at")->type_name("X,Y,Z");
+    app.add_option("--fov", arguments.fov_deg, "horizontal field of view in degrees (50, or of the scene file)")
+        ->check(CLI::Range(1.0, 150.0));
+    app.add_option("--size", arguments.size, "size of the frames, WxH")->capture_default_str();
+    app.add_option("--orbit", arguments.orbit, "N frames once around the point looked at")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--fps", arguments.frames_per_second, "frames per second of an .mp4")
+        ->check(CLI::Range(1.0, 240.0))
+        ->capture_default_str();
+    app.add_flag("-q,--quiet", arguments.quiet, "no progress bar");
+    app.footer(
+        "Lengths are in the scene's units; an object of scale 1 has radius 1. Y is up.\n"
+        "Examples:\n"
+        "  rs-view --object vase.rso -o shot.png\n"
+        "  rs-view --object vase.rso@-1.2,0,0 --object lamp.rso@1.2,0,0,45,0.8 --orbit 120 -o turn.mp4\n"
+        "  rs-view room.json --eye 0,1.2,6 --at 0,0.8,0 --fov 45 --size 1920x1080 -o room.png");
+    std::function<rs::Status()> run;
+    app.callback([&] {
+        if (arguments.scene.empty() && arguments.objects.empty()) {
+            throw CLI::ValidationError("nothing to show; give a scene file or --object FILE.rso");
+        }
+        run = [&] { return run_view(arguments); };
+    });
+    return rs::tool_main(app, argc, argv, run);
+}

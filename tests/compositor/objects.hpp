@@ -1,0 +1,43 @@
+#pragma once
+// Viewable objects made in memory, for the compositor's tests.
+
+#include "compositor/viewer/placed_object.hpp"
+#include "tests/support/ring_object.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace rs::test {
+
+// A drum of radius 1, from about -1 to 1 in height: noise with alpha of all sizes, or opaque in one colour.
+inline std::shared_ptr<const compositor::ViewableObject> drum(std::optional<Rgba8> colour = std::nullopt) {
+    RingObjectOptions options;
+    options.views = 24;
+    options.x_cells = 64;
+    options.u_cells = 64;
+    RaySpaceObject object = ring_object(options);
+    if (colour) {
+        const Rig rig = ring_rig(options);
+        for (std::size_t i = 0; i < object.pictures.size(); ++i) {
+            std::mt19937_64 random(i);
+            Image<Rgba8> picture = noise_picture(rig.views[i].camera, random);
+            // Every column that shows something is opaque over its whole height.
+            for (int x = 0; x < picture.width(); ++x) {
+                bool shows = false;
+                for (int y = 0; y < picture.height(); ++y) shows |= picture(x, y).a > 0;
+                for (int y = 2; y < picture.height() - 3; ++y) picture(x, y) = shows ? *colour : Rgba8{};
+            }
+            object.pictures[i] = planar_from_rgba(picture);
+        }
+    }
+    Result<compositor::ViewableObject> viewable = compositor::make_viewable(std::move(object));
+    RS_CHECK(viewable.ok());
+    return std::make_shared<const compositor::ViewableObject>(std::move(*viewable));
+}
+
+inline compositor::PlacedObject placed_at(std::shared_ptr<const compositor::ViewableObject> object,
+                                          const compositor::NodeTransform& transform = {}) {
+    return {std::move(object), transform.parent_from_node()};
+}
+
+}  // namespace rs::test
