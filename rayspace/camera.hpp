@@ -6,8 +6,8 @@
 namespace rs {
 
 struct Camera {
-    int width = 0;   // px
-    int height = 0;  // px
+    int width = 0;    // px
+    int height = 0;   // px
     double fl_x = 0;  // focal length, px
     double fl_y = 0;
     double cx = 0;  // principal point, px from the top left corner

@@ -32,8 +32,8 @@ inline constexpr std::uint32_t kMaxChunks = 65536;
 inline constexpr std::uint64_t kMaxChunk_bytes = std::uint64_t{1} << 30;
 inline constexpr std::uint64_t kMaxContainer_bytes = std::uint64_t{1} << 36;
 
-// Writes chunks in the order in which they are added; the table's place is reserved at the start, so the number of chunks
-// is told beforehand. Nothing appears under `path` before commit().
+// Writes chunks in the order in which they are added; the table's place is reserved at the start, so the number of
+// chunks is told beforehand. Nothing appears under `path` before commit().
 class ContainerWriter {
 public:
     static Result<ContainerWriter> create(const std::filesystem::path& path, std::uint32_t chunk_count);
@@ -49,8 +49,8 @@ private:
     std::vector<ChunkEntry> table_;
 };
 
-// Reads and checks the header and the table when opened; payloads are read and checked one by one on demand, so a reader
-// needs no more memory than the chunks it asks for. read() may be called from several threads.
+// Reads and checks the header and the table when opened; payloads are read and checked one by one on demand, so a
+// reader needs no more memory than the chunks it asks for. read() may be called from several threads.
 class ContainerReader {
 public:
     static Result<ContainerReader> open(const std::filesystem::path& path);

@@ -9,7 +9,8 @@
 // Pixels            Origin at the top left, x to the right, y down, pixel *centres* at +0.5. A principal point of
 //                   (w/2, h/2) is the middle of the picture.
 // Colour            8-bit pictures are sRGB with straight (unassociated) alpha. Float pictures are linear-light with
-//                   the sRGB primaries. Alpha is linear coverage. Where colours are averaged they are weighted by alpha.
+//                   the sRGB primaries. Alpha is linear coverage. Where colours are averaged they are weighted by
+//                   alpha.
 // YUV               BT.601 full range ("JPEG"), U and V centred on 128. Integer formulas: engine/RECONSTRUCTION.md.
 // Depth             Axial depth: distance along the camera's viewing axis, in the units of the rig; 0 = nothing there.
 // Files             Little-endian. Text is UTF-8. Writers use a temporary name and rename.
@@ -22,8 +23,12 @@ namespace rs {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
-constexpr double degrees(double radians) { return radians * (180.0 / kPi); }
+constexpr double radians(double degrees) {
+    return degrees * (kPi / 180.0);
+}
+constexpr double degrees(double radians) {
+    return radians * (180.0 / kPi);
+}
 
 // Largest sizes that any reader of this project accepts; what is larger is refused with a message that says so.
 inline constexpr int kMaxPictureSide_px = 8192;

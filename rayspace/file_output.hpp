@@ -12,8 +12,8 @@
 
 namespace rs {
 
-// A file that appears under `path` only when commit() succeeds. write() reports a full disk at once; commit() flushes to
-// the disk before it renames. Dropped before commit(), it removes its temporary file. Not thread-safe.
+// A file that appears under `path` only when commit() succeeds. write() reports a full disk at once; commit() flushes
+// to the disk before it renames. Dropped before commit(), it removes its temporary file. Not thread-safe.
 class StagedFile {
 public:
     // Fails when the folder does not exist or cannot be written.

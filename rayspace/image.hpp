@@ -24,8 +24,7 @@ public:
     }
     // A view of mutable pixels is also a view of constant ones.
     template <class U>
-        requires(std::is_same_v<const U, T> && !std::is_same_v<U, T>)
-    ImageView(const ImageView<U>& other)
+    requires(std::is_same_v<const U, T> && !std::is_same_v<U, T>) ImageView(const ImageView<U>& other)
         : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
 
     [[nodiscard]] T* data() const { return data_; }

@@ -2,7 +2,8 @@
 // Pictures and video on disk, through OpenImageIO and OpenCV.
 //
 // Those libraries take a quarter of a second to load, so their code lives in a module (librayspace_pictures.so, beside
-// the tools) that is opened at the first call of a function of this header; a tool that only prints its help never pays.
+// the tools) that is opened at the first call of a function of this header; a tool that only prints its help never
+// pays.
 //
 // Every reader checks the header's size against kMaxPictureSide_px before it allocates. Every writer writes to a
 // temporary name beside `path` and renames; on failure nothing is left. All functions may be called from any thread.
@@ -49,8 +50,9 @@ Status write_exr(const std::filesystem::path& path, ConstImageView<RgbaF> pictur
 // One float channel named "Z".
 Status write_exr_channel(const std::filesystem::path& path, ConstImageView<float> channel);
 
-// A video file (mp4: H.264) written frame by frame. Alpha is composited over `backdrop`. Frames must have the size given
-// at opening, which must be even. finish() renames the temporary file; a writer that is dropped before it leaves nothing.
+// A video file (mp4: H.264) written frame by frame. Alpha is composited over `backdrop`. Frames must have the size
+// given at opening, which must be even. finish() renames the temporary file; a writer that is dropped before it leaves
+// nothing.
 class VideoWriter {
 public:
     static Result<VideoWriter> open(const std::filesystem::path& path, int width, int height, double frames_per_second,

@@ -1,12 +1,13 @@
 #pragma once
 // A ray-space object in memory, as the encoder makes it, the file stores it and the engine reads it.
 //
-// Lengths are in object radii (conventions.hpp). `_qN` after a name means fixed point with N fractional bits. Everything
-// here is integer: the renderer's arithmetic (engine/RECONSTRUCTION.md) starts from these numbers and is exact.
+// Lengths are in object radii (conventions.hpp). `_qN` after a name means fixed point with N fractional bits.
+// Everything here is integer: the renderer's arithmetic (engine/RECONSTRUCTION.md) starts from these numbers and is
+// exact.
 //
-// A captured picture i is a line of ray space: through the point x of reference plane k it has exactly one ray. So the RS
-// map of a plane needs to say only *which picture* answers a cell (x, u); the CapturedLine of (picture, plane) then gives
-// column and vertical scale of the ray through x exactly, without the rounding of a column stored per cell.
+// A captured picture i is a line of ray space: through the point x of reference plane k it has exactly one ray. So the
+// RS map of a plane needs to say only *which picture* answers a cell (x, u); the CapturedLine of (picture, plane) then
+// gives column and vertical scale of the ray through x exactly, without the rounding of a column stored per cell.
 
 #include "rayspace/image.hpp"
 
@@ -40,12 +41,13 @@ struct CapturedView {
     bool operator==(const CapturedView&) const = default;
 };
 
-// A ring of views and its RS map. Cell (k, xi, ui) stands at cells[(k * x_cells + xi) * u_cells + ui] and holds the index
-// of a view of the object, or kNoPicture. xi = floor((x + x_half) * x_cells_per_unit) for x in [-x_half, x_half);
+// A ring of views and its RS map. Cell (k, xi, ui) stands at cells[(k * x_cells + xi) * u_cells + ui] and holds the
+// index of a view of the object, or kNoPicture. xi = floor((x + x_half) * x_cells_per_unit) for x in [-x_half, x_half);
 // ui = floor((u + u_half) * u_cells_per_unit); both clamped to the map.
 struct Ring {
-    std::int32_t elevation_udeg = 0;  // mean elevation of the ring's viewpoints above the horizontal plane, 1e-6 degrees
-    int planes = 0;                   // K
+    std::int32_t elevation_udeg =
+        0;           // mean elevation of the ring's viewpoints above the horizontal plane, 1e-6 degrees
+    int planes = 0;  // K
     int x_cells = 0;
     int u_cells = 0;
     // A ray that touches the object's cylinder crosses the plane at up to 1 / cos(pi / K): x_half is a little above.
@@ -53,7 +55,7 @@ struct Ring {
     std::int32_t x_cells_per_unit_q12 = 0;  // x_cells / (2 * x_half)
     std::int32_t u_half_q28 = 0;            // the map covers |u| <= u_half; a little above tan(pi / K)
     std::int32_t u_cells_per_unit_q12 = 0;  // u_cells / (2 * u_half)
-    std::vector<std::uint16_t> views;      // indices of the views that belong to the ring, in turning order
+    std::vector<std::uint16_t> views;       // indices of the views that belong to the ring, in turning order
     std::vector<std::uint16_t> cells;
     bool operator==(const Ring&) const = default;
 
@@ -83,7 +85,9 @@ struct RaySpaceObject {
 };
 
 // Chroma planes are half as large, rounded up.
-constexpr int half_size(int size) { return (size + 1) / 2; }
+constexpr int half_size(int size) {
+    return (size + 1) / 2;
+}
 
 // The order in which views are stored and loaded: every 8th view of a ring first (level 0), then those that make it
 // every 4th (1), every 2nd (2) and all (3). The level of a ring's view number n, counted from 0:

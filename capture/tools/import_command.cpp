@@ -18,6 +18,7 @@ struct CommandLine {
     bool clockwise = false;
     bool counter_clockwise = false;
     bool json = false;
+    bool quiet = false;
 };
 
 std::string backdrop_text(const ImportReport& report) {
@@ -56,10 +57,12 @@ Status run_import(const CommandLine& given) {
     options.backdrop = *backdrop;
     if (given.clockwise) options.turning = Turning::kClockwise;
     if (given.counter_clockwise) options.turning = Turning::kCounterClockwise;
-    ProgressBar bar;
+    ProgressBar bar(given.quiet);
     const Result<ImportReport> report = import_photos(options, &bar);
     if (!report) return report.error();
-    for (const std::string& note : report->notes) std::fprintf(stderr, "rs-capture: %s\n", note.c_str());
+    for (const std::string& note : report->notes) {
+        if (!given.quiet) std::fprintf(stderr, "rs-capture: %s\n", note.c_str());
+    }
     const std::string output = options.output.string();
     if (given.json) {
         print_json(output, *report);
@@ -115,6 +118,7 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
                    "The object turns the other way: its front goes to the right")
         ->excludes(clockwise);
     command->add_flag("--json", given->json, "Print the summary as JSON");
+    command->add_flag("-q,--quiet", given->quiet, "No progress bar, no notes");
     command->footer("Example: rs-capture import photos/ -o shoe.set");
     command->callback([given, &run] { run = [given] { return run_import(*given); }; });
 }

@@ -169,12 +169,12 @@ TEST_F(BadInput, OutputThatCannotBe) {
     EXPECT_TRUE(std::filesystem::exists(work_ / "mine" / "letter.txt"));
 }
 
-// A tmpfs of a quarter megabyte; needs the right to mount.
+// A tmpfs of 64 KiB; needs the right to mount.
 class FullDisk : public BadInput {
 protected:
     void SetUp() override {
         std::filesystem::create_directories(work_ / "small");
-        mounted_ = mount("tmpfs", in("small").c_str(), "tmpfs", 0, "size=256k") == 0;
+        mounted_ = mount("tmpfs", in("small").c_str(), "tmpfs", 0, "size=64k") == 0;
         if (!mounted_) GTEST_SKIP() << "this user may not mount a tmpfs";
     }
     void TearDown() override {
@@ -202,7 +202,7 @@ TEST_F(FullDisk, IsSaidAndLeavesNothingBehind) {
     expect_disk_full("rs-encode", {"build", in("set"), "-o", in("small/o.rso"), "-q"});
     expect_disk_full("rs-encode", {"extract", in("large.rso"), "-o", in("small/pictures"), "-q"});
     expect_disk_full("rs-engine", {"render", in("large.rso"), "--orbit", "40", "-o", in("small/views"), "-q"});
-    expect_disk_full("rs-engine", {"render", in("large.rso"), "--orbit", "4", "--size", "2000x2000", "-o",
+    expect_disk_full("rs-engine", {"render", in("large.rso"), "--orbit", "120", "--size", "1200x1200", "-o",
                                    in("small/orbit.mp4"), "-q"});
     expect_disk_full("rs-engine", {"render", in("large.rso"), "--eye", "0,0,3", "--size", "4000x4000", "-o",
                                    in("small/v.png"), "-q"});
