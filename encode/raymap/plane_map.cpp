@@ -23,6 +23,9 @@ double half_width_of_x(int planes) {
     return (1 + 1.0 / 64) / std::cos(kPi / planes);
 }
 
+// How many cells of u the border between two pictures lies beyond half-way.
+constexpr double kFavour_cells = 2;
+
 struct Candidate {
     double angle_rad = 0;  // of the picture's ray through the plane point, to the normal
     std::uint16_t view = kNoPicture;
@@ -42,6 +45,15 @@ std::vector<Candidate> rays_through(const Rig& upright, const ViewRing& ring, co
     std::stable_sort(rays.begin(), rays.end(),
                      [](const Candidate& a, const Candidate& b) { return a.angle_rad < b.angle_rad; });
     return rays;
+}
+
+// A viewpoint half-way between two captured ones runs along the border between their cells. Were the border exactly
+// half-way, the rounding of cells would hand its columns to one picture and the other in turn, and stripes would show
+// just where viewers most often stand. So the border lies a little beyond, and such a viewpoint sees one picture.
+bool goes_to_next(const Candidate& now, const Candidate& next, double angle_rad, double cell_rad) {
+    const double apart_rad = next.angle_rad - now.angle_rad;
+    const double favour_rad = std::min(kFavour_cells * cell_rad, apart_rad / 8);
+    return angle_rad - now.angle_rad > apart_rad / 2 + favour_rad;
 }
 
 }  // namespace
@@ -71,11 +83,11 @@ Ring make_plane_map(const Rig& upright, const ViewRing& view_ring, const PlaneMa
         if (rays.empty()) return;
         std::size_t nearest = 0;
         for (int ui = 0; ui < options.u_cells; ++ui) {
-            const double angle = std::atan(-u_half + (ui + 0.5) * 2 * u_half / options.u_cells);
-            while (nearest + 1 < rays.size() &&
-                   std::abs(rays[nearest + 1].angle_rad - angle) < std::abs(rays[nearest].angle_rad - angle)) {
+            const double u = -u_half + (ui + 0.5) * 2 * u_half / options.u_cells;
+            const double angle = std::atan(u);
+            const double cell_rad = 2 * u_half / options.u_cells / (1 + u * u);
+            while (nearest + 1 < rays.size() && goes_to_next(rays[nearest], rays[nearest + 1], angle, cell_rad))
                 ++nearest;
-            }
             ring.cells[ring.cell_index(k, xi, ui)] = rays[nearest].view;
         }
     });

@@ -15,7 +15,9 @@ struct PlaneMapOptions {
 };
 
 // `upright` is in object radii. A picture can answer for the plane point x when it sees it from the front of the plane
-// and within its frame. Cells that no picture can answer hold kNoPicture. Deterministic.
+// and within its frame. Of two pictures that are almost equally near (within two cells of u, and an eighth of their
+// distance) the one that comes first in turning order answers, so that half-way viewpoints see one picture instead of
+// stripes of both. Cells that no picture can answer hold kNoPicture. Deterministic.
 Ring make_plane_map(const Rig& upright, const ViewRing& ring, const PlaneMapOptions& options);
 
 // The narrowest run of u cells that separates two neighbouring views on any plane at x = 0: below 2, captured poses may

@@ -54,6 +54,7 @@ TEST(PlaneMap, HoldsTheNearestRayOfEveryCell) {
     EXPECT_GT(x_half, 1 / std::cos(kPi / options.planes));
     EXPECT_GT(u_half, std::tan(kPi / options.planes));
     int answered = 0;
+    int exact = 0;
     for (int k = 0; k < options.planes; ++k) {
         const ReferencePlane plane = reference_plane(k, options.planes);
         for (int xi = 0; xi < options.x_cells; ++xi) {
@@ -76,12 +77,41 @@ TEST(PlaneMap, HoldsTheNearestRayOfEveryCell) {
                 ASSERT_NE(cell, kNoPicture);
                 const glm::dvec3 centre = rig.views[cell].camera.centre();
                 const double angle = std::atan(viewpoint_line(centre, plane).u_at(x));
-                EXPECT_NEAR(std::abs(angle - std::atan(u)), best, 1e-9);
+                // Near the border of two pictures the favoured one may be up to a quarter of their distance farther.
+                const double off = std::abs(angle - std::atan(u));
+                EXPECT_GE(off, best - 1e-9);
+                EXPECT_LE(off, best * 5 / 3 + 1e-9);
+                exact += off < best + 1e-9;
                 ++answered;
             }
         }
     }
     EXPECT_GT(answered, 2000);
+    EXPECT_GT(exact, answered * 8 / 10);
+}
+
+// Half-way between two captured viewpoints all columns come from one picture.
+TEST(PlaneMap, HalfWayViewpointsSeeOnePicture) {
+    const Rig rig = test::ring_rig({.views = 51});
+    const Ring ring = make_plane_map(rig, find_rings(rig).front(), {.planes = 12, .x_cells = 512, .u_cells = 512});
+    const double x_half = ring.x_half_q20 / 1048576.0;
+    const double u_half = ring.u_half_q28 / 268435456.0;
+    for (int i = 0; i < 51; ++i) {
+        const double azimuth = 2 * kPi * (i + 0.5) / 51;
+        const glm::dvec3 viewpoint(3.5 * std::sin(azimuth), 0, 3.5 * std::cos(azimuth));
+        std::set<int> pictures;
+        for (int column = -40; column <= 40; ++column) {
+            const glm::dvec3 at = glm::dvec3(std::cos(azimuth), 0, -std::sin(azimuth)) * (column / 45.0);
+            const Ray ray{viewpoint, at - viewpoint};
+            const int k = most_square_plane(ray.direction, 12);
+            const auto place = to_ray_space(ray, reference_plane(k, 12));
+            ASSERT_TRUE(place);
+            const int xi = static_cast<int>((place->x + x_half) * 512 / (2 * x_half));
+            const int ui = static_cast<int>((place->u + u_half) * 512 / (2 * u_half));
+            pictures.insert(ring.cells[ring.cell_index(k, xi, ui)]);
+        }
+        EXPECT_EQ(pictures.size(), 1U) << "between views " << i << " and " << i + 1;
+    }
 }
 
 TEST(PlaneMap, CellsBetweenViewsTellsWhenTheMapIsTooCoarse) {
