@@ -22,7 +22,7 @@ PHOTOS=
 if [ $# -gt 0 ]; then
   case $1 in
     -h | --help)
-      sed -n '2,9s/^# \{0,1\}//p' "$0"
+      sed -n '2,9s/^# \{0,1\}//p' demo.sh
       exit 0
       ;;
     /*) PHOTOS=$1 ;;
@@ -35,7 +35,8 @@ fi
 install_packages "${BUILD_PACKAGES[@]}"
 
 say "Building the tools"
-configure build/release -DCMAKE_BUILD_TYPE=Release
+# No tests here: they would ask for packages that the tools do not need.
+configure build/release -DCMAKE_BUILD_TYPE=Release -DRAYSPACE_TESTS=OFF -DRAYSPACE_BENCH=OFF
 cmake --build build/release -j "$(nproc)" --target rs-capture rs-encode rs-engine rs-view
 
 mkdir -p "$OUT"
@@ -63,7 +64,7 @@ from_set() {
 }
 
 if [ -n "$PHOTOS" ]; then
-  NAME=$(basename "$PHOTOS")
+  NAME=$(basename "$(realpath "$PHOTOS")")
   step "$NAME: import photographs" "$OUT/$NAME-set" "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/$NAME-set" "$@"
   from_set "$NAME"
   SHOW=(--object "$OUT/$NAME.rso")

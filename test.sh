@@ -19,7 +19,7 @@ JOBS=$(nproc)
 install_packages "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 
 say "Building (release), $JOBS jobs"
-configure build/release -DCMAKE_BUILD_TYPE=Release -DRAYSPACE_WARNINGS_AS_ERRORS=ON
+configure build/release -DCMAKE_BUILD_TYPE=Release -DRAYSPACE_TESTS=ON -DRAYSPACE_BENCH=ON -DRAYSPACE_WARNINGS_AS_ERRORS=ON
 cmake --build build/release -j "$JOBS"
 
 say "Testing (release)"

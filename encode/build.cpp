@@ -3,12 +3,8 @@
 #include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/rings.hpp"
 #include "rayspace/conventions.hpp"
+#include "rayspace/parallel.hpp"
 #include "rayspace/yuv.hpp"
-
-#include <tbb/parallel_for.h>
-
-#include <atomic>
-#include <optional>
 
 namespace rs::encode {
 namespace {
@@ -37,27 +33,14 @@ Rig in_object_radii(Rig rig) {
 }
 
 Status read_all_pictures(const CaptureSet& set, RaySpaceObject& object, Progress* progress) {
-    const int count = static_cast<int>(set.upright.views.size());
     object.pictures.resize(set.upright.views.size());
-    std::vector<std::optional<Error>> errors(set.upright.views.size());
-    std::atomic<bool> failed = false;
-    if (progress != nullptr) progress->start("pictures", count);
-    tbb::parallel_for(0, count, [&](int i) {
-        if (failed) return;
+    const int count = static_cast<int>(set.upright.views.size());
+    return for_each_in_parallel(count, "pictures", progress, [&](int i) -> Status {
         const Result<Image<Rgba8>> picture = read_upright_picture(set, i);
-        if (!picture) {
-            errors[static_cast<std::size_t>(i)] = picture.error();
-            failed = true;
-            return;
-        }
+        if (!picture) return picture.error();
         object.pictures[static_cast<std::size_t>(i)] = planar_from_rgba(*picture);
-        if (progress != nullptr) progress->advance();
+        return {};
     });
-    if (progress != nullptr) progress->finish();
-    for (const auto& error : errors) {
-        if (error) return *error;
-    }
-    return {};
 }
 
 }  // namespace
@@ -75,7 +58,14 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
     object.height = set.height;
 
     const Rig rig = in_object_radii(set.upright);
-    for (const RigView& view : rig.views) object.views.push_back(captured_view(view.camera, options.map.planes));
+    for (std::size_t i = 0; i < rig.views.size(); ++i) {
+        Result<CapturedView> view = captured_view(rig.views[i].camera, options.map.planes);
+        if (!view) {
+            return Error{(set.folder / kRigFileName).string() + ": the camera of frame " + std::to_string(i) +
+                         " cannot be stored: " + view.error().message};
+        }
+        object.views.push_back(std::move(*view));
+    }
     if (progress != nullptr) progress->start("RS map", static_cast<std::int64_t>(rings.size()));
     for (const ViewRing& ring : rings) {
         object.rings.push_back(make_plane_map(rig, ring, options.map));

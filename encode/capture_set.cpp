@@ -2,17 +2,14 @@
 
 #include "encode/upright_resampling.hpp"
 #include "rayspace/conventions.hpp"
+#include "rayspace/parallel.hpp"
 #include "rayspace/picture_io.hpp"
 #include "rayspace/ray_space.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <functional>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rs::encode {
@@ -71,61 +68,70 @@ Status check_views(const CaptureSet& set) {
     return {};
 }
 
-// Reads every picture once and hands it to `use`, on all threads; the first error ends it.
-Status for_each_picture(const CaptureSet& set, const char* label, Progress* progress,
-                        const std::function<void(int, const Image<Rgba8>&)>& use) {
-    const int count = static_cast<int>(set.captured.views.size());
-    std::vector<std::optional<Error>> errors(static_cast<std::size_t>(count));
-    std::atomic<bool> failed = false;
-    if (progress != nullptr) progress->start(label, count);
-    tbb::parallel_for(0, count, [&](int i) {
-        if (failed) return;
-        const Result<Image<Rgba8>> picture = read_captured_picture(set, i);
-        if (!picture) {
-            errors[static_cast<std::size_t>(i)] = picture.error();
-            failed = true;
-            return;
-        }
-        use(i, *picture);
-        if (progress != nullptr) progress->advance();
-    });
-    if (progress != nullptr) progress->finish();
-    for (const auto& error : errors) {
-        if (error) return *error;
+// Upright cameras with one focal length; their principal points are set by frame_upright_cameras.
+void turn_upright(Rig& rig) {
+    const double fl_px = rig.views.front().camera.fl_x;
+    for (RigView& view : rig.views) {
+        view.camera = upright_camera(view.camera);
+        view.camera.fl_x = view.camera.fl_y = fl_px;
+        view.camera.cx = view.camera.cy = 0;
     }
-    return {};
 }
 
-// Upright cameras of one size that see all that any picture shows of the object.
-Status plan_upright_cameras(CaptureSet& set, const std::vector<PixelBox>& occupied) {
-    PixelBox all;  // relative to the principal point
-    for (std::size_t i = 0; i < set.captured.views.size(); ++i) {
-        Camera upright = upright_camera(set.captured.views[i].camera);
-        upright.fl_x = upright.fl_y = set.captured.views.front().camera.fl_x;
-        upright.cx = upright.cy = 0;
-        set.upright.views[i].camera = upright;
-        if (!occupied[i].empty()) all.include(box_seen_by(upright, set.captured.views[i].camera, occupied[i]));
+// Where each picture shows something, in pixels of its upright camera.
+Result<std::vector<PixelBox>> measure_pictures(const CaptureSet& set, Progress* progress) {
+    std::vector<PixelBox> occupied(set.captured.views.size());
+    const int count = static_cast<int>(occupied.size());
+    const Status measured = for_each_in_parallel(count, "measuring", progress, [&](int i) -> Status {
+        const auto n = static_cast<std::size_t>(i);
+        const Result<Image<Rgba8>> picture = read_captured_picture(set, i);
+        if (!picture) return picture.error();
+        const Camera& captured = set.captured.views[n].camera;
+        const auto box = set.resampled ? occupied_box_seen_by(set.upright.views[n].camera, captured, *picture)
+                                       : occupied_box(*picture);
+        if (!box) {
+            return Error{
+                picture_path(set.folder, set.captured.views[n]).string() +
+                ": shows something beyond straight up or down, which no upright picture can hold; leave it out"};
+        }
+        occupied[n] = *box;
+        return {};
+    });
+    if (!measured) return measured.error();
+    return occupied;
+}
+
+// Gives all upright cameras one frame, as large as it takes to show what any picture shows; `occupied` moves along.
+Status frame_upright_cameras(CaptureSet& set, std::vector<PixelBox>& occupied) {
+    PixelBox all{0, 0, 1, 1};  // something to hold where every picture is empty
+    bool first = true;
+    for (const PixelBox& box : occupied) {
+        if (box.empty()) continue;
+        if (std::exchange(first, false)) all = box;
+        all.include(box.x0, box.y0);
+        all.include(box.x1, box.y1);
     }
-    if (all.empty()) all = {0, 0, 1, 1};
     constexpr double kMargin_px = 2;
     const double left = std::floor(all.x0 - kMargin_px);
     const double top = std::floor(all.y0 - kMargin_px);
-    // Even sizes: chroma is stored at half of them.
-    const auto even = [](double size) { return 2 * static_cast<int>(std::ceil(size / 2)); };
-    const double right = all.x1 + kMargin_px;
-    const double bottom = all.y1 + kMargin_px;
-    if (right - left > kMaxPictureSide_px || bottom - top > kMaxPictureSide_px) {
+    const double width = all.x1 + kMargin_px - left;
+    const double height = all.y1 + kMargin_px - top;
+    if (width > kMaxPictureSide_px - 1 || height > kMaxPictureSide_px - 1) {
         return Error{(set.folder / kRigFileName).string() +
                      ": made upright, the pictures would be wider or higher than " +
                      std::to_string(kMaxPictureSide_px) + " pixels; crop the pictures or photograph from less above"};
     }
-    set.width = even(right - left);
-    set.height = even(bottom - top);
-    for (RigView& view : set.upright.views) {
-        view.camera.width = set.width;
-        view.camera.height = set.height;
-        view.camera.cx = -left;
-        view.camera.cy = -top;
+    // Even sizes: chroma is stored at half of them.
+    const auto even = [](double size) { return 2 * static_cast<int>(std::ceil(size / 2)); };
+    set.width = even(width);
+    set.height = even(height);
+    for (std::size_t i = 0; i < occupied.size(); ++i) {
+        Camera& camera = set.upright.views[i].camera;
+        camera.width = set.width;
+        camera.height = set.height;
+        camera.cx = -left;
+        camera.cy = -top;
+        if (!occupied[i].empty()) occupied[i] = occupied[i].moved(-left, -top);
     }
     return {};
 }
@@ -152,8 +158,9 @@ Status check_distances(const CaptureSet& set) {
         const double distance = std::hypot(centre.x, centre.z);
         if (distance < 1.2 * set.upright.object_radius || glm::length(centre) > 200 * set.upright.object_radius) {
             return Error{(set.folder / kRigFileName).string() + ": the camera of frame " + std::to_string(i) + " is " +
-                         std::to_string(distance / set.upright.object_radius) +
-                         " object radii from the Y axis, outside of 1.2..200; check object_radius (" +
+                         std::to_string(distance / set.upright.object_radius) + " object radii from the Y axis and " +
+                         std::to_string(glm::length(centre) / set.upright.object_radius) +
+                         " from the origin, outside of 1.2..200; check object_radius (" +
                          std::to_string(set.upright.object_radius) +
                          ") and that the turntable's axis is the Y axis of the rig"};
         }
@@ -176,21 +183,15 @@ Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress*
     set.resampled = !std::all_of(set.captured.views.begin(), set.captured.views.end(),
                                  [](const RigView& view) { return is_upright(view.camera); });
 
+    if (set.resampled) turn_upright(set.upright);
     if (set.resampled || set.captured.object_radius <= 0) {
-        std::vector<PixelBox> occupied(set.captured.views.size());
-        const Status status = for_each_picture(set, "measuring", progress, [&](int i, const Image<Rgba8>& picture) {
-            occupied[static_cast<std::size_t>(i)] = occupied_box(picture);
-        });
-        if (!status) return status.error();
+        Result<std::vector<PixelBox>> occupied = measure_pictures(set, progress);
+        if (!occupied) return occupied.error();
         if (set.resampled) {
-            if (const Status planned = plan_upright_cameras(set, occupied); !planned) return planned.error();
-            for (std::size_t i = 0; i < occupied.size(); ++i) {
-                if (occupied[i].empty()) continue;
-                occupied[i] = box_seen_by(set.upright.views[i].camera, set.captured.views[i].camera, occupied[i]);
-            }
+            if (const Status framed = frame_upright_cameras(set, *occupied); !framed) return framed.error();
         }
         if (set.upright.object_radius <= 0) {
-            set.upright.object_radius = radius_from_silhouettes(set.upright, occupied);
+            set.upright.object_radius = radius_from_silhouettes(set.upright, *occupied);
             if (set.upright.object_radius <= 0) {
                 return Error{path.string() +
                              ": every picture is transparent; is the backdrop setting of the import right?"};

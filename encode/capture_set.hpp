@@ -24,9 +24,10 @@ struct CaptureSet {
     int height = 0;
 };
 
-// Reads transforms.json, checks that every picture is there with its size, plans the upright cameras, and measures the
-// object radius from the silhouettes where the rig does not give it. Cameras may be pitched up to 60 degrees.
-// Errors: no views, missing or unreadable pictures, differing sizes, a camera within the object radius.
+// Reads transforms.json, plans the upright cameras, and measures the object radius from the silhouettes where the rig
+// does not give it. Cameras may be pitched up to 60 degrees. Pictures are read only where that needs them; those that
+// are missing show at the latest in read_upright_picture. Errors: no views, missing or unreadable pictures, differing
+// sizes, lens distortion, a camera within the object radius.
 Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress* progress = nullptr);
 
 // Picture `view` of the set, seen by upright.views[view].camera. Thread-safe.

@@ -1,23 +1,24 @@
 #include "encode/build.hpp"
 #include "rayspace/file_output.hpp"
+#include "rayspace/parallel.hpp"
 #include "rayspace/picture_io.hpp"
 #include "rayspace/yuv.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <cstdio>
-#include <optional>
 
 namespace rs::encode {
 
 Status extract_pictures(const RaySpaceObject& object, const std::filesystem::path& folder, Progress* progress) {
+    if (object.rig_json.empty()) {
+        return Error{object.name + ": holds no rig, so its pictures make no capture set; encode it again"};
+    }
     Result<Rig> rig = rig_from_json(object.rig_json, object.name + " (its rig)");
     if (!rig) return rig.error();
     if (rig->views.size() != object.pictures.size()) {
         return Error{object.name + ": its rig has " + std::to_string(rig->views.size()) + " views for " +
                      std::to_string(object.pictures.size()) + " pictures; the object is damaged, encode it again"};
     }
-    Result<StagedFolder> staged = StagedFolder::create(folder, kRigFileName);
+    Result<StagedFolder> staged = StagedFolder::create(folder);
     if (!staged) return staged.error();
 
     const int count = static_cast<int>(object.pictures.size());
@@ -27,19 +28,11 @@ Status extract_pictures(const RaySpaceObject& object, const std::filesystem::pat
         rig->views[static_cast<std::size_t>(i)].file_path = name;
         rig->views[static_cast<std::size_t>(i)].depth_file_path.clear();
     }
-    std::vector<std::optional<Error>> errors(object.pictures.size());
-    if (progress != nullptr) progress->start("pictures", count);
-    tbb::parallel_for(0, count, [&](int i) {
+    const Status written = for_each_in_parallel(count, "pictures", progress, [&](int i) {
         const auto n = static_cast<std::size_t>(i);
-        const Image<Rgba8> picture = rgba_from_planar(object.pictures[n]);
-        const Status status = write_png(staged->temporary_path() / rig->views[n].file_path, picture);
-        if (!status) errors[n] = status.error();
-        if (progress != nullptr) progress->advance();
+        return write_png(staged->temporary_path() / rig->views[n].file_path, rgba_from_planar(object.pictures[n]));
     });
-    if (progress != nullptr) progress->finish();
-    for (const auto& error : errors) {
-        if (error) return *error;
-    }
+    if (!written) return written;
     if (const Status status = write_rig(staged->temporary_path() / kRigFileName, *rig); !status) return status;
     return staged->commit();
 }

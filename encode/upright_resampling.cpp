@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 
 namespace rs::encode {
 namespace {
@@ -55,6 +57,15 @@ Premultiplied sample(ConstImageView<Rgba8> picture, double x, double y) {
     return sum;
 }
 
+// [first, last) columns that hold all pixels of the row with alpha above 0.
+std::optional<std::pair<int, int>> occupied_columns(std::span<const Rgba8> row) {
+    const auto opaque = [](const Rgba8& p) { return p.a != 0; };
+    const auto first = std::find_if(row.begin(), row.end(), opaque);
+    if (first == row.end()) return std::nullopt;
+    const auto last = std::find_if(row.rbegin(), row.rend(), opaque);
+    return std::pair(static_cast<int>(first - row.begin()), static_cast<int>(row.rend() - last));
+}
+
 }  // namespace
 
 void PixelBox::include(double x, double y) {
@@ -64,34 +75,29 @@ void PixelBox::include(double x, double y) {
     y1 = std::max(y1, y);
 }
 
-void PixelBox::include(const PixelBox& other) {
-    if (other.empty()) return;
-    include(other.x0, other.y0);
-    include(other.x1, other.y1);
-}
-
 PixelBox occupied_box(ConstImageView<Rgba8> picture) {
     PixelBox box;
     for (int y = 0; y < picture.height(); ++y) {
-        const auto row = picture.row_span(y);
-        const auto opaque = [](const Rgba8& p) { return p.a != 0; };
-        const auto first = std::find_if(row.begin(), row.end(), opaque);
-        if (first == row.end()) continue;
-        const auto last = std::find_if(row.rbegin(), row.rend(), opaque);
-        box.include(static_cast<double>(first - row.begin()), y);
-        box.include(static_cast<double>(row.rend() - last), y + 1);
+        if (const auto span = occupied_columns(picture.row_span(y))) {
+            box.include(span->first, y);
+            box.include(span->second, y + 1);
+        }
     }
     return box;
 }
 
-PixelBox box_seen_by(const Camera& to, const Camera& from, const PixelBox& box) {
-    // A homography maps the box to a convex quadrilateral, so its corners bound it.
+std::optional<PixelBox> occupied_box_seen_by(const Camera& to, const Camera& from, ConstImageView<Rgba8> picture) {
     const glm::dmat3 to_from_from = pixel_in_to_from_pixel_in_from(to, from);
     PixelBox seen;
-    for (const double x : {box.x0, box.x1}) {
-        for (const double y : {box.y0, box.y1}) {
-            const glm::dvec3 p = to_from_from * glm::dvec3(x, y, 1);
-            seen.include(p.x / p.z, p.y / p.z);
+    for (int y = 0; y < picture.height(); ++y) {
+        const auto span = occupied_columns(picture.row_span(y));
+        if (!span) continue;
+        for (const int x : {span->first, span->second}) {
+            for (const int edge : {y, y + 1}) {
+                const glm::dvec3 p = to_from_from * glm::dvec3(x, edge, 1);
+                if (p.z <= 0) return std::nullopt;
+                seen.include(p.x / p.z, p.y / p.z);
+            }
         }
     }
     return seen;

@@ -39,12 +39,13 @@ private:
     std::uint64_t size_bytes_ = 0;
 };
 
-// A folder that appears under `path` only when commit() succeeds. If `path` exists already, commit() replaces it only
-// where it is empty or holds a file named `marker` (it was made by us); create() refuses any other folder at once,
-// naming it and the remedy. Dropped before commit(), the temporary folder is removed with all it holds.
+// A folder that appears under `path` only when commit() succeeds. It carries a list of its files (.rayspace-files).
+// What stands at `path` already is replaced as a whole only where it is empty, or a folder of ours in which nobody has
+// added or changed a file; create() refuses anything else at once, naming a file that would be lost. Dropped before
+// commit(), the temporary folder is removed with all it holds.
 class StagedFolder {
 public:
-    static Result<StagedFolder> create(const std::filesystem::path& path, const std::string& marker);
+    static Result<StagedFolder> create(const std::filesystem::path& path);
     StagedFolder(StagedFolder&& other) noexcept;
     StagedFolder& operator=(StagedFolder&& other) noexcept;
     ~StagedFolder();
@@ -57,7 +58,6 @@ private:
     StagedFolder() = default;
     std::filesystem::path path_;
     std::filesystem::path temporary_;
-    std::string marker_;
 };
 
 // Removes every temporary file and folder of this process that is not committed yet. For the moment before a process is

@@ -135,7 +135,7 @@ private:
             return std::to_string((bytes + (1U << 20) - 1) >> 20) + " MiB";
         };
         return Error{container_.where() + ": needs " + mebibytes(needed_bytes) + " of memory, more than the " +
-                     mebibytes(options_.memory_cap_bytes) + " allowed; load fewer levels or raise the limit"};
+                     mebibytes(options_.memory_cap_bytes) + " allowed; encode it with fewer or smaller pictures"};
     }
 
     const ContainerReader& container_;

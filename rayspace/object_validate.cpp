@@ -170,8 +170,8 @@ Status check_head(const RaySpaceObject& object) {
         return Error{"its name is longer than " + std::to_string(object_chunks::kMaxName_bytes) +
                      " bytes or no printable UTF-8"};
     }
-    if (!std::isfinite(object.units_per_radius) || object.units_per_radius <= 0) {
-        return Error{"its units per radius are not a positive number"};
+    if (!(object.units_per_radius >= 1e-12 && object.units_per_radius <= 1e12)) {
+        return Error{"its units per radius are not within 1e-12..1e12"};
     }
     return {};
 }

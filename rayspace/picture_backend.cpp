@@ -145,7 +145,9 @@ Result<PictureInfo> read_info(const std::string& path) {
         const auto picture = open_picture(path, Need::kHeader);
         if (!picture) return picture.error();
         const OIIO::ImageSpec& spec = picture->input->spec();
-        return PictureInfo{picture->width, picture->height, spec.nchannels, choose_channels(spec).alpha};
+        const int orientation = spec.get_int_attribute("Orientation", 1);
+        return PictureInfo{picture->width, picture->height, spec.nchannels, choose_channels(spec).alpha,
+                           orientation >= 1 && orientation <= 8 ? orientation : 1};
     });
 }
 

@@ -48,7 +48,7 @@ struct Backend {
 };
 
 // Grows with every change of the declarations above.
-inline constexpr std::uint32_t kBackendVersion = 1;
+inline constexpr std::uint32_t kBackendVersion = 2;
 inline constexpr const char* kBackendFileName = "librayspace_pictures.so";
 inline constexpr const char* kBackendSymbol = "rayspace_pictures_backend";
 using BackendFunction = const Backend* (*)();

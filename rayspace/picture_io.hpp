@@ -24,6 +24,9 @@ struct PictureInfo {
     int height = 0;
     int channels = 0;
     bool has_alpha = false;
+    // EXIF: how the stored pixels want to be shown. 1 as they are, 3 upside down, 6 and 8 on their side, 2, 4, 5 and 7
+    // mirrored too. 1 where the file says nothing, or nothing valid.
+    int orientation = 1;
 };
 
 // Only the header is read.
@@ -31,7 +34,8 @@ Result<PictureInfo> read_picture_info(const std::filesystem::path& path);
 
 // Any picture format that OpenImageIO reads, as 8-bit sRGB with straight alpha (255 where the file has none). Grey is
 // spread to RGB; 16-bit and float files are converted (float as linear light). Associated alpha is undone. EXIF
-// orientation is not applied: pixels stay where the camera model has them. A damaged or truncated file is an error.
+// orientation is not applied (PictureInfo has it): pixels stay where the camera model has them. A damaged or truncated
+// file is an error.
 Result<Image<Rgba8>> read_picture(const std::filesystem::path& path);
 
 // Linear-light float RGBA, alpha straight: EXR and HDR as they are, 8- and 16-bit files through the sRGB curve.

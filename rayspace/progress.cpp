@@ -11,7 +11,6 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr double kSilence_s = 0.5;  // work that ends sooner shows nothing
 constexpr double kRedraw_s = 0.1;
 constexpr int kBarCharacters = 30;
 
@@ -24,7 +23,8 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(bool quiet, std::chrono::milliseconds silence)
+    : silence_(silence), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
     finish();
@@ -49,7 +49,7 @@ void ProgressBar::advance(std::int64_t steps) {
     done_ += steps;
     if (quiet_ || total_ <= 0) return;
     const Clock::time_point now = Clock::now();
-    if (Seconds(now - begun_).count() < kSilence_s) return;
+    if (now - begun_ < silence_) return;
     const int tenth = static_cast<int>(std::min<std::int64_t>(10, 10 * done_ / total_));
     if (terminal_ ? Seconds(now - last_draw_).count() >= kRedraw_s : tenth > last_tenth_) {
         last_tenth_ = tenth;

@@ -22,7 +22,8 @@ public:
 
 class ProgressBar final : public Progress {
 public:
-    explicit ProgressBar(bool quiet = false);
+    // Nothing is drawn for work that ends within `silence`.
+    explicit ProgressBar(bool quiet = false, std::chrono::milliseconds silence = std::chrono::milliseconds(500));
     ~ProgressBar() override;
 
     void start(const std::string& label, std::int64_t total) override;
@@ -38,6 +39,7 @@ private:
     std::int64_t total_ = 0;
     std::int64_t done_ = 0;
     int last_tenth_ = -1;
+    std::chrono::milliseconds silence_;
     bool quiet_ = false;
     bool terminal_ = false;
     bool drawn_ = false;

@@ -32,6 +32,10 @@ Result<StagedFile> StagedFile::create(const fs::path& path) {
     if (fs::is_directory(path, ignored)) {
         return Error{path.string() + ": is a folder; give the name of a file"};
     }
+    // A rename would put a file in the place of the device or pipe itself.
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+        return Error{path.string() + ": is no regular file and cannot be replaced; give another name"};
+    }
     StagedFile file;
     file.path_ = path;
     file.temporary_ = temporary_name(path);

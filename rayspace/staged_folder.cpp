@@ -1,8 +1,15 @@
 #include "rayspace/file_output.hpp"
 #include "rayspace/staging.hpp"
 
+#include <xxhash.h>
+
 #include <cerrno>
 #include <cstdio>
+#include <iterator>
+#include <set>
+#include <span>
+#include <sstream>
+#include <string>
 #include <utility>
 
 namespace rs {
@@ -20,8 +27,50 @@ void remove_quietly(const fs::path& path) {
     fs::remove_all(path, ignored);
 }
 
-// Empty, absent, or made by us: what commit() may replace.
-Status check_replaceable(const fs::path& path, const std::string& marker) {
+// Lists the files of a folder that we made, "XXH64 NAME" to a line, so that a later commit() can tell what it may
+// replace: a file that was added or changed since is somebody's work.
+constexpr const char* kManifest = ".rayspace-files";
+constexpr std::uint64_t kManifestCap_bytes = 64 << 20;
+constexpr std::uint64_t kLargestFile_bytes = std::uint64_t{4} << 30;
+
+// Every file below `folder`, as relative paths; folders do not count.
+Result<std::set<std::string>> files_below(const fs::path& folder) {
+    std::set<std::string> files;
+    std::error_code error;
+    for (auto at = fs::recursive_directory_iterator(folder, error); !error && at != fs::recursive_directory_iterator();
+         at.increment(error)) {
+        if (at->is_directory(error) && !at->is_symlink(error)) continue;
+        files.insert(at->path().lexically_relative(folder).string());
+    }
+    if (error) return failure(folder, "cannot be looked into", error.value());
+    return files;
+}
+
+Result<std::string> manifest_line(const fs::path& folder, const std::string& file) {
+    const auto bytes = read_file(folder / file, kLargestFile_bytes);
+    if (!bytes) return bytes.error();
+    char sum[32];
+    std::snprintf(sum, sizeof sum, "%016llx ", static_cast<unsigned long long>(XXH64(bytes->data(), bytes->size(), 0)));
+    return sum + file + '\n';
+}
+
+Status write_manifest(const fs::path& folder) {
+    const Result<std::set<std::string>> files = files_below(folder);
+    if (!files) return files.error();
+    std::string text;
+    for (const std::string& file : *files) {
+        const Result<std::string> line = manifest_line(folder, file);
+        if (!line) return line.error();
+        text += *line;
+    }
+    Result<StagedFile> manifest = StagedFile::create(folder / kManifest);
+    if (!manifest) return manifest.error();
+    if (Status written = manifest->write(std::as_bytes(std::span(text))); !written) return written;
+    return manifest->commit();
+}
+
+// What commit() may replace: nothing, an empty folder, or one of ours to which nobody has added anything.
+Status check_replaceable(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::symlink_status(path, error);
     if (status.type() == fs::file_type::not_found) return {};
@@ -29,22 +78,32 @@ Status check_replaceable(const fs::path& path, const std::string& marker) {
     if (!fs::is_directory(status)) {
         return Error{path.string() + ": is there already and is not a folder; remove it or choose another name"};
     }
-    const bool empty = fs::is_empty(path, error);
-    if (error) return failure(path, "cannot be looked into", error.value());
-    if (empty || fs::exists(path / marker, error)) return {};
-    return Error{path.string() + ": is a folder with other contents (no " + marker +
-                 " in it) and is left alone; choose another name or empty it first"};
+    Result<std::set<std::string>> files = files_below(path);
+    if (!files) return files.error();
+    std::set<std::string> ours;
+    if (files->erase(kManifest) != 0) {
+        const auto manifest = read_file(path / kManifest, kManifestCap_bytes);
+        if (!manifest) return manifest.error();
+        std::istringstream lines(std::string(reinterpret_cast<const char*>(manifest->data()), manifest->size()));
+        for (std::string line; std::getline(lines, line);) ours.insert(line + '\n');
+    }
+    for (auto file = files->begin(); file != files->end();) {
+        const Result<std::string> line = manifest_line(path, *file);
+        file = line && ours.contains(*line) ? files->erase(file) : std::next(file);
+    }
+    if (files->empty()) return {};
+    return Error{path.string() + ": holds files that were added or changed by hand, such as " + *files->begin() +
+                 ", and is left alone; choose another name or move them away"};
 }
 
 }  // namespace
 
-Result<StagedFolder> StagedFolder::create(const fs::path& given, const std::string& marker) {
+Result<StagedFolder> StagedFolder::create(const fs::path& given) {
     const fs::path path = without_trailing_slash(given);
     if (const Status parent = check_parent(path); !parent) return parent.error();
-    if (const Status replaceable = check_replaceable(path, marker); !replaceable) return replaceable.error();
+    if (const Status replaceable = check_replaceable(path); !replaceable) return replaceable.error();
     StagedFolder folder;
     folder.path_ = path;
-    folder.marker_ = marker;
     folder.temporary_ = temporary_name(path);
     std::error_code error;
     if (!fs::create_directory(folder.temporary_, error)) {
@@ -56,14 +115,13 @@ Result<StagedFolder> StagedFolder::create(const fs::path& given, const std::stri
 }
 
 StagedFolder::StagedFolder(StagedFolder&& other) noexcept
-    : path_(std::move(other.path_)), temporary_(std::move(other.temporary_)), marker_(std::move(other.marker_)) {
+    : path_(std::move(other.path_)), temporary_(std::move(other.temporary_)) {
     other.temporary_.clear();
 }
 
 StagedFolder& StagedFolder::operator=(StagedFolder&& other) noexcept {
     std::swap(path_, other.path_);
     std::swap(temporary_, other.temporary_);
-    std::swap(marker_, other.marker_);
     return *this;
 }
 
@@ -76,7 +134,9 @@ StagedFolder::~StagedFolder() {
 Status StagedFolder::commit() {
     RS_CHECK(!temporary_.empty());
     // Somebody may have filled the folder since create().
-    if (Status replaceable = check_replaceable(path_, marker_); !replaceable) return replaceable;
+    if (Status replaceable = check_replaceable(path_); !replaceable) return replaceable;
+
+    if (Status listed = write_manifest(temporary_); !listed) return listed;
 
     fs::path old;
     std::error_code error;
@@ -97,7 +157,11 @@ Status StagedFolder::commit() {
     forget(temporary_);
     temporary_.clear();
     sync_folder_of(path_);
-    if (!old.empty()) remove_quietly(old);
+    if (!old.empty()) {
+        remember(old);  // from here on it is not the only copy
+        remove_quietly(old);
+        forget(old);
+    }
     return {};
 }
 

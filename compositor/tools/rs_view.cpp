@@ -102,7 +102,7 @@ Status write_video(FrameCompositor& compositor, const std::vector<Camera>& camer
 // The frames with the cameras that saw them, as a set of pictures that other tools can open.
 Status write_folder(FrameCompositor& compositor, const std::vector<Camera>& cameras, const ViewArguments& arguments,
                     Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(arguments.output, kRigFileName);
+    Result<StagedFolder> staged = StagedFolder::create(arguments.output);
     if (!staged) return staged.error();
     Rig rig;
     for (const Camera& camera : cameras) {

@@ -11,9 +11,31 @@ std::int32_t fixed(double value, int fractional_bits) {
     return static_cast<std::int32_t>(std::lround(std::ldexp(value, fractional_bits)));
 }
 
+bool is_below(double value, double limit) {
+    return std::abs(value) < limit;
+}
+
+constexpr double kMostPixels = 16384;   // of cx, cy, fl_y and q1
+constexpr double kMostLateral = 32767;  // of q0, px times object radii
+constexpr double kMostRadii = 256;      // of height and l0
+
 }  // namespace
 
-CapturedView captured_view(const Camera& camera, int planes) {
+Result<CapturedView> captured_view(const Camera& camera, int planes) {
+    const double lateral_px = -glm::dot(camera.centre(), camera.right()) * camera.fl_x;
+    const double depth = -glm::dot(camera.centre(), camera.forward());
+    if (!is_below(camera.cx, kMostPixels) || !is_below(camera.cy, kMostPixels) || !is_below(camera.fl_x, kMostPixels) ||
+        !is_below(camera.fl_y, kMostPixels)) {
+        return Error{"its focal length or principal point is 16384 pixels or more; scale the pictures down"};
+    }
+    if (!is_below(lateral_px, kMostLateral)) {
+        return Error{
+            "it looks too far past the axis for its distance and focal length; bring the axis nearer to the "
+            "middle of the picture, or scale the pictures down"};
+    }
+    if (!is_below(camera.centre().y, kMostRadii) || !is_below(depth, kMostRadii)) {
+        return Error{"it is 256 object radii away or more; check the object radius"};
+    }
     CapturedView view;
     view.cx_q16 = fixed(camera.cx, 16);
     view.cy_q16 = fixed(camera.cy, 16);
@@ -22,9 +44,9 @@ CapturedView captured_view(const Camera& camera, int planes) {
     for (int k = 0; k < planes; ++k) {
         const glm::dvec3 tangent = reference_plane(k, planes).tangent;
         CapturedLine line;
-        line.l0_q20 = fixed(-glm::dot(camera.centre(), camera.forward()), 20);
+        line.l0_q20 = fixed(depth, 20);
         line.l1_q30 = fixed(glm::dot(tangent, camera.forward()), 30);
-        line.q0_q16 = fixed(-glm::dot(camera.centre(), camera.right()) * camera.fl_x, 16);
+        line.q0_q16 = fixed(lateral_px, 16);
         line.q1_q16 = fixed(glm::dot(tangent, camera.right()) * camera.fl_x, 16);
         view.lines.push_back(line);
     }

@@ -3,12 +3,15 @@
 
 #include "rayspace/camera.hpp"
 #include "rayspace/ray_space_object.hpp"
+#include "rayspace/result.hpp"
 
 namespace rs::encode {
 
 // `camera` is upright and in object radii, farther than 1.2 from the Y axis and nearer than 200. With C its centre, r
 // and f its right and forward vectors and t a plane's tangent, the plane point x t is seen at axial depth
 // l = -C.f + x (t.f) in column cx + fl_x (-C.r + x (t.r)) / l.
-CapturedView captured_view(const Camera& camera, int planes);
+// Fails where a number leaves the range that the format gives it (encode/FORMAT.md, "Ranges"), such as a focal length
+// of 16384 px or a picture that is very far off the axis.
+Result<CapturedView> captured_view(const Camera& camera, int planes);
 
 }  // namespace rs::encode

@@ -42,7 +42,8 @@ Status run_build(const BuildArguments& arguments) {
 
     Result<CaptureSet> set = open_capture_set(arguments.set, &progress);
     if (!set) return set.error();
-    if (options.name.empty()) options.name = std::filesystem::weakly_canonical(set->folder).filename().string();
+    if (options.name.empty())
+        options.name = std::filesystem::weakly_canonical(std::filesystem::absolute(set->folder)).filename().string();
     if (set->resampled) std::cerr << "rs-encode: the cameras look up or down; their pictures are made upright\n";
     Result<BuiltObject> built = build_object(*set, options, &progress);
     if (!built) return built.error();

@@ -1,12 +1,9 @@
 #include "engine/core/compare.hpp"
 
+#include "rayspace/parallel.hpp"
 #include "rayspace/picture_io.hpp"
 #include "rayspace/picture_metrics.hpp"
 #include "rayspace/rig.hpp"
-
-#include <tbb/parallel_for.h>
-
-#include <optional>
 
 namespace rs::engine {
 namespace {
@@ -35,21 +32,19 @@ Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesys
     const std::filesystem::path folder = std::filesystem::is_directory(set) ? set : set.parent_path();
 
     const int count = static_cast<int>(rig->views.size());
-    std::vector<std::optional<Result<ComparedView>>> results(rig->views.size());
-    if (progress != nullptr) progress->start("comparing", count);
-    tbb::parallel_for(0, count, [&](int i) {
-        const auto n = static_cast<std::size_t>(i);
-        results[n] = compare_view(renderer, folder, rig->views[n]);
-        if (progress != nullptr) progress->advance();
-    });
-    if (progress != nullptr) progress->finish();
-
     Comparison comparison;
-    for (const auto& result : results) {
-        if (!*result) return result->error();
-        comparison.views.push_back(**result);
-        comparison.mean_psnr_db += (*result)->psnr_db / count;
-        comparison.mean_ssim += (*result)->ssim / count;
+    comparison.views.resize(rig->views.size());
+    const Status compared = for_each_in_parallel(count, "comparing", progress, [&](int i) -> Status {
+        const auto n = static_cast<std::size_t>(i);
+        Result<ComparedView> view = compare_view(renderer, folder, rig->views[n]);
+        if (!view) return view.error();
+        comparison.views[n] = std::move(*view);
+        return {};
+    });
+    if (!compared) return compared.error();
+    for (const ComparedView& view : comparison.views) {
+        comparison.mean_psnr_db += view.psnr_db / count;
+        comparison.mean_ssim += view.ssim / count;
     }
     return comparison;
 }

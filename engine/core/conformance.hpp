@@ -19,7 +19,7 @@ struct ConformanceReport {
 
 // Renders `views` random views (three of four upright, sizes up to 256x256, from 1.2 to 12 radii) with the scalar
 // definition and with the core, and counts pixels that differ. The same seed gives the same views.
-Result<ConformanceReport> check_conformance(const RaySpaceObject& object, int views, std::uint64_t seed,
+Result<ConformanceReport> check_conformance(RaySpaceObject object, int views, std::uint64_t seed,
                                             Progress* progress = nullptr);
 
 }  // namespace rs::engine

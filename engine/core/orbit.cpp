@@ -10,6 +10,9 @@ namespace rs::engine {
 namespace {
 
 Result<Camera> first_captured_camera(const RaySpaceObject& object) {
+    if (object.rig_json.empty()) {
+        return Error{object.name + ": holds no rig to take a camera from; give the cameras with --poses"};
+    }
     Result<Rig> rig = rig_from_json(object.rig_json, object.name + " (its rig)");
     if (!rig) return rig.error();
     if (rig->views.empty() || object.rings.empty() || object.rings.front().views.empty()) {

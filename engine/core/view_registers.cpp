@@ -52,6 +52,10 @@ std::optional<LinearForm> form_along(const Camera& camera, const glm::dvec3& axi
             if (!(std::abs(value) < kLargestDirection)) return std::nullopt;
         }
     }
+    if (!(std::abs(glm::dot(per_column, axis)) < kLargestDirection) ||
+        !(std::abs(glm::dot(per_row, axis)) < kLargestDirection)) {
+        return std::nullopt;
+    }
     return LinearForm{fixed(glm::dot(origin, axis), 32), fixed(glm::dot(per_column, axis), 32),
                       fixed(glm::dot(per_row, axis), 32)};
 }
@@ -99,7 +103,8 @@ Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& c
 
     const std::string too_wide =
         camera.fl_x < camera_in_rig.fl_x
-            ? "it is so far from the object that the object is smaller than a pixel; there is nothing to render"
+            ? "it is so far from the object that the object is but a few pixels of so wide a picture; narrow the field "
+              "of view"
             : "its field of view is too wide (a ray is more than 8 times as far from the viewing axis as it is deep); "
               "use a "
               "longer focal length";

@@ -4,8 +4,11 @@
 #include "rayspace/object_file.hpp"
 
 #include <condition_variable>
+#include <exception>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -20,6 +23,7 @@ struct PreparedView {
 struct Cycle {
     std::vector<PreparedView> views;
     std::vector<Image<Rgba8>> pictures;
+    std::optional<Error> failure;  // instead of pictures
     bool done = false;
     bool claimed = false;  // somebody waits in retrieve() for it
 };
@@ -55,10 +59,14 @@ struct DataModule::State {
             if (stopping) return;
             const std::shared_ptr<Cycle> cycle = next_cycle();
             lock.unlock();
-            for (const PreparedView& view : cycle->views) {
-                Image<Rgba8> picture(view.registers.width, view.registers.height);
-                view.renderer->render(view.registers, picture);
-                cycle->pictures.push_back(std::move(picture));
+            try {
+                for (const PreparedView& view : cycle->views) {
+                    Image<Rgba8> picture(view.registers.width, view.registers.height);
+                    view.renderer->render(view.registers, picture);
+                    cycle->pictures.push_back(std::move(picture));
+                }
+            } catch (const std::exception& escaped) {  // such as std::bad_alloc for fifteen very large views
+                cycle->failure = Error{std::string("the cycle could not be rendered: ") + escaped.what()};
             }
             cycle->views.clear();  // lets go of evicted objects
             lock.lock();
@@ -155,6 +163,7 @@ Result<std::vector<Image<Rgba8>>> DataModule::retrieve(CycleHandle handle) {
     cycle->claimed = true;
     state_->changed.wait(lock, [&] { return cycle->done; });
     state_->cycles.erase(handle.number);
+    if (cycle->failure) return *cycle->failure;
     return std::move(cycle->pictures);
 }
 

@@ -30,10 +30,11 @@ struct CompareArguments {
 };
 
 Status run_conformance(const ConformanceArguments& arguments) {
-    const Result<RaySpaceObject> object = read_object(arguments.object);
+    Result<RaySpaceObject> object = read_object(arguments.object);
     if (!object) return object.error();
     ProgressBar progress(arguments.quiet);
-    const Result<ConformanceReport> report = check_conformance(*object, arguments.views, arguments.seed, &progress);
+    const Result<ConformanceReport> report =
+        check_conformance(std::move(*object), arguments.views, arguments.seed, &progress);
     if (!report) return report.error();
     std::printf("%s: %d views (%d upright), %lld pixels, %lld of the object: %lld differ from the definition\n",
                 arguments.object.c_str(), report->views, report->upright_views, static_cast<long long>(report->pixels),

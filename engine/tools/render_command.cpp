@@ -6,16 +6,16 @@
 #include "rayspace/conventions.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/object_file.hpp"
+#include "rayspace/parallel.hpp"
 #include "rayspace/picture_io.hpp"
 #include "rayspace/progress.hpp"
 #include "rayspace/rig.hpp"
 #include "rayspace/tool_main.hpp"
 
-#include <tbb/parallel_for.h>
-
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <memory>
-#include <optional>
 
 namespace rs::engine {
 namespace {
@@ -49,12 +49,7 @@ Result<ViewShape> view_shape(const RenderArguments& arguments) {
         shape.width = size->width;
         shape.height = size->height;
     }
-    if (arguments.fov_deg != 0) {
-        if (!(arguments.fov_deg > 0 && arguments.fov_deg < 160)) {
-            return Error{"--fov " + std::to_string(arguments.fov_deg) + ": must be above 0 and below 160 degrees"};
-        }
-        shape.fov_x_rad = radians(arguments.fov_deg);
-    }
+    if (arguments.fov_deg != 0) shape.fov_x_rad = radians(arguments.fov_deg);
     return shape;
 }
 
@@ -123,7 +118,7 @@ Status write_video(const Renderer& renderer, const std::vector<Camera>& cameras,
 
 Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
                     Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(arguments.output, kRigFileName);
+    Result<StagedFolder> staged = StagedFolder::create(arguments.output);
     if (!staged) return staged.error();
     Rig rig;
     rig.object_radius = renderer.object().units_per_radius;
@@ -135,28 +130,43 @@ Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras
         view.camera = cameras[i];
         rig.views.push_back(view);
     }
-    std::vector<std::optional<Error>> errors(cameras.size());
-    progress.start("rendering", static_cast<std::int64_t>(cameras.size()));
-    tbb::parallel_for(std::size_t{0}, cameras.size(), [&](std::size_t i) {
-        const Result<Image<Rgba8>> picture = render_camera(renderer, cameras[i]);
-        const Status status =
-            picture ? write_png(staged->temporary_path() / rig.views[i].file_path, *picture) : Status(picture.error());
-        if (!status) errors[i] = status.error();
-        progress.advance();
+    const int count = static_cast<int>(cameras.size());
+    const Status written = for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
+        const auto n = static_cast<std::size_t>(i);
+        const Result<Image<Rgba8>> picture = render_camera(renderer, cameras[n]);
+        if (!picture) return picture.error();
+        return write_png(staged->temporary_path() / rig.views[n].file_path, *picture);
     });
-    progress.finish();
-    for (const auto& error : errors) {
-        if (error) return *error;
-    }
+    if (!written) return written;
     if (const Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
     return staged->commit();
 }
 
-Status write_picture(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments) {
-    if (cameras.size() > 1 && arguments.sheet_columns == 0) {
+// Fails before anything is rendered where the views cannot become one picture.
+Status check_one_picture(const std::vector<Camera>& cameras, const RenderArguments& arguments) {
+    if (arguments.sheet_columns == 0) {
+        if (cameras.size() == 1) return {};
         return Error{arguments.output + ": " + std::to_string(cameras.size()) +
                      " views do not fit one picture; give --sheet COLUMNS, or a folder or an .mp4 to -o"};
     }
+    const auto columns = std::min(static_cast<std::size_t>(arguments.sheet_columns), cameras.size());
+    const std::size_t rows = (cameras.size() + columns - 1) / columns;
+    const std::size_t width = columns * static_cast<std::size_t>(cameras.front().width);
+    const std::size_t height = rows * static_cast<std::size_t>(cameras.front().height);
+    if (width > kMaxPictureSide_px || height > kMaxPictureSide_px) {
+        return Error{arguments.output + ": a sheet of " + std::to_string(width) + "x" + std::to_string(height) +
+                     " pixels is larger than " + std::to_string(kMaxPictureSide_px) + " a side; give a smaller --size"};
+    }
+    for (const Camera& camera : cameras) {
+        if (camera.width != cameras.front().width || camera.height != cameras.front().height) {
+            return Error{arguments.output + ": a sheet needs views of one size; give --size"};
+        }
+    }
+    return {};
+}
+
+Status write_picture(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments) {
+    if (const Status status = check_one_picture(cameras, arguments); !status) return status;
     std::vector<Image<Rgba8>> pictures;
     for (const Camera& camera : cameras) {
         Result<Image<Rgba8>> picture = render_camera(renderer, camera);
@@ -168,19 +178,44 @@ Status write_picture(const Renderer& renderer, const std::vector<Camera>& camera
     return write_png(arguments.output, contact_sheet(pictures, arguments.sheet_columns, kBackdrop));
 }
 
+enum class OutputKind { picture, video, folder };
+
+// What a name means. Names of other pictures and videos are refused, so that "view.jpg" does not become a folder.
+Result<OutputKind> output_kind(const std::string& output) {
+    std::string extension = std::filesystem::path(output).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".png") return OutputKind::picture;
+    if (extension == ".mp4") return OutputKind::video;
+    for (const char* other :
+         {".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".exr", ".bmp", ".gif", ".avi", ".mov", ".mkv", ".webm"}) {
+        if (extension == other)
+            return Error{output + ": views are written as .png or .mp4; give such a name, or a folder"};
+    }
+    return OutputKind::folder;
+}
+
 Status run_render(const RenderArguments& arguments) {
-    const int ways = (arguments.orbit > 0) + !arguments.poses.empty() + !arguments.eye.empty();
-    if (ways != 1) return Error{"say what to render: one of --orbit N, --poses transforms.json or --eye X,Y,Z"};
+    const Result<OutputKind> kind = output_kind(arguments.output);
+    if (!kind) return kind.error();
+    if (arguments.sheet_columns > 0 && *kind != OutputKind::picture) {
+        return Error{arguments.output + ": --sheet makes one picture; give a name that ends in .png to -o"};
+    }
     const Result<Renderer> renderer = open_renderer(arguments.object, arguments.level);
     if (!renderer) return renderer.error();
     const Result<std::vector<Camera>> cameras = asked_cameras(renderer->object(), arguments);
     if (!cameras) return cameras.error();
 
     ProgressBar progress(arguments.quiet);
-    const std::string extension = std::filesystem::path(arguments.output).extension().string();
-    if (extension == ".mp4") return write_video(*renderer, *cameras, arguments, progress);
-    if (extension != ".png") return write_folder(*renderer, *cameras, arguments, progress);
-    return write_picture(*renderer, *cameras, arguments);
+    switch (*kind) {
+        case OutputKind::picture:
+            return write_picture(*renderer, *cameras, arguments);
+        case OutputKind::video:
+            return write_video(*renderer, *cameras, arguments, progress);
+        case OutputKind::folder:
+            break;
+    }
+    return write_folder(*renderer, *cameras, arguments, progress);
 }
 
 }  // namespace
@@ -190,14 +225,17 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     CLI::App* command = app.add_subcommand("render", "Render views of an object: PNG with straight alpha, or a video");
     command->add_option("OBJECT", arguments->object, "ray-space object, .rso")->required();
     command->add_option("-o,--output", arguments->output, "a folder, FILE.png or FILE.mp4")->required();
-    command->add_option("--orbit", arguments->orbit, "N views once around, as captured")->check(CLI::Range(1, 100000));
-    command->add_option("--poses", arguments->poses, "the cameras of a transforms.json");
-    command->add_option("--eye", arguments->eye, "one view from X,Y,Z, in object radii; Y is the turntable's axis");
+    CLI::Option_group* views = command->add_option_group("views", "What to render");
+    views->add_option("--orbit", arguments->orbit, "N views once around, as captured")->check(CLI::Range(1, 100000));
+    CLI::Option* poses = views->add_option("--poses", arguments->poses, "the cameras of a transforms.json");
+    views->add_option("--eye", arguments->eye, "one view from X,Y,Z, in object radii; Y is the turntable's axis");
+    views->require_option(1);
     command->add_option("--at", arguments->at, "with --eye: the point looked at, in object radii")
         ->capture_default_str();
     command->add_option("--size", arguments->size, "size of the views, WxH; as captured where not given");
-    command->add_option("--fov", arguments->fov_deg,
-                        "horizontal field of view in degrees; as captured where not given");
+    command->add_option("--fov", arguments->fov_deg, "horizontal field of view in degrees; as captured where not given")
+        ->check(CLI::Range(0.01, 159.0))
+        ->excludes(poses);
     command->add_option("--fps", arguments->frames_per_second, "frames per second of an .mp4")
         ->check(CLI::Range(1.0, 240.0))
         ->capture_default_str();

@@ -3,13 +3,14 @@
 #include "rayspace/file_output.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/run_tool.hpp"
+#include "tests/support/small_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/mount.h>
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <set>
 
 namespace rs {
@@ -169,22 +170,18 @@ TEST_F(BadInput, OutputThatCannotBe) {
     EXPECT_TRUE(std::filesystem::exists(work_ / "mine" / "letter.txt"));
 }
 
-// A tmpfs of 64 KiB; needs the right to mount.
 class FullDisk : public BadInput {
 protected:
     void SetUp() override {
         std::filesystem::create_directories(work_ / "small");
-        mounted_ = mount("tmpfs", in("small").c_str(), "tmpfs", 0, "size=64k") == 0;
-        if (!mounted_) GTEST_SKIP() << "this user may not mount a tmpfs";
-    }
-    void TearDown() override {
-        if (mounted_) umount(in("small").c_str());
+        disk_.emplace(work_ / "small");
+        if (!disk_->mounted()) GTEST_SKIP() << "a small file system cannot be mounted here (it takes root)";
     }
     void expect_disk_full(const std::string& tool, const std::vector<std::string>& arguments) {
         expect_failure(tool, arguments, {"no space left"});
         EXPECT_TRUE(names_in(work_ / "small").empty());
     }
-    bool mounted_ = false;
+    std::optional<test::SmallDisk> disk_;  // gone before the folder it stands in
 };
 
 TEST_F(FullDisk, IsSaidAndLeavesNothingBehind) {

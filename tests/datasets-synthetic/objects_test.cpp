@@ -7,10 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
@@ -35,18 +33,13 @@ vec3 face_cross(const Mesh& mesh, glm::uvec3 t) {
 
 class EveryObject : public testing::TestWithParam<std::string> {
 protected:
-    // The objects are the same for every test: each is made once.
+    // Made once in a process, however many tests run in it.
     static const Scene& scene() {
         static std::map<std::string, Scene> made;
         const std::string& name = GetParam();
         if (const auto it = made.find(name); it != made.end()) return it->second;
-        const auto start = std::chrono::steady_clock::now();
         Result<Scene> result = generate(name, nullptr, kSeed);
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
         EXPECT_TRUE(result.ok()) << result.error().message;
-        std::size_t triangles = 0;
-        for (const Mesh& mesh : result->meshes) triangles += mesh.triangles.size();
-        std::printf("%-8s %8zu triangles in %.2f s\n", name.c_str(), triangles, took.count());
         return made.emplace(name, std::move(result).value()).first->second;
     }
 };

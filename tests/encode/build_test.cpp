@@ -92,6 +92,31 @@ TEST(Build, CamerasThatLookDownAreMadeUpright) {
     EXPECT_GT(worst, 26);  // resampling softens edges; a wrong homography gives below 15
 }
 
+TEST(Build, TheRadiusIsThatOfTheSilhouetteAlsoFromSteeplyAbove) {
+    const test::TemporaryFolder folder;
+    Rig rig = small_ring(45, 12);
+    rig.object_radius = 0;
+    test::write_drawn_set(folder / "set", rig);
+    const Result<CaptureSet> set = open_capture_set(folder / "set");
+    ASSERT_TRUE(set.ok()) << set.error().message;
+    EXPECT_NEAR(set->upright.object_radius, std::hypot(0.6, 0.1) + 0.25, 0.06);
+}
+
+TEST(BuildErrors, APictureThatShowsWhatIsStraightBelowIsRefused) {
+    const test::TemporaryFolder folder;
+    Rig rig = small_ring(58, 3);
+    for (RigView& view : rig.views) {
+        view.camera.height = 600;
+        view.camera.cy = 300;
+    }
+    test::write_drawn_set(folder / "set", rig);
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(
+            write_png(folder / "set" / (std::to_string(i) + ".png"), Image<Rgba8>(96, 600, {9, 9, 9, 255})).ok());
+    }
+    EXPECT_NE(error_of_set(folder / "set").find("straight up or down"), std::string::npos);
+}
+
 TEST(UprightResampling, TheSameCameraGivesTheSamePicture) {
     const Camera camera = small_ring(0).views[1].camera;
     const Image<Rgba8> picture = test::drawn_picture(camera);

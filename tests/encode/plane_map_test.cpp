@@ -27,7 +27,7 @@ TEST(CapturedView, DescribesItsCamera) {
                                        {in(-0.3, 0.3), height, in(-0.3, 0.3)}, radians(in(5, 60)), 640, 480);
         camera.cx += in(-30, 30);
         const int planes = 12;
-        const CapturedView view = captured_view(camera, planes);
+        const CapturedView view = *captured_view(camera, planes);
         EXPECT_NEAR(view.height_q20 / 1048576.0, height, 1e-6);
         for (int k = 0; k < planes; ++k) {
             const double x = in(-1, 1), y = in(-1, 1);
@@ -41,6 +41,19 @@ TEST(CapturedView, DescribesItsCamera) {
             EXPECT_NEAR((view.cy_q16 - view.fl_y_q16 / l * (y - height)) / 65536.0, pixel.y, 2e-2);
         }
     }
+}
+
+TEST(CapturedView, RefusesWhatTheFormatCannotHold) {
+    Camera camera = look_at_camera({0, 0, 80}, {0, 0, 0}, radians(4), 512, 512);
+    EXPECT_TRUE(captured_view(camera, 12).ok());
+    camera.fl_x = camera.fl_y = 10000;
+    EXPECT_TRUE(captured_view(camera, 12).ok());
+    // Three degrees past the axis, the axis is 41,900 px radii to the side: q0 would wrap around.
+    Camera past = look_at_camera({0, 0, 80}, {80 * std::tan(radians(3)), 0, 0}, radians(4), 512, 512);
+    past.fl_x = past.fl_y = 10000;
+    EXPECT_NE(captured_view(past, 12).error().message.find("past the axis"), std::string::npos);
+    camera.fl_y = 65536 + 700;
+    EXPECT_NE(captured_view(camera, 12).error().message.find("focal length"), std::string::npos);
 }
 
 // For a cell, the picture whose ray through the same plane point deviates least in angle.

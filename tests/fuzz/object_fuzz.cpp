@@ -1,5 +1,7 @@
+#include "engine/core/reconstruct.hpp"
 #include "rayspace/object_chunks.hpp"
 #include "rayspace/object_file.hpp"
+#include "rayspace/ray_space.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 #include "tests/fuzz/entries.hpp"
 
@@ -30,6 +32,19 @@ void check_rewriting(const RaySpaceObject& object) {
     RS_CHECK(again->views == object.views && again->rings == object.rings && again->pictures == object.pictures);
 }
 
+// What was accepted must be safe to render, from anywhere.
+void check_rendering(const RaySpaceObject& object) {
+    for (const glm::dvec3 eye : {glm::dvec3(0, 0, 3), glm::dvec3(-1.1, 0.4, -0.6), glm::dvec3(40, -30, 2)}) {
+        const Camera camera = look_at_camera(eye * object.units_per_radius, glm::dvec3(0), 0.8, 24, 20);
+        for (const Camera& each : {camera, upright_camera(camera)}) {
+            const auto registers = engine::prepare_view(object, each);
+            if (!registers) continue;
+            Image<Rgba8> picture(each.width, each.height);
+            engine::reconstruct_scalar(object, *registers, picture);
+        }
+    }
+}
+
 }  // namespace
 
 int fuzz_object(const std::uint8_t* data, std::size_t size) {
@@ -42,6 +57,7 @@ int fuzz_object(const std::uint8_t* data, std::size_t size) {
     const auto whole = read_object(*container, options);
     if (!whole) RS_CHECK(whole.error().message.find('\n') == std::string::npos);
     if (whole) check_rewriting(*whole);
+    if (whole) check_rendering(*whole);
     options.max_level = 0;
     const auto coarse = read_object(*container, options);
     RS_CHECK(!whole || coarse.ok());

@@ -29,7 +29,7 @@ TEST(Camera, FieldOfViewSpansTheWidth) {
 }
 
 TEST(Camera, RayAndProjectAreInverse) {
-    const unsigned seed = std::random_device{}();
+    const unsigned seed = 20261;
     RecordProperty("seed", static_cast<int>(seed));
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);

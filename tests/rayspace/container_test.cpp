@@ -180,7 +180,7 @@ TEST(Container, NewerMinorVersionsAreRead) {
 }
 
 TEST(Container, RandomTablesNeverCrash) {
-    const unsigned seed = std::random_device{}();
+    const unsigned seed = 20261;
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     const std::vector<std::byte> good = sample_file();

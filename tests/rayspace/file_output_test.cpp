@@ -1,9 +1,9 @@
 #include "rayspace/file_output.hpp"
+#include "tests/support/small_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/mount.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -112,15 +112,15 @@ TEST(StagedFile, RefusesFoldersAndEmptyNames) {
     const TemporaryFolder folder;
     EXPECT_THAT(StagedFile::create(folder.path()).error().message, HasSubstr("is a folder"));
     EXPECT_THAT(StagedFile::create("").error().message, HasSubstr("names no file"));
+    EXPECT_THAT(StagedFile::create("/dev/null").error().message, HasSubstr("no regular file"));
     put(folder / "plain", "x");
     EXPECT_THAT(StagedFile::create(folder.path() / "plain" / "a").error().message, HasSubstr("is not a folder"));
 }
 
 TEST(StagedFile, AFullDiskIsAnErrorAndLeavesNothing) {
     const TemporaryFolder folder;
-    if (::mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=64k") != 0) {
-        GTEST_SKIP() << "a small file system cannot be mounted here (it takes root)";
-    }
+    const test::SmallDisk disk(folder.path());
+    if (!disk.mounted()) GTEST_SKIP() << "a small file system cannot be mounted here (it takes root)";
     {
         auto file = StagedFile::create(folder / "a.bin");
         ASSERT_TRUE(file.ok());
@@ -130,11 +130,10 @@ TEST(StagedFile, AFullDiskIsAnErrorAndLeavesNothing) {
         EXPECT_THAT(status.error().message, HasSubstr("no space left on device; free some space"));
     }
     EXPECT_TRUE(names_in(folder.path()).empty());
-    ::umount(folder.path().c_str());
 }
 
 StagedFolder open_folder(const fs::path& path) {
-    auto folder = StagedFolder::create(path, "marker.json");
+    auto folder = StagedFolder::create(path);
     EXPECT_TRUE(folder.ok()) << folder.error().message;
     return std::move(folder).value();
 }
@@ -161,16 +160,35 @@ TEST(StagedFolder, DroppedItIsRemovedWithAllItHolds) {
     EXPECT_TRUE(names_in(root.path()).empty());
 }
 
-TEST(StagedFolder, ReplacesASetOfItsKindAsAWhole) {
+TEST(StagedFolder, ReplacesAFolderOfOursAsAWhole) {
     const TemporaryFolder root;
-    fs::create_directory(root / "set");
-    put(root.path() / "set" / "marker.json", "old");
-    put(root.path() / "set" / "old-picture", "old");
+    {
+        StagedFolder folder = open_folder(root / "set");
+        fs::create_directory(folder.temporary_path() / "images");
+        put(folder.temporary_path() / "images" / "old-picture", "old");
+        ASSERT_TRUE(folder.commit().ok());
+    }
     StagedFolder folder = open_folder(root / "set");
-    put(folder.temporary_path() / "marker.json", "new");
+    put(folder.temporary_path() / "new-picture", "new");
     ASSERT_TRUE(folder.commit().ok());
-    EXPECT_EQ(names_in(root / "set"), std::vector<std::string>{"marker.json"});
+    EXPECT_EQ(names_in(root / "set"), (std::vector<std::string>{".rayspace-files", "new-picture"}));
     EXPECT_EQ(names_in(root.path()), std::vector<std::string>{"set"});
+}
+
+TEST(StagedFolder, KeepsWhatSomebodyAddedToAFolderOfOurs) {
+    const TemporaryFolder root;
+    {
+        StagedFolder folder = open_folder(root / "set");
+        put(folder.temporary_path() / "picture", "ours");
+        ASSERT_TRUE(folder.commit().ok());
+    }
+    EXPECT_TRUE(StagedFolder::create(root / "set").ok());
+    put(root.path() / "set" / "picture", "retouched");
+    EXPECT_THAT(StagedFolder::create(root / "set").error().message, HasSubstr("picture"));
+    put(root.path() / "set" / "picture", "ours");
+    put(root.path() / "set" / "notes.txt", "mine");
+    EXPECT_THAT(StagedFolder::create(root / "set").error().message, HasSubstr("notes.txt"));
+    EXPECT_EQ(contents(root.path() / "set" / "notes.txt"), "mine");
 }
 
 TEST(StagedFolder, ReplacesAnEmptyFolder) {
@@ -179,20 +197,19 @@ TEST(StagedFolder, ReplacesAnEmptyFolder) {
     StagedFolder folder = open_folder(root / "set");
     put(folder.temporary_path() / "a", "new");
     ASSERT_TRUE(folder.commit().ok());
-    EXPECT_EQ(names_in(root / "set"), std::vector<std::string>{"a"});
+    EXPECT_EQ(names_in(root / "set"), (std::vector<std::string>{".rayspace-files", "a"}));
 }
 
 TEST(StagedFolder, LeavesOtherPeoplesFoldersAlone) {
     const TemporaryFolder root;
     fs::create_directory(root / "home");
     put(root.path() / "home" / "thesis.tex", "years of work");
-    const auto folder = StagedFolder::create(root / "home", "marker.json");
+    const auto folder = StagedFolder::create(root / "home");
     ASSERT_FALSE(folder.ok());
-    EXPECT_THAT(folder.error().message, HasSubstr("no marker.json in it"));
+    EXPECT_THAT(folder.error().message, HasSubstr("thesis.tex"));
     put(root / "file", "x");
-    EXPECT_THAT(StagedFolder::create(root / "file", "marker.json").error().message, HasSubstr("is not a folder"));
-    EXPECT_THAT(StagedFolder::create(root.path() / "none" / "set", "marker.json").error().message,
-                HasSubstr("create it first"));
+    EXPECT_THAT(StagedFolder::create(root / "file").error().message, HasSubstr("is not a folder"));
+    EXPECT_THAT(StagedFolder::create(root.path() / "none" / "set").error().message, HasSubstr("create it first"));
     EXPECT_EQ(names_in(root.path()), (std::vector<std::string>{"file", "home"}));
 }
 

@@ -11,12 +11,11 @@ using namespace rs;
 using testing::HasSubstr;
 
 // stderr is captured into a file here, so this is how logs and pipes see it: a line at every tenth.
-std::string drawn_by(bool quiet, std::chrono::milliseconds pause) {
+std::string drawn_by(bool quiet, std::chrono::milliseconds silence) {
     testing::internal::CaptureStderr();
     {
-        ProgressBar bar(quiet);
+        ProgressBar bar(quiet, silence);
         bar.start("working", 200);
-        std::this_thread::sleep_for(pause);
         for (int i = 0; i < 200; ++i) bar.advance();
         bar.finish();
         bar.advance();  // after the end: nothing
@@ -25,15 +24,15 @@ std::string drawn_by(bool quiet, std::chrono::milliseconds pause) {
 }
 
 TEST(ProgressBar, ShortWorkShowsNothing) {
-    EXPECT_EQ(drawn_by(false, std::chrono::milliseconds(0)), "");
+    EXPECT_EQ(drawn_by(false, std::chrono::hours(1)), "");
 }
 
 TEST(ProgressBar, QuietShowsNothing) {
-    EXPECT_EQ(drawn_by(true, std::chrono::milliseconds(550)), "");
+    EXPECT_EQ(drawn_by(true, std::chrono::milliseconds(0)), "");
 }
 
 TEST(ProgressBar, LongWorkShowsEveryTenthOnce) {
-    const std::string text = drawn_by(false, std::chrono::milliseconds(550));
+    const std::string text = drawn_by(false, std::chrono::milliseconds(0));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10) << text;
     EXPECT_THAT(text, HasSubstr("working: 10 %"));
     EXPECT_THAT(text, HasSubstr("working: 100 %"));
@@ -43,9 +42,8 @@ TEST(ProgressBar, LongWorkShowsEveryTenthOnce) {
 TEST(ProgressBar, ManyThreadsMayAdvance) {
     testing::internal::CaptureStderr();
     {
-        ProgressBar bar;
+        ProgressBar bar(false, std::chrono::milliseconds(0));
         bar.start("working", 4000);
-        std::this_thread::sleep_for(std::chrono::milliseconds(550));
         std::vector<std::jthread> threads;
         for (int t = 0; t < 4; ++t) {
             threads.emplace_back([&] {

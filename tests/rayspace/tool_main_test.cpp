@@ -98,7 +98,7 @@ TEST(ToolMain, InterruptionLeavesNoPartialOutput) {
         if (child == 0) {
             run_tool({"render", "x"}, [&]() -> Status {
                 const auto file = StagedFile::create(folder / "a.png");
-                const auto set = StagedFolder::create(folder / "set", "marker");
+                const auto set = StagedFolder::create(folder / "set");
                 if (!file || !set) _exit(7);
                 ::kill(::getpid(), signal);
                 std::this_thread::sleep_for(std::chrono::seconds(20));

@@ -1,9 +1,9 @@
 #include "rayspace/picture_io.hpp"
+#include "tests/support/small_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/mount.h>
 
 #include <filesystem>
 #include <random>
@@ -69,9 +69,8 @@ TEST(VideoWriter, AVideoWithoutFramesIsAnError) {
 
 TEST(VideoWriter, AFullDiskIsAnErrorAndLeavesNothing) {
     const TemporaryFolder folder;
-    if (::mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=256k") != 0) {
-        GTEST_SKIP() << "a small file system cannot be mounted here (it takes root)";
-    }
+    const test::SmallDisk disk(folder.path(), 256);
+    if (!disk.mounted()) GTEST_SKIP() << "a small file system cannot be mounted here (it takes root)";
     std::string message;
     {
         std::mt19937 random(1);
@@ -83,7 +82,6 @@ TEST(VideoWriter, AFullDiskIsAnErrorAndLeavesNothing) {
         }
     }
     const bool empty = fs::is_empty(folder.path());
-    ::umount(folder.path().c_str());
     EXPECT_THAT(message, HasSubstr("no space left on device"));
     EXPECT_TRUE(empty);
 }

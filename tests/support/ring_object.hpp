@@ -67,7 +67,7 @@ inline RaySpaceObject ring_object(const RingObjectOptions& options) {
     object.height = options.height;
     std::mt19937_64 random(options.seed);
     for (const RigView& view : rig.views) {
-        object.views.push_back(encode::captured_view(view.camera, options.planes));
+        object.views.push_back(*encode::captured_view(view.camera, options.planes));
         object.pictures.push_back(planar_from_rgba(noise_picture(view.camera, random)));
     }
     for (const encode::ViewRing& ring : encode::find_rings(rig)) {
