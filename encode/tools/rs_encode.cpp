@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <sys/resource.h>
+
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -30,6 +32,13 @@ struct ObjectArguments {
     bool quiet = false;
     bool json = false;
 };
+
+// The most memory that this process has held, as the system counts it.
+long long peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss * 1024LL;
+}
 
 Status run_build(const BuildArguments& arguments) {
     const auto begun = std::chrono::steady_clock::now();
@@ -54,16 +63,16 @@ Status run_build(const BuildArguments& arguments) {
     const auto bytes = std::filesystem::file_size(arguments.output);
     const RaySpaceObject& object = built->object;
     if (arguments.json) {
-        std::cout
-            << nlohmann::json{{"object", arguments.output}, {"views", object.views.size()}, {"width", object.width},
-                              {"height", object.height},    {"rings", object.rings.size()}, {"bytes", bytes},
-                              {"seconds", seconds}}
-                   .dump(2)
-            << '\n';
+        std::cout << nlohmann::json{{"object", arguments.output},   {"views", object.views.size()},
+                                    {"width", object.width},        {"height", object.height},
+                                    {"rings", object.rings.size()}, {"bytes", bytes},
+                                    {"seconds", seconds},           {"peak_memory_bytes", peak_memory_bytes()}}
+                         .dump(2)
+                  << '\n';
     } else {
         std::printf("%s: %zu views of %dx%d, %d planes, %.1f MB, %.1f s\n", arguments.output.c_str(),
                     object.views.size(), object.width, object.height, options.map.planes,
-                    static_cast<double>(bytes) / 1e6, seconds);
+                    static_cast<double>(bytes) / 1e6, seconds, static_cast<double>(peak_memory_bytes()) / 1e6);
     }
     return {};
 }

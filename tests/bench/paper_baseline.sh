@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# The paper's baseline on Spot: 90 views of 512x512, focal length 1.4 widths, eye at 3.5 object radii, scored on 90 views
+# halfway between. "photo" shows the nearest captured picture as it is, "plane" renders the object.
+#
+#   tests/bench/paper_baseline.sh [DATA]      DATA: the folder that holds meshes/spot and hdr (default: $RAYSPACE_DATA)
+#
+# SPP (default 64) samples per pixel; LIGHTS, which light probes. 3.5 object radii are 2.81 bounding-sphere radii, which `synth` counts in.
+set -euo pipefail
+DATA=$(realpath "${1:-${RAYSPACE_DATA:?give the folder of test inputs}}")
+BIN=$(realpath "$(dirname "$0")/../../build/release/bin")
+SPP=${SPP:-64}
+WORK=$(mktemp -d)
+trap 'rm -rf "$WORK"' EXIT
+
+for light in ${LIGHTS:-courtyard interior studio}; do
+  cat >"$WORK/spot.json" <<JSON
+{"name": "spot", "seed": 1,
+ "object": {"mesh": "$DATA/meshes/spot/spot_triangulated.obj", "texture": "$DATA/meshes/spot/spot_texture.png"},
+ "camera": {"distance_radii": 2.81, "focal_widths": 1.4}, "environment": {"file": "$DATA/hdr/$light.exr"}}
+JSON
+  "$BIN/rs-capture" synth "$WORK/spot.json" -o "$WORK/set" --views 90 --size 512x512 --spp "$SPP" -q >/dev/null
+  "$BIN/rs-capture" synth "$WORK/spot.json" -o "$WORK/halfway" --views 90 --size 512x512 --spp "$SPP" --first-angle 2 -q >/dev/null
+  "$BIN/rs-encode" build "$WORK/set" -o "$WORK/spot.rso" --planes 12 -q >/dev/null
+  # The pictures of the halfway set, claimed to be taken at the captured poses: what flipping photographs costs.
+  cp -r "$WORK/halfway" "$WORK/flipped"
+  cp "$WORK/set/transforms.json" "$WORK/flipped/transforms.json"
+  printf '%-10s photo %s\n' "$light" "$("$BIN/rs-engine" compare "$WORK/spot.rso" "$WORK/flipped" -q | tail -1)"
+  printf '%-10s plane %s\n' "$light" "$("$BIN/rs-engine" compare "$WORK/spot.rso" "$WORK/halfway" -q | tail -1)"
+  rm -rf "${WORK:?}"/*
+done
