@@ -104,6 +104,17 @@ float median_noise(const Survey& survey, const StillPicture& still) {
     return *middle;
 }
 
+constexpr const char* kNoColour =
+    ": the pictures' borders are neither even nor still; give --backdrop R,G,B, or cut the object out beforehand and "
+    "give pictures with alpha";
+
+// The colour that a backdrop of this kind has by its name.
+std::optional<Rgba8> own_colour(BackdropKind kind) {
+    if (kind == BackdropKind::kWhite) return Rgba8{255, 255, 255, 255};
+    if (kind == BackdropKind::kBlack) return Rgba8{0, 0, 0, 255};
+    return std::nullopt;
+}
+
 struct BorderShares {
     double white = 0, black = 0;
     double still = 0;  // agree over time
@@ -185,20 +196,15 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     } else if (shares.black >= kBorderMajority) {
         found.kind = BackdropKind::kBlack;
     } else if (colours.empty() || (turn && shares.still < 0.5)) {
-        return Error{where +
-                     ": the pictures' borders are neither even nor still; give --backdrop R,G,B, or cut the object out "
-                     "beforehand and give pictures with alpha"};
+        return Error{where + kNoColour};
     } else {
         found.kind = BackdropKind::kColour;
     }
     // A colour that the user names rules out the border's other colours only where the border does not show it at all.
-    const auto named = [&]() -> std::optional<Rgba8> {
-        if (request.colour) return request.colour;
-        if (request.kind == BackdropKind::kWhite) return Rgba8{255, 255, 255, 255};
-        if (request.kind == BackdropKind::kBlack) return Rgba8{0, 0, 0, 255};
-        return std::nullopt;
-    }();
-    if (named) colours.insert(colours.begin(), *named);
+    // White and black are known even where nothing along the border is still, as under a flickering exposure.
+    const std::optional<Rgba8> named = request.colour ? request.colour : own_colour(found.kind);
+    if (named && (request.kind || colours.empty())) colours.insert(colours.begin(), *named);
+    if (colours.empty()) return Error{where + kNoColour};
     found.colour = colours.front();
 
     Image<std::uint8_t> known(still.colour.width(), still.colour.height());

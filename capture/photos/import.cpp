@@ -1,36 +1,24 @@
 #include "capture/photos/import.hpp"
 
-#include "capture/photos/cut_out.hpp"
-#include "capture/photos/outline.hpp"
+#include "capture/photos/cut_turn.hpp"
 #include "capture/photos/photo_folder.hpp"
 #include "capture/photos/repeat.hpp"
 #include "capture/photos/survey.hpp"
 #include "capture/photos/turning.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/file_output.hpp"
-#include "rayspace/picture_io.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
-#include <mutex>
+#include <system_error>
 
 namespace rs::capture {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kTurningSide_px = 512;
 constexpr double kDoubtfulSpread = 0.01;  // of the picture's width
-
-std::string picture_name(std::size_t view) {
-    char name[32];
-    std::snprintf(name, sizeof name, "images/%04zu.png", view);
-    return name;
-}
 
 Status check(const ImportOptions& options) {
     if (!(options.fov_deg >= 1 && options.fov_deg <= 120)) {
@@ -46,63 +34,18 @@ Status check(const ImportOptions& options) {
     return {};
 }
 
-// What the second pass over the photographs yields besides the files.
-struct CutTurn {
-    TurnOutline outline;
-    std::vector<Image<Rgba8>> small;  // [view], for find_turning()
-    double min_coverage = 1;
-    double max_coverage = 0;
-    int at_border = 0;  // views whose object reaches the picture's border
-};
-
-double coverage(const Image<Rgba8>& cut) {
-    const auto solid =
-        std::count_if(cut.pixels().begin(), cut.pixels().end(), [](const Rgba8& p) { return p.a >= 128; });
-    return static_cast<double>(solid) / static_cast<double>(cut.pixels().size());
-}
-
-Result<CutTurn> cut_photos(const PhotoFolder& folder, std::size_t views, const Backdrop& backdrop,
-                           const fs::path& output, Progress* progress) {
-    const ObjectCutter cutter(backdrop, folder.width, folder.height);
-    CutTurn turn{TurnOutline(folder.width, folder.height), std::vector<Image<Rgba8>>(views)};
-    std::vector<Status> statuses(views);
-    std::mutex mutex;
-    if (progress != nullptr) progress->start("cutting the object out", static_cast<std::int64_t>(views));
-    tbb::parallel_for(std::size_t{0}, views, [&](std::size_t i) {
-        const Result<Image<Rgba8>> photo = read_picture(folder.photos[i]);
-        if (!photo) {
-            statuses[i] = photo.error();
-            return;
-        }
-        if (photo->width() != folder.width || photo->height() != folder.height) {
-            statuses[i] = Error{folder.photos[i].string() + ": changed while it was imported; import again"};
-            return;
-        }
-        const Image<Rgba8> cut = cutter.cut(*photo);
-        TurnOutline outline(folder.width, folder.height);
-        outline.add(cut);
-        const TurnOutline::Box box = outline.visible();
-        const double covered = coverage(cut);
-        if (covered == 0) {
-            statuses[i] = Error{folder.photos[i].string() + ": shows no object before the " + to_string(backdrop.kind) +
-                                " backdrop; give another --backdrop, or take the picture out"};
-            return;
-        }
-        statuses[i] = write_png(output / picture_name(i), cut);
-        turn.small[i] = reduced(cut, kTurningSide_px);
-        const std::lock_guard lock(mutex);
-        turn.outline.merge(outline);
-        turn.min_coverage = std::min(turn.min_coverage, covered);
-        turn.max_coverage = std::max(turn.max_coverage, covered);
-        turn.at_border +=
-            box.left == 0 || box.top == 0 || box.right == folder.width || box.bottom == folder.height ? 1 : 0;
-        if (progress != nullptr) progress->advance();
-    });
-    if (progress != nullptr) progress->finish();
-    for (const Status& status : statuses) {
-        if (!status) return status.error();
-    }
-    return turn;
+// A set that stands at `output` already is replaced whole: photographs inside it would be lost.
+Status check_places(const ImportOptions& options) {
+    std::error_code failure;
+    const fs::path photos = fs::weakly_canonical(options.photos, failure);
+    if (failure) return Error{options.photos.string() + ": cannot be followed (" + failure.message() + ")"};
+    const fs::path output = fs::weakly_canonical(options.output, failure);
+    if (failure) return Error{options.output.string() + ": cannot be followed (" + failure.message() + ")"};
+    const auto [rest, inner] = std::mismatch(output.begin(), output.end(), photos.begin(), photos.end());
+    if (rest != output.end()) return {};
+    return Error{options.output.string() + ": " + (photos == output ? "is" : "contains") +
+                 " the folder of photographs " + options.photos.string() +
+                 ", which would be replaced; give another place with -o"};
 }
 
 void find_axis(const ImportOptions& options, const PhotoFolder& folder, const CutTurn& turn, bool closed,
@@ -142,7 +85,8 @@ void find_turning_sense(const ImportOptions& options, const PhotoFolder& folder,
     const double scale = static_cast<double>(turn.small.front().width()) / folder.width;
     const TurnOutline::Box box = turn.outline.visible();
     const double extent_px = std::max(report.axis_x_px - box.left, box.right - report.axis_x_px);
-    const TurningEvidence evidence = find_turning(turn.small, report.axis_x_px * scale, extent_px * scale, closed);
+    const TurningEvidence evidence =
+        find_turning(turn.small, report.axis_x_px * scale, extent_px * scale, radians(report.step_deg), closed);
     if (evidence.turning) {
         report.turning = *evidence.turning;
         report.turning_from = "pictures";
@@ -170,7 +114,7 @@ Rig make_rig(const ImportOptions& options, const PhotoFolder& folder, const Impo
     nominal.turning = report.turning;
     Rig rig = make_nominal_rig(nominal, visible);
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
-        rig.views[i].file_path = picture_name(i);
+        rig.views[i].file_path = cut_picture_name(i);
         rig.views[i].extras["source_file"] = utf8(folder.photos[i].filename().string());
     }
     rig.extras["axis_note"] = "Y is the turntable's axis; it appears in the column cx (" + report.axis_from + ")";
@@ -193,7 +137,8 @@ Rig make_rig(const ImportOptions& options, const PhotoFolder& folder, const Impo
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
     Result<PhotoFolder> folder = open_photo_folder(options.photos);
     if (!folder) return folder.error();
-    Result<StagedFolder> staged = StagedFolder::create(options.output, kRigFileName);
+    if (Status status = check_places(options); !status) return status.error();
+    Result<StagedFolder> staged = StagedFolder::create(options.output);
     if (!staged) return staged.error();
     std::error_code failure;
     fs::create_directory(staged->temporary_path() / "images", failure);
@@ -229,7 +174,7 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
     report.backdrop_given = options.backdrop.kind.has_value();
     survey = Survey{};  // the samples are not needed any more
 
-    const Result<CutTurn> turn = cut_photos(*folder, views, *backdrop, staged->temporary_path(), progress);
+    const Result<CutTurn> turn = cut_turn(*folder, *backdrop, staged->temporary_path(), progress);
     if (!turn) return turn.error();
     report.min_coverage = turn->min_coverage;
     report.max_coverage = turn->max_coverage;

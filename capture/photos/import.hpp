@@ -15,7 +15,7 @@ namespace rs::capture {
 
 struct ImportOptions {
     std::filesystem::path photos;  // folder
-    std::filesystem::path output;  // folder; see StagedFolder for what may stand there already
+    std::filesystem::path output;  // folder; see StagedFolder for what may stand there already, which is replaced whole
     BackdropRequest backdrop;
     double fov_deg = 25;                     // horizontal, 1..120
     std::optional<double> degrees_per_view;  // 0.01..180; otherwise 360 / views
@@ -46,9 +46,13 @@ struct ImportReport {
 
 std::string to_string(Turning turning);  // "clockwise", "counter-clockwise"
 
-// Nothing is left at `output` when it fails. Besides the errors of its stages (photo_folder.hpp, backdrop.hpp): options
-// out of range; a photograph in which no object is found. Works on all cores; memory goes with the number of cores, not
-// of photographs, but for small copies.
+// Nothing is left at `output` when it fails. Besides the errors of its stages (photo_folder.hpp, backdrop.hpp,
+// cut_turn.hpp): options out of range; an output folder that is or contains the folder of photographs.
+//
+// Works on all cores as long as the photographs in work together stay below kWorkingMemory_bytes, 4 GiB
+// (bounded_work.hpp): at 4000x3000 pixels, kCutBytesPerPixel = 150 bytes each, on two of them. To that come 12 bytes
+// per pixel of one photograph for the plate, and small copies of all photographs, 0.2 GB for the first pass and up to 1
+// MB per view for the second.
 Result<ImportReport> import_photos(const ImportOptions& options, Progress* progress);
 
 }  // namespace rs::capture

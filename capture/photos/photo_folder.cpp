@@ -93,6 +93,12 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder) {
     for (const std::filesystem::path& photo : found.photos) {
         const Result<PictureInfo> info = read_picture_info(photo);
         if (!info) return info.error();
+        // Before the sizes are compared: photographs on their side and upright ones differ in size too.
+        if (info->orientation != 1) {
+            return Error{
+                photo.string() + ": wants to be shown turned (EXIF orientation " + std::to_string(info->orientation) +
+                "), which is not done here; rotate the pixels, e.g. with exiftran -ai or mogrify -auto-orient"};
+        }
         if (found.width == 0) {
             found.width = info->width;
             found.height = info->height;

@@ -1,7 +1,7 @@
 #pragma once
 // One quick look at all pictures of a turn: small copies, from which the repeat of the first picture and the backdrop
-// are judged before any picture is cut out. The pictures themselves are read again later, one by one, so the memory
-// needed does not grow with their size.
+// are judged before any picture is cut out. The pictures themselves are not kept but read again later, so the memory
+// needed does not grow with their number, but for the small copies.
 
 #include "capture/photos/photo_folder.hpp"
 #include "rayspace/image.hpp"
@@ -24,10 +24,13 @@ struct Survey {
 };
 
 // A picture made smaller by averaging, so that no side is longer than `side_px`; a copy where it is small enough.
-// Colours are averaged with alpha as their weight.
+// Colours are averaged with alpha as their weight. Besides the result it takes the memory of a few rows.
 Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px);
 
-// Reads every picture; fails at the first (in order) that cannot be read. Works on all cores.
+// What reading takes of memory per pixel of a picture, at most: 16-bit and float files pass through float.
+inline constexpr int kReadBytesPerPixel = 24;
+
+// Reads every picture; after one that cannot be read no further one is begun. Works side by side (bounded_work.hpp).
 Result<Survey> survey_photos(const PhotoFolder& folder, Progress* progress);
 
 }  // namespace rs::capture

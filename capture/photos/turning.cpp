@@ -1,7 +1,5 @@
 #include "capture/photos/turning.hpp"
 
-#include "rayspace/conventions.hpp"
-
 #include <tbb/parallel_for.h>
 #include <opencv2/imgproc.hpp>
 
@@ -119,14 +117,15 @@ void fit_sinking(const std::vector<Motion>& low, TurningEvidence& evidence) {
 
 }  // namespace
 
-TurningEvidence find_turning(std::span<const Image<Rgba8>> turn, double axis_x_px, double half_width_px, bool closed) {
+TurningEvidence find_turning(std::span<const Image<Rgba8>> turn, double axis_x_px, double half_width_px,
+                             double step_rad, bool closed) {
     TurningEvidence evidence;
     const std::size_t count = turn.size();
     if (count < 3) return evidence;
     const std::size_t neighbours = closed ? count : count - 1;
     const std::size_t pairs = std::min(neighbours, kMaxPairs);
     // The fastest point goes extent * step; sideways a little more than that, up and down a part of it.
-    const double fastest_px = half_width_px * 2 * kPi / static_cast<double>(count);
+    const double fastest_px = half_width_px * step_rad;
     const cv::Size reach(static_cast<int>(std::lround(1.3 * fastest_px)) + 4,
                          static_cast<int>(std::lround(0.4 * fastest_px)) + 3);
 

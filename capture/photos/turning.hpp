@@ -30,7 +30,9 @@ struct TurningEvidence {
 };
 
 // `turn` holds cut-outs in order, all of one size, small (about 500 px): the first view follows the last one where
-// `closed`. `axis_x_px` and `half_width_px` (the widest extent from it) in the px of these pictures.
-TurningEvidence find_turning(std::span<const Image<Rgba8>> turn, double axis_x_px, double half_width_px, bool closed);
+// `closed`. `axis_x_px` and `half_width_px` (the widest extent from it) in the px of these pictures; `step_rad` from
+// one view to the next.
+TurningEvidence find_turning(std::span<const Image<Rgba8>> turn, double axis_x_px, double half_width_px,
+                             double step_rad, bool closed);
 
 }  // namespace rs::capture

@@ -104,9 +104,12 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
             "--fov", given->import.fov_deg,
             "Horizontal field of view in degrees. Nominal: it changes how strong the perspective of new views is, "
             "not what the pictures show")
+        ->check(CLI::Range(1.0, 120.0))
         ->capture_default_str();
-    command->add_option("--degrees-per-view", given->import.degrees_per_view,
-                        "Step from picture to picture (default: 360 / number of pictures)");
+    command
+        ->add_option("--degrees-per-view", given->import.degrees_per_view,
+                     "Step from picture to picture (default: 360 / number of pictures)")
+        ->check(CLI::Range(0.01, 180.0));
     command->add_option(
         "--axis-x", given->import.axis_x_px,
         "Picture column of the turntable's axis in px (default: from the silhouettes of the full turn)");

@@ -6,7 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <tuple>
 
 namespace rs::capture {
 namespace {
@@ -46,6 +48,41 @@ TEST(Backdrop, FindsEachKind) {
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->kind, BackdropKind::kColour);
     EXPECT_LE(distance(found->colour, blue), 2);
+}
+
+// No value is seen in most of the pictures, so nothing along the border is still.
+TEST(Backdrop, WhiteAndBlackNeedNoStillBorder) {
+    for (const auto& [codes, kind, colour] :
+         {std::tuple{std::array{225, 240, 255}, BackdropKind::kWhite, Rgba8{255, 255, 255, 255}},
+          std::tuple{std::array{0, 16, 36}, BackdropKind::kBlack, Rgba8{0, 0, 0, 255}}}) {
+        std::vector<Image<Rgba8>> photos;
+        for (int i = 0; i < 6; ++i) {
+            test::DrawnTurn turn;
+            const auto code = static_cast<std::uint8_t>(codes[static_cast<std::size_t>(i % 3)]);
+            turn.backdrop = {code, code, code, 255};
+            photos.push_back(test::draw_view(turn, 2 * i).photo);
+        }
+        const Result<Backdrop> found = find_backdrop(survey_of(photos), {}, "x");
+        ASSERT_TRUE(found.ok()) << found.error().message;
+        EXPECT_EQ(found->kind, kind);
+        EXPECT_EQ(found->colour, colour);
+        EXPECT_FALSE(found->plate.empty());
+    }
+}
+
+TEST(Backdrop, SaysSoWhereNoColourIsStill) {
+    std::vector<Image<Rgba8>> photos;
+    for (int i = 0; i < 6; ++i) {
+        test::DrawnTurn turn;
+        const auto code = static_cast<std::uint8_t>(60 + 25 * i);
+        turn.backdrop = {code, code, code, 255};
+        photos.push_back(test::draw_view(turn, 2 * i).photo);
+    }
+    for (const BackdropRequest& request : {BackdropRequest{}, BackdropRequest{BackdropKind::kColour, std::nullopt}}) {
+        const Result<Backdrop> found = find_backdrop(survey_of(photos), request, "folder");
+        ASSERT_FALSE(found.ok());
+        EXPECT_THAT(found.error().message, testing::HasSubstr("folder"));
+    }
 }
 
 TEST(Backdrop, PrefersThePicturesOwnAlpha) {

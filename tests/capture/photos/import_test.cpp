@@ -7,10 +7,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace rs::capture {
 namespace {
@@ -121,6 +126,96 @@ TEST_F(ImportTest, AViewWithoutTheObjectLeavesNothing) {
     ASSERT_FALSE(report.ok());
     EXPECT_THAT(report.error().message, HasSubstr("5.png"));
     EXPECT_TRUE(output_is_clean());
+}
+
+TEST_F(ImportTest, AViewThatIsAllObjectLeavesNothing) {
+    write(5, Image<Rgba8>(turn_.width, turn_.height, Rgba8{190, 60, 40, 255}));
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_FALSE(report.ok());
+    EXPECT_THAT(report.error().message, HasSubstr("5.png: the object fills the whole picture"));
+    EXPECT_TRUE(output_is_clean());
+}
+
+TEST_F(ImportTest, AViewWithItsOwnAlphaMayBeAllObject) {
+    for (int i = 1; i <= turn_.views; ++i) {
+        Image<Rgba8> picture(turn_.width, turn_.height, Rgba8{190, 60, static_cast<std::uint8_t>(20 * i), 255});
+        for (int y = 0; y < turn_.height && i != 5; ++y) picture(0, y).a = picture(1, y).a = 0;
+        write(i, picture);
+    }
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_EQ(report->max_coverage, 1);
+}
+
+// Counts the photographs that were done under each label.
+class Counts final : public Progress {
+public:
+    void start(const std::string& label, std::int64_t total) override {
+        done = 0;
+        last_label = label;
+        last_total = total;
+    }
+    void advance(std::int64_t steps) override { done += steps; }
+    void finish() override {}
+
+    std::string last_label;
+    std::int64_t last_total = 0;
+    std::atomic<std::int64_t> done = 0;
+};
+
+TEST_F(ImportTest, StopsAtTheFirstFailureOfEitherPass) {
+    tbb::task_arena one_thread(1);  // photographs are then taken in their order
+    write(1, Image<Rgba8>(turn_.width, turn_.height, turn_.backdrop));
+    Counts cutting;
+    ASSERT_FALSE(one_thread.execute([&] { return import_photos(options_, &cutting); }).ok());
+    EXPECT_EQ(cutting.last_label, "cutting the object out");
+    EXPECT_EQ(cutting.last_total, turn_.views);
+    EXPECT_EQ(cutting.done, 0);
+
+    std::filesystem::resize_file(photo(1), std::filesystem::file_size(photo(1)) / 2);
+    Counts looking;
+    ASSERT_FALSE(one_thread.execute([&] { return import_photos(options_, &looking); }).ok());
+    EXPECT_EQ(looking.last_label, "looking at the pictures");
+    EXPECT_EQ(looking.done, 0);
+}
+
+// Everything below `folder`.
+std::vector<std::string> names_below(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) names.push_back(entry.path());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+TEST_F(ImportTest, RefusesToReplaceItsOwnPhotographs) {
+    ASSERT_TRUE(import_photos(options_, nullptr).ok());
+    // The pictures of a set are photographs with alpha: without the check they would be replaced by themselves.
+    const std::filesystem::path set = options_.output;
+    const auto before = names_below(folder_.path());
+    std::filesystem::create_directory_symlink(set, folder_ / "link");
+    for (const auto& [photos, output] : {std::pair{set / "images", set},
+                                         {set / "images", set / "images" / ".." / ""},
+                                         {set / "images", folder_ / "link"},
+                                         {folder_ / "link" / "images", set},
+                                         {folder_ / "photos", folder_ / "photos"},
+                                         {folder_ / "photos" / "", folder_.path()}}) {
+        options_.photos = photos;
+        options_.output = output;
+        const Result<ImportReport> report = import_photos(options_, nullptr);
+        ASSERT_FALSE(report.ok()) << photos << " " << output;
+        EXPECT_THAT(report.error().message, HasSubstr(photos.string()));
+        EXPECT_THAT(report.error().message, HasSubstr(output.string() + ": "));
+        EXPECT_THAT(report.error().message, HasSubstr("the folder of photographs"));
+    }
+    std::filesystem::remove(folder_ / "link");
+    EXPECT_EQ(names_below(folder_.path()), before);
+}
+
+TEST_F(ImportTest, MayWriteBesideOrBelowThePhotographs) {
+    options_.output = folder_ / "photos-set";  // a longer name is not a folder inside
+    EXPECT_TRUE(import_photos(options_, nullptr).ok());
+    options_.output = options_.photos / "set";
+    EXPECT_TRUE(import_photos(options_, nullptr).ok());
 }
 
 TEST_F(ImportTest, RefusesAFolderThatIsNotASet) {

@@ -1,6 +1,7 @@
 #include "capture/photos/photo_folder.hpp"
 
 #include "rayspace/picture_io.hpp"
+#include "tests/support/oriented_jpeg.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -83,6 +84,16 @@ TEST(PhotoFolder, NamesTwoPicturesOfDifferentSize) {
     const Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_FALSE(found.ok());
     for (const char* part : {"3.png", "6x5", "1.png", "6x4"}) EXPECT_THAT(found.error().message, HasSubstr(part));
+}
+
+TEST(PhotoFolder, RefusesAPictureThatWantsToBeTurned) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"1.jpg", "2.jpg", "3.jpg"}) test::write_oriented_jpeg(folder / name, 1);
+    EXPECT_TRUE(open_photo_folder(folder.path()).ok());
+    test::write_oriented_jpeg(folder / "2.jpg", 6);
+    const Result<PhotoFolder> found = open_photo_folder(folder.path());
+    ASSERT_FALSE(found.ok());
+    for (const char* part : {"2.jpg", "orientation 6", "exiftran"}) EXPECT_THAT(found.error().message, HasSubstr(part));
 }
 
 TEST(PhotoFolder, NamesAPictureThatIsNone) {
