@@ -11,12 +11,18 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -30,7 +36,7 @@ struct Options {
     std::filesystem::path output;
     std::filesystem::path poses;
     std::optional<int> views;
-    std::optional<std::string> size;
+    std::optional<PixelSize> size;
     std::optional<int> samples_per_pixel;
     std::optional<double> elevation_deg;
     double first_angle_deg = 0;
@@ -66,6 +72,33 @@ Status print_objects(bool as_json) {
     return {};
 }
 
+// CLI11's own reader takes "-1" for the largest number and "010" for 8.
+Result<std::uint64_t> parse_seed(const std::string& text) {
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (error != std::errc{} || end != text.data() + text.size()) {
+        return Error{"'" + text + "' is not a seed; write a whole number from 0 to 18446744073709551615"};
+    }
+    return seed;
+}
+
+// A number in the range; CLI::Range alone lets NaN pass.
+CLI::Validator within(double low, double high) {
+    const CLI::Validator is_number(
+        [](const std::string& text) {
+            return std::isnan(std::strtod(text.c_str(), nullptr)) ? "'" + text + "' is no number" : std::string();
+        },
+        "");
+    return CLI::Range(low, high) & is_number;
+}
+
+// The value, or wrong usage of `option`.
+template <class T>
+T parsed(const std::string& option, const Result<T>& value) {
+    if (!value) throw CLI::ValidationError(option, value.error().message);
+    return *value;
+}
+
 Status check_usage(const Options& options) {
     if (options.scene.empty()) return Error{"no SCENE; give a mesh or a recipe, or --list"};
     if (options.output.empty()) return Error{"no output; give -o SET"};
@@ -75,6 +108,32 @@ Status check_usage(const Options& options) {
         return Error{
             "--poses: the file says where the cameras are; leave out --views, --size, --elevation, --first-angle, "
             "--distance and --focal-widths"};
+    }
+    return {};
+}
+
+// Where `path` is once links are followed, and where its name is, which differs where it is a link itself.
+std::vector<std::filesystem::path> places_of(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const std::filesystem::path plain = path.has_filename() ? path : path.parent_path();  // "set/" is "set"
+    const std::filesystem::path folder = plain.has_parent_path() ? plain.parent_path() : std::filesystem::path(".");
+    return {std::filesystem::weakly_canonical(plain, ignored),
+            std::filesystem::weakly_canonical(folder, ignored) / plain.filename()};
+}
+
+bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+// A set's folder is replaced whole, with whatever stands in it.
+Status check_output_keeps(const std::filesystem::path& output, const std::filesystem::path& input) {
+    if (input.empty()) return {};
+    for (const std::filesystem::path& folder : places_of(output)) {
+        for (const std::filesystem::path& place : places_of(input)) {
+            if (!is_within(place, folder)) continue;
+            return Error{output.string() + ": writing the set would replace this folder and " + input.string() +
+                         " with it; give another -o"};
+        }
     }
     return {};
 }
@@ -94,12 +153,7 @@ Result<Rig> choose_rig(const Options& options, const SceneFile& file) {
         }
         return rig;
     }
-    PixelSize size{file.camera.width, file.camera.height};
-    if (options.size) {
-        const Result<PixelSize> parsed = parse_size(*options.size);
-        if (!parsed) return Error{"--size: " + parsed.error().message};
-        size = *parsed;
-    }
+    const PixelSize size = options.size.value_or(PixelSize{file.camera.width, file.camera.height});
     RingOptions ring;
     ring.count = options.views.value_or(file.camera.views);
     ring.distance = options.distance_radii.value_or(file.camera.distance_radii);
@@ -112,26 +166,27 @@ Result<Rig> choose_rig(const Options& options, const SceneFile& file) {
     return make_ring(ring);
 }
 
-void print_summary(const Options& options, const SceneFile& file, const Rig& rig, const CaptureSetSummary& summary,
-                   int samples_per_pixel, double total_s) {
+void print_summary(const Options& options, const std::string& scene_name, const Rig& rig,
+                   const CaptureSetSummary& summary, int samples_per_pixel, double total_s) {
     const Camera& camera = rig.views.front().camera;
     if (options.json) {
         const nlohmann::json report = {{"set", options.output.string()},
-                                       {"scene", file.scene.name},
+                                       {"scene", scene_name},
                                        {"views", summary.views},
                                        {"width", camera.width},
                                        {"height", camera.height},
                                        {"spp", samples_per_pixel},
-                                       {"object_radius", file.object_radius},
+                                       {"object_radius", rig.object_radius},
                                        {"mean_coverage", summary.mean_coverage},
                                        {"clipped_views", summary.clipped_views},
                                        {"render_s", summary.render_s},
                                        {"total_s", total_s}};
-        std::printf("%s\n", report.dump().c_str());
+        // Paths need not be UTF-8, JSON must.
+        std::printf("%s\n", report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
         return;
     }
     std::printf("%s: %d views of %s, %dx%d, %d samples per pixel, %.0f %% covered, %.1f s\n", options.output.c_str(),
-                summary.views, file.scene.name.c_str(), camera.width, camera.height, samples_per_pixel,
+                summary.views, scene_name.c_str(), camera.width, camera.height, samples_per_pixel,
                 100.0 * summary.mean_coverage, total_s);
 }
 
@@ -140,6 +195,9 @@ Status synthesise(const Options& options) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begun = Clock::now();
 
+    for (const std::filesystem::path& input : {options.scene, options.poses}) {
+        if (Status kept = check_output_keeps(options.output, input); !kept) return kept;
+    }
     Result<SceneFile> file = load_scene_file(options.scene, synthetic::generate);
     if (!file) return file.error();
     Result<Rig> rig = choose_rig(options, *file);
@@ -153,7 +211,8 @@ Status synthesise(const Options& options) {
     set.render.threads = options.threads;
     set.format = options.format == "exr" ? PictureFormat::exr : PictureFormat::png;
 
-    const Result<Tracer> tracer = Tracer::create(file->scene);
+    const std::string scene_name = file->scene.name;
+    const Result<Tracer> tracer = Tracer::create(std::move(file->scene));
     if (!tracer) return tracer.error();
     ProgressBar progress(options.quiet);
     const Result<CaptureSetSummary> summary = write_capture_set(*tracer, *rig, set, options.output, &progress);
@@ -166,7 +225,7 @@ Status synthesise(const Options& options) {
             "a smaller --focal-widths\n",
             summary->clipped_views, summary->views);
     }
-    print_summary(options, *file, *rig, *summary, set.render.samples_per_pixel,
+    print_summary(options, scene_name, *rig, *summary, set.render.samples_per_pixel,
                   std::chrono::duration<double>(Clock::now() - begun).count());
     return {};
 }
@@ -182,25 +241,32 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     synth->add_option("--views", options->views, "Cameras on the ring (recipe, or 90)")
         ->check(CLI::Range(1, kMaxViews))
         ->type_name("N");
-    synth->add_option("--size", options->size, "Picture size in pixels (recipe, or 512x512)")->type_name("WxH");
+    synth
+        ->add_option_function<std::string>(
+            "--size", [options](const std::string& text) { options->size = parsed("--size", parse_size(text)); },
+            "Picture size in pixels (recipe, or 512x512)")
+        ->type_name("WxH");
     synth->add_option("--spp", options->samples_per_pixel, "Samples per pixel; best a power of two (recipe, or 64)")
         ->check(CLI::Range(1, 65536))
         ->type_name("N");
     synth->add_option("--poses", options->poses, "Cameras of this transforms.json instead of a ring")
         ->type_name("FILE");
     synth->add_option("--elevation", options->elevation_deg, "Cameras' height above the horizon (recipe, or 0)")
-        ->check(CLI::Range(-89.0, 89.0))
+        ->check(within(-89.0, 89.0))
         ->type_name("DEG");
     synth->add_option("--first-angle", options->first_angle_deg, "Turns the whole ring")
-        ->check(CLI::Range(-360.0, 360.0))
+        ->check(within(-360.0, 360.0))
         ->type_name("DEG");
-    synth->add_option("--seed", options->seed, "Seed of the pictures' noise; the object keeps the recipe's")
+    synth
+        ->add_option_function<std::string>(
+            "--seed", [options](const std::string& text) { options->seed = parsed("--seed", parse_seed(text)); },
+            "Seed of the pictures' noise; the object keeps the recipe's")
         ->type_name("N");
     synth->add_option("--distance", options->distance_radii, "Distance to the axis in bounding radii (recipe, or 3.5)")
-        ->check(CLI::Range(1.001, 1000.0))
+        ->check(within(1.001, 1000.0))
         ->type_name("R");
     synth->add_option("--focal-widths", options->focal_widths, "Focal length in picture widths (recipe, or 1.4)")
-        ->check(CLI::Range(0.1, 100.0))
+        ->check(within(0.1, 100.0))
         ->type_name("F");
     synth->add_option("--format", options->format, "png: 8-bit sRGB; exr: linear float")
         ->check(CLI::IsMember({"png", "exr"}))

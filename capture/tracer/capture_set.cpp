@@ -41,7 +41,7 @@ bool touches_edge(ConstImageView<RgbaF> picture) {
 Result<CaptureSetSummary> write_capture_set(const Tracer& tracer, Rig rig, const CaptureSetOptions& options,
                                             const std::filesystem::path& folder, Progress* progress) {
     using Clock = std::chrono::steady_clock;
-    Result<StagedFolder> staged = StagedFolder::create(folder, kRigFileName);
+    Result<StagedFolder> staged = StagedFolder::create(folder);
     if (!staged) return staged.error();
     if (progress != nullptr) {
         std::int64_t steps = 0;
@@ -69,6 +69,9 @@ Result<CaptureSetSummary> write_capture_set(const Tracer& tracer, Rig rig, const
             written = write_exr_channel(where / view.depth_file_path, rendering.depth.view());
         }
         if (!written) return written.error();
+    }
+    if (!(summary.mean_coverage > 0.0)) {
+        return Error{folder.string() + ": no view shows the object; check the poses or the mesh"};
     }
     if (Status written = write_rig(staged->temporary_path() / kRigFileName, rig); !written) return written.error();
     if (Status committed = staged->commit(); !committed) return committed.error();

@@ -25,8 +25,8 @@ struct CaptureSetSummary {
 };
 
 // Cameras and top-level keys come from `rig`; file names become 000.png, 001.png, ... (or .exr). The folder appears
-// when all is written; an existing one is replaced only if it is a capture set (file_output.hpp). `progress` counts all
-// views.
+// when all is written; an existing one is replaced only if it is a capture set (file_output.hpp). A set in
+// which no view shows anything is an error. `progress` counts all views.
 Result<CaptureSetSummary> write_capture_set(const Tracer& tracer, Rig rig, const CaptureSetOptions& options,
                                             const std::filesystem::path& folder, Progress* progress = nullptr);
 

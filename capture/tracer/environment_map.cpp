@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace rs::capture {
 
@@ -40,11 +41,11 @@ CdfSample sample_cdf(std::span<const float> cdf, float u) {
 
 }  // namespace
 
-EnvironmentMap::EnvironmentMap(const Environment& environment) : turn_rad_(environment.turn_rad) {
+EnvironmentMap::EnvironmentMap(Environment environment) : turn_rad_(environment.turn_rad) {
     const int width = environment.pixels.width();
     const int height = environment.pixels.height();
     if (environment.pixels.empty() || environment.scale <= 0.0F) return;
-    pixels_ = environment.pixels;
+    pixels_ = std::move(environment.pixels);
     for (RgbaF& p : pixels_.pixels())
         p = {p.r * environment.scale, p.g * environment.scale, p.b * environment.scale, 1};
 

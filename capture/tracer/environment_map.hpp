@@ -12,8 +12,8 @@ namespace rs::capture {
 
 class EnvironmentMap {
 public:
-    // Copies what it needs. Pixel values must be finite and not negative.
-    explicit EnvironmentMap(const Environment& environment);
+    // Pixel values must be finite and not negative.
+    explicit EnvironmentMap(Environment environment);
 
     // No light at all: radiance() is 0 everywhere and sample() must not be called.
     [[nodiscard]] bool is_black() const { return row_cdf_.empty(); }

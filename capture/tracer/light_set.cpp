@@ -1,10 +1,12 @@
 #include "capture/tracer/light_set.hpp"
 
 #include "capture/tracer/directions.hpp"
+#include "capture/tracer/texture_lookup.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace rs::capture {
 
@@ -12,9 +14,16 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+// By the mean of the texture, so that a mostly dark one draws few samples. Bilinear look-ups are 0 where the mean is.
+float brightness_of(const Material& material, const std::vector<Texture>& textures) {
+    if (material.emission_texture < 0) return luminance(material.emission);
+    return luminance(material.emission * mean_colour(textures[static_cast<std::size_t>(material.emission_texture)]));
+}
+
 }  // namespace
 
-LightSet::LightSet(const Scene& scene, const glm::vec3& centre, float radius) : environment_(scene.environment) {
+LightSet::LightSet(const Scene& scene, Environment environment, const glm::vec3& centre, float radius)
+    : scene_(scene), environment_(std::move(environment)) {
     const float floor_distance2 = std::max(radius * radius, 1e-12F);
     const auto distance2 = [&](const glm::vec3& p) {
         return std::max(glm::dot(p - centre, p - centre), floor_distance2);
@@ -41,7 +50,7 @@ LightSet::LightSet(const Scene& scene, const glm::vec3& centre, float radius) : 
         rectangles_.push_back({light, cross / area, area});
         add(SourceKind::rectangle, rectangles_.size() - 1, luminance(light.radiance) * area / distance2(middle));
     }
-    gather_emitters(scene);
+    gather_emitters();
     add(SourceKind::emitters, 0, static_cast<float>(emitter_power_) / floor_distance2);
 
     float total = 0.0F;
@@ -55,20 +64,21 @@ LightSet::LightSet(const Scene& scene, const glm::vec3& centre, float radius) : 
     }
 }
 
-void LightSet::gather_emitters(const Scene& scene) {
-    for (const Mesh& mesh : scene.meshes) {
-        const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
-        const float brightness = luminance(material.emission);
+void LightSet::gather_emitters() {
+    for (const Material& material : scene_.materials) {
+        brightness_.push_back(brightness_of(material, scene_.textures));
+    }
+    for (const Mesh& mesh : scene_.meshes) {
+        const float brightness = brightness_[static_cast<std::size_t>(mesh.material)];
         if (!(brightness > 0.0F)) continue;
-        for (const glm::uvec3& t : mesh.triangles) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            const glm::uvec3& t = mesh.triangles[i];
             const glm::vec3 corner = mesh.positions[t.x];
-            const glm::vec3 edge_u = mesh.positions[t.y] - corner;
-            const glm::vec3 edge_v = mesh.positions[t.z] - corner;
-            const float area = 0.5F * glm::length(glm::cross(edge_u, edge_v));
+            const float area =
+                0.5F * glm::length(glm::cross(mesh.positions[t.y] - corner, mesh.positions[t.z] - corner));
             if (!(area > 0.0F)) continue;
             emitter_power_ += static_cast<double>(area * brightness);
-            emitters_.push_back(
-                {corner, edge_u, edge_v, material.emission, material.two_sided, static_cast<float>(emitter_power_)});
+            emitters_.push_back({&mesh, i, static_cast<float>(emitter_power_)});
         }
     }
     for (Emitter& emitter : emitters_) emitter.cumulative /= static_cast<float>(emitter_power_);
@@ -126,23 +136,42 @@ std::optional<LightSample> LightSet::sample_emitter(const glm::vec3& position, f
                                                     const glm::vec2& u) const {
     const auto found = std::ranges::upper_bound(emitters_, u_emitter, {}, &Emitter::cumulative);
     const Emitter& emitter = found == emitters_.end() ? emitters_.back() : *found;
+    const Mesh& mesh = *emitter.mesh;
+    const Material& material = scene_.materials[static_cast<std::size_t>(mesh.material)];
+    const glm::uvec3& t = mesh.triangles[emitter.triangle];
+    const glm::vec3 corner = mesh.positions[t.x];
+    const glm::vec3 edge_u = mesh.positions[t.y] - corner;
+    const glm::vec3 edge_v = mesh.positions[t.z] - corner;
     const float root = std::sqrt(u.x);  // even over the triangle
-    const glm::vec3 point = emitter.corner + emitter.edge_u * (root * (1.0F - u.y)) + emitter.edge_v * (root * u.y);
-    const glm::vec3 to_light = point - position;
+    const float along_u = root * (1.0F - u.y);
+    const float along_v = root * u.y;
+    const glm::vec3 to_light = corner + edge_u * along_u + edge_v * along_v - position;
     const float distance2 = glm::dot(to_light, to_light);
     if (!(distance2 > 0.0F)) return std::nullopt;
     const float distance = std::sqrt(distance2);
     const glm::vec3 direction = to_light / distance;
-    float cos_light = -glm::dot(direction, glm::normalize(glm::cross(emitter.edge_u, emitter.edge_v)));
-    if (emitter.two_sided) cos_light = std::abs(cos_light);
+    float cos_light = -glm::dot(direction, glm::normalize(glm::cross(edge_u, edge_v)));
+    if (material.two_sided) cos_light = std::abs(cos_light);
     if (cos_light <= 1e-6F) return std::nullopt;
-    return LightSample{direction, distance, emitter.emission, emitter_pdf(emitter.emission, distance, cos_light),
-                       false};
+    const glm::vec2 uv = interpolate_uv(mesh, emitter.triangle, along_u, along_v);
+    if (material.texture >= 0 && !mesh.uvs.empty() &&
+        sample_texture_alpha(scene_.textures[static_cast<std::size_t>(material.texture)], uv) < kHoleAlpha) {
+        return std::nullopt;
+    }
+    return LightSample{direction, distance, emission(mesh.material, uv),
+                       emitter_pdf(mesh.material, distance, cos_light), false};
 }
 
-float LightSet::emitter_pdf(const glm::vec3& emission, float distance, float cos_light) const {
-    // An emitter is drawn by area times luminance, so the density per area is luminance over the sum of them.
-    const float per_area = luminance(emission) / static_cast<float>(emitter_power_);
+glm::vec3 LightSet::emission(int material, const glm::vec2& uv) const {
+    const Material& of = scene_.materials[static_cast<std::size_t>(material)];
+    if (of.emission_texture < 0) return of.emission;
+    const RgbaF texel = sample_texture(scene_.textures[static_cast<std::size_t>(of.emission_texture)], uv);
+    return of.emission * glm::vec3(texel.r, texel.g, texel.b);
+}
+
+float LightSet::emitter_pdf(int material, float distance, float cos_light) const {
+    // An emitter is drawn by area times brightness, so the density per area is brightness over the sum of them.
+    const float per_area = brightness_[static_cast<std::size_t>(material)] / static_cast<float>(emitter_power_);
     return emitter_probability_ * per_area * distance * distance / cos_light;
 }
 

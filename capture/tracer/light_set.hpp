@@ -24,8 +24,9 @@ struct LightSample {
 
 class LightSet {
 public:
-    // `centre` and `radius` bound the meshes. The scene is read only here.
-    LightSet(const Scene& scene, const glm::vec3& centre, float radius);
+    // `environment` takes the place of the scene's own. `centre` and `radius` bound the meshes. Refers to `scene`,
+    // which must stay where it is and unchanged.
+    LightSet(const Scene& scene, Environment environment, const glm::vec3& centre, float radius);
 
     [[nodiscard]] bool empty() const { return sources_.empty(); }
 
@@ -39,8 +40,10 @@ public:
         return environment_probability_ > 0.0F ? environment_probability_ * environment_.pdf(direction) : 0.0F;
     }
 
+    // Radiance of a point of material `material`, by its emission and the texture on it.
+    [[nodiscard]] glm::vec3 emission(int material, const glm::vec2& uv) const;
     // Density with which sample() gives a point of an emissive triangle that is seen at `distance` under `cos_light`.
-    [[nodiscard]] float emitter_pdf(const glm::vec3& emission, float distance, float cos_light) const;
+    [[nodiscard]] float emitter_pdf(int material, float distance, float cos_light) const;
 
     // Rectangle lights are not part of the ray-tracing scene; a path adds those its segments cross.
     struct Crossing {
@@ -65,25 +68,26 @@ private:
         float probability = 0.0F;
     };
     struct Emitter {
-        glm::vec3 corner, edge_u, edge_v;
-        glm::vec3 emission;
-        bool two_sided;
+        const Mesh* mesh;
+        std::size_t triangle;
         float cumulative;  // share of the power of this and all emitters before it
     };
 
-    void gather_emitters(const Scene& scene);
+    void gather_emitters();
     [[nodiscard]] std::optional<LightSample> sample_environment(float probability, const glm::vec2& u) const;
     [[nodiscard]] std::optional<LightSample> sample_rectangle(const Rectangle& rectangle, const glm::vec3& position,
                                                               const glm::vec2& u) const;
     [[nodiscard]] std::optional<LightSample> sample_emitter(const glm::vec3& position, float u_emitter,
                                                             const glm::vec2& u) const;
 
+    const Scene& scene_;
     EnvironmentMap environment_;
     std::vector<DirectionalLight> directional_;
     std::vector<PointLight> points_;
     std::vector<Rectangle> rectangles_;
     std::vector<Emitter> emitters_;
-    double emitter_power_ = 0;  // sum of area * luminance
+    std::vector<float> brightness_;  // of each material: luminance of its emission, mean over the texture
+    double emitter_power_ = 0;       // sum of area * brightness
     float environment_probability_ = 0.0F;
     float emitter_probability_ = 0.0F;
     std::vector<Source> sources_;

@@ -1,7 +1,7 @@
 #include "capture/tracer/mesh_file.hpp"
 
 #include "capture/tracer/mesh_material.hpp"
-#include "capture/tracer/ply_check.hpp"
+#include "capture/tracer/plain_ply.hpp"
 #include "rayspace/picture_io.hpp"
 
 #include <assimp/config.h>
@@ -14,6 +14,7 @@
 #include <cmath>
 #include <exception>
 #include <string>
+#include <utility>
 
 namespace rs::capture {
 
@@ -104,11 +105,14 @@ bool is_mesh_file(const std::filesystem::path& path) {
     return extension == ".obj" || extension == ".ply" || extension == ".gltf" || extension == ".glb";
 }
 
+Error missing_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by) {
+    return Error{asked_by.string() + ": asks for the texture " + path.string() + ", which is not there; put it there"};
+}
+
 Result<Texture> read_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) {
-        return Error{asked_by.string() + ": asks for the texture " + path.string() +
-                     ", which is not there; put it there"};
+        return missing_texture(path, asked_by);
     }
     Result<Image<RgbaF>> pixels = read_picture_linear(path);
     if (!pixels) return pixels.error();
@@ -121,14 +125,19 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored))
         return Error{path.string() + ": there is no such file; check the path"};
+    std::string plain_ply;
     if (lower_case_extension(path) == ".ply") {
-        if (Status complete = check_ply_file(path); !complete) return complete.error();
+        Result<std::string> plain = read_plain_ply(path);
+        if (!plain) return plain.error();
+        plain_ply = std::move(plain).value();
     }
     try {
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseAngle_deg);
-        const aiScene* source = importer.ReadFile(path.string(), 0);
+        const aiScene* source = plain_ply.empty()
+                                    ? importer.ReadFile(path.string(), 0)
+                                    : importer.ReadFileFromMemory(plain_ply.data(), plain_ply.size(), 0, "ply");
         if (source != nullptr) {
             // Before post-processing, which merges vertices that are not a number with their neighbours.
             if (Status finite = check_finite(*source, path.string()); !finite) return finite.error();

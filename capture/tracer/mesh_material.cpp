@@ -1,22 +1,20 @@
 #include "capture/tracer/mesh_material.hpp"
 
-#include "capture/tracer/mesh_file.hpp"
-#include "rayspace/file_output.hpp"
+#include "capture/tracer/mesh_texture.hpp"
+#include "capture/tracer/texture_lookup.hpp"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/ObjMaterial.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <map>
+#include <initializer_list>
+#include <limits>
 #include <optional>
-#include <random>
-#include <span>
 #include <string>
+#include <utility>
 
 namespace rs::capture {
 
@@ -48,21 +46,63 @@ bool is_gltf(const std::filesystem::path& file) {
     return extension.size() >= 2 && (extension[1] == 'g' || extension[1] == 'G');
 }
 
-void convert_gltf(const aiMaterial& source, Material& material) {
+std::optional<std::string> texture_name(const aiMaterial& material, std::initializer_list<aiTextureType> types) {
+    aiString name;
+    for (const aiTextureType type : types) {
+        if (material.GetTextureCount(type) > 0 && material.GetTexture(type, 0, &name) == AI_SUCCESS &&
+            name.length > 0) {
+            return std::string(name.C_Str());
+        }
+    }
+    return std::nullopt;
+}
+
+// Which alpha of the base colour's texture is a hole (glTF 2.0, 3.9.4). Blended surfaces are cut at one half.
+float hole_alpha_of(const aiMaterial& source) {
+    const std::string mode = property<aiString>(source, AI_MATKEY_GLTF_ALPHAMODE).value_or(aiString("OPAQUE")).C_Str();
+    if (mode == "BLEND") return kHoleAlpha;
+    if (mode != "MASK") return 0.0F;
+    const float cutoff = property<float>(source, AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5F);
+    const float factor = property<aiColor4D>(source, AI_MATKEY_BASE_COLOR).value_or(aiColor4D(1.0F)).a;
+    if (cutoff <= 0.0F) return 0.0F;
+    return factor > 0.0F ? cutoff / factor : std::numeric_limits<float>::infinity();
+}
+
+Status convert_gltf(const aiMaterial& source, MeshTextures& textures, Material& material) {
     if (const auto base = property<aiColor4D>(source, AI_MATKEY_BASE_COLOR))
         material.colour = as_reflectance(to_vec(*base));
-    const float metallic = property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1.0F);
-    material.roughness = std::clamp(property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1.0F), 0.0F, 1.0F);
+    float metallic = property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1.0F);
+    float roughness = property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1.0F);
+    // Assimp's place for the texture of both.
+    if (const auto name = texture_name(source, {aiTextureType_UNKNOWN})) {
+        const Result<glm::vec3> mean = textures.mean_numbers(*name);
+        if (!mean) return mean.error();
+        roughness *= mean->g;
+        metallic *= mean->b;
+    }
+    material.roughness = std::clamp(roughness, 0.0F, 1.0F);
     const float transmission = property<float>(source, AI_MATKEY_TRANSMISSION_FACTOR).value_or(0.0F);
     material.ior = std::clamp(property<float>(source, AI_MATKEY_REFRACTI).value_or(1.5F), 1.0F, 10.0F);
     material.kind = transmission >= 0.5F ? SurfaceKind::glass
                     : metallic >= 0.5F   ? SurfaceKind::metal
                                          : SurfaceKind::glossy;
     material.emission = glm::max(colour_property(source, AI_MATKEY_COLOR_EMISSIVE), glm::vec3(0.0F));
+    const auto glow = texture_name(source, {aiTextureType_EMISSIVE});
+    if (glow && material.emission != glm::vec3(0.0F)) {
+        const Result<int> texture = textures.colours(*glow, 0.0F);
+        if (!texture) return texture.error();
+        material.emission_texture = *texture;
+    }
+    if (const auto name = texture_name(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE})) {
+        const Result<int> texture = textures.colours(*name, hole_alpha_of(source));
+        if (!texture) return texture.error();
+        material.texture = *texture;
+    }
+    return {};
 }
 
 // MTL's illumination models: 3, 5 mirror reflection; 4, 6, 7, 9 transparency (MTL specification, "illum").
-void convert_mtl(const aiMaterial& source, Material& material) {
+Status convert_mtl(const aiMaterial& source, MeshTextures& textures, Material& material) {
     const glm::vec3 diffuse =
         as_reflectance(to_vec(property<aiColor3D>(source, AI_MATKEY_COLOR_DIFFUSE).value_or(aiColor3D(0.8F))));
     const glm::vec3 specular = as_reflectance(colour_property(source, AI_MATKEY_COLOR_SPECULAR));
@@ -89,91 +129,27 @@ void convert_mtl(const aiMaterial& source, Material& material) {
         material.kind = SurfaceKind::glossy;
         material.roughness = std::sqrt(std::sqrt(2.0F / (exponent + 2.0F)));
     }
-}
-
-// Pictures that stand inside of a GLB go through a file of their own, for readers take paths.
-Result<Texture> read_embedded(const aiTexture& source, const std::string& name, const std::filesystem::path& file) {
-    if (source.mHeight != 0) {
-        return Error{file.string() + ": texture \"" + name + "\" is stored as raw pixels; store it as PNG or JPEG"};
+    if (const auto name = texture_name(source, {aiTextureType_DIFFUSE})) {
+        const Result<int> texture = textures.colours(*name, kHoleAlpha);
+        if (!texture) return texture.error();
+        material.texture = *texture;
+        // MTL files of many exporters say Kd 0 beside a texture, which would blacken it.
+        if (material.colour == glm::vec3(0.0F)) material.colour = glm::vec3(1.0F);
     }
-    const std::string hint = source.achFormatHint;
-    const std::filesystem::path temporary =
-        std::filesystem::temp_directory_path() /
-        ("rayspace-texture-" + std::to_string(::getpid()) + "-" + std::to_string(std::random_device{}()) +
-         (hint == "jpg" || hint == "jpeg" ? ".jpg" : ".png"));
-    Result<StagedFile> staged = StagedFile::create(temporary);
-    if (!staged) return staged.error();
-    const auto bytes = std::as_bytes(std::span(reinterpret_cast<const unsigned char*>(source.pcData), source.mWidth));
-    if (Status written = staged->write(bytes); !written) return written.error();
-    if (Status committed = staged->commit(); !committed) return committed.error();
-    Result<Texture> texture = read_texture(temporary, file);
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    if (!texture)
-        return Error{file.string() + ": its embedded texture \"" + name + "\" cannot be read; store it as PNG or JPEG"};
-    texture->name = name;
-    return texture;
-}
-
-// "%20" and the like, which glTF's URIs have in the place of special characters.
-std::string decode_uri(const std::string& uri) {
-    std::string decoded;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool escaped = uri[i] == '%' && i + 2 < uri.size() &&
-                             std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
-                             std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
-        decoded += escaped ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
-        if (escaped) i += 2;
-    }
-    return decoded;
-}
-
-Result<Texture> load_texture(const aiScene& source, const std::string& name, const std::filesystem::path& file) {
-    if (const aiTexture* embedded = source.GetEmbeddedTexture(name.c_str()))
-        return read_embedded(*embedded, name, file);
-    std::string relative = name;
-    std::ranges::replace(relative, '\\', '/');
-    const std::filesystem::path as_written = file.parent_path() / relative;
-    std::error_code ignored;
-    const bool exists = std::filesystem::exists(as_written, ignored);
-    return read_texture(exists ? as_written : file.parent_path() / decode_uri(relative), file);
-}
-
-std::optional<std::string> texture_name(const aiMaterial& material) {
-    aiString name;
-    for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
-        if (material.GetTextureCount(type) > 0 && material.GetTexture(type, 0, &name) == AI_SUCCESS &&
-            name.length > 0) {
-            return std::string(name.C_Str());
-        }
-    }
-    return std::nullopt;
+    return {};
 }
 
 }  // namespace
 
 Status convert_materials(const aiScene& source, const std::filesystem::path& file, Scene& scene) {
-    std::map<std::string, int> loaded;
+    MeshTextures textures(source, file, scene.textures);
     for (unsigned i = 0; i < source.mNumMaterials; ++i) {
         const aiMaterial& from = *source.mMaterials[i];
         Material material;
         material.name = property<aiString>(from, AI_MATKEY_NAME).value_or(aiString("material")).C_Str();
-        if (is_gltf(file)) {
-            convert_gltf(from, material);
-        } else {
-            convert_mtl(from, material);
-        }
-        if (const auto name = texture_name(from)) {
-            if (!loaded.contains(*name)) {
-                Result<Texture> texture = load_texture(source, *name, file);
-                if (!texture) return texture.error();
-                loaded[*name] = static_cast<int>(scene.textures.size());
-                scene.textures.push_back(std::move(texture).value());
-            }
-            material.texture = loaded[*name];
-            // MTL files of many exporters say Kd 0 beside a texture, which would blacken it.
-            if (!is_gltf(file) && material.colour == glm::vec3(0.0F)) material.colour = glm::vec3(1.0F);
-        }
+        const Status converted =
+            is_gltf(file) ? convert_gltf(from, textures, material) : convert_mtl(from, textures, material);
+        if (!converted) return converted.error();
         scene.materials.push_back(std::move(material));
     }
     return {};

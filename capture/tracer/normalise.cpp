@@ -8,6 +8,8 @@ namespace rs::capture {
 
 namespace {
 
+constexpr double kLeastWidth = 1e-6;  // per radius
+
 template <class Visit>
 void for_each_used_vertex(const Scene& scene, Visit visit) {
     for (const Mesh& mesh : scene.meshes) {
@@ -28,9 +30,16 @@ Result<double> normalise_meshes(Scene& scene, ObjectCentre which) {
     });
     const glm::dvec3 centre = which == ObjectCentre::bounding_box ? 0.5 * (lower + upper) : glm::dvec3(0);
     double radius = 0;
-    for_each_used_vertex(scene, [&](const glm::dvec3& p) { radius = std::max(radius, glm::length(p - centre)); });
+    double width = 0;  // from the Y axis
+    for_each_used_vertex(scene, [&](const glm::dvec3& p) {
+        radius = std::max(radius, glm::length(p - centre));
+        width = std::max(width, std::hypot(p.x - centre.x, p.z - centre.z));
+    });
     if (!(radius > 0.0) || !std::isfinite(radius)) {
         return Error{scene.name + ": the meshes have no size; give it a mesh with triangles"};
+    }
+    if (!(width > kLeastWidth * radius)) {
+        return Error{scene.name + ": the meshes have no width: all their vertices stand on a vertical line; repair it"};
     }
     for (Mesh& mesh : scene.meshes) {
         for (glm::vec3& p : mesh.positions) p = glm::vec3((glm::dvec3(p) - centre) / radius);

@@ -14,7 +14,8 @@ enum class ObjectCentre {
 
 // Moves the meshes so that their centre is the origin and scales them so that the farthest vertex is at distance 1 from
 // it. Only vertices that triangles use count. Lights and environment stay as they are. Returns the object radius in the
-// new units: the largest distance of a vertex from the Y axis. Fails where no triangle has a size.
+// new units: the largest distance of a vertex from the Y axis. Fails where the triangles have no size,
+// or no width across the Y axis.
 Result<double> normalise_meshes(Scene& scene, ObjectCentre which = ObjectCentre::bounding_box);
 
 }  // namespace rs::capture

@@ -4,7 +4,9 @@
 #include "capture/tracer/texture_lookup.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace rs::capture {
@@ -28,6 +30,36 @@ glm::vec3 surface_colour(const Scene& scene, const Material& material, const glm
     return material.colour * glm::vec3(texel.r, texel.g, texel.b);
 }
 
+// The glass that a path is inside of, the innermost last. Glass may overlap: what is left is the last entry of its
+// kind.
+class MediumStack {
+public:
+    // What the path runs in now; null outside of all glass.
+    [[nodiscard]] const Material* innermost() const { return size_ > 0 ? media_[size_ - 1] : nullptr; }
+
+    // Where all places are taken, the outermost glass is forgotten.
+    void enter(const Material& glass) {
+        if (size_ == kMost) drop(0);
+        media_[size_++] = &glass;
+    }
+    // Leaving what was never entered (the camera stood inside, or the surface is open) changes nothing.
+    void leave(const Material& glass) {
+        for (std::size_t i = size_; i-- > 0;) {
+            if (media_[i] == &glass) return drop(i);
+        }
+    }
+
+private:
+    static constexpr std::size_t kMost = 4;
+
+    void drop(std::size_t index) {
+        for (--size_; index < size_; ++index) media_[index] = media_[index + 1];
+    }
+
+    std::array<const Material*, kMost> media_{};
+    std::size_t size_ = 0;
+};
+
 }  // namespace
 
 struct PathTracer::Shading {
@@ -50,13 +82,15 @@ bool PathTracer::trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, 
     radiance = glm::vec3(0.0F);
     glm::vec3 throughput(1.0F);
     Segment segment{origin, direction};
-    const Material* medium = nullptr;  // the glass that the segment runs in
+    MediumStack media;  // that the segment runs in
 
     for (int bounce = 0;; ++bounce) {
         SurfacePoint point;
         const bool hit = rays_.intersect(segment.origin, segment.direction, point);
         if (bounce == 0 && !hit) return false;
-        if (hit && medium != nullptr) throughput *= glm::pow(medium->colour, glm::vec3(point.distance));
+        if (const Material* medium = media.innermost(); hit && medium != nullptr) {
+            throughput *= glm::pow(medium->colour, glm::vec3(point.distance));
+        }
         if (bounce > 0) radiance += throughput * lights_on_the_way(segment, hit ? point.distance : kInfinity);
         if (!hit) return true;
 
@@ -81,8 +115,13 @@ bool PathTracer::trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, 
         if (!shading.surface.sample(choices.x, sampler.next_2d(), drawn)) return true;
         throughput *= drawn.weight;
         segment = segment_from(shading, drawn);
-        if (material.kind == SurfaceKind::glass && drawn.direction.z < 0.0F)
-            medium = point.front_side ? &material : nullptr;
+        if (material.kind == SurfaceKind::glass && drawn.direction.z < 0.0F) {
+            if (point.front_side) {
+                media.enter(material);
+            } else {
+                media.leave(material);
+            }
+        }
 
         if (bounce >= kRouletteFrom) {
             const float survival = std::min(1.0F, max_component(throughput));
@@ -108,10 +147,10 @@ glm::vec3 PathTracer::lights_on_the_way(const Segment& segment, float distance) 
 
 glm::vec3 PathTracer::emission_of(const Material& material, const SurfacePoint& point, const Segment& segment) const {
     if (max_component(material.emission) <= 0.0F || (!point.front_side && !material.two_sided)) return glm::vec3(0.0F);
-    if (segment.specular) return material.emission;
+    const glm::vec3 emission = lights_.emission(point.material, point.uv);
+    if (segment.specular || max_component(emission) <= 0.0F) return emission;
     const float cos_light = std::max(-glm::dot(point.geometric_normal, segment.direction), 1e-6F);
-    return material.emission *
-           mis_weight(segment.pdf, lights_.emitter_pdf(material.emission, point.distance, cos_light));
+    return emission * mis_weight(segment.pdf, lights_.emitter_pdf(point.material, point.distance, cos_light));
 }
 
 glm::vec3 PathTracer::light_sample(const Shading& shading, float u_source, const glm::vec2& u) const {

@@ -13,16 +13,6 @@
 
 namespace rs::capture {
 
-namespace {
-
-glm::vec2 interpolate_uv(const Mesh& mesh, unsigned primitive, float u, float v) {
-    if (mesh.uvs.empty()) return glm::vec2(0.0F);
-    const glm::uvec3 t = mesh.triangles[primitive];
-    return mesh.uvs[t.x] * (1.0F - u - v) + mesh.uvs[t.y] * u + mesh.uvs[t.z] * v;
-}
-
-}  // namespace
-
 // Embree calls this for each candidate hit of a geometry that has holes.
 struct CutoutFilter {
     static void reject_holes(const RTCFilterFunctionNArguments* arguments) {

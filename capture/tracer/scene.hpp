@@ -18,7 +18,9 @@ enum class SurfaceKind {
     glossy,   // a GGX dielectric coat (ior, roughness) over a Lambert base of `colour`
     metal,    // GGX conductor, reflectance at normal incidence `colour`, roughness
     mirror,   // perfectly smooth, reflectance `colour`
-    glass,    // smooth dielectric interface (ior); inside, light is absorbed to `colour` per unit length
+    // Smooth dielectric interface (ior); inside, light is absorbed to `colour` per unit length. Glass inside of glass
+    // absorbs by the innermost one (up to 4 deep), but each surface refracts as against air.
+    glass,
 };
 
 struct Material {
@@ -28,7 +30,8 @@ struct Material {
     int texture = -1;        // index into Scene::textures, -1 = none
     float roughness = 0.3F;  // GGX alpha = roughness^2; 0..1
     float ior = 1.5F;
-    glm::vec3 emission{0.0F};   // radiance, W/(m^2 sr) in arbitrary units
+    glm::vec3 emission{0.0F};   // radiance, W/(m^2 sr) in arbitrary units; multiplied by emission_texture
+    int emission_texture = -1;  // index into Scene::textures, -1 = none; its alpha counts nothing
     bool two_sided = true;      // thin surfaces (petals, leaves): shaded the same from both sides
     float translucency = 0.0F;  // diffuse only: share of the light that leaves on the other side (petals), 0..1
 };

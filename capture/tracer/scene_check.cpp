@@ -53,9 +53,10 @@ Problem check_mesh(const Mesh& mesh, std::size_t material_count) {
 
 Problem check_material(const Material& material, std::size_t texture_count) {
     const std::string name = "material \"" + material.name + "\": ";
-    if (material.texture < -1 ||
-        (material.texture >= 0 && static_cast<std::size_t>(material.texture) >= texture_count)) {
-        return name + "texture " + std::to_string(material.texture) + " does not exist";
+    for (const int texture : {material.texture, material.emission_texture}) {
+        if (texture < -1 || (texture >= 0 && static_cast<std::size_t>(texture) >= texture_count)) {
+            return name + "texture " + std::to_string(texture) + " does not exist";
+        }
     }
     if (!is_light(material.colour) || glm::any(glm::greaterThan(material.colour, glm::vec3(1.0F)))) {
         return name + "colour must be within 0..1";

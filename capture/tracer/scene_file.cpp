@@ -7,7 +7,6 @@
 #include "rayspace/file_output.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <utility>
 
 namespace rs::capture {
@@ -19,7 +18,10 @@ constexpr std::uint64_t kMaxRecipe_bytes = 16 << 20;
 bool is_lit(const Scene& scene) {
     return !scene.environment.pixels.empty() || !scene.directional_lights.empty() || !scene.point_lights.empty() ||
            !scene.rectangle_lights.empty() ||
-           std::ranges::any_of(scene.materials, [](const Material& m) { return m.emission != glm::vec3(0.0F); });
+           // Lights painted on the object (pilot lamps, screens) light no scene.
+           std::ranges::any_of(scene.materials, [](const Material& m) {
+               return m.emission != glm::vec3(0.0F) && m.emission_texture < 0;
+           });
 }
 
 // One texture for all materials of a mesh file.
@@ -112,17 +114,12 @@ Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path
 Result<SceneFile> load_recipe(const std::filesystem::path& path, const Generator& generator) {
     const auto bytes = read_file(path, kMaxRecipe_bytes);
     if (!bytes) return bytes.error();
-    nlohmann::json json;
-    try {
-        const auto* const text = reinterpret_cast<const char*>(bytes->data());
-        json = nlohmann::json::parse(text, text + bytes->size());
-    } catch (const nlohmann::json::exception& problem) {
-        return Error{path.string() + ": is not valid JSON: " + problem.what()};
-    }
+    RecipeErrors errors{path.string(), std::nullopt};
+    const auto json = parse_recipe({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, errors);
+    if (!json) return *errors.first;
 
     SceneFile file;
-    RecipeErrors errors{path.string(), std::nullopt};
-    RecipeReader reader(json, "", errors);
+    RecipeReader reader(*json, "", errors);
     std::string name = path.stem().string();
     reader.read("name", name);
     reader.read("seed", file.seed);

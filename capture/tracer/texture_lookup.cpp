@@ -48,6 +48,18 @@ float sample_texture_alpha(const Texture& texture, const glm::vec2& uv) {
     return pixels(std::min(x, pixels.width() - 1), std::min(y, pixels.height() - 1)).a;
 }
 
+glm::vec3 mean_colour(const Texture& texture) {
+    glm::dvec3 sum(0.0);
+    for (const RgbaF& p : texture.pixels.pixels()) sum += glm::dvec3(p.r, p.g, p.b);
+    return glm::vec3(sum / static_cast<double>(texture.pixels.pixels().size()));
+}
+
+glm::vec2 interpolate_uv(const Mesh& mesh, std::size_t triangle, float u, float v) {
+    if (mesh.uvs.empty()) return glm::vec2(0.0F);
+    const glm::uvec3& t = mesh.triangles[triangle];
+    return mesh.uvs[t.x] * (1.0F - u - v) + mesh.uvs[t.y] * u + mesh.uvs[t.z] * v;
+}
+
 bool has_holes(const Texture& texture) {
     return std::ranges::any_of(texture.pixels.pixels(), [](const RgbaF& p) { return p.a < kHoleAlpha; });
 }

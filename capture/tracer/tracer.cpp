@@ -15,6 +15,7 @@
 #include <bit>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace rs::capture {
@@ -69,7 +70,8 @@ std::uint64_t picture_key(std::uint64_t seed, const Camera& camera) {
 
 }  // namespace
 
-// `rays` and `lights` refer to `scene` or are made from it, so they come after it and the whole never moves.
+// `rays` and `lights` refer to `scene`, so they come after it and the whole never moves. The environment's pixels are
+// in `lights` only.
 struct Tracer::State {
     Scene scene;
     std::optional<RayScene> rays;
@@ -81,10 +83,6 @@ Tracer::Tracer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 Tracer::~Tracer() = default;
-
-const Scene& Tracer::scene() const {
-    return state_->scene;
-}
 
 std::int64_t Tracer::step_count(const Camera& camera) {
     return static_cast<std::int64_t>(tiles_along(camera.width)) * tiles_along(camera.height);
@@ -168,7 +166,8 @@ Result<Tracer> Tracer::create(Scene scene) {
     state->rays = std::move(rays).value();
     const glm::vec3 diagonal = state->rays->upper() - state->rays->lower();
     const float radius = state->rays->empty() ? 1.0F : 0.5F * glm::length(diagonal);
-    state->lights.emplace(state->scene, state->rays->lower() + 0.5F * diagonal, radius);
+    Environment environment = std::exchange(state->scene.environment, Environment{});
+    state->lights.emplace(state->scene, std::move(environment), state->rays->lower() + 0.5F * diagonal, radius);
     state->models = make_surface_models(state->scene.materials);
     return Tracer(std::move(state));
 }

@@ -44,8 +44,6 @@ public:
                                    Progress* progress = nullptr) const;
     [[nodiscard]] static std::int64_t step_count(const Camera& camera);
 
-    [[nodiscard]] const Scene& scene() const;
-
 private:
     struct State;
     explicit Tracer(std::unique_ptr<State> state);

@@ -117,6 +117,24 @@ TEST(CaptureSet, ReplacesOnlyCaptureSets) {
     EXPECT_TRUE(std::filesystem::exists(folder / "holiday" / "beach.txt"));
 }
 
+TEST(CaptureSet, IsRefusedWhereNoViewShowsAnything) {
+    const rs::test::TemporaryFolder folder;
+    const Result<Tracer> tracer = ball();
+    ASSERT_TRUE(tracer);
+    Rig rig = small_ring();
+    for (RigView& view : rig.views) {
+        for (int axis : {0, 2}) view.camera.world_from_camera[axis] *= -1.0;  // about-turn
+    }
+    const auto refused = write_capture_set(*tracer, rig, options_of(PictureFormat::png, false), folder / "set");
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("set: no view shows the object; check the poses or the mesh"),
+              std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder / "set"));
+    // One view is enough.
+    rig.views[1] = small_ring().views[1];
+    EXPECT_TRUE(write_capture_set(*tracer, rig, options_of(PictureFormat::png, false), folder / "set"));
+}
+
 TEST(CaptureSet, SaysWhenTheObjectIsCutOff) {
     const rs::test::TemporaryFolder folder;
     const Result<Tracer> tracer = ball();

@@ -119,6 +119,58 @@ TEST(Emitter, LightsLikeARectangleOfTheSameSize) {
     }
 }
 
+// A lamp of 1 by 1 at height 0.6 whose texture has its right half cut out, or painted black.
+Scene half_lamp_scene(const RgbaF& right_half, bool painted) {
+    Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
+    scene.textures.push_back({"half", Image<RgbaF>(2, 1, {1, 1, 1, 1})});
+    scene.textures[0].pixels(1, 0) = right_half;
+    Material lamp = material_of(SurfaceKind::diffuse, glm::vec3(0.0F));
+    lamp.emission = glm::vec3(2.0F);
+    lamp.two_sided = false;
+    (painted ? lamp.emission_texture : lamp.texture) = 0;
+    scene.materials.push_back(lamp);
+    scene.meshes.push_back(make_quad({-0.5F, 0.6F, -0.5F}, {1, 0, 0}, {0, 0, 1}));
+    scene.meshes.back().material = 1;
+    return scene;
+}
+
+double floor_radiance(Scene scene, int samples = 1024) {
+    // Below the lamp, for it hides the floor from above.
+    const Camera camera = look_at_camera({0, 0.4, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
+    return mean_radiance(render(std::move(scene), camera, direct_light(samples)).picture).g;
+}
+
+TEST(Emitter, DoesNotShineThroughItsHoles) {
+    Scene half = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
+    half.rectangle_lights.push_back({{-0.5F, 0.6F, -0.5F}, {0.5F, 0, 0}, {0, 0, 1}, glm::vec3(2.0F)});
+    const double expected = floor_radiance(std::move(half));
+    EXPECT_GT(expected, 0.1);
+    EXPECT_NEAR(floor_radiance(half_lamp_scene({1, 1, 1, 0}, false)), expected, 0.02 * expected);
+}
+
+TEST(Emitter, ShinesAsItsTextureIsPainted) {
+    // The look-up is bilinear and repeats: 1 at s = 1/4, falling to 0 at 3/4 and rising again, as if cut into thin
+    // strips of that radiance.
+    Scene strips = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
+    constexpr int kStrips = 64;
+    for (int i = 0; i < kStrips; ++i) {
+        const float s = (static_cast<float>(i) + 0.5F) / kStrips;
+        const float away = std::abs(s - 0.75F);
+        const float radiance = 2.0F * 2.0F * std::min(away, 1.0F - away);
+        strips.rectangle_lights.push_back(
+            {{s - 0.5F - 0.5F / kStrips, 0.6F, -0.5F}, {1.0F / kStrips, 0, 0}, {0, 0, 1}, glm::vec3(radiance)});
+    }
+    const double expected = floor_radiance(std::move(strips));
+    const double mean = floor_radiance(half_lamp_scene({0, 0, 0, 1}, true));
+    EXPECT_NEAR(mean, expected, 0.02 * expected);
+}
+
+TEST(Emitter, OfABlackTextureIsDark) {
+    Scene scene = half_lamp_scene({0, 0, 0, 1}, true);
+    scene.textures[0].pixels(0, 0) = {0, 0, 0, 1};
+    EXPECT_EQ(floor_radiance(std::move(scene), 4), 0.0);
+}
+
 // A dim gradient with a small bright sun.
 Environment sunny_environment() {
     Environment environment;

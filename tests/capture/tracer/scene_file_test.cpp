@@ -179,6 +179,10 @@ TEST_F(SceneFileTest, UnknownKeysAreErrorsThatNameThem) {
 TEST_F(SceneFileTest, WrongValuesAreErrorsThatNameThePlace) {
     EXPECT_THAT(error("{"), HasSubstr("is not valid JSON"));
     EXPECT_THAT(error("[]"), HasSubstr("must be an object"));
+    EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "camera": {"views": 4, "width": 9, "views": 5}})"),
+                HasSubstr("the key \"views\" is there twice"));
+    EXPECT_TRUE(load(R"({"object": {"mesh": "bare.obj"}, "lights": [{"type": "point"}, {"type": "point"}]})"))
+        << "the same key in two objects";
     EXPECT_THAT(error("{}"), HasSubstr("object: is missing"));
     EXPECT_THAT(error(R"({"object": {}})"), HasSubstr("give one of \"mesh\" and \"generator\""));
     EXPECT_THAT(error(R"({"object": {"mesh": "gone.obj"}})"), HasSubstr("gone.obj: there is no such file"));
@@ -222,6 +226,36 @@ TEST(Normalise, FailsWithoutExtent) {
     const Result<double> radius = normalise_meshes(scene);
     ASSERT_FALSE(radius);
     EXPECT_THAT(radius.error().message, HasSubstr("dot: the meshes have no size"));
+}
+
+TEST(Normalise, FailsWithoutWidth) {
+    // On the axis by its bounding box, though not by its own origin.
+    Scene scene;
+    scene.name = "needle";
+    scene.meshes.push_back(make_quad({1, 0, 1}, {0, 1, 0}, {0, 2, 0}));
+    Scene same = scene;
+    const Result<double> radius = normalise_meshes(scene);
+    ASSERT_FALSE(radius);
+    EXPECT_THAT(radius.error().message, HasSubstr("needle: the meshes have no width"));
+    EXPECT_TRUE(normalise_meshes(same, ObjectCentre::mesh_origin));
+}
+
+TEST_F(SceneFileTest, PaintedEmissionLightsNoScene) {
+    const auto generate = [](bool painted) -> Generator {
+        return [painted](const std::string&, const nlohmann::json&, std::uint64_t) -> Result<Scene> {
+            Scene scene = scene_of(make_sphere(1), material_of(SurfaceKind::diffuse));
+            scene.materials[0].emission = glm::vec3(1.0F);
+            scene.textures.push_back({"lamps", Image<RgbaF>(2, 2, {0, 0, 0, 1})});
+            if (painted) scene.materials[0].emission_texture = 0;
+            return scene;
+        };
+    };
+    const char* recipe = R"({"object": {"generator": "ball"}})";
+    const Result<SceneFile> lamp = load(recipe, generate(false));
+    const Result<SceneFile> painted = load(recipe, generate(true));
+    ASSERT_TRUE(lamp && painted);
+    EXPECT_TRUE(lamp->scene.environment.pixels.empty());
+    EXPECT_FALSE(painted->scene.environment.pixels.empty()) << "gets the studio";
 }
 
 TEST(Studio, DefaultLightsAWhiteBallWithoutClippingMuch) {

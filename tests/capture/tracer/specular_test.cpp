@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace rs::capture::test {
 namespace {
@@ -54,11 +55,11 @@ TEST(Mirror, ReflectsWhereTheLawSays) {
     }
 }
 
-// A slab 0 >= z >= -thickness that is larger than what the camera sees.
-void add_slab(Scene& scene, float thickness, int material) {
-    scene.meshes.push_back(make_quad({-50, -50, 0}, {100, 0, 0}, {0, 100, 0}));
+// A slab top >= z >= top - thickness that is larger than what the camera sees.
+void add_slab(Scene& scene, float thickness, int material, float top = 0.0F) {
+    scene.meshes.push_back(make_quad({-50, -50, top}, {100, 0, 0}, {0, 100, 0}));
     scene.meshes.back().material = material;
-    scene.meshes.push_back(make_quad({-50, -50, -thickness}, {0, 100, 0}, {100, 0, 0}));
+    scene.meshes.push_back(make_quad({-50, -50, top - thickness}, {0, 100, 0}, {100, 0, 0}));
     scene.meshes.back().material = material;
 }
 
@@ -138,6 +139,37 @@ TEST(Glass, AbsorbsByTheLengthOfTheWay) {
     EXPECT_NEAR(mean.r, 0.25, 1e-3);
     EXPECT_NEAR(mean.g, 0.0625, 1e-3);
     EXPECT_NEAR(mean.b, 1.0, 1e-5);
+}
+
+// Slabs of index 1, so that only the way counts: {top, thickness, what a unit length of it lets through}.
+struct Slab {
+    float top, thickness, through;
+};
+double seen_through(const std::vector<Slab>& slabs) {
+    Scene scene;
+    for (const Slab& slab : slabs) {
+        add_slab(scene, slab.thickness, static_cast<int>(scene.materials.size()), slab.top);
+        scene.materials.push_back(material_of(SurfaceKind::glass, glm::vec3(slab.through)));
+        scene.materials.back().ior = 1.0F;
+    }
+    scene.environment = constant_environment(1.0F);
+    return mean_radiance(render(std::move(scene), front_camera(9.0, 0.5, 8), sharp(1024)).picture).g;
+}
+
+TEST(Glass, InsideOfGlassTheInnermostAbsorbs) {
+    // Within the noise of Russian roulette.
+    const auto expect_seen = [](const std::vector<Slab>& slabs, double expected) {
+        EXPECT_NEAR(seen_through(slabs), expected, 0.03 * expected);
+    };
+    // One unit of the outer, one of the inner, one of the outer again.
+    expect_seen({{0, 3, 0.5F}, {-1, 1, 0.25F}}, 0.5 * 0.25 * 0.5);
+    // Overlapping, neither inside of the other: one unit of the first, two of the second.
+    expect_seen({{0, 2, 0.5F}, {-1, 2, 0.25F}}, 0.5 * 0.25 * 0.25);
+    // Four deep: each is met on the way in and on the way out.
+    expect_seen({{0, 7, 0.9F}, {-1, 5, 0.8F}, {-2, 3, 0.7F}, {-3, 1, 0.6F}}, 0.9 * 0.9 * 0.8 * 0.8 * 0.7 * 0.7 * 0.6);
+    // Five deep: the outermost is forgotten on the way out.
+    expect_seen({{0, 9, 0.5F}, {-1, 7, 0.9F}, {-2, 5, 0.8F}, {-3, 3, 0.7F}, {-4, 1, 0.6F}},
+                0.5 * 0.9 * 0.9 * 0.8 * 0.8 * 0.7 * 0.7 * 0.6);
 }
 
 TEST(Fresnel, KnownValues) {

@@ -1,0 +1,48 @@
+#pragma once
+// The header of a PLY file. Part of plain_ply.
+//
+// Source: G. Turk, "The PLY Polygon File Format", 1994.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rs::capture {
+
+enum class PlyScalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+[[nodiscard]] constexpr bool is_integer(PlyScalar type) {
+    return type != PlyScalar::float32 && type != PlyScalar::float64;
+}
+// The type's first name in the format's list: "char", "uchar", "short", ...
+[[nodiscard]] const char* ply_name(PlyScalar type);
+
+struct PlyProperty {
+    std::string name;
+    PlyScalar type = PlyScalar::float32;
+    std::optional<PlyScalar> count_type;  // of a list
+    [[nodiscard]] bool is_list() const { return count_type.has_value(); }
+    // The list that says which vertices a face or a strip has.
+    [[nodiscard]] bool is_vertex_list() const { return name == "vertex_indices" || name == "vertex_index"; }
+};
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+};
+enum class PlyEncoding { ascii, little_endian, big_endian };
+struct PlyHeader {
+    std::optional<PlyEncoding> encoding;
+    std::vector<PlyElement> elements;
+    std::vector<std::string> texture_files;  // of "comment TextureFile NAME" lines
+    std::size_t size_bytes = 0;
+};
+
+// What is wrong, or nothing. A mesh is asked for: `vertex` with one number each for x, y and z, before exactly one of
+// `face` and `tristrips` with an integer list vertex_indices or vertex_index; no two elements of one name.
+std::optional<std::string> parse_ply_header(std::string_view file, PlyHeader& header);
+
+}  // namespace rs::capture
