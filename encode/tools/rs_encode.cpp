@@ -70,8 +70,8 @@ Status run_build(const BuildArguments& arguments) {
                          .dump(2)
                   << '\n';
     } else {
-        std::printf("%s: %zu views of %dx%d, %d planes, %.1f MB, %.1f s\n", arguments.output.c_str(),
-                    object.views.size(), object.width, object.height, options.map.planes,
+        std::printf("%s: %zu views of %dx%d, %d planes, %.1f MB, %.1f s, peak memory %.0f MB\n",
+                    arguments.output.c_str(), object.views.size(), object.width, object.height, options.map.planes,
                     static_cast<double>(bytes) / 1e6, seconds, static_cast<double>(peak_memory_bytes()) / 1e6);
     }
     return {};
