@@ -28,12 +28,12 @@ Status extract_pictures(const RaySpaceObject& object, const std::filesystem::pat
         rig->views[static_cast<std::size_t>(i)].file_path = name;
         rig->views[static_cast<std::size_t>(i)].depth_file_path.clear();
     }
-    const Status written = for_each_in_parallel(count, "pictures", progress, [&](int i) {
+    Status written = for_each_in_parallel(count, "pictures", progress, [&](int i) {
         const auto n = static_cast<std::size_t>(i);
         return write_png(staged->temporary_path() / rig->views[n].file_path, rgba_from_planar(object.pictures[n]));
     });
     if (!written) return written;
-    if (const Status status = write_rig(staged->temporary_path() / kRigFileName, *rig); !status) return status;
+    if (Status status = write_rig(staged->temporary_path() / kRigFileName, *rig); !status) return status;
     return staged->commit();
 }
 

@@ -16,7 +16,7 @@ Result<ContainerWriter> ContainerWriter::create(const std::filesystem::path& pat
     auto file = StagedFile::create(path);
     if (!file) return file.error();
     const std::vector<std::byte> reserved(kHeader_bytes + chunk_count * kEntry_bytes);
-    if (const Status status = file->write(reserved); !status) return status.error();
+    if (Status status = file->write(reserved); !status) return status.error();
     return ContainerWriter(std::move(file).value(), chunk_count);
 }
 

@@ -54,7 +54,7 @@ private:
         if (entry->size_bytes > options_.memory_cap_bytes) return too_large(entry->size_bytes);
         const auto payload = container_.read(*entry);
         if (!payload) return payload.error();
-        if (const Status status = parse(std::span<const std::byte>(*payload)); !status) {
+        if (Status status = parse(std::span<const std::byte>(*payload)); !status) {
             return in_chunk(container_.where(), key, status);
         }
         return {};

@@ -193,7 +193,7 @@ Status validate_object(const RaySpaceObject& object, const std::string& where) {
     const auto at = [&](const std::string& place, const Status& status) {
         return Error{where + ": " + place + status.error().message};
     };
-    if (const Status status = check_head(object); !status) return at("", status);
+    if (Status status = check_head(object); !status) return at("", status);
     if (Status status = check_rig(object, where); !status) return status;
     for (std::size_t i = 0; i < object.views.size(); ++i) {
         if (const Status status = check_view(object.views[i]); !status)

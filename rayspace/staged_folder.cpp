@@ -101,7 +101,7 @@ Status check_replaceable(const fs::path& path) {
 Result<StagedFolder> StagedFolder::create(const fs::path& given) {
     const fs::path path = without_trailing_slash(given);
     if (const Status parent = check_parent(path); !parent) return parent.error();
-    if (const Status replaceable = check_replaceable(path); !replaceable) return replaceable.error();
+    if (Status replaceable = check_replaceable(path); !replaceable) return replaceable.error();
     StagedFolder folder;
     folder.path_ = path;
     folder.temporary_ = temporary_name(path);

@@ -93,7 +93,7 @@ Status write_video(FrameCompositor& compositor, const std::vector<Camera>& camer
     for (const Camera& camera : cameras) {
         const Result<Image<Rgba8>> frame = compositor.compose(camera);
         if (!frame) return frame.error();
-        if (const Status status = video->add(frame->view().crop(0, 0, width, height)); !status) return status;
+        if (Status status = video->add(frame->view().crop(0, 0, width, height)); !status) return status;
         progress.advance();
     }
     return video->finish();
@@ -114,10 +114,10 @@ Status write_folder(FrameCompositor& compositor, const std::vector<Camera>& came
         rig.views.push_back(view);
         const Result<Image<Rgba8>> frame = compositor.compose(camera);
         if (!frame) return frame.error();
-        if (const Status status = write_png(staged->temporary_path() / name, *frame); !status) return status;
+        if (Status status = write_png(staged->temporary_path() / name, *frame); !status) return status;
         progress.advance();
     }
-    if (const Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
+    if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
     return staged->commit();
 }
 

@@ -57,7 +57,7 @@ Status run_build(const BuildArguments& arguments) {
     Result<BuiltObject> built = build_object(*set, options, &progress);
     if (!built) return built.error();
     for (const std::string& warning : built->warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
-    if (const Status status = write_object(arguments.output, built->object, &progress); !status) return status;
+    if (Status status = write_object(arguments.output, built->object, &progress); !status) return status;
 
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     const auto bytes = std::filesystem::file_size(arguments.output);
@@ -138,7 +138,7 @@ Status run_extract(const ObjectArguments& arguments) {
     const Result<RaySpaceObject> object = read_object(arguments.object);
     if (!object) return object.error();
     ProgressBar progress(arguments.quiet);
-    if (const Status status = extract_pictures(*object, arguments.output, &progress); !status) return status;
+    if (Status status = extract_pictures(*object, arguments.output, &progress); !status) return status;
     std::printf("%s: %zu pictures\n", arguments.output.c_str(), object->pictures.size());
     return {};
 }

@@ -8,7 +8,12 @@
 namespace rs::engine {
 namespace {
 
-Result<ComparedView> compare_view(const Renderer& renderer, const std::filesystem::path& folder, const RigView& view) {
+struct Measured {
+    ComparedView view;
+    PictureDifference difference;
+};
+
+Result<Measured> compare_view(const Renderer& renderer, const std::filesystem::path& folder, const RigView& view) {
     const std::filesystem::path path = picture_path(folder, view);
     const Result<Image<Rgba8>> truth = read_picture(path);
     if (!truth) return truth.error();
@@ -20,7 +25,7 @@ Result<ComparedView> compare_view(const Renderer& renderer, const std::filesyste
     Image<Rgba8> rendered(view.camera.width, view.camera.height);
     renderer.render(*registers, rendered);
     const PictureDifference difference = compare_pictures(rendered, *truth);
-    return ComparedView{view.file_path, difference.psnr_db(), difference.ssim};
+    return Measured{{view.file_path, difference.psnr_db(), difference.ssim}, difference};
 }
 
 }  // namespace
@@ -34,11 +39,13 @@ Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesys
     const int count = static_cast<int>(rig->views.size());
     Comparison comparison;
     comparison.views.resize(rig->views.size());
+    std::vector<PictureDifference> differences(rig->views.size());
     const Status compared = for_each_in_parallel(count, "comparing", progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
-        Result<ComparedView> view = compare_view(renderer, folder, rig->views[n]);
-        if (!view) return view.error();
-        comparison.views[n] = std::move(*view);
+        Result<Measured> measured = compare_view(renderer, folder, rig->views[n]);
+        if (!measured) return measured.error();
+        comparison.views[n] = std::move(measured->view);
+        differences[n] = measured->difference;
         return {};
     });
     if (!compared) return compared.error();
@@ -46,6 +53,12 @@ Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesys
         comparison.mean_psnr_db += view.psnr_db / count;
         comparison.mean_ssim += view.ssim / count;
     }
+    PictureDifference pooled;
+    for (const PictureDifference& difference : differences) {
+        pooled.object_pixels += difference.object_pixels;
+        pooled.squared_error += difference.squared_error;
+    }
+    comparison.pooled_psnr_db = pooled.psnr_db();
     return comparison;
 }
 

@@ -19,7 +19,8 @@ struct ComparedView {
 
 struct Comparison {
     std::vector<ComparedView> views;
-    double mean_psnr_db = 0;  // mean over views of the views' dB
+    double mean_psnr_db = 0;    // mean over views of the views' dB
+    double pooled_psnr_db = 0;  // dB of all views' object pixels taken together; lower where views differ
     double mean_ssim = 0;
 };
 

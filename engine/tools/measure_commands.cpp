@@ -61,6 +61,7 @@ Status run_compare(const CompareArguments& arguments) {
     if (arguments.json) {
         nlohmann::json json{{"views", nlohmann::json::array()},
                             {"mean_psnr_db", comparison->mean_psnr_db},
+                            {"pooled_psnr_db", comparison->pooled_psnr_db},
                             {"mean_ssim", comparison->mean_ssim}};
         for (const ComparedView& view : comparison->views) {
             json["views"].push_back({{"picture", view.picture}, {"psnr_db", view.psnr_db}, {"ssim", view.ssim}});
@@ -71,7 +72,8 @@ Status run_compare(const CompareArguments& arguments) {
     for (const ComparedView& view : comparison->views) {
         std::printf("%-24s %6.2f dB  SSIM %.4f\n", view.picture.c_str(), view.psnr_db, view.ssim);
     }
-    std::printf("%-24s %6.2f dB  SSIM %.4f\n", "mean", comparison->mean_psnr_db, comparison->mean_ssim);
+    std::printf("%-24s %6.2f dB  SSIM %.4f  (all pixels together %.2f dB)\n", "mean", comparison->mean_psnr_db,
+                comparison->mean_ssim, comparison->pooled_psnr_db);
     return {};
 }
 
@@ -91,9 +93,9 @@ Status run_board(const std::vector<std::string>& paths) {
     }
     std::printf("%-28s %49.2f\n", "image buffer", static_cast<double>(image_buffer_bytes(limits)) / 1e6);
     for (const RaySpaceObject& object : objects) {
-        if (const Status status = fits_board(object, limits); !status) return status;
+        if (Status status = fits_board(object, limits); !status) return status;
     }
-    if (const Status status = fit_board_together(objects, limits); !status) return status;
+    if (Status status = fit_board_together(objects, limits); !status) return status;
     std::printf("all fit on the published board (%llu bytes)\n", static_cast<unsigned long long>(limits.memory_bytes));
     return {};
 }

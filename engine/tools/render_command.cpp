@@ -109,7 +109,7 @@ Status write_video(const Renderer& renderer, const std::vector<Camera>& cameras,
         if ((picture->width() & ~1) != width || (picture->height() & ~1) != height) {
             return Error{arguments.output + ": a video needs views of one size; give --size"};
         }
-        if (const Status status = video->add(picture->view().crop(0, 0, width, height)); !status) return status;
+        if (Status status = video->add(picture->view().crop(0, 0, width, height)); !status) return status;
         progress.advance();
     }
     progress.finish();
@@ -131,14 +131,14 @@ Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras
         rig.views.push_back(view);
     }
     const int count = static_cast<int>(cameras.size());
-    const Status written = for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
+    Status written = for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
         const Result<Image<Rgba8>> picture = render_camera(renderer, cameras[n]);
         if (!picture) return picture.error();
         return write_png(staged->temporary_path() / rig.views[n].file_path, *picture);
     });
     if (!written) return written;
-    if (const Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
+    if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
     return staged->commit();
 }
 
@@ -166,7 +166,7 @@ Status check_one_picture(const std::vector<Camera>& cameras, const RenderArgumen
 }
 
 Status write_picture(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments) {
-    if (const Status status = check_one_picture(cameras, arguments); !status) return status;
+    if (Status status = check_one_picture(cameras, arguments); !status) return status;
     std::vector<Image<Rgba8>> pictures;
     for (const Camera& camera : cameras) {
         Result<Image<Rgba8>> picture = render_camera(renderer, camera);

@@ -4,7 +4,7 @@
 #
 #   tests/bench/paper_baseline.sh [DATA]      DATA: the folder that holds meshes/spot and hdr (default: $RAYSPACE_DATA)
 #
-# SPP (default 64) samples per pixel; LIGHTS, which light probes. 3.5 object radii are 2.81 bounding-sphere radii, which `synth` counts in.
+# SPP (default 64) samples per pixel. LIGHTS: "bright" (even light and a sun) and names of light probes in hdr/. 3.5 object radii are 2.81 bounding-sphere radii, which `synth` counts in.
 set -euo pipefail
 DATA=$(realpath "${1:-${RAYSPACE_DATA:?give the folder of test inputs}}")
 BIN=$(realpath "$(dirname "$0")/../../build/release/bin")
@@ -12,11 +12,16 @@ SPP=${SPP:-64}
 WORK=$(mktemp -d)
 trap 'rm -rf "$WORK"' EXIT
 
-for light in ${LIGHTS:-courtyard interior studio}; do
+for light in ${LIGHTS:-bright courtyard}; do
+  case $light in
+    bright) environment='{"constant": [0.9, 0.9, 0.9]},
+ "lights": [{"type": "directional", "direction": [-0.4, -0.8, -0.5], "irradiance": [1.2, 1.2, 1.2]}]' ;;
+    *) environment="{\"file\": \"$DATA/hdr/$light.exr\"}" ;;
+  esac
   cat >"$WORK/spot.json" <<JSON
 {"name": "spot", "seed": 1,
  "object": {"mesh": "$DATA/meshes/spot/spot_triangulated.obj", "texture": "$DATA/meshes/spot/spot_texture.png"},
- "camera": {"distance_radii": 2.81, "focal_widths": 1.4}, "environment": {"file": "$DATA/hdr/$light.exr"}}
+ "camera": {"distance_radii": 2.81, "focal_widths": 1.4}, "environment": $environment}
 JSON
   "$BIN/rs-capture" synth "$WORK/spot.json" -o "$WORK/set" --views 90 --size 512x512 --spp "$SPP" -q >/dev/null
   "$BIN/rs-capture" synth "$WORK/spot.json" -o "$WORK/halfway" --views 90 --size 512x512 --spp "$SPP" --first-angle 2 -q >/dev/null

@@ -84,6 +84,7 @@ TEST(WholeWay, AMeshBecomesAnObjectThatGivesItsPicturesBack) {
     const auto json = nlohmann::json::parse(compare.out);
     EXPECT_EQ(json["views"].size(), 12U);
     EXPECT_GT(json["mean_psnr_db"].get<double>(), 30);
+    EXPECT_LE(json["pooled_psnr_db"].get<double>(), json["mean_psnr_db"].get<double>() + 1e-9);
     const auto info = nlohmann::json::parse(run("rs-encode", {"info", in("box.rso"), "--json"}).out);
     EXPECT_EQ(info["views"], 12);
     EXPECT_EQ(info["rings"][0]["planes"], 12);
