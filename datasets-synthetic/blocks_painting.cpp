@@ -33,7 +33,8 @@ public:
 
     // Sawn maple: a cut through slightly wavy year rings.
     void wood(vec2 corner_px, std::uint32_t board) {
-        const vec3 offset{static_cast<float>(board % 64U) * 3.1F, static_cast<float>(board / 64U) * 5.7F, 0.0F};
+        const auto row = board / 64U;
+        const vec3 offset{static_cast<float>(board % 64U) * 3.1F, static_cast<float>(row) * 5.7F, 0.0F};
         canvas_.shade(corner_px, corner_px + kTile, [&](vec2 p, vec3) {
             const vec2 q = (p - corner_px) / kTile;
             const float warp = layered_noise(vec3{q.x * 1.2F, q.y * 2.0F, 0.3F} + offset, 3, seed_);
@@ -74,6 +75,7 @@ public:
             const float radius_px = passes[pass].second * kTile;
             for (const std::vector<vec2>& stroke : letter.strokes) {
                 std::vector<vec2> path;
+                path.reserve(stroke.size());
                 for (const vec2& p : stroke) path.push_back(origin + passes[pass].first + p * size_px);
                 canvas_.stroke(path, {&radius_px, 1}, inks[pass]);
             }
@@ -137,9 +139,10 @@ private:
         constexpr int kFields = 4;
         const float field_px = 0.60F * kTile / kFields;
         for (int k = 0; k < kFields * kFields; ++k) {
-            if ((k + k / kFields) % 2 != 0) continue;
-            const vec2 low = corner_px + 0.20F * kTile +
-                             field_px * vec2{static_cast<float>(k % kFields), static_cast<float>(k / kFields)};
+            const int row = k / kFields;
+            if ((k + row) % 2 != 0) continue;
+            const vec2 low =
+                corner_px + 0.20F * kTile + field_px * vec2{static_cast<float>(k % kFields), static_cast<float>(row)};
             const std::array<vec2, 4> square{low, low + vec2{field_px, 0}, low + field_px, low + vec2{0, field_px}};
             canvas_.fill(square, ink);
         }

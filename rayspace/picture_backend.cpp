@@ -123,7 +123,7 @@ void for_each_visible(const OpenedPicture& picture, const std::vector<T>& sample
 
 std::uint8_t byte_from_unit(float v) {
     // The comparison's form sends NaN to 0.
-    return v > 0 ? static_cast<std::uint8_t>(std::min(v, 1.0F) * 255.0F + 0.5F) : std::uint8_t{0};
+    return v > 0 ? static_cast<std::uint8_t>(std::lround(std::min(v, 1.0F) * 255.0F)) : std::uint8_t{0};
 }
 
 template <class T>

@@ -71,7 +71,7 @@ Status write_rig(const fs::path& transforms_json, const Rig& rig) {
 }
 
 fs::path picture_path(const fs::path& folder, const RigView& view) {
-    const fs::path as_given = folder / view.file_path;
+    fs::path as_given = folder / view.file_path;
     std::error_code ignored;
     if (fs::is_regular_file(as_given, ignored)) return as_given;
     fs::path with_extension = as_given;

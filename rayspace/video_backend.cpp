@@ -21,8 +21,8 @@ std::uint8_t over(std::uint8_t value, std::uint8_t backdrop, std::uint8_t alpha)
 
 class OpenCvEncoder final : public VideoEncoder {
 public:
-    OpenCvEncoder(cv::VideoWriter writer, std::string path, std::string shown, const VideoOptions& options)
-        : writer_(std::move(writer)),
+    OpenCvEncoder(const cv::VideoWriter& writer, std::string path, std::string shown, const VideoOptions& options)
+        : writer_(writer),
           path_(std::move(path)),
           shown_(std::move(shown)),
           options_(options),
@@ -87,7 +87,7 @@ Result<std::unique_ptr<VideoEncoder>> open_video(const std::string& path, const 
             cv::VideoWriter writer(path, cv::CAP_FFMPEG, codec, options.frames_per_second,
                                    cv::Size(options.width, options.height));
             if (!writer.isOpened()) continue;
-            return std::unique_ptr<VideoEncoder>(new OpenCvEncoder(std::move(writer), path, shown, options));
+            return std::unique_ptr<VideoEncoder>(new OpenCvEncoder(writer, path, shown, options));
         }
     } catch (const std::exception& escaped) {
         return Error{shown + ": the video cannot be opened: " + escaped.what()};
