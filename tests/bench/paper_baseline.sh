@@ -4,7 +4,7 @@
 #
 #   tests/bench/paper_baseline.sh [DATA]      DATA: the folder that holds meshes/spot and hdr (default: $RAYSPACE_DATA)
 #
-# SPP (default 64) samples per pixel. LIGHTS: "bright" (even light and a sun) and names of light probes in hdr/. 3.5 object radii are 2.81 bounding-sphere radii, which `synth` counts in.
+# SPP (default 64) samples per pixel. LIGHTS: "white" (even, overexposed), "bright" (even light and a sun) and names of light probes in hdr/. 3.5 object radii are 2.81 bounding-sphere radii, which `synth` counts in.
 set -euo pipefail
 DATA=$(realpath "${1:-${RAYSPACE_DATA:?give the folder of test inputs}}")
 BIN=$(realpath "$(dirname "$0")/../../build/release/bin")
@@ -12,8 +12,9 @@ SPP=${SPP:-64}
 WORK=$(mktemp -d)
 trap 'rm -rf "$WORK"' EXIT
 
-for light in ${LIGHTS:-bright courtyard}; do
+for light in ${LIGHTS:-white bright courtyard}; do
   case $light in
+    white) environment='{"constant": [1.4, 1.4, 1.4]}' ;;
     bright) environment='{"constant": [0.9, 0.9, 0.9]},
  "lights": [{"type": "directional", "direction": [-0.4, -0.8, -0.5], "irradiance": [1.2, 1.2, 1.2]}]' ;;
     *) environment="{\"file\": \"$DATA/hdr/$light.exr\"}" ;;
