@@ -2,9 +2,8 @@
 #include "rayspace/file_output.hpp"
 #include "rayspace/parallel.hpp"
 #include "rayspace/picture_io.hpp"
+#include "rayspace/view_output.hpp"
 #include "rayspace/yuv.hpp"
-
-#include <cstdio>
 
 namespace rs::encode {
 
@@ -23,9 +22,7 @@ Status extract_pictures(const RaySpaceObject& object, const std::filesystem::pat
 
     const int count = static_cast<int>(object.pictures.size());
     for (int i = 0; i < count; ++i) {
-        char name[32];
-        std::snprintf(name, sizeof name, "%04d.png", i);
-        rig->views[static_cast<std::size_t>(i)].file_path = name;
+        rig->views[static_cast<std::size_t>(i)].file_path = numbered_picture_name(static_cast<std::size_t>(i));
         rig->views[static_cast<std::size_t>(i)].depth_file_path.clear();
     }
     Status written = for_each_in_parallel(count, "pictures", progress, [&](int i) {

@@ -102,6 +102,14 @@ struct Rgba8 {
 };
 static_assert(sizeof(Rgba8) == 4);
 
+// `front` over an opaque backdrop, both sRGB, mixed as pictures on a screen are; exact for alpha 0 and 255.
+constexpr Rgba8 over(const Rgba8& front, const Rgba8& backdrop) {
+    const auto mix = [&](int f, int b) {
+        return static_cast<std::uint8_t>((f * front.a + b * (255 - front.a) + 127) / 255);
+    };
+    return {mix(front.r, backdrop.r), mix(front.g, backdrop.g), mix(front.b, backdrop.b), 255};
+}
+
 // One linear-light pixel with straight alpha.
 struct RgbaF {
     float r = 0, g = 0, b = 0, a = 0;

@@ -14,11 +14,6 @@
 namespace rs::pictures {
 namespace {
 
-// value over backdrop, both sRGB as pictures on a screen are; exact for alpha 0 and 255.
-std::uint8_t over(std::uint8_t value, std::uint8_t backdrop, std::uint8_t alpha) {
-    return static_cast<std::uint8_t>((value * alpha + backdrop * (255 - alpha) + 127) / 255);
-}
-
 class OpenCvEncoder final : public VideoEncoder {
 public:
     OpenCvEncoder(const cv::VideoWriter& writer, std::string path, std::string shown, const VideoOptions& options)
@@ -32,9 +27,8 @@ public:
         for (int y = 0; y < frame.height(); ++y) {
             cv::Vec3b* const row = bgr_.ptr<cv::Vec3b>(y);
             for (int x = 0; x < frame.width(); ++x) {
-                const Rgba8 p = frame(x, y);
-                const Rgba8& b = options_.backdrop;
-                row[x] = {over(p.b, b.b, p.a), over(p.g, b.g, p.a), over(p.r, b.r, p.a)};
+                const Rgba8 p = over(frame(x, y), options_.backdrop);
+                row[x] = {p.b, p.g, p.r};
             }
         }
         try {

@@ -10,6 +10,7 @@
 #include "rayspace/progress.hpp"
 #include "rayspace/rig.hpp"
 #include "rayspace/tool_main.hpp"
+#include "rayspace/view_output.hpp"
 
 #include <cstdio>
 #include <tuple>
@@ -83,38 +84,16 @@ Result<std::vector<Camera>> asked_cameras(const ViewArguments& arguments, const 
     return cameras;
 }
 
-Status write_video(FrameCompositor& compositor, const std::vector<Camera>& cameras, const ViewArguments& arguments,
-                   Progress& progress) {
-    // H.264 at 4:2:0 wants even sizes: the last odd row or column is dropped.
-    const int width = cameras.front().width & ~1;
-    const int height = cameras.front().height & ~1;
-    Result<VideoWriter> video = VideoWriter::open(arguments.output, width, height, arguments.frames_per_second);
-    if (!video) return video.error();
-    for (const Camera& camera : cameras) {
-        const Result<Image<Rgba8>> frame = compositor.compose(camera);
-        if (!frame) return frame.error();
-        if (Status status = video->add(frame->view().crop(0, 0, width, height)); !status) return status;
-        progress.advance();
-    }
-    return video->finish();
-}
-
 // The frames with the cameras that saw them, as a set of pictures that other tools can open.
 Status write_folder(FrameCompositor& compositor, const std::vector<Camera>& cameras, const ViewArguments& arguments,
                     Progress& progress) {
     Result<StagedFolder> staged = StagedFolder::create(arguments.output);
     if (!staged) return staged.error();
-    Rig rig;
-    for (const Camera& camera : cameras) {
-        char name[32];
-        std::snprintf(name, sizeof name, "%04zu.png", rig.views.size());
-        RigView view;
-        view.file_path = name;
-        view.camera = camera;
-        rig.views.push_back(view);
-        const Result<Image<Rgba8>> frame = compositor.compose(camera);
+    const Rig rig = rig_of_views(cameras);
+    for (const RigView& view : rig.views) {
+        const Result<Image<Rgba8>> frame = compositor.compose(view.camera);
         if (!frame) return frame.error();
-        if (Status status = write_png(staged->temporary_path() / name, *frame); !status) return status;
+        if (Status status = write_png(staged->temporary_path() / view.file_path, *frame); !status) return status;
         progress.advance();
     }
     if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
@@ -122,6 +101,8 @@ Status write_folder(FrameCompositor& compositor, const std::vector<Camera>& came
 }
 
 Status run_view(const ViewArguments& arguments) {
+    const Result<OutputKind> kind = output_kind(arguments.output);
+    if (!kind) return kind.error();
     const Result<PixelSize> size = parse_size(arguments.size);
     if (!size) return size.error();
     const Result<Scene> scene = asked_scene(arguments);
@@ -131,8 +112,7 @@ Status run_view(const ViewArguments& arguments) {
     if (!objects) return objects.error();
     const Result<std::vector<Camera>> cameras = asked_cameras(arguments, *scene, *objects, *size);
     if (!cameras) return cameras.error();
-    const std::string extension = std::filesystem::path(arguments.output).extension().string();
-    if (extension == ".png" && cameras->size() != 1) {
+    if (*kind == OutputKind::picture && cameras->size() != 1) {
         return Error{arguments.output + ": " + std::to_string(cameras->size()) +
                      " frames do not fit one picture; give a folder or an .mp4 to -o"};
     }
@@ -143,8 +123,12 @@ Status run_view(const ViewArguments& arguments) {
         FrameCompositor::create(*scene, *objects, {.width = size->width, .height = size->height});
     if (!compositor) return compositor.error();
     progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
-    if (extension == ".mp4") return write_video(*compositor, *cameras, arguments, progress);
-    if (extension != ".png") return write_folder(*compositor, *cameras, arguments, progress);
+    if (*kind == OutputKind::video) {
+        return write_view_video(
+            arguments.output, arguments.frames_per_second, *cameras,
+            [&](const Camera& camera) { return compositor->compose(camera); }, progress);
+    }
+    if (*kind == OutputKind::folder) return write_folder(*compositor, *cameras, arguments, progress);
     const Result<Image<Rgba8>> frame = compositor->compose(cameras->front());
     if (!frame) return frame.error();
     return write_png(arguments.output, *frame);

@@ -3,17 +3,6 @@
 #include <algorithm>
 
 namespace rs::engine {
-namespace {
-
-Rgba8 over(Rgba8 front, Rgba8 back) {
-    const auto mix = [&](int f, int b) {
-        return static_cast<std::uint8_t>((f * front.a + b * (255 - front.a) + 127) / 255);
-    };
-    return {mix(front.r, back.r), mix(front.g, back.g), mix(front.b, back.b), 255};
-}
-
-}  // namespace
-
 Image<Rgba8> contact_sheet(const std::vector<Image<Rgba8>>& pictures, int columns, Rgba8 backdrop) {
     RS_CHECK(!pictures.empty() && columns > 0);
     const int count = static_cast<int>(pictures.size());

@@ -11,10 +11,9 @@
 #include "rayspace/progress.hpp"
 #include "rayspace/rig.hpp"
 #include "rayspace/tool_main.hpp"
+#include "rayspace/view_output.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <cstdio>
 #include <memory>
 
 namespace rs::engine {
@@ -95,41 +94,12 @@ Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camer
     return picture;
 }
 
-Status write_video(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
-                   Progress& progress) {
-    // H.264 at 4:2:0 wants even sizes: the last odd row or column is dropped.
-    const int width = cameras.front().width & ~1;
-    const int height = cameras.front().height & ~1;
-    Result<VideoWriter> video = VideoWriter::open(arguments.output, width, height, arguments.frames_per_second);
-    if (!video) return video.error();
-    progress.start("rendering", static_cast<std::int64_t>(cameras.size()));
-    for (const Camera& camera : cameras) {
-        const Result<Image<Rgba8>> picture = render_camera(renderer, camera);
-        if (!picture) return picture.error();
-        if ((picture->width() & ~1) != width || (picture->height() & ~1) != height) {
-            return Error{arguments.output + ": a video needs views of one size; give --size"};
-        }
-        if (Status status = video->add(picture->view().crop(0, 0, width, height)); !status) return status;
-        progress.advance();
-    }
-    progress.finish();
-    return video->finish();
-}
-
 Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
                     Progress& progress) {
     Result<StagedFolder> staged = StagedFolder::create(arguments.output);
     if (!staged) return staged.error();
-    Rig rig;
+    Rig rig = rig_of_views(cameras);
     rig.object_radius = renderer.object().units_per_radius;
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-        char name[32];
-        std::snprintf(name, sizeof name, "%04zu.png", i);
-        RigView view;
-        view.file_path = name;
-        view.camera = cameras[i];
-        rig.views.push_back(view);
-    }
     const int count = static_cast<int>(cameras.size());
     Status written = for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
@@ -178,23 +148,6 @@ Status write_picture(const Renderer& renderer, const std::vector<Camera>& camera
     return write_png(arguments.output, contact_sheet(pictures, arguments.sheet_columns, kBackdrop));
 }
 
-enum class OutputKind { picture, video, folder };
-
-// What a name means. Names of other pictures and videos are refused, so that "view.jpg" does not become a folder.
-Result<OutputKind> output_kind(const std::string& output) {
-    std::string extension = std::filesystem::path(output).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".png") return OutputKind::picture;
-    if (extension == ".mp4") return OutputKind::video;
-    for (const char* other :
-         {".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".exr", ".bmp", ".gif", ".avi", ".mov", ".mkv", ".webm"}) {
-        if (extension == other)
-            return Error{output + ": views are written as .png or .mp4; give such a name, or a folder"};
-    }
-    return OutputKind::folder;
-}
-
 Status run_render(const RenderArguments& arguments) {
     const Result<OutputKind> kind = output_kind(arguments.output);
     if (!kind) return kind.error();
@@ -211,7 +164,10 @@ Status run_render(const RenderArguments& arguments) {
         case OutputKind::picture:
             return write_picture(*renderer, *cameras, arguments);
         case OutputKind::video:
-            return write_video(*renderer, *cameras, arguments, progress);
+            progress.start("rendering", static_cast<std::int64_t>(cameras->size()));
+            return write_view_video(
+                arguments.output, arguments.frames_per_second, *cameras,
+                [&](const Camera& camera) { return render_camera(*renderer, camera); }, progress);
         case OutputKind::folder:
             break;
     }
