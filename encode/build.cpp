@@ -15,7 +15,7 @@ Status check_options(const PlaneMapOptions& map, std::size_t rings) {
                      std::to_string(kMaxPlanes)};
     }
     if (map.x_cells < 1 || map.x_cells > kMaxMapSide || map.u_cells < 1 || map.u_cells > kMaxMapSide) {
-        return Error{"--raymap " + std::to_string(map.x_cells) + "x" + std::to_string(map.u_cells) +
+        return Error{"--cells " + std::to_string(map.x_cells) + "x" + std::to_string(map.u_cells) +
                      ": both must be 1.." + std::to_string(kMaxMapSide)};
     }
     if (rings > static_cast<std::size_t>(kMaxRings)) {
@@ -45,6 +45,23 @@ Status read_all_pictures(const CaptureSet& set, RaySpaceObject& object, Progress
 
 }  // namespace
 
+std::string to_string(MapKind kind) {
+    return kind == MapKind::kPlane ? "plane" : "shape";
+}
+
+std::optional<MapKind> map_kind_from(const std::string& name) {
+    for (const MapKind kind : {MapKind::kPlane, MapKind::kShape}) {
+        if (name == to_string(kind)) return kind;
+    }
+    return std::nullopt;
+}
+
+PlaneMapOptions usual_plane_map(MapKind kind) {
+    PlaneMapOptions map;
+    if (kind == MapKind::kShape) map.x_cells = map.u_cells = 128;
+    return map;
+}
+
 Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& options, Progress* progress) {
     const std::vector<ViewRing> rings = find_rings(set.upright);
     if (const Status status = check_options(options.map, rings.size()); !status) return status.error();
@@ -73,7 +90,7 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
         if (cells > 0 && cells < 2) {
             built.warnings.push_back(
                 "the RS map has fewer than 2 cells of u between neighbouring views, so a captured "
-                "pose may be answered by a neighbour; give --raymap more cells of u");
+                "pose may be answered by a neighbour; give --cells more cells of u");
         }
         if (progress != nullptr) progress->advance();
     }
@@ -83,6 +100,12 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
                                  " rings of different elevation; the nearest ring answers a view");
     }
     if (const Status status = read_all_pictures(set, object, progress); !status) return status.error();
+    if (options.raymap == MapKind::kShape) {
+        Result<FoundShapes> shapes = add_shape_maps(set, rig, rings, options.shape, object, progress);
+        if (!shapes) return shapes.error();
+        built.warnings.insert(built.warnings.end(), shapes->warnings.begin(), shapes->warnings.end());
+        built.depths = std::move(shapes->samples);
+    }
     return built;
 }
 

@@ -3,23 +3,41 @@
 
 #include "encode/capture_set.hpp"
 #include "encode/raymap/plane_map.hpp"
+#include "encode/raymap/shape_map.hpp"
 #include "rayspace/progress.hpp"
 #include "rayspace/ray_space_object.hpp"
 #include "rayspace/result.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace rs::encode {
 
+enum class MapKind {
+    kPlane,  // the paper's: the object is taken to lie on the reference planes, the nearest ray answers
+    kShape,  // with a depth for every ray, found from the pictures; two neighbouring pictures are blended
+};
+
+// What `--raymap` calls them: "plane" and "shape".
+std::string to_string(MapKind kind);
+std::optional<MapKind> map_kind_from(const std::string& name);
+
+// The plane map that goes with each kind: beside a shape map it answers only what the shape does not know, so it is
+// coarser.
+PlaneMapOptions usual_plane_map(MapKind kind);
+
 struct BuildOptions {
     PlaneMapOptions map;
     std::string name;  // of the object; the set's folder name where empty
+    MapKind raymap = MapKind::kShape;
+    ShapeOptions shape;
 };
 
 struct BuiltObject {
     RaySpaceObject object;
     std::vector<std::string> warnings;  // one line each: what a user may want to change
+    std::vector<FoundDepth> depths;     // of a few views, where there is a shape map
 };
 
 // Memory: the stored pictures (2.5 bytes a pixel), the map (2 bytes a cell), and one decoded picture per thread.

@@ -209,4 +209,19 @@ Result<Image<Rgba8>> read_upright_picture(const CaptureSet& set, int view) {
     return resampled_picture(set.upright.views[i].camera, set.captured.views[i].camera, *picture);
 }
 
+CaptureSet with_views(const CaptureSet& set, std::span<const int> views) {
+    RS_CHECK(!views.empty());
+    CaptureSet chosen = set;
+    const auto choose = [&](const Rig& from, Rig& to) {
+        to.views.clear();
+        for (const int view : views) {
+            RS_CHECK(view >= 0 && static_cast<std::size_t>(view) < from.views.size());
+            to.views.push_back(from.views[static_cast<std::size_t>(view)]);
+        }
+    };
+    choose(set.captured, chosen.captured);
+    choose(set.upright, chosen.upright);
+    return chosen;
+}
+
 }  // namespace rs::encode

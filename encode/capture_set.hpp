@@ -12,6 +12,7 @@
 #include "rayspace/rig.hpp"
 
 #include <filesystem>
+#include <span>
 
 namespace rs::encode {
 
@@ -32,5 +33,9 @@ Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress*
 
 // Picture `view` of the set, seen by upright.views[view].camera. Thread-safe.
 Result<Image<Rgba8>> read_upright_picture(const CaptureSet& set, int view);
+
+// The same set with only the views `views` (indices into the rig, each once, at least one), in that order. Radius,
+// picture size and framing stay those of the whole set, so its views remain comparable; no picture is read.
+CaptureSet with_views(const CaptureSet& set, std::span<const int> views);
 
 }  // namespace rs::encode

@@ -286,6 +286,7 @@ std::vector<ChunkKey> chunk_order(const RaySpaceObject& object) {
     for (std::uint32_t r = 0; r < object.rings.size(); ++r) {
         order.push_back({kRing, r});
         order.push_back({kMap, r});
+        if (!object.rings[r].shape.empty()) order.push_back({kShape, r});
     }
     for (int level = 0; level < kProgressiveLevels; ++level) {
         for (const Ring& ring : object.rings) {

@@ -19,6 +19,7 @@ inline constexpr ChunkName kRig = {'R', 'I', 'G', 'J'};
 inline constexpr ChunkName kViews = {'V', 'I', 'E', 'W'};
 inline constexpr ChunkName kRing = {'R', 'I', 'N', 'G'};
 inline constexpr ChunkName kMap = {'R', 'M', 'A', 'P'};
+inline constexpr ChunkName kShape = {'s', 'h', 'a', 'p'};  // rayspace/shape_chunk.hpp
 inline constexpr ChunkName kPicture = {'P', 'I', 'C', 'T'};
 
 inline constexpr std::size_t kMaxName_bytes = 255;
@@ -52,7 +53,7 @@ Payload picture_payload(const PlanarPicture& picture);
 Status parse_picture(std::span<const std::byte> payload, int width, int height, PlanarPicture& picture);
 std::uint64_t raw_picture_bytes(int width, int height);
 
-// The chunks of an object in the order of the file. Needs the rings' view lists only.
+// The chunks of an object in the order of the file. Needs the rings' view lists, and which rings have a shape map.
 struct ChunkKey {
     ChunkName name{};
     std::uint32_t index = 0;

@@ -2,6 +2,7 @@
 
 #include "rayspace/container_layout.hpp"
 #include "rayspace/object_chunks.hpp"
+#include "rayspace/shape_chunk.hpp"
 
 #include <algorithm>
 
@@ -22,6 +23,7 @@ Payload payload_of(const RaySpaceObject& object, ChunkKey key) {
     if (key.name == kViews) return views_payload(object);
     if (key.name == kRing) return ring_payload(object, key.index);
     if (key.name == kMap) return map_payload(object.rings[key.index]);
+    if (key.name == kShape) return shape_payload(object.rings[key.index]);
     RS_CHECK(key.name == kPicture);
     return picture_payload(object.pictures[key.index]);
 }
@@ -72,7 +74,8 @@ private:
         return {};
     }
 
-    // The file holds the chunks of this object, in the format's order, and else only what may be skipped.
+    // The file holds the chunks of this object, in the format's order, and else only what may be skipped. A shape map,
+    // if there is one, stands behind its ring's map.
     Status check_chunks() const {
         const std::vector<ChunkKey> expected = chunk_order(object_);
         std::size_t next = 0;
@@ -80,6 +83,11 @@ private:
             const ChunkKey key{entry.name, entry.index};
             if (next < expected.size() && key == expected[next]) {
                 ++next;
+            } else if (entry.name == kShape) {
+                if (next > 0 && expected[next - 1] == ChunkKey{kMap, entry.index}) continue;
+                return Error{container_.where() + ": chunk " + to_string(entry.name) + " " +
+                             std::to_string(entry.index) + " does not stand behind a chunk " + to_string(kMap) + " " +
+                             std::to_string(entry.index) + "; encode the object anew"};
             } else if (entry.name[0] >= 'A' && entry.name[0] <= 'Z') {
                 return Error{container_.where() + ": chunk " + to_string(entry.name) + " " +
                              std::to_string(entry.index) +
@@ -91,25 +99,42 @@ private:
                      std::to_string(expected[next].index) + " in its place"};
     }
 
-    Status check_memory() const {
+    // What the maps and pictures need, but for shape maps: see read_shape().
+    Status check_memory() {
         // No product here reaches 2^64: every factor is capped by conventions.hpp.
-        std::uint64_t needed_bytes = 0;
         std::uint64_t pictures = 0;
         for (const Ring& ring : object_.rings) {
-            needed_bytes += sizeof(std::uint16_t) * static_cast<std::uint64_t>(ring.planes) *
-                            static_cast<std::uint64_t>(ring.x_cells) * static_cast<std::uint64_t>(ring.u_cells);
+            needed_bytes_ += sizeof(std::uint16_t) * static_cast<std::uint64_t>(ring.planes) *
+                             static_cast<std::uint64_t>(ring.x_cells) * static_cast<std::uint64_t>(ring.u_cells);
             for (std::size_t n = 0; n < ring.views.size(); ++n) pictures += is_wanted(n) ? 1 : 0;
         }
-        needed_bytes += pictures * raw_picture_bytes(object_.width, object_.height);
-        return needed_bytes <= options_.memory_cap_bytes ? Status{} : Status{too_large(needed_bytes)};
+        needed_bytes_ += pictures * raw_picture_bytes(object_.width, object_.height);
+        return needed_bytes_ <= options_.memory_cap_bytes ? Status{} : Status{too_large(needed_bytes_)};
     }
 
     Status read_maps() {
         for (std::uint32_t r = 0; r < object_.rings.size(); ++r) {
             const auto parse = [&](std::span<const std::byte> b) { return parse_map(b, object_.rings[r]); };
             if (Status status = read_chunk({kMap, r}, parse); !status) return status;
+            if (container_.find(kShape, r) == nullptr) continue;
+            if (Status status = read_shape(r); !status) return status;
         }
         return {};
+    }
+
+    // How large the cells are is known only from the chunk itself, which may be small: so they are added to the other
+    // memory here, before they are allocated.
+    Status read_shape(std::uint32_t r) {
+        Ring& ring = object_.rings[r];
+        bool fits = true;
+        const Status status = read_chunk({kShape, r}, [&](std::span<const std::byte> payload) -> Status {
+            const auto coded = parse_shape_head(payload, ring);
+            if (!coded) return coded.error();
+            needed_bytes_ += coded->cells * sizeof(ShapeCell);
+            fits = needed_bytes_ <= options_.memory_cap_bytes;
+            return fits ? parse_shape_cells(*coded, ring.shape) : Status{};
+        });
+        return fits ? status : Status{too_large(needed_bytes_)};
     }
 
     Status read_pictures() {
@@ -141,6 +166,7 @@ private:
     const ContainerReader& container_;
     const ReadObjectOptions& options_;
     RaySpaceObject object_;
+    std::uint64_t needed_bytes_ = 0;  // of the memory cap
 };
 
 }  // namespace

@@ -2,27 +2,22 @@
 #include "rayspace/conventions.hpp"
 #include "rayspace/object_chunks.hpp"
 #include "rayspace/object_file.hpp"
+#include "rayspace/object_ranges.hpp"
 #include "rayspace/rig.hpp"
+#include "rayspace/shape_validate.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace rs {
+
+using namespace object_ranges;
+
 namespace {
 
-constexpr std::int64_t kOne_q16 = std::int64_t{1} << 16;
-constexpr std::int64_t kOne_q20 = std::int64_t{1} << 20;
-constexpr std::int64_t kMaxPixels_q16 = 16384 * kOne_q16;
 constexpr std::int64_t kMaxColumnOffset_q16 = 32768 * kOne_q16;
-constexpr std::int64_t kMaxDistance_q20 = 256 * kOne_q20;
-constexpr std::int64_t kMaxXHalf_q20 = 2 * kOne_q20 + kOne_q20 / 16;
 constexpr std::int32_t kMaxElevation_udeg = 90'000'000;
-
-// |number| < limit, for numbers of which INT32_MIN is one.
-bool below(std::int32_t number, std::int64_t limit) {
-    return std::abs(std::int64_t{number}) < limit;
-}
 
 bool is_printable_utf8(const std::string& text) {
     const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
@@ -35,12 +30,6 @@ bool is_printable_utf8(const std::string& text) {
     }
 }
 
-// Whether cells_per_unit_q12 is cells / (2 * half), but for its own rounding and that of `half`.
-bool is_consistent(std::int32_t cells_per_unit_q12, int cells, double half) {
-    const double expected = 4096.0 * cells / (2 * half);
-    return cells_per_unit_q12 > 0 && std::abs(cells_per_unit_q12 - expected) <= 1.0 + std::ldexp(expected, -20);
-}
-
 Status check_view(const CapturedView& view) {
     if (!below(view.cx_q16, kMaxPixels_q16) || !below(view.cy_q16, kMaxPixels_q16)) {
         return Error{"its principal point lies 16384 px or more from the corner"};
@@ -51,7 +40,7 @@ Status check_view(const CapturedView& view) {
     if (!below(view.height_q20, kMaxDistance_q20)) return Error{"its height is 256 object radii or more"};
     for (const CapturedLine& line : view.lines) {
         // |l1| <= 1: it is the cosine of an angle.
-        if (!below(line.l0_q20, kMaxDistance_q20) || !below(line.l1_q30, (std::int64_t{1} << 30) + 1)) {
+        if (!below(line.l0_q20, kMaxDistance_q20) || !below(line.l1_q30, kOne_q30 + 1)) {
             return Error{"the depth of one of its lines is out of range"};
         }
         if (!below(line.q0_q16, kMaxColumnOffset_q16) || !below(line.q1_q16, kMaxPixels_q16)) {
@@ -73,7 +62,7 @@ Status check_ring_geometry(const Ring& ring) {
         return Error{"its map is " + std::to_string(ring.x_cells) + "x" + std::to_string(ring.u_cells) +
                      " cells; each side must be 1.." + std::to_string(kMaxMapSide)};
     }
-    if (ring.x_half_q20 < kOne_q20 || ring.x_half_q20 >= kMaxXHalf_q20) {
+    if (ring.x_half_q20 < kOne_q20 || ring.x_half_q20 >= kMaxHalf_q20) {
         return Error{"its map's half width along x is not within 1 and 2 + 1/16"};
     }
     const std::int64_t squarest_q28 = std::llround(std::ldexp(std::tan(kPi / ring.planes), 28));
@@ -91,7 +80,7 @@ Status check_ring_geometry(const Ring& ring) {
 std::int64_t larger_depth_q50(const CapturedLine& line, const Ring& ring, int xi) {
     const auto depth_at = [&](int column) {
         const std::int64_t x_q20 = 2 * std::int64_t{ring.x_half_q20} * column / ring.x_cells - ring.x_half_q20;
-        return std::int64_t{line.l0_q20} * (std::int64_t{1} << 30) + x_q20 * line.l1_q30;
+        return std::int64_t{line.l0_q20} * kOne_q30 + x_q20 * line.l1_q30;
     };
     return std::max(depth_at(xi), depth_at(xi + 1));
 }
@@ -136,7 +125,9 @@ Status check_ring(const RaySpaceObject& object, const Ring& ring, std::vector<bo
             return Error{"view " + std::to_string(view) + " does not have one line per plane"};
         }
     }
-    return check_cells(object, ring);
+    if (Status status = check_cells(object, ring); !status) return status;
+    const Status shape = check_shape(ring);
+    return shape ? Status{} : Status{Error{"its shape map: " + shape.error().message}};
 }
 
 bool has_size(const Image<std::uint8_t>& plane, int width, int height) {

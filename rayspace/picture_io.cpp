@@ -52,17 +52,18 @@ Result<const pictures::Backend*> backend_for(const fs::path& path) {
     return door.backend;
 }
 
-// Encoding happens in memory, so that the disk's troubles are reported by StagedFile alone.
+// All pictures are encoded in memory, so that the disk's troubles are reported by StagedFile alone.
+Status check_size(const std::string& shown, int width, int height) {
+    if (width >= 1 && height >= 1 && width <= kMaxPictureSide_px && height <= kMaxPictureSide_px) return {};
+    return Error{shown + ": a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                 " pixels cannot be written; each side must be 1.." + std::to_string(kMaxPictureSide_px)};
+}
+
 template <class Pixel>
 Status write_encoded(const fs::path& path, ConstImageView<Pixel> picture,
                      Result<std::vector<std::byte>> (*pictures::Backend::*encode)(ConstImageView<Pixel>,
                                                                                   const std::string&)) {
-    if (picture.width() < 1 || picture.height() < 1 || picture.width() > kMaxPictureSide_px ||
-        picture.height() > kMaxPictureSide_px) {
-        return Error{path.string() + ": a picture of " + std::to_string(picture.width()) + "x" +
-                     std::to_string(picture.height()) + " pixels cannot be written; each side must be 1.." +
-                     std::to_string(kMaxPictureSide_px)};
-    }
+    if (Status status = check_size(path.string(), picture.width(), picture.height()); !status) return status;
     const auto backend = backend_for(path);
     if (!backend) return backend.error();
     // The place is tried before the work is done.
@@ -98,6 +99,12 @@ Result<Image<float>> read_channel(const fs::path& path) {
 
 Status write_png(const fs::path& path, ConstImageView<Rgba8> picture) {
     return write_encoded(path, picture, &pictures::Backend::encode_png);
+}
+
+Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> picture, const std::string& shown) {
+    if (const Status status = check_size(shown, picture.width(), picture.height()); !status) return status.error();
+    const auto backend = backend_for(shown);
+    return backend ? (*backend)->encode_png(picture, shown) : backend.error();
 }
 
 Status write_exr(const fs::path& path, ConstImageView<RgbaF> picture) {

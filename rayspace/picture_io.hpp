@@ -12,6 +12,7 @@
 #include "rayspace/image.hpp"
 #include "rayspace/result.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -46,6 +47,9 @@ Result<Image<float>> read_channel(const std::filesystem::path& path);
 
 // PNG, 8 bit, straight alpha.
 Status write_png(const std::filesystem::path& path, ConstImageView<Rgba8> picture);
+
+// The bytes that write_png would write, for pictures inside of other files; `shown` names the picture in errors.
+Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> picture, const std::string& shown);
 
 // OpenEXR, float, zip; linear light. The EXR convention is associated alpha: colours are multiplied on writing and
 // divided on reading.

@@ -10,6 +10,7 @@
 // gives column and vertical scale of the ray through x exactly, without the rounding of a column stored per cell.
 
 #include "rayspace/image.hpp"
+#include "rayspace/shape_map.hpp"
 
 #include <cstdint>
 #include <string>
@@ -57,6 +58,7 @@ struct Ring {
     std::int32_t u_cells_per_unit_q12 = 0;  // u_cells / (2 * u_half)
     std::vector<std::uint16_t> views;       // indices of the views that belong to the ring, in turning order
     std::vector<std::uint16_t> cells;
+    ShapeMap shape;  // empty: the object is taken to lie on the reference plane, as in the paper
     bool operator==(const Ring&) const = default;
 
     [[nodiscard]] std::size_t cell_index(int plane, int xi, int ui) const {

@@ -1,21 +1,39 @@
 #include "engine/core/reconstruct.hpp"
 
 #include "engine/core/ray_setup.hpp"
+#include "engine/core/shape_pixel.hpp"
+#include "engine/core/shape_setup.hpp"
 #include "rayspace/yuv.hpp"
 
 namespace rs::engine {
+namespace {
+
+Rgba8 plane_pixel(const RaySpaceObject& object, const ViewRegisters& registers, int i, int j) {
+    const RaySetup ray = set_up_ray(object, registers, i, j);
+    if (ray.picture < 0) return {};
+    const std::int64_t row = ray.row(j);
+    if (row < 0 || row >= object.height) return {};
+    return rgba_at(object.pictures[static_cast<std::size_t>(ray.picture)], ray.column, static_cast<int>(row));
+}
+
+ShapePixel pixel_with_height(const RaySpaceObject& object, const ViewRegisters& registers, int i, int j) {
+    const ShapeSetup setup = set_up_shape(object, registers, i, j);
+    if (!setup.has_ray) return {};
+    const auto texel = [&](int view, int column, int row) {
+        return rgba_at(object.pictures[static_cast<std::size_t>(view)], column, row);
+    };
+    return shape_pixel(object, registers, setup, static_cast<std::int32_t>(registers.rise.at(i, j) >> 8), texel);
+}
+
+}  // namespace
 
 void reconstruct_scalar(const RaySpaceObject& object, const ViewRegisters& registers, ImageView<Rgba8> out) {
     RS_CHECK(out.width() == registers.width && out.height() == registers.height);
+    const bool has_shape = !object.rings[static_cast<std::size_t>(registers.ring)].shape.empty();
     for (int j = 0; j < registers.height; ++j) {
         for (int i = 0; i < registers.width; ++i) {
-            out(i, j) = Rgba8{};
-            const RaySetup ray = set_up_ray(object, registers, i, j);
-            if (ray.picture < 0) continue;
-            const std::int64_t row = ray.row(j);
-            if (row < 0 || row >= object.height) continue;
-            out(i, j) =
-                rgba_at(object.pictures[static_cast<std::size_t>(ray.picture)], ray.column, static_cast<int>(row));
+            out(i, j) = has_shape ? pixel_with_height(object, registers, i, j).colour
+                                  : plane_pixel(object, registers, i, j);
         }
     }
 }

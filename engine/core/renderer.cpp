@@ -2,6 +2,7 @@
 
 #include "engine/core/column_walk.hpp"
 #include "engine/core/ray_setup.hpp"
+#include "engine/core/shape_pixel.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -118,7 +119,9 @@ Result<Renderer> Renderer::create(RaySpaceObject object) {
 
 void Renderer::render(const ViewRegisters& registers, ImageView<Rgba8> out) const {
     RS_CHECK(out.width() == registers.width && out.height() == registers.height);
-    if (registers.upright()) {
+    if (!object_.rings[static_cast<std::size_t>(registers.ring)].shape.empty()) {
+        render_shape(registers, out);
+    } else if (registers.upright()) {
         render_upright(registers, out);
     } else {
         render_tilted(registers, out);
@@ -141,6 +144,23 @@ void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> o
             const int first = s * kStripColumns;
             walk_columns(strip[static_cast<std::size_t>(s)], texels_.texels(), row_begin, row_end,
                          std::min(kStripColumns, registers.width - first), out.row(row_begin) + first, out.stride());
+        }
+    });
+}
+
+void Renderer::render_shape(const ViewRegisters& registers, ImageView<Rgba8> out) const {
+    const auto texel = [&](int view, int column, int row) {
+        return texels_.texels()[texels_.column_start(view, column) + row];
+    };
+    const bool upright = registers.upright();
+    tbb::parallel_for(0, registers.width, [&](int i) {
+        ShapeSetup setup = set_up_shape(object_, registers, i, 0);
+        for (int j = 0; j < registers.height; ++j) {
+            if (!upright) setup = set_up_shape(object_, registers, i, j);
+            out(i, j) = setup.has_ray ? shape_pixel(object_, registers, setup,
+                                                    static_cast<std::int32_t>(registers.rise.at(i, j) >> 8), texel)
+                                            .colour
+                                      : Rgba8{};
         }
     });
 }

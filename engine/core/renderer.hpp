@@ -33,6 +33,7 @@ public:
 private:
     Renderer(RaySpaceObject object, TexelStore texels);
     void render_upright(const ViewRegisters& registers, ImageView<Rgba8> out) const;
+    void render_shape(const ViewRegisters& registers, ImageView<Rgba8> out) const;
     void render_tilted(const ViewRegisters& registers, ImageView<Rgba8> out) const;
 
     RaySpaceObject object_;

@@ -44,7 +44,7 @@ Status fits_board(const RaySpaceObject& object, const BoardLimits& limits) {
         }
         if (std::max(ring.x_cells, ring.u_cells) > limits.map_side) {
             return over(object, "RS map side:", std::max(ring.x_cells, ring.u_cells), limits.map_side,
-                        "encode it with a smaller --raymap");
+                        "encode it with fewer --cells");
         }
     }
     if (object.rings.size() > 1) {

@@ -61,7 +61,7 @@ protected:
         write_set("object-set");
         const test::ToolRun run = test::run_tool(
             scratch_.path(), "rs-encode",
-            {"build", in("object-set"), "-o", in("object.rso"), "--planes", "3", "--raymap", "16x16", "-q"});
+            {"build", in("object-set"), "-o", in("object.rso"), "--planes", "3", "--cells", "16x16", "-q"});
         EXPECT_EQ(run.exit_code, 0) << run.err;
         return in("object.rso");
     }

@@ -2,7 +2,7 @@
 #include "rayspace/file_output.hpp"
 #include "rayspace/object_file.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
-#include "tests/support/small_object.hpp"
+#include "tests/support/small_shape.hpp"
 
 #include <cstdio>
 #include <filesystem>
@@ -30,11 +30,16 @@ Status write_seeds(const fs::path& corpus) {
     one_ring.height = 2;
     test::SmallObjectOptions two_rings = one_ring;
     two_rings.rings = 2;
-    const std::pair<const char*, test::SmallObjectOptions> objects[] = {{"one-ring", one_ring},
-                                                                        {"two-rings", two_rings}};
-    for (const auto& [name, options] : objects) {
+    // Gaps without lines, too; two rings, only one of which has a shape map.
+    const test::SmallShapeOptions shape{.p_cells = 5, .bands = 4, .lines = {2, 0, 1}};
+    RaySpaceObject with_shape = test::small_object(two_rings);
+    with_shape.rings[1].shape = test::small_shape(with_shape, 1, shape);
+    const std::pair<const char*, RaySpaceObject> objects[] = {{"one-ring", test::small_object(one_ring)},
+                                                              {"two-rings", test::small_object(two_rings)},
+                                                              {"shape", std::move(with_shape)}};
+    for (const auto& [name, object] : objects) {
         const fs::path file = corpus / "container" / (std::string("seed-") + name + ".rso");
-        if (Status status = write_object(file, test::small_object(options)); !status) return status;
+        if (Status status = write_object(file, object); !status) return status;
         const auto reader = ContainerReader::open(file);
         if (!reader) return reader.error();
         std::vector<fuzz::SoupChunk> chunks;

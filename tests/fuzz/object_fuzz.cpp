@@ -2,6 +2,7 @@
 #include "rayspace/object_chunks.hpp"
 #include "rayspace/object_file.hpp"
 #include "rayspace/ray_space.hpp"
+#include "rayspace/shape_chunk.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 #include "tests/fuzz/entries.hpp"
 
@@ -21,6 +22,7 @@ void check_rewriting(const RaySpaceObject& object) {
         if (key.name == kViews) chunk.payload = views_payload(object);
         if (key.name == kRing) chunk.payload = ring_payload(object, key.index);
         if (key.name == kMap) chunk.payload = map_payload(object.rings[key.index]);
+        if (key.name == kShape) chunk.payload = shape_payload(object.rings[key.index]);
         if (key.name == kPicture) chunk.payload = picture_payload(object.pictures[key.index]);
         chunks.push_back(std::move(chunk));
     }

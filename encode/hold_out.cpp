@@ -1,0 +1,84 @@
+#include "encode/hold_out.hpp"
+
+#include "encode/raymap/rings.hpp"
+#include "rayspace/check.hpp"
+#include "rayspace/conventions.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace rs::encode {
+namespace {
+
+double azimuth_rad(const Rig& rig, int view) {
+    const glm::dvec3 centre = rig.views[static_cast<std::size_t>(view)].camera.centre();
+    return std::atan2(centre.x, centre.z);
+}
+
+double elevation_rad(const Rig& rig, int view) {
+    const glm::dvec3 centre = rig.views[static_cast<std::size_t>(view)].camera.centre();
+    return std::atan2(centre.y, std::hypot(centre.x, centre.z));
+}
+
+}  // namespace
+
+Result<int> parse_hold_out(const std::string& text) {
+    constexpr std::string_view kStart = "every-";
+    int every = 0;
+    if (text.starts_with(kStart)) {
+        const char* const end = text.data() + text.size();
+        const auto [rest, error] = std::from_chars(text.data() + kStart.size(), end, every);
+        const std::string_view ending(rest, static_cast<std::size_t>(end - rest));
+        const bool ordinal = ending == "st" || ending == "nd" || ending == "rd" || ending == "th";
+        if (error == std::errc{} && ordinal && every >= 2) return every;
+    }
+    return Error{"--hold-out " + text + ": give every-2nd, every-3rd, every-4th or so on"};
+}
+
+Result<HoldOut> choose_hold_out(const Rig& rig, int every, const std::string& where) {
+    RS_CHECK(every >= 2);
+    const auto run = static_cast<std::size_t>(every);
+    HoldOut chosen;
+    for (const ViewRing& ring : find_rings(rig)) {
+        for (std::size_t n = 0; n < ring.views.size(); ++n) {
+            (n % run == run / 2 ? chosen.held : chosen.kept).push_back(ring.views[n]);
+        }
+    }
+    if (chosen.held.empty() || chosen.kept.size() < 2) {
+        return Error{where + ": " + std::to_string(rig.views.size()) + " views are too few to hold out one of every " +
+                     std::to_string(every) +
+                     "; a set with more views in a ring, or a smaller number, leaves some to build from and some to "
+                     "score with"};
+    }
+    std::sort(chosen.kept.begin(), chosen.kept.end());
+    std::sort(chosen.held.begin(), chosen.held.end());
+    return chosen;
+}
+
+int nearest_kept_view(const Rig& rig, const HoldOut& hold_out, int view) {
+    RS_CHECK(!hold_out.kept.empty());
+    Rig kept;
+    for (const int k : hold_out.kept) kept.views.push_back(rig.views[static_cast<std::size_t>(k)]);
+    const std::vector<ViewRing> rings = find_rings(kept);
+    const double elevation = elevation_rad(rig, view);
+    const ViewRing& ring = *std::min_element(rings.begin(), rings.end(), [&](const ViewRing& a, const ViewRing& b) {
+        return std::abs(a.elevation_rad - elevation) < std::abs(b.elevation_rad - elevation);
+    });
+
+    // Halfway views are the rule here: rounding must not choose between their two neighbours.
+    constexpr double kSame_rad = 1e-9;
+    const double azimuth = azimuth_rad(rig, view);
+    int nearest = -1;
+    double least = 0;
+    for (const int n : ring.views) {
+        const double turn = std::abs(std::remainder(azimuth_rad(kept, n) - azimuth, 2 * kPi));
+        if (nearest >= 0 && turn > least - kSame_rad) continue;
+        nearest = n;
+        least = turn;
+    }
+    return hold_out.kept[static_cast<std::size_t>(nearest)];
+}
+
+}  // namespace rs::encode

@@ -1,0 +1,138 @@
+#include "encode/raymap/semi_global.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+namespace rs::encode {
+namespace {
+
+using Path = std::int16_t;
+constexpr Path kBeyond = 8000;  // beside the first and the last level
+
+// The costs of a path at one pixel, level n at [n + 1], between two sentinels; and their minimum.
+class PathCosts {
+public:
+    PathCosts(int pixels, int levels)
+        : stride_(static_cast<std::size_t>(levels) + 2), costs_(static_cast<std::size_t>(pixels) * stride_, kBeyond),
+          least_(static_cast<std::size_t>(pixels), 0) {}
+    Path* at(int pixel) { return costs_.data() + static_cast<std::size_t>(pixel) * stride_; }
+    Path& least(int pixel) { return least_[static_cast<std::size_t>(pixel)]; }
+
+private:
+    std::size_t stride_;
+    std::vector<Path> costs_;
+    std::vector<Path> least_;
+};
+
+// One step of a path: into `to`, and added to `sum`.
+Path step_path(const Path* from, Path least_from, const std::uint8_t* costs, Path small_step, Path large_step, int levels,
+               Path* to, Path* sum) {
+    Path least = kBeyond;
+    const auto jump = static_cast<Path>(least_from + large_step);
+    for (int n = 0; n < levels; ++n) {
+        const auto beside = static_cast<Path>(std::min(from[n], from[n + 2]) + small_step);
+        const Path best = std::min(std::min(from[n + 1], beside), jump);
+        const auto cost = static_cast<Path>(costs[n] + best - least_from);
+        to[n + 1] = cost;
+        sum[n] = static_cast<Path>(sum[n] + cost);
+        least = std::min(least, cost);
+    }
+    return least;
+}
+
+Path begin_path(const std::uint8_t* costs, int levels, Path* to, Path* sum) {
+    Path least = kBeyond;
+    for (int n = 0; n < levels; ++n) {
+        const auto cost = static_cast<Path>(costs[n]);
+        to[n + 1] = cost;
+        sum[n] = static_cast<Path>(sum[n] + cost);
+        least = std::min(least, cost);
+    }
+    return least;
+}
+
+class Matcher {
+public:
+    Matcher(const WorkView& view, const CostVolume& volume, const SmoothnessOptions& options)
+        : view_(view), volume_(volume), options_(options), sums_(volume.costs.size(), 0) {}
+
+    // Paths that run with (direction 1) or against (-1) the columns, and within a column.
+    void sweep(int direction) {
+        const PixelBox& box = volume_.box;
+        const int rows = box.height();
+        constexpr int kSlopes = 3;  // the previous column's row above, the same, below
+        std::vector<PathCosts> before(kSlopes, PathCosts(rows, volume_.levels));
+        std::vector<PathCosts> now(kSlopes, PathCosts(rows, volume_.levels));
+        PathCosts within(rows, volume_.levels);
+        for (int n = 0; n < box.width(); ++n) {
+            const int column = direction > 0 ? box.left + n : box.right - 1 - n;
+            for (int m = 0; m < rows; ++m) {
+                const int r = direction > 0 ? m : rows - 1 - m;
+                const int row = box.top + r;
+                if (view_.at(column, row).a == 0) continue;
+                for (int slope = 0; slope < kSlopes; ++slope) {
+                    const auto s = static_cast<std::size_t>(slope);
+                    follow(before[s], r + slope - 1, column - direction, now[s], r, column);
+                }
+                follow(within, r - direction, column, within, r, column);
+            }
+            std::swap(before, now);
+        }
+    }
+
+    [[nodiscard]] float level_of(int column, int row) const {
+        const Path* const sum = sums_.data() + (volume_.at(column, row) - volume_.costs.data());
+        const int best = static_cast<int>(std::min_element(sum, sum + volume_.levels) - sum);
+        if (best == 0 || best == volume_.levels - 1) return static_cast<float>(best);
+        // The vertex of the parabola through the three sums.
+        const double before = sum[best - 1] - sum[best];
+        const double after = sum[best + 1] - sum[best];
+        const double curvature = before + after;
+        return static_cast<float>(best + (curvature > 0 ? (before - after) / (2 * curvature) : 0));
+    }
+
+private:
+    void follow(PathCosts& from, int from_r, int from_column, PathCosts& to, int r, int column) {
+        const PixelBox& box = volume_.box;
+        const int row = box.top + r;
+        const std::uint8_t* const costs = volume_.at(column, row);
+        Path* const sum = sums_.data() + (costs - volume_.costs.data());
+        const bool begins = from_r < 0 || from_r >= box.height() || from_column < box.left ||
+                            from_column >= box.right || view_.at(from_column, box.top + from_r).a == 0;
+        if (begins) {
+            to.least(r) = begin_path(costs, volume_.levels, to.at(r), sum);
+            return;
+        }
+        const Rgba8 here = view_.at(column, row);
+        const Rgba8 there = view_.at(from_column, box.top + from_r);
+        const int edge = std::abs(here.r - there.r) + std::abs(here.g - there.g) + std::abs(here.b - there.b);
+        const int large = std::max(options_.small_step + 2, options_.large_step * 24 / (24 + edge));
+        to.least(r) = step_path(from.at(from_r), from.least(from_r), costs, static_cast<Path>(options_.small_step),
+                                static_cast<Path>(large), volume_.levels, to.at(r), sum);
+    }
+
+    const WorkView& view_;
+    const CostVolume& volume_;
+    SmoothnessOptions options_;
+    std::vector<Path> sums_;
+};
+
+}  // namespace
+
+Image<float> semi_global_levels(const WorkView& view, const CostVolume& volume, const SmoothnessOptions& options) {
+    Image<float> levels(view.height, view.width, kNoDepth);
+    if (volume.box.empty()) return levels;
+    Matcher matcher(view, volume, options);
+    matcher.sweep(1);
+    matcher.sweep(-1);
+    for (int column = volume.box.left; column < volume.box.right; ++column) {
+        for (int row = volume.box.top; row < volume.box.bottom; ++row) {
+            if (view.at(column, row).a > 0) levels(row, column) = matcher.level_of(column, row);
+        }
+    }
+    return levels;
+}
+
+}  // namespace rs::encode

@@ -1,0 +1,310 @@
+#include "encode/raymap/shape_lines.hpp"
+
+#include "encode/raymap/semi_global.hpp"
+#include "rayspace/conventions.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rs::encode {
+namespace {
+
+constexpr double kHalfWidth = 1 + 1.0 / 32;  // of p and of depth
+constexpr int kDepths = 256;
+
+std::int32_t fixed(double value, int fractional_bits) {
+    return static_cast<std::int32_t>(std::lround(std::ldexp(value, fractional_bits)));
+}
+
+double azimuth(const WorkView& view) {
+    return std::atan2(view.centre.x, view.centre.y);
+}
+
+// The grid of cells of one line, and of the finer raster that surfaces are drawn on.
+struct LineGrid {
+    int p_cells = 0, bands = 0;
+    double p_low = 0, h_low = 0;
+    double cells_per_unit = 0;
+    double bands_per_unit = 0;
+    double distance = 0, height = 0;  // of the reference viewpoint
+    int fine = 1;                     // raster points along a cell's side
+};
+
+struct LinePoint {
+    double p = 0, h = 0, depth = 0;
+};
+
+// A point as a line's viewpoint sees it.
+LinePoint on_line(const LineGrid& grid, const glm::dvec2& viewpoint, const glm::dvec2& place, double y) {
+    const glm::dvec2 along = glm::normalize(place - viewpoint);
+    LinePoint point;
+    point.p = -place.x * along.y + place.y * along.x;
+    point.depth = glm::dot(place, along);
+    const double rho = std::sqrt(std::max(grid.distance * grid.distance - point.p * point.p, grid.distance * grid.distance / 4));
+    point.h = grid.height + (y - grid.height) * rho / (rho + point.depth);
+    return point;
+}
+
+// The surfaces of one picture seen from a line's viewpoint: nearest depths on the fine raster.
+class LineRaster {
+public:
+    explicit LineRaster(const LineGrid& grid)
+        : grid_(grid), depth_(grid.bands * grid.fine, grid.p_cells * grid.fine, kNoDepth) {}
+
+    void draw(const DepthView& source, const glm::dvec2& viewpoint) {
+        std::fill(depth_.pixels().begin(), depth_.pixels().end(), kNoDepth);
+        for (int column = 0; column < source.view.width; ++column) {
+            const HorizontalRay ray = source.view.ray_of(column + 0.5);
+            for (int row = 0; row < source.view.height; ++row) {
+                const float depth = source.depth(row, column);
+                if (std::isnan(depth)) continue;
+                const double y = source.view.height_of(row + 0.5, (ray.to_foot + static_cast<double>(depth)) / ray.horizontal_per_axial);
+                put(on_line(grid_, viewpoint, ray.foot + static_cast<double>(depth) * ray.along, y));
+            }
+        }
+    }
+    [[nodiscard]] float at(int p, int h) const { return depth_(h, p); }
+
+private:
+    void put(const LinePoint& point) {
+        const auto p = static_cast<int>(std::floor((point.p - grid_.p_low) * grid_.cells_per_unit * grid_.fine - 0.5));
+        const auto h = static_cast<int>(std::floor((point.h - grid_.h_low) * grid_.bands_per_unit * grid_.fine - 0.5));
+        for (int x = p; x <= p + 1; ++x) {
+            for (int y = h; y <= h + 1; ++y) {
+                if (x < 0 || y < 0 || x >= depth_.height() || y >= depth_.width()) continue;
+                float& nearest = depth_(y, x);
+                if (!(nearest <= static_cast<float>(point.depth))) nearest = static_cast<float>(point.depth);
+            }
+        }
+    }
+
+    const LineGrid& grid_;
+    Image<float> depth_;  // (h, p)
+};
+
+struct Found {
+    float depth = 0;
+    bool second = false;  // by which picture
+};
+
+struct Surface {
+    double depth = 0;
+    int by_first = 0;
+    int by_second = 0;
+    [[nodiscard]] int count() const { return by_first + by_second; }
+};
+
+Surface surface_of(const std::vector<Found>& found, std::size_t begin, std::size_t end) {
+    Surface surface;
+    for (std::size_t n = begin; n < end; ++n) (found[n].second ? surface.by_second : surface.by_first) += 1;
+    surface.depth = static_cast<double>(found[(begin + end) / 2].depth);
+    return surface;
+}
+
+// Where to cut sorted depths in two so that the squares of the distances to the two means are least.
+std::size_t best_cut(const std::vector<Found>& found) {
+    double sum = 0;
+    for (const Found& f : found) sum += static_cast<double>(f.depth);
+    double before = 0;
+    double best = -1;
+    std::size_t cut = 1;
+    for (std::size_t n = 1; n < found.size(); ++n) {
+        before += static_cast<double>(found[n - 1].depth);
+        const auto left = static_cast<double>(n);
+        const auto right = static_cast<double>(found.size() - n);
+        const double gain = before * before / left + (sum - before) * (sum - before) / right;
+        if (best < 0 || gain > best) {
+            best = gain;
+            cut = n;
+        }
+    }
+    return cut;
+}
+
+ShapeCell make_cell(std::vector<Found>& found, double low, double step, double tolerance) {
+    ShapeCell cell;
+    if (found.empty()) return cell;
+    std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.depth < b.depth; });
+    std::vector<Surface> surfaces;
+    if (static_cast<double>(found.back().depth - found.front().depth) > tolerance) {
+        const std::size_t cut = best_cut(found);
+        surfaces = {surface_of(found, 0, cut), surface_of(found, cut, found.size())};
+        if (surfaces[1].count() > surfaces[0].count()) std::swap(surfaces[0], surfaces[1]);
+    } else {
+        surfaces = {surface_of(found, 0, found.size())};
+    }
+    for (std::size_t n = 0; n < surfaces.size(); ++n) {
+        const Surface& surface = surfaces[n];
+        cell.depth[n] = static_cast<std::uint8_t>(std::clamp(std::lround((surface.depth - low) / step), 0L, 255L));
+        const int enough = (std::max(surface.by_first, surface.by_second) + 3) / 4;
+        if (surface.by_first >= enough) cell.rays = static_cast<std::uint8_t>(cell.rays | (kFirstSeesLayer0 << (2 * n)));
+        if (surface.by_second >= enough) cell.rays = static_cast<std::uint8_t>(cell.rays | (kSecondSeesLayer0 << (2 * n)));
+    }
+    return cell;
+}
+
+// Cells without a surface beside ones with one take theirs: silhouettes are cut by alpha, not by cells.
+void grow(ShapeCell* cells, int p_cells, int bands) {
+    const std::vector<ShapeCell> before(cells, cells + p_cells * bands);
+    for (int p = 0; p < p_cells; ++p) {
+        for (int h = 0; h < bands; ++h) {
+            ShapeCell& cell = cells[p * bands + h];
+            if (cell.rays != 0) continue;
+            for (const auto& [dp, dh] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}}) {
+                if (p + dp < 0 || p + dp >= p_cells || h + dh < 0 || h + dh >= bands) continue;
+                const ShapeCell& other = before[static_cast<std::size_t>((p + dp) * bands + h + dh)];
+                if (other.rays == 0) continue;
+                cell = other;
+                break;
+            }
+        }
+    }
+}
+
+// How far behind its nearest layer each cell of a column stays within the hull.
+void find_backs(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
+                ShapeCell* cells) {
+    constexpr int kStride = 2;
+    const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
+    // The ray through the viewpoint at distance p from the axis.
+    const double distance = glm::length(viewpoint);
+    const double to_foot = std::sqrt(std::max(distance * distance - p * p, 0.0));
+    const glm::dvec2 inwards = -viewpoint / distance;
+    const glm::dvec2 sideways(-inwards.y, inwards.x);
+    // along such that the foot is p times its perpendicular (-along.y, along.x)
+    const double sine = -p / distance;
+    const glm::dvec2 along = inwards * (to_foot / distance) - sideways * sine;
+    const glm::dvec2 foot = p * glm::dvec2(-along.y, along.x);
+    const double rho = std::sqrt(std::max(grid.distance * grid.distance - p * p, grid.distance * grid.distance / 4));
+    std::vector<char> inside(static_cast<std::size_t>(grid.bands), 0);
+    std::vector<char> done(static_cast<std::size_t>(grid.bands), 0);
+    for (int h = 0; h < grid.bands; ++h) {
+        ShapeCell& cell = cells[h];
+        const int nearest = (cell.rays & 12) != 0 ? std::min(cell.depth[0], cell.depth[1]) : cell.depth[0];
+        cell.back = static_cast<std::uint8_t>(nearest);
+        if (cell.rays == 0) done[static_cast<std::size_t>(h)] = 1;
+    }
+    std::vector<Interval> heights;
+    for (int d = 0; d < kDepths; d += kStride) {
+        const double depth = -kHalfWidth + d * step;
+        hull.heights_above(foot + depth * along, heights);
+        for (int h = 0; h < grid.bands; ++h) {
+            ShapeCell& cell = cells[h];
+            if (done[static_cast<std::size_t>(h)] != 0) continue;
+            const int nearest = (cell.rays & 12) != 0 ? std::min(cell.depth[0], cell.depth[1]) : cell.depth[0];
+            if (d < nearest) continue;
+            const double y = grid.height + (grid.h_low + (h + 0.5) / grid.bands_per_unit - grid.height) * (rho + depth) / rho;
+            const bool within = std::any_of(heights.begin(), heights.end(), [&](const Interval& i) { return y >= i.low && y <= i.high; });
+            if (within) cell.back = static_cast<std::uint8_t>(d);
+            else if (d > nearest + 300) done[static_cast<std::size_t>(h)] = 1;
+        }
+    }
+}
+
+struct HeightRange {
+    double low = 1e30, high = -1e30;
+};
+
+HeightRange height_range(const std::vector<DepthView>& ring, double distance, double height) {
+    HeightRange range;
+    for (const DepthView& source : ring) {
+        for (int column = 0; column < source.view.width; ++column) {
+            const HorizontalRay ray = source.view.ray_of(column + 0.5);
+            for (int row = 0; row < source.view.height; ++row) {
+                const float depth = source.depth(row, column);
+                if (std::isnan(depth)) continue;
+                const double y = source.view.height_of(row + 0.5, (ray.to_foot + static_cast<double>(depth)) / ray.horizontal_per_axial);
+                const double h = height + (y - height) * distance / (distance + static_cast<double>(depth));
+                range.low = std::min(range.low, h);
+                range.high = std::max(range.high, h);
+            }
+        }
+    }
+    if (range.low > range.high) range = {-0.1, 0.1};
+    return range;
+}
+
+}  // namespace
+
+double gap_width(const std::vector<DepthView>& ring, std::size_t n) {
+    const double width = azimuth(ring[(n + 1) % ring.size()].view) - azimuth(ring[n].view);
+    return width > 0 ? width : width + 2 * kPi;
+}
+
+ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& hull, const ShapeLinesOptions& options) {
+    ShapeMap map;
+    const double count = static_cast<double>(ring.size());
+    LineGrid grid;
+    double scale = 0;
+    for (const DepthView& source : ring) {
+        grid.distance += glm::length(source.view.centre) / count;
+        grid.height += source.view.centre_y / count;
+        scale += source.view.fl_x / glm::length(source.view.centre) / count;
+    }
+    const HeightRange heights = height_range(ring, grid.distance, grid.height);
+    const double cell = options.cell_px / scale;
+    map.p_cells = std::clamp(static_cast<int>(std::ceil(2 * kHalfWidth / cell)), 1, 4096);
+    map.p_half_q20 = fixed(kHalfWidth, 20);
+    map.p_cells_per_unit_q12 = fixed(map.p_cells / (2 * kHalfWidth), 12);
+    map.bands = std::clamp(static_cast<int>(std::ceil((heights.high - heights.low) / cell)) + 2, 1, 4096);
+    map.h_low_q20 = fixed(heights.low - cell, 20);
+    map.bands_per_unit_q12 = fixed(1 / cell, 12);
+    map.reference_distance_q20 = fixed(grid.distance, 20);
+    map.reference_height_q20 = fixed(grid.height, 20);
+    const double step = 2 * kHalfWidth / (kDepths - 1);
+    map.depth_low_q20 = fixed(-kHalfWidth, 20);
+    map.depth_step_q24 = fixed(step, 24);
+    grid.p_cells = map.p_cells;
+    grid.bands = map.bands;
+    grid.p_low = -kHalfWidth;
+    grid.h_low = heights.low - cell;
+    grid.cells_per_unit = map.p_cells / (2 * kHalfWidth);
+    grid.bands_per_unit = 1 / cell;
+    grid.fine = std::max(1, static_cast<int>(std::lround(options.cell_px)));
+
+    std::uint32_t lines = 0;
+    for (std::size_t n = 0; n < ring.size(); ++n) {
+        const double width_deg = degrees(gap_width(ring, n));
+        const bool wide = ring.size() < 2 || width_deg > options.widest_gap_deg;
+        const int count_of_gap = wide ? 0 : std::clamp(static_cast<int>(std::ceil(width_deg / options.line_deg - 0.01)), 1, 1024);
+        map.gaps.push_back({static_cast<std::uint16_t>(count_of_gap), lines});
+        lines += static_cast<std::uint32_t>(count_of_gap);
+    }
+    const std::size_t line_cells = static_cast<std::size_t>(map.p_cells) * static_cast<std::size_t>(map.bands);
+    map.cells.resize(lines * line_cells);
+
+    tbb::parallel_for(std::size_t{0}, ring.size(), [&](std::size_t n) {
+        const ShapeGap& gap = map.gaps[n];
+        const DepthView& first = ring[n];
+        const DepthView& second = ring[(n + 1) % ring.size()];
+        const double tolerance = 0.7 / (scale * gap_width(ring, n));
+        LineRaster from_first(grid), from_second(grid);
+        std::vector<Found> found;
+        for (int s = 0; s < gap.lines; ++s) {
+            const double part = (s + 0.5) / gap.lines;
+            const glm::dvec2 viewpoint = glm::mix(first.view.centre, second.view.centre, part);
+            from_first.draw(first, viewpoint);
+            from_second.draw(second, viewpoint);
+            ShapeCell* const cells = map.cells.data() + (gap.first_line + static_cast<std::size_t>(s)) * line_cells;
+            for (int p = 0; p < map.p_cells; ++p) {
+                for (int h = 0; h < map.bands; ++h) {
+                    found.clear();
+                    for (int x = p * grid.fine; x < (p + 1) * grid.fine; ++x) {
+                        for (int y = h * grid.fine; y < (h + 1) * grid.fine; ++y) {
+                            if (!std::isnan(from_first.at(x, y))) found.push_back({from_first.at(x, y), false});
+                            if (!std::isnan(from_second.at(x, y))) found.push_back({from_second.at(x, y), true});
+                        }
+                    }
+                    cells[p * map.bands + h] = make_cell(found, -kHalfWidth, step, tolerance);
+                }
+            }
+            grow(cells, map.p_cells, map.bands);
+            for (int p = 0; p < map.p_cells; ++p) find_backs(grid, hull, viewpoint, p, step, cells + p * map.bands);
+        }
+    });
+    return map;
+}
+
+}  // namespace rs::encode

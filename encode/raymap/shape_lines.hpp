@@ -1,0 +1,33 @@
+#pragma once
+// From depths of captured pictures to the cells of a shape map (rayspace/shape_map.hpp): every line of every gap sees
+// the surfaces of the two pictures beside it, moved to its own viewpoint.
+
+#include "encode/raymap/visual_hull.hpp"
+#include "encode/raymap/work_view.hpp"
+#include "rayspace/image.hpp"
+#include "rayspace/shape_map.hpp"
+
+#include <vector>
+
+namespace rs::encode {
+
+// A picture and what was found: along a pixel's ray, distance from the foot in object radii, transposed as
+// WorkView::columns is; NaN where there is none.
+struct DepthView {
+    WorkView view;
+    Image<float> depth;
+};
+
+struct ShapeLinesOptions {
+    double cell_px = 4.5;    // side of a cell in pixels of the working pictures
+    double line_deg = 2;  // lines of a gap are at most so far apart
+    double widest_gap_deg = 45;  // wider ones stay without lines
+};
+
+// From view n of a ring to the next one in turning order, above 0 and at most 2 pi.
+double gap_width(const std::vector<DepthView>& ring, std::size_t n);
+
+// `ring` in turning order. All but normal_lines is filled in.
+ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& hull, const ShapeLinesOptions& options);
+
+}  // namespace rs::encode

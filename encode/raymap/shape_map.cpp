@@ -1,0 +1,171 @@
+#include "encode/raymap/shape_map.hpp"
+
+#include "encode/raymap/cost_volume.hpp"
+#include "rayspace/conventions.hpp"
+#include "rayspace/parallel.hpp"
+#include "rayspace/ray_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace rs::encode {
+namespace {
+
+constexpr double kDeepest = 1 + 1.0 / 32;  // object radii, to either side of the foot
+constexpr int kSampleViews = 4;
+
+NormalLine normal_line(const Camera& camera, const ReferencePlane& plane) {
+    const auto fixed = [](double value, int bits) { return static_cast<std::int32_t>(std::lround(std::ldexp(value, bits))); };
+    const ViewpointLine line = viewpoint_line(camera.centre(), plane);
+    return {fixed(glm::dot(plane.normal, camera.forward()), 30), fixed(glm::dot(plane.normal, camera.right()) * camera.fl_x, 16),
+            fixed(line.a, 20), fixed(line.c, 20)};
+}
+
+std::string sector_text(const DepthView& from, const DepthView& to) {
+    const auto azimuth_deg = [](const WorkView& view) {
+        const double angle = degrees(std::atan2(view.centre.x, view.centre.y));
+        return static_cast<int>(std::lround(angle < 0 ? angle + 360 : angle));
+    };
+    return std::to_string(azimuth_deg(from.view)) + " and " + std::to_string(azimuth_deg(to.view)) + " degrees";
+}
+
+// One ring's search; holds what its steps share.
+class RingSearch {
+public:
+    RingSearch(const CaptureSet& set, const Rig& rig, const ViewRing& ring, const ShapeOptions& options)
+        : set_(set), rig_(rig), ring_(ring), options_(options), views_(ring.views.size()) {}
+
+    Status read(Progress* progress) {
+        const int longest = std::max(set_.width, set_.height);
+        const int reduction = (longest + options_.working_size_px - 1) / options_.working_size_px;
+        return for_each_in_parallel(static_cast<int>(views_.size()), "pictures for depth", progress, [&](int n) -> Status {
+            const int v = ring_.views[static_cast<std::size_t>(n)];
+            const Result<Image<Rgba8>> picture = read_upright_picture(set_, v);
+            if (!picture) return picture.error();
+            const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
+            views_[static_cast<std::size_t>(n)].view = make_work_view(camera, *picture, reduction);
+            return {};
+        });
+    }
+
+    // The hull and the depths; the first kSampleViews evenly spread ones are kept for people.
+    Status search(Progress* progress, std::vector<FoundDepth>& samples) {
+        std::vector<const WorkView*> all;
+        for (const DepthView& view : views_) all.push_back(&view.view);
+        hull_ = std::make_unique<VisualHull>(all, options_.hull_margin_px);
+        outline_ = std::make_unique<VisualHull>(all, 0);
+        const int count = static_cast<int>(views_.size());
+        const int every = std::max(1, (count + kSampleViews - 1) / kSampleViews);
+        const std::size_t first_sample = samples.size();
+        samples.resize(first_sample + static_cast<std::size_t>((count + every - 1) / every));
+        return for_each_in_parallel(count, "depth", progress, [&](int n) -> Status {
+            DepthView& view = views_[static_cast<std::size_t>(n)];
+            const std::vector<const WorkView*> neighbours = neighbours_of(n);
+            const DepthRange range = range_of(n);
+            CostVolume costs = matching_costs(view.view, neighbours, range);
+            forbid_outside(costs, view.view, *hull_, range);
+            view.depth = semi_global_levels(view.view, costs, options_.smoothness);
+            for (float& depth : view.depth.pixels()) depth = static_cast<float>(range.at(static_cast<double>(depth)));
+            if (n % every == 0) {
+                FoundDepth& sample = samples[first_sample + static_cast<std::size_t>(n / every)];
+                sample = {ring_.views[static_cast<std::size_t>(n)], first_allowed(view.view, costs, range), view.depth};
+            }
+            return {};
+        });
+    }
+
+    [[nodiscard]] ShapeMap lines(int planes) const {
+        ShapeMap shape = make_shape_lines(views_, *outline_, options_.lines);
+        for (const int v : ring_.views) {
+            for (int k = 0; k < planes; ++k) {
+                const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
+                shape.normal_lines.push_back(normal_line(camera, reference_plane(k, planes)));
+            }
+        }
+        return shape;
+    }
+
+    void warn(const ShapeMap& shape, std::vector<std::string>& warnings) const {
+        for (std::size_t n = 0; n < views_.size(); ++n) {
+            const DepthView& view = views_[n];
+            const std::string& name = rig_.views[static_cast<std::size_t>(ring_.views[n])].file_path;
+            if (object_box(view.view).empty()) warnings.push_back(name + " shows no object at all (its alpha is 0 everywhere)");
+            const DepthView& next = views_[(n + 1) % views_.size()];
+            if (shape.gaps[n].lines == 0 && views_.size() > 1) {
+                warnings.push_back("there are no pictures between " + sector_text(view, next) +
+                                   "; from there the nearest picture is shown as it is");
+            }
+        }
+        if (views_.size() == 1) warnings.push_back("there is one picture; it is shown as it is from everywhere");
+    }
+
+private:
+    [[nodiscard]] double gap_deg(int n) const {
+        return degrees(gap_width(views_, static_cast<std::size_t>(n)));
+    }
+
+    // The pictures to either side, unless they are too far away to compare.
+    [[nodiscard]] std::vector<const WorkView*> neighbours_of(int n) const {
+        const int count = static_cast<int>(views_.size());
+        const int before = (n + count - 1) % count;
+        const int after = (n + 1) % count;
+        std::vector<const WorkView*> found;
+        if (before != n && gap_deg(before) <= options_.lines.widest_gap_deg) {
+            found.push_back(&views_[static_cast<std::size_t>(before)].view);
+        }
+        if (after != n && after != before && gap_deg(n) <= options_.lines.widest_gap_deg) {
+            found.push_back(&views_[static_cast<std::size_t>(after)].view);
+        }
+        return found;
+    }
+
+    [[nodiscard]] DepthRange range_of(int n) const {
+        const int count = static_cast<int>(views_.size());
+        double widest_deg = 0;
+        for (const int gap : {n, (n + count - 1) % count}) {
+            if (gap_deg(gap) <= options_.lines.widest_gap_deg) widest_deg = std::max(widest_deg, gap_deg(gap));
+        }
+        const int levels = std::clamp(static_cast<int>(options_.depths * widest_deg / 5), options_.depths, 2 * options_.depths);
+        return {-kDeepest, 2 * kDeepest / (levels - 1), levels};
+    }
+
+    static Image<float> first_allowed(const WorkView& view, const CostVolume& costs, const DepthRange& range) {
+        Image<float> depth(view.height, view.width, kNoDepth);
+        for (int column = costs.box.left; column < costs.box.right; ++column) {
+            for (int row = costs.box.top; row < costs.box.bottom; ++row) {
+                if (view.at(column, row).a == 0) continue;
+                const std::uint8_t* const begin = costs.at(column, row);
+                const auto* const first = std::find_if(begin, begin + costs.levels, [](int cost) { return cost < kOutsideCost; });
+                if (first != begin + costs.levels) depth(row, column) = static_cast<float>(range.at(static_cast<double>(first - begin)));
+            }
+        }
+        return depth;
+    }
+
+    const CaptureSet& set_;
+    const Rig& rig_;
+    const ViewRing& ring_;
+    const ShapeOptions& options_;
+    std::vector<DepthView> views_;
+    std::unique_ptr<VisualHull> hull_;
+    std::unique_ptr<VisualHull> outline_;  // without a margin
+};
+
+}  // namespace
+
+Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
+                                   const ShapeOptions& options, RaySpaceObject& object, Progress* progress) {
+    FoundShapes found;
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+        RingSearch search(set, rig, rings[r], options);
+        if (const Status status = search.read(progress); !status) return status.error();
+        if (const Status status = search.search(progress, found.samples); !status) return status.error();
+        Ring& ring = object.rings[r];
+        ring.shape = search.lines(ring.planes);
+        search.warn(ring.shape, found.warnings);
+    }
+    return found;
+}
+
+}  // namespace rs::encode

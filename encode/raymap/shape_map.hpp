@@ -1,0 +1,48 @@
+#pragma once
+// Finds the shape maps of an object (rayspace/shape_map.hpp) from its pictures.
+//
+// For every picture of a ring: the visual hull of all silhouettes bounds the depths; the colours of the pictures to
+// either side say which depth agrees (cost_volume.hpp); smoothness decides where colour does not (semi_global.hpp).
+// Then every line between two pictures takes over what both have found (shape_lines.hpp).
+
+#include "encode/capture_set.hpp"
+#include "encode/raymap/rings.hpp"
+#include "encode/raymap/semi_global.hpp"
+#include "encode/raymap/shape_lines.hpp"
+#include "rayspace/progress.hpp"
+#include "rayspace/ray_space_object.hpp"
+#include "rayspace/result.hpp"
+
+#include <string>
+#include <vector>
+
+namespace rs::encode {
+
+struct ShapeOptions {
+    int working_size_px = 640;  // pictures whose longer side is longer are searched at a whole fraction of it
+    int hull_margin_px = 1;     // of the working pictures, see VisualHull
+    int depths = 128;           // levels tried at most 5 degrees between pictures; more where they are farther apart
+    SmoothnessOptions smoothness;
+    ShapeLinesOptions lines;
+};
+
+// What was found for one picture, for people to look at: distances from the foot in object radii, NaN where there is
+// none, at the working size.
+struct FoundDepth {
+    int view = 0;
+    Image<float> hull;   // where the ray enters the visual hull
+    Image<float> depth;  // where the surface is
+};
+
+struct FoundShapes {
+    std::vector<FoundDepth> samples;    // of a few views
+    std::vector<std::string> warnings;  // one line each
+};
+
+// `object` has its views and rings but their shapes; rig is set.upright in object radii, rings as find_rings() gave
+// them. Pictures are read from the set. Memory: at the working size 4 bytes a pixel and picture, and for each thread
+// about 5 bytes per object pixel and depth level. Deterministic.
+Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
+                                   const ShapeOptions& options, RaySpaceObject& object, Progress* progress = nullptr);
+
+}  // namespace rs::encode

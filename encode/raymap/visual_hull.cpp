@@ -1,0 +1,96 @@
+#include "encode/raymap/visual_hull.hpp"
+
+#include <algorithm>
+
+namespace rs::encode {
+namespace {
+
+constexpr int kInside = 128;  // alpha
+constexpr double kEverywhere = 1e6;
+
+// is_object[row] of a column with the columns `margin` to either side.
+std::vector<char> widened_column(const WorkView& view, int column, int margin) {
+    std::vector<char> near_object(static_cast<std::size_t>(view.height), 0);
+    for (int c = std::max(0, column - margin); c <= std::min(view.width - 1, column + margin); ++c) {
+        const Rgba8* const pixels = view.columns.row(c);
+        for (int row = 0; row < view.height; ++row) {
+            if (pixels[row].a < kInside) continue;
+            near_object[static_cast<std::size_t>(row)] = 1;
+        }
+    }
+    return near_object;
+}
+
+std::vector<Interval> forbidden_rows(const WorkView& view, int column, int margin) {
+    const std::vector<char> near_object = widened_column(view, column, margin);
+    std::vector<Interval> forbidden;
+    int begin = 0;
+    for (int row = 0; row <= view.height; ++row) {
+        const bool ends = row == view.height || near_object[static_cast<std::size_t>(row)] != 0;
+        if (!ends) continue;
+        // The frame's own edges are no edges of the object.
+        const double low = begin == 0 ? 0 : begin + margin;
+        const double high = row == view.height ? row : row - margin;
+        if (high > low) forbidden.push_back({low, high});
+        begin = row + 1;
+    }
+    return forbidden;
+}
+
+bool has_object(const WorkView& view) {
+    const auto pixels = view.columns.pixels();
+    return std::any_of(pixels.begin(), pixels.end(), [](const Rgba8& pixel) { return pixel.a >= kInside; });
+}
+
+// Takes [low, high] out of ascending, disjoint intervals.
+void remove(std::vector<Interval>& from, const Interval& hole) {
+    for (std::size_t n = 0; n < from.size();) {
+        const Interval whole = from[n];
+        if (whole.high <= hole.low || whole.low >= hole.high) {
+            ++n;
+            continue;
+        }
+        const bool below = whole.low < hole.low;
+        const bool above = whole.high > hole.high;
+        if (below && above) {
+            from[n].high = hole.low;
+            from.insert(from.begin() + static_cast<std::ptrdiff_t>(n) + 1, {hole.high, whole.high});
+            return;
+        }
+        if (below) {
+            from[n++].high = hole.low;
+        } else if (above) {
+            from[n++].low = hole.high;
+        } else {
+            from.erase(from.begin() + static_cast<std::ptrdiff_t>(n));
+        }
+    }
+}
+
+}  // namespace
+
+VisualHull::VisualHull(const std::vector<const WorkView*>& views, int margin_px) {
+    for (const WorkView* view : views) {
+        if (!has_object(*view)) continue;
+        Silhouette silhouette{view, {}};
+        for (int column = 0; column < view->width; ++column) {
+            silhouette.forbidden_rows.push_back(forbidden_rows(*view, column, margin_px));
+        }
+        silhouettes_.push_back(std::move(silhouette));
+    }
+}
+
+void VisualHull::heights_above(const glm::dvec2& place, std::vector<Interval>& heights) const {
+    heights.assign(1, {-kEverywhere, kEverywhere});
+    for (const Silhouette& silhouette : silhouettes_) {
+        const SeenColumn seen = silhouette.view->see(place);
+        if (seen.axial <= 0 || seen.column < 0 || seen.column >= silhouette.view->width) continue;
+        for (const Interval& rows : silhouette.forbidden_rows[static_cast<std::size_t>(seen.column)]) {
+            remove(heights, {silhouette.view->height_of(rows.high, seen.axial),
+                             silhouette.view->height_of(rows.low, seen.axial)});
+        }
+        if (heights.empty()) return;
+    }
+}
+
+}  // namespace rs::encode

@@ -1,0 +1,38 @@
+#pragma once
+// The visual hull: what all silhouettes of a ring allow. It bounds the search for depth.
+//
+// Cameras are upright, so all points above a place of the ground plan fall into one column of a picture, at rows linear
+// in height. A column of a silhouette is a few runs of rows; so the hull above a place is an intersection of runs, exact
+// and without a grid of voxels.
+
+#include "encode/raymap/work_view.hpp"
+
+#include <vector>
+
+namespace rs::encode {
+
+// Heights (or rows) from `low` up to `high`.
+struct Interval {
+    double low = 0;
+    double high = 0;
+};
+
+class VisualHull {
+public:
+    // Silhouettes are widened by `margin_px` pixels of the working pictures on every side, for what calibration and
+    // soft edges leave unsure. What lies outside of a picture's frame may be object. Views without any object pixel say
+    // nothing and are left out. `views` must outlive the hull.
+    VisualHull(const std::vector<const WorkView*>& views, int margin_px);
+
+    // The heights above a place that every silhouette allows, ascending and disjoint.
+    void heights_above(const glm::dvec2& place, std::vector<Interval>& heights) const;
+
+private:
+    struct Silhouette {
+        const WorkView* view = nullptr;
+        std::vector<std::vector<Interval>> forbidden_rows;  // [column], ascending
+    };
+    std::vector<Silhouette> silhouettes_;
+};
+
+}  // namespace rs::encode

@@ -1,0 +1,50 @@
+#pragma once
+// A captured picture as the depth search sees it: scaled down to a working size, its columns contiguous, with the
+// geometry of an upright camera taken apart into a horizontal and a vertical half.
+
+#include "rayspace/camera.hpp"
+#include "rayspace/image.hpp"
+
+#include <glm/glm.hpp>
+
+namespace rs::encode {
+
+// Where a ray of vertical planes runs, seen from above: through its foot (nearest to the axis) in direction `along`
+// (unit, x and z). A point at depth `depth` is at foot + depth * along.
+struct HorizontalRay {
+    glm::dvec2 along{0, 1};
+    glm::dvec2 foot{0, 0};
+    double to_foot = 0;         // from the camera's centre to the foot
+    double horizontal_per_axial = 1;  // horizontal length of the ray per unit of axial depth
+};
+
+// A place seen from above by a camera: all points above each other share it.
+struct SeenColumn {
+    double axial = 0;   // depth; not seen where <= 0
+    double column = 0;  // px
+};
+
+struct WorkView {
+    Image<Rgba8> columns;  // transposed: pixel (column, row) is columns(row, column)
+    int width = 0;         // px, of the upright picture
+    int height = 0;
+    double fl_x = 0, fl_y = 0, cx = 0, cy = 0;  // px
+    glm::dvec2 centre{0, 0};                    // x and z, object radii
+    double centre_y = 0;
+    glm::dvec2 right{1, 0};
+    glm::dvec2 forward{0, -1};
+
+    [[nodiscard]] const Rgba8& at(int column, int row) const { return columns(row, column); }
+    // Through the middle of a column.
+    [[nodiscard]] HorizontalRay ray_of(double column) const;
+    [[nodiscard]] SeenColumn see(const glm::dvec2& place) const;
+    // Row of height y at an axial depth, and back.
+    [[nodiscard]] double row_of(double y, double axial) const { return cy - fl_y * (y - centre_y) / axial; }
+    [[nodiscard]] double height_of(double row, double axial) const { return centre_y + axial * (cy - row) / fl_y; }
+};
+
+// `camera` is upright and in object radii. `picture` is averaged over blocks of `reduction` x `reduction` pixels (colour
+// weighted by alpha); what is left over at the right and lower edges is dropped.
+WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int reduction);
+
+}  // namespace rs::encode

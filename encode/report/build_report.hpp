@@ -1,0 +1,46 @@
+#pragma once
+// The page of a build: what was made from what, how good it is on views held out, and what was found on the way.
+
+#include "encode/held_out_scores.hpp"
+#include "encode/report/pictures.hpp"
+#include "encode/report/stage_clock.hpp"
+#include "rayspace/object_file.hpp"
+#include "rayspace/result.hpp"
+#include "rayspace/rig.hpp"
+
+#include <string>
+#include <vector>
+
+namespace rs::encode {
+
+struct ReportFact {
+    std::string name;
+    std::string value;
+};
+
+struct PictureRow {
+    std::string caption;
+    std::vector<CaptionedPicture> pictures;
+};
+
+// What is empty is not shown.
+struct BuildReport {
+    std::string name;                              // of the object
+    std::vector<ReportFact> facts;                 // views, sizes, options
+    std::vector<StageTime> stages;                 // of the build
+    std::vector<ChunkSummary> chunks;              // of the file
+    std::vector<std::string> warnings;             // one line each
+    Rig rig;                                       // the upright cameras; the plan of the rings is drawn of them
+    std::vector<CaptionedPicture> captured;        // some of the pictures
+    std::string hold_out;                          // which views were held out, in words
+    std::vector<MethodScores> scores;              // all of the same views, in the same order
+    std::string why_no_scores;                     // where there are none
+    std::vector<PictureRow> held_out;              // of some views: truth, answers, error maps
+    std::vector<CaptionedPicture> hull_pictures;   // of the visual hull
+    std::vector<CaptionedPicture> depth_pictures;  // depth found, as depth_picture() colours it
+};
+
+// The text of the page. Fails only where a picture cannot be encoded.
+Result<std::string> build_report_page(const BuildReport& report);
+
+}  // namespace rs::encode

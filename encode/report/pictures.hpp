@@ -1,0 +1,37 @@
+#pragma once
+// Pictures for people to look at: made small, and numbers made colours.
+
+#include "rayspace/image.hpp"
+
+#include <string>
+#include <vector>
+
+namespace rs::encode {
+
+struct CaptionedPicture {
+    Image<Rgba8> picture;  // straight alpha
+    std::string caption;
+};
+
+// As large as fits into longest_side_px x longest_side_px (>= 1) with its proportions kept, averaged over areas in
+// linear light and weighted by alpha. A picture that is small enough already is copied.
+Image<Rgba8> scaled_down(ConstImageView<Rgba8> picture, int longest_side_px);
+
+// Perceptual colour maps, opaque; `value` is clamped to 0..1, NaN counts as 0.
+Rgba8 depth_colour(float value);  // Turbo: blue near 0, green, red near 1
+Rgba8 heat_colour(float value);   // black, red, yellow, white; rises evenly in lightness
+
+// low -> 0 .. high -> 1 of depth_colour; transparent where `depth` is not finite. low < high.
+Image<Rgba8> depth_picture(ConstImageView<float> depth, float low, float high);
+
+// The largest difference of R, G and B (premultiplied by alpha, as picture_metrics.hpp compares), as heat: white where
+// it is full_scale (1..255) or more; transparent where both pictures are. Both have the same size.
+Image<Rgba8> error_picture(ConstImageView<Rgba8> a, ConstImageView<Rgba8> b, int full_scale);
+
+// What reports and `rs-encode evaluate` show as white: a quarter of the range.
+inline constexpr int kErrorFullScale = 64;
+
+// `wanted` (or all, where there are fewer) of the numbers 0 .. count - 1, evenly spread, the first among them.
+std::vector<int> evenly_spread(int count, int wanted);
+
+}  // namespace rs::encode

@@ -1,0 +1,203 @@
+#include "encode/tools/build_command.hpp"
+
+#include "encode/build.hpp"
+#include "encode/capture_set.hpp"
+#include "encode/report/build_report.hpp"
+#include "encode/report/stage_clock.hpp"
+#include "encode/tools/report_of_build.hpp"
+#include "rayspace/file_output.hpp"
+#include "rayspace/object_file.hpp"
+#include "rayspace/progress.hpp"
+#include "rayspace/tool_main.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace rs::encode {
+namespace {
+
+struct BuildArguments {
+    std::string set;
+    std::string output;
+    std::string raymap = to_string(MapKind::kShape);
+    std::string cells;  // empty: as usual for the kind of map
+    std::string report;
+    int planes = PlaneMapOptions{}.planes;
+    std::string name;
+    bool quiet = false;
+    bool json = false;
+};
+
+// What a build came to, for stdout and for the page.
+struct BuildSummary {
+    std::uint64_t bytes = 0;
+    double seconds = 0;
+    long long peak_memory_bytes = 0;
+};
+
+// The most memory that this process has held, as the system counts it.
+long long peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss * 1024LL;
+}
+
+Result<BuildOptions> options_of(const BuildArguments& arguments) {
+    BuildOptions options;
+    options.name = arguments.name;
+    const std::optional<MapKind> kind = map_kind_from(arguments.raymap);
+    if (!kind) {
+        return Error{"--raymap " + arguments.raymap +
+                     ": there is no such kind of RS map; give shape or plane (its size is --cells)"};
+    }
+    options.raymap = *kind;
+    options.map = usual_plane_map(*kind);
+    options.map.planes = arguments.planes;
+    if (!arguments.cells.empty()) {
+        const Result<PixelSize> cells = parse_size(arguments.cells);
+        if (!cells) return Error{"--cells " + arguments.cells + ": give cells of x and of u, such as 512x512"};
+        options.map.x_cells = cells->width;
+        options.map.u_cells = cells->height;
+    }
+    return options;
+}
+
+void print_summary(const BuildArguments& arguments, const BuildOptions& options, const RaySpaceObject& object,
+                   const BuildSummary& summary) {
+    if (arguments.json) {
+        nlohmann::json json{{"object", arguments.output},
+                            {"views", object.views.size()},
+                            {"width", object.width},
+                            {"height", object.height},
+                            {"rings", object.rings.size()},
+                            {"raymap", to_string(options.raymap)},
+                            {"bytes", summary.bytes},
+                            {"seconds", summary.seconds},
+                            {"peak_memory_bytes", summary.peak_memory_bytes}};
+        if (!arguments.report.empty()) json["report"] = arguments.report;
+        std::cout << json.dump(2) << '\n';
+    } else {
+        std::printf("%s: %zu views of %dx%d, %s map, %d planes, %.1f MB, %.1f s, peak memory %.0f MB\n",
+                    arguments.output.c_str(), object.views.size(), object.width, object.height,
+                    to_string(options.raymap).c_str(), options.map.planes, static_cast<double>(summary.bytes) / 1e6,
+                    summary.seconds, static_cast<double>(summary.peak_memory_bytes) / 1e6);
+    }
+}
+
+std::string text_of(const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+std::vector<ReportFact> facts_of(const BuildArguments& arguments, const BuildOptions& options, const CaptureSet& set,
+                                 const RaySpaceObject& object, const BuildSummary& summary) {
+    const std::string map = std::to_string(options.map.planes) + " reference planes of " +
+                            std::to_string(options.map.x_cells) + "x" + std::to_string(options.map.u_cells) +
+                            " cells (x, u)";
+    return {
+        {"capture set", arguments.set},
+        {"object", arguments.output},
+        {"pictures", std::to_string(object.views.size()) + " of " + std::to_string(object.width) + "x" +
+                         std::to_string(object.height) + (set.resampled ? ", made upright" : "")},
+        {"rings of views", std::to_string(object.rings.size())},
+        {"RS map", to_string(options.raymap) + "; " + map},
+        {"object radius", text_of("%g units of the set", object.units_per_radius)},
+        {"file", text_of("%.2f MB", static_cast<double>(summary.bytes) / 1e6)},
+        {"time", text_of("%.1f s", summary.seconds)},
+        {"peak memory", text_of("%.0f MB", static_cast<double>(summary.peak_memory_bytes) / 1e6)},
+    };
+}
+
+Status write_report(StagedFile& file, const BuildReport& report) {
+    const Result<std::string> page = build_report_page(report);
+    if (!page) return page.error();
+    if (Status status = file.write(std::as_bytes(std::span(*page))); !status) return status;
+    return file.commit();
+}
+
+Status run_build(const BuildArguments& arguments) {
+    const auto begun = std::chrono::steady_clock::now();
+    ProgressBar bar(arguments.quiet);
+    StageClock progress(bar);
+    Result<BuildOptions> options = options_of(arguments);
+    if (!options) return options.error();
+
+    Result<CaptureSet> set = open_capture_set(arguments.set, &progress);
+    if (!set) return set.error();
+    // The page's place is tried before the work is done.
+    std::optional<StagedFile> page;
+    if (!arguments.report.empty()) {
+        Result<StagedFile> created = StagedFile::create(arguments.report);
+        if (!created) return created.error();
+        page = std::move(*created);
+    }
+    if (options->name.empty())
+        options->name = std::filesystem::weakly_canonical(std::filesystem::absolute(set->folder)).filename().string();
+    if (set->resampled) std::cerr << "rs-encode: the cameras look up or down; their pictures are made upright\n";
+    Result<BuiltObject> built = build_object(*set, *options, &progress);
+    if (!built) return built.error();
+    for (const std::string& warning : built->warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
+    if (Status status = write_object(arguments.output, built->object, &progress); !status) return status;
+
+    BuildSummary summary;
+    summary.bytes = std::filesystem::file_size(arguments.output);
+    summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    summary.peak_memory_bytes = peak_memory_bytes();
+    if (page) {
+        const Result<ContainerReader> container = ContainerReader::open(arguments.output);
+        if (!container) return container.error();
+        BuildReport report;
+        report.name = options->name;
+        report.facts = facts_of(arguments, *options, *set, built->object, summary);
+        report.stages = progress.stages();
+        report.chunks = summarise_chunks(*container);
+        report.warnings = built->warnings;
+        report.rig = set->upright;
+        built->object.pictures.clear();  // their memory is wanted for the objects that are scored
+        if (Status status = add_captured_pictures(*set, report); !status) return status;
+        if (Status status = add_held_out_views(*set, options->map.planes, report, &bar); !status) return status;
+        if (Status status = write_report(*page, report); !status) return status;
+    }
+    print_summary(arguments, *options, built->object, summary);
+    return {};
+}
+
+}  // namespace
+
+void add_build_command(CLI::App& app, std::function<Status()>& run) {
+    auto arguments = std::make_shared<BuildArguments>();
+    CLI::App* command = app.add_subcommand("build", "Build a ray-space object from a capture set");
+    command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its pictures")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "the object to write, OBJECT.rso")->required();
+    command
+        ->add_option(
+            "--raymap", arguments->raymap,
+            "shape: depth of every ray, found from the pictures; plane: the object lies on the reference planes")
+        ->capture_default_str();
+    command->add_option("--cells", arguments->cells,
+                        "cells of the RS map of a plane, X x U; 512x512 for plane and 128x128 for shape if not given");
+    command->add_option("--planes", arguments->planes, "reference planes about the axis, 3..64")->capture_default_str();
+    command->add_option("--name", arguments->name, "name of the object; the set's folder where not given");
+    command->add_option("--report", arguments->report,
+                        "also write a page about the build, PAGE.html; takes as long again, for it scores objects "
+                        "that are built without every other view");
+    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
+    command->add_flag("--json", arguments->json, "the summary as JSON");
+    command->footer(
+        "Examples:\n  rs-encode build vase-set -o vase.rso --report vase.html\n"
+        "  rs-encode build vase-set -o vase.rso --raymap plane --planes 12 --cells 512x512");
+    command->callback([arguments, &run] { run = [arguments] { return run_build(*arguments); }; });
+}
+
+}  // namespace rs::encode

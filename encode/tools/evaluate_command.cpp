@@ -1,0 +1,181 @@
+#include "encode/tools/evaluate_command.hpp"
+
+#include "encode/report/pictures.hpp"
+#include "encode/tools/evaluation.hpp"
+#include "rayspace/file_output.hpp"
+#include "rayspace/picture_io.hpp"
+#include "rayspace/progress.hpp"
+#include "rayspace/view_output.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace rs::encode {
+namespace {
+
+struct EvaluateArguments {
+    std::string set;
+    std::string hold_out = "every-2nd";
+    std::string methods = "photo,plane,shape";
+    std::string output;
+    int planes = EvaluationOptions{}.planes;
+    bool views = false;
+    bool quiet = false;
+    bool json = false;
+};
+
+// FOLDER/truth/0001.png, FOLDER/plane/0001.png, FOLDER/plane-error/0001.png, named by the view's number in the set.
+class AnswerFolder {
+public:
+    static Result<AnswerFolder> create(const std::string& path, const std::vector<Method>& methods) {
+        Result<StagedFolder> folder = StagedFolder::create(path);
+        if (!folder) return folder.error();
+        AnswerFolder made(std::move(*folder), methods.front());
+        std::vector<std::string> names{"truth"};
+        for (const Method method : methods) {
+            names.push_back(to_string(method));
+            names.push_back(to_string(method) + "-error");
+        }
+        for (const std::string& name : names) {
+            std::error_code error;
+            if (!std::filesystem::create_directory(made.folder_.temporary_path() / name, error)) {
+                return Error{path + "/" + name + ": cannot be made: " + error.message()};
+            }
+        }
+        return made;
+    }
+
+    [[nodiscard]] Status write(const AnsweredView& answered) const {
+        const std::string name = numbered_picture_name(static_cast<std::size_t>(answered.view));
+        const std::string method = to_string(answered.method);
+        const std::filesystem::path& root = folder_.temporary_path();
+        if (answered.method == first_) {
+            if (Status status = write_png(root / "truth" / name, answered.truth); !status) return status;
+        }
+        if (Status status = write_png(root / method / name, answered.answer); !status) return status;
+        return write_png(root / (method + "-error") / name,
+                         error_picture(answered.truth, answered.answer, kErrorFullScale));
+    }
+
+    Status commit() { return folder_.commit(); }
+
+private:
+    AnswerFolder(StagedFolder folder, Method first) : folder_(std::move(folder)), first_(first) {}
+    StagedFolder folder_;
+    Method first_;  // the truth is written once, with this method's answers
+};
+
+void print_json(const EvaluateArguments& arguments, const HoldOut& hold_out, const std::vector<MethodScores>& scores) {
+    nlohmann::json json{
+        {"set", arguments.set},        {"hold_out", arguments.hold_out},  {"planes", arguments.planes},
+        {"views_kept", hold_out.kept}, {"views_held_out", hold_out.held}, {"methods", nlohmann::json::array()}};
+    for (const MethodScores& method : scores) {
+        nlohmann::json views = nlohmann::json::array();
+        for (const HeldOutScore& view : method.views) {
+            views.push_back(
+                {{"view", view.view}, {"picture", view.picture}, {"psnr_db", view.psnr_db}, {"ssim", view.ssim}});
+        }
+        json["methods"].push_back({{"method", method.method},
+                                   {"mean_psnr_db", method.mean_psnr_db},
+                                   {"pooled_psnr_db", method.pooled_psnr_db},
+                                   {"mean_ssim", method.mean_ssim},
+                                   {"build_seconds", method.build_seconds},
+                                   {"views", std::move(views)}});
+    }
+    std::cout << json.dump(2) << '\n';
+}
+
+void print_table(const EvaluateArguments& arguments, const HoldOut& hold_out, const std::vector<MethodScores>& scores) {
+    if (arguments.views) {
+        std::printf("%5s  %-24s", "view", "picture");
+        for (const MethodScores& method : scores) std::printf("  %8s dB", method.method.c_str());
+        std::printf("\n");
+        for (std::size_t n = 0; n < hold_out.held.size(); ++n) {
+            const HeldOutScore& first = scores.front().views[n];
+            std::printf("%5d  %-24s", first.view, first.picture.c_str());
+            for (const MethodScores& method : scores) std::printf("  %11.2f", method.views[n].psnr_db);
+            std::printf("\n");
+        }
+        std::printf("\n");
+    }
+    std::printf("%s: built from %zu views, scored on %zu held out (%s)\n", arguments.set.c_str(), hold_out.kept.size(),
+                hold_out.held.size(), arguments.hold_out.c_str());
+    std::printf("%-8s %12s %14s %10s %9s\n", "method", "mean PSNR", "pooled PSNR", "mean SSIM", "build");
+    for (const MethodScores& method : scores) {
+        std::printf("%-8s %9.2f dB %11.2f dB %10.4f %7.1f s\n", method.method.c_str(), method.mean_psnr_db,
+                    method.pooled_psnr_db, method.mean_ssim, method.build_seconds);
+    }
+}
+
+Status run_evaluate(const EvaluateArguments& arguments) {
+    const Result<int> every = parse_hold_out(arguments.hold_out);
+    if (!every) return every.error();
+    EvaluationOptions options;
+    options.planes = arguments.planes;
+    Result<std::vector<Method>> methods = parse_methods(arguments.methods);
+    if (!methods) return methods.error();
+    options.methods = std::move(*methods);
+
+    ProgressBar progress(arguments.quiet);
+    const Result<CaptureSet> set = open_capture_set(arguments.set, &progress);
+    if (!set) return set.error();
+    const Result<HoldOut> hold_out = choose_hold_out(set->upright, *every, arguments.set);
+    if (!hold_out) return hold_out.error();
+    std::optional<AnswerFolder> folder;
+    if (!arguments.output.empty()) {
+        Result<AnswerFolder> created = AnswerFolder::create(arguments.output, options.methods);
+        if (!created) return created.error();
+        folder = std::move(*created);
+    }
+    LookAtAnswer look;
+    if (folder) look = [&](const AnsweredView& answered) { return folder->write(answered); };
+    const Result<std::vector<MethodScores>> scores = evaluate(*set, *hold_out, options, look, &progress);
+    if (!scores) return scores.error();
+    if (folder) {
+        if (Status status = folder->commit(); !status) return status;
+    }
+    if (arguments.json) {
+        print_json(arguments, *hold_out, *scores);
+    } else {
+        print_table(arguments, *hold_out, *scores);
+    }
+    return {};
+}
+
+}  // namespace
+
+void add_evaluate_command(CLI::App& app, std::function<Status()>& run) {
+    auto arguments = std::make_shared<EvaluateArguments>();
+    CLI::App* command =
+        app.add_subcommand("evaluate",
+                           "Build objects from some views of a set, render the others, and print PSNR and SSIM against "
+                           "their pictures.\nRGB premultiplied by alpha, 8 bit, over pixels where either picture's "
+                           "alpha is above 0. A view that an object was built from is never scored");
+    command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its pictures")
+        ->required();
+    command
+        ->add_option("--hold-out", arguments->hold_out,
+                     "every-Nth: of each N neighbouring views of a ring the middle one is held out")
+        ->capture_default_str();
+    command
+        ->add_option("--methods", arguments->methods,
+                     "who answers: photo (the nearest kept picture, as it is), plane and shape (as --raymap of build)")
+        ->capture_default_str();
+    command->add_option("--planes", arguments->planes, "reference planes about the axis, 3..64")->capture_default_str();
+    command->add_option("-o,--output", arguments->output,
+                        "folder for the true pictures of the views held out, the answers and their errors, as PNG");
+    command->add_flag("--views", arguments->views, "every view's PSNR too");
+    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
+    command->add_flag("--json", arguments->json, "everything as JSON");
+    command->footer(
+        "Examples:\n  rs-encode evaluate vase-set\n"
+        "  rs-encode evaluate vase-set --hold-out every-4th --methods plane,shape -o vase-errors --json");
+    command->callback([arguments, &run] { run = [arguments] { return run_evaluate(*arguments); }; });
+}
+
+}  // namespace rs::encode

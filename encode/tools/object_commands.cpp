@@ -1,0 +1,125 @@
+#include "encode/tools/object_commands.hpp"
+
+#include "encode/build.hpp"
+#include "rayspace/object_file.hpp"
+#include "rayspace/progress.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+
+namespace rs::encode {
+namespace {
+
+struct ObjectArguments {
+    std::string object;
+    std::string output;
+    bool quiet = false;
+    bool json = false;
+};
+
+Status run_info(const ObjectArguments& arguments) {
+    const Result<ContainerReader> container = ContainerReader::open(arguments.object);
+    if (!container) return container.error();
+    const Result<RaySpaceObject> object = read_object(*container, {.max_level = -1});
+    if (!object) return object.error();
+    const std::vector<ChunkSummary> chunks = summarise_chunks(*container);
+    if (arguments.json) {
+        nlohmann::json json{{"name", object->name},
+                            {"views", object->views.size()},
+                            {"width", object->width},
+                            {"height", object->height},
+                            {"bytes", container->size_bytes()},
+                            {"units_per_radius", object->units_per_radius}};
+        for (const Ring& ring : object->rings) {
+            json["rings"].push_back({{"elevation_deg", ring.elevation_udeg * 1e-6},
+                                     {"views", ring.views.size()},
+                                     {"planes", ring.planes},
+                                     {"x_cells", ring.x_cells},
+                                     {"u_cells", ring.u_cells}});
+        }
+        for (const ChunkSummary& chunk : chunks) {
+            json["chunks"].push_back({{"name", chunk.name}, {"count", chunk.count}, {"bytes", chunk.size_bytes}});
+        }
+        std::cout << json.dump(2) << '\n';
+        return {};
+    }
+    std::printf("%s: \"%s\"\n", arguments.object.c_str(), object->name.c_str());
+    std::printf("  pictures   %zu of %dx%d, Y U V at 4:2:0 and alpha, uncompressed\n", object->views.size(),
+                object->width, object->height);
+    for (const Ring& ring : object->rings) {
+        std::printf("  ring       %zu views at elevation %.2f degrees; %d planes, RS map %dx%d (x, u)\n",
+                    ring.views.size(), ring.elevation_udeg * 1e-6, ring.planes, ring.x_cells, ring.u_cells);
+    }
+    std::printf("  radius     %g units of the capture set\n", object->units_per_radius);
+    std::printf("  file       %llu bytes\n", static_cast<unsigned long long>(container->size_bytes()));
+    for (const ChunkSummary& chunk : chunks) {
+        std::printf("    %s  x %-5llu %12llu bytes  %5.1f %%\n", chunk.name.c_str(),
+                    static_cast<unsigned long long>(chunk.count), static_cast<unsigned long long>(chunk.size_bytes),
+                    100.0 * static_cast<double>(chunk.size_bytes) / static_cast<double>(container->size_bytes()));
+    }
+    return {};
+}
+
+Status run_verify(const ObjectArguments& arguments) {
+    const Result<ContainerReader> container = ContainerReader::open(arguments.object);
+    if (!container) return container.error();
+    // Every chunk, also those that an object is read without, and then every bound of FORMAT.md.
+    for (const ChunkEntry& entry : container->table()) {
+        if (const auto payload = container->read(entry); !payload) return payload.error();
+    }
+    const Result<RaySpaceObject> object = read_object(*container);
+    if (!object) return object.error();
+    std::printf("%s: sound (%zu pictures, %zu rings)\n", arguments.object.c_str(), object->pictures.size(),
+                object->rings.size());
+    return {};
+}
+
+Status run_extract(const ObjectArguments& arguments) {
+    const Result<RaySpaceObject> object = read_object(arguments.object);
+    if (!object) return object.error();
+    ProgressBar progress(arguments.quiet);
+    if (Status status = extract_pictures(*object, arguments.output, &progress); !status) return status;
+    std::printf("%s: %zu pictures\n", arguments.output.c_str(), object->pictures.size());
+    return {};
+}
+
+// What the three commands share; the caller adds its own options.
+CLI::App* add_object_command(CLI::App& app, std::function<Status()>& run, const char* name, const char* about,
+                             const std::shared_ptr<ObjectArguments>& arguments,
+                             Status (*action)(const ObjectArguments&)) {
+    CLI::App* command = app.add_subcommand(name, about);
+    command->add_option("OBJECT", arguments->object, "ray-space object, .rso")->required();
+    command->callback([arguments, action, &run] { run = [arguments, action] { return action(*arguments); }; });
+    return command;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, std::function<Status()>& run) {
+    auto arguments = std::make_shared<ObjectArguments>();
+    CLI::App* command =
+        add_object_command(app, run, "info", "Say what an object holds and where its bytes go", arguments, run_info);
+    command->add_flag("--json", arguments->json, "as JSON");
+    command->footer("Example:\n  rs-encode info vase.rso --json");
+}
+
+void add_verify_command(CLI::App& app, std::function<Status()>& run) {
+    auto arguments = std::make_shared<ObjectArguments>();
+    add_object_command(app, run, "verify", "Check every checksum and bound of an object", arguments, run_verify)
+        ->footer("Example:\n  rs-encode verify vase.rso");
+}
+
+void add_extract_command(CLI::App& app, std::function<Status()>& run) {
+    auto arguments = std::make_shared<ObjectArguments>();
+    CLI::App* command = add_object_command(
+        app, run, "extract", "Write the stored pictures and their rig as a capture set", arguments, run_extract);
+    command->add_option("-o,--output", arguments->output, "capture set to write")->required();
+    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
+    command->footer("Example:\n  rs-encode extract vase.rso -o vase-pictures");
+}
+
+}  // namespace rs::encode

@@ -1,0 +1,106 @@
+#include "encode/tools/report_of_build.hpp"
+
+#include "encode/tools/evaluation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace rs::encode {
+namespace {
+
+constexpr int kCapturedShown = 8;
+constexpr int kHeldOutShown = 5;
+constexpr int kKept_px = 400;  // what is kept of a picture until the page is written
+
+std::string caption_of(const CaptureSet& set, int view) {
+    return "view " + std::to_string(view) + ", " + set.upright.views[static_cast<std::size_t>(view)].file_path;
+}
+
+std::string with_db(const std::string& text, double psnr_db) {
+    std::array<char, 32> number{};
+    std::snprintf(number.data(), number.size(), "%.2f dB", psnr_db);
+    return text + ", " + number.data();
+}
+
+// Answers come from several threads; each (view, method) has a place of its own, made before they start.
+class KeptAnswers {
+public:
+    KeptAnswers(const HoldOut& hold_out, const std::vector<Method>& methods) {
+        for (const int n : evenly_spread(static_cast<int>(hold_out.held.size()), kHeldOutShown)) {
+            for (const Method method : methods) kept_[{static_cast<std::size_t>(n), method}] = {};
+        }
+    }
+
+    Status keep(const AnsweredView& answered) {
+        const auto place = kept_.find({answered.number, answered.method});
+        if (place == kept_.end()) return {};
+        const std::string name = to_string(answered.method);
+        place->second.view = answered.view;
+        place->second.truth = scaled_down(answered.truth, kKept_px);
+        place->second.answer = {scaled_down(answered.answer, kKept_px), with_db(name, answered.psnr_db)};
+        place->second.error = {scaled_down(error_picture(answered.truth, answered.answer, kErrorFullScale), kKept_px),
+                               "error of " + name};
+        return {};
+    }
+
+    // One row for each view: the truth, then each method's answer and its error.
+    [[nodiscard]] std::vector<PictureRow> rows(const CaptureSet& set) && {
+        std::vector<PictureRow> rows;
+        std::size_t row_of = 0;
+        for (auto& [key, kept] : kept_) {
+            if (rows.empty() || key.first != row_of) {
+                row_of = key.first;
+                rows.push_back({caption_of(set, kept.view), {}});
+                rows.back().pictures.push_back({std::move(kept.truth), "truth"});
+            }
+            rows.back().pictures.push_back(std::move(kept.answer));
+            rows.back().pictures.push_back(std::move(kept.error));
+        }
+        return rows;
+    }
+
+private:
+    struct Kept {
+        int view = 0;
+        Image<Rgba8> truth;
+        CaptionedPicture answer;
+        CaptionedPicture error;
+    };
+    std::map<std::pair<std::size_t, Method>, Kept> kept_;
+};
+
+}  // namespace
+
+Status add_captured_pictures(const CaptureSet& set, BuildReport& report) {
+    for (const int view : evenly_spread(static_cast<int>(set.upright.views.size()), kCapturedShown)) {
+        const Result<Image<Rgba8>> picture = read_upright_picture(set, view);
+        if (!picture) return picture.error();
+        report.captured.push_back({scaled_down(*picture, kKept_px), caption_of(set, view)});
+    }
+    return {};
+}
+
+Status add_held_out_views(const CaptureSet& set, int planes, BuildReport& report, Progress* progress) {
+    const Result<HoldOut> hold_out = choose_hold_out(set.upright, 2, set.folder.string());
+    if (!hold_out) {
+        report.why_no_scores = hold_out.error().message;
+        return {};
+    }
+    EvaluationOptions options;
+    options.planes = planes;
+    KeptAnswers answers(*hold_out, options.methods);
+    Result<std::vector<MethodScores>> scores = evaluate(
+        set, *hold_out, options, [&](const AnsweredView& answered) { return answers.keep(answered); }, progress);
+    if (!scores) return scores.error();
+    report.scores = std::move(*scores);
+    report.hold_out = "Of " + std::to_string(set.upright.views.size()) + " views every 2nd was held out, " +
+                      std::to_string(hold_out->held.size()) + " in all.";
+    report.held_out = std::move(answers).rows(set);
+    return {};
+}
+
+}  // namespace rs::encode

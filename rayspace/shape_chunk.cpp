@@ -1,0 +1,231 @@
+#include "rayspace/shape_chunk.hpp"
+
+#include "rayspace/byte_stream.hpp"
+#include "rayspace/conventions.hpp"
+#include "rayspace/shape_coding.hpp"
+
+#include <zstd.h>
+
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace rs::object_chunks {
+namespace {
+
+using shape_coding::Depth;
+using shape_coding::kDepths;
+using Plane = std::vector<std::uint8_t>;
+
+constexpr std::uint8_t kZstdCoding = 0;
+constexpr std::size_t kReserved_bytes = 3;
+constexpr std::size_t kFixed_bytes = 64;
+constexpr std::size_t kNormalLine_bytes = 16;
+constexpr int kCompressionLevel = 19;  // above it libzstd asks decoders for larger windows
+
+// A plane of no bytes is no frame either.
+Payload compressed(const Plane& plane) {
+    if (plane.empty()) return {};
+    Payload frame(ZSTD_compressBound(plane.size()));
+    const std::size_t size = ZSTD_compress(frame.data(), frame.size(), plane.data(), plane.size(), kCompressionLevel);
+    RS_CHECK(!ZSTD_isError(size));  // it cannot lack room
+    frame.resize(size);
+    return frame;
+}
+
+// `frame` must be one whole Zstandard frame that states `size_bytes`. libzstd would also take several frames, skippable
+// ones and those of versions before the format was settled.
+Status check_frame(std::span<const std::byte> frame, std::uint64_t size_bytes, const char* what) {
+    if (size_bytes == 0 && frame.empty()) return {};
+    ByteReader start(frame);
+    if (start.get<std::uint32_t>() != ZSTD_MAGICNUMBER || size_bytes == 0) {
+        return Error{std::string(what) + " are no Zstandard frame"};
+    }
+    const unsigned long long stated_bytes = ZSTD_getFrameContentSize(frame.data(), frame.size());
+    if (stated_bytes != size_bytes) {
+        return Error{std::string(what) + " do not state the " + std::to_string(size_bytes) +
+                     " bytes that they must expand to"};
+    }
+    if (ZSTD_findFrameCompressedSize(frame.data(), frame.size()) != frame.size()) {
+        return Error{std::string(what) + " are not one whole Zstandard frame"};
+    }
+    return {};
+}
+
+// The frame has passed check_frame(): no more than size_bytes are written or allocated.
+Status decompress(std::span<const std::byte> frame, std::uint64_t size_bytes, const char* what, Plane& plane) {
+    plane.resize(static_cast<std::size_t>(size_bytes));
+    if (plane.empty()) return {};
+    const std::size_t written = ZSTD_decompress(plane.data(), plane.size(), frame.data(), frame.size());
+    if (ZSTD_isError(written)) {
+        return Error{std::string(what) + " cannot be decompressed: " + ZSTD_getErrorName(written)};
+    }
+    if (written != plane.size()) return Error{std::string(what) + " expand to too few bytes"};
+    return {};
+}
+
+constexpr const char* kRaysName = "its rays";
+constexpr std::array<const char*, kDepths.size()> kDepthNames = {"its depths of layer 0", "its depths of layer 1",
+                                                                 "its backs"};
+
+void put_numbers(const ShapeMap& shape, ByteWriter& out) {
+    out.put(static_cast<std::uint16_t>(shape.p_cells));
+    out.put(static_cast<std::uint16_t>(shape.bands));
+    out.put(shape.p_half_q20);
+    out.put(shape.p_cells_per_unit_q12);
+    out.put(shape.h_low_q20);
+    out.put(shape.bands_per_unit_q12);
+    out.put(shape.reference_distance_q20);
+    out.put(shape.reference_height_q20);
+    out.put(shape.depth_low_q20);
+    out.put(shape.depth_step_q24);
+}
+
+void get_numbers(ByteReader& in, ShapeMap& shape) {
+    shape.p_cells = in.get<std::uint16_t>();
+    shape.bands = in.get<std::uint16_t>();
+    shape.p_half_q20 = in.get<std::int32_t>();
+    shape.p_cells_per_unit_q12 = in.get<std::int32_t>();
+    shape.h_low_q20 = in.get<std::int32_t>();
+    shape.bands_per_unit_q12 = in.get<std::int32_t>();
+    shape.reference_distance_q20 = in.get<std::int32_t>();
+    shape.reference_height_q20 = in.get<std::int32_t>();
+    shape.depth_low_q20 = in.get<std::int32_t>();
+    shape.depth_step_q24 = in.get<std::int32_t>();
+}
+
+// Gaps and how many lines they have together.
+Result<std::uint64_t> get_gaps(ByteReader& in, ShapeMap& shape) {
+    std::uint32_t lines = 0;  // at most kMaxViews * kMaxGapLines
+    for (ShapeGap& gap : shape.gaps) {
+        gap.lines = in.get<std::uint16_t>();
+        gap.first_line = lines;
+        if (gap.lines > kMaxGapLines) {
+            return Error{"a gap has " + std::to_string(gap.lines) + " lines; 0.." + std::to_string(kMaxGapLines) +
+                         " are possible"};
+        }
+        lines += gap.lines;
+    }
+    return std::uint64_t{lines};
+}
+
+Status check_counts(const CodedShapeCells& coded) {
+    if (coded.cells > kMaxShapeCells) {
+        return Error{"has " + std::to_string(coded.cells) + " cells; at most " + std::to_string(kMaxShapeCells) +
+                     " are possible"};
+    }
+    const auto& [layer0, layer1, back] = coded.cells_with;
+    if (layer0 > coded.cells || layer1 > layer0) {
+        return Error{"claims " + std::to_string(layer0) + " cells with layer 0 and " + std::to_string(layer1) +
+                     " with layer 1 among " + std::to_string(coded.cells)};
+    }
+    return {};
+}
+
+}  // namespace
+
+Payload shape_payload(const Ring& ring) {
+    const ShapeMap& shape = ring.shape;
+    RS_CHECK(!shape.empty());
+    const Payload rays = compressed(shape_coding::rays_plane(shape));
+    std::array<Payload, kDepths.size()> depths;
+    for (std::size_t i = 0; i < kDepths.size(); ++i) {
+        depths[i] = compressed(shape_coding::residual_plane(shape, kDepths[i]));
+    }
+    ByteWriter out;
+    out.put(kZstdCoding);
+    out.put_zeros(kReserved_bytes);
+    put_numbers(shape, out);
+    for (const Depth depth : {Depth::kLayer0, Depth::kLayer1}) {
+        out.put(static_cast<std::uint32_t>(shape_coding::cells_with(shape, depth)));
+    }
+    out.put(static_cast<std::uint32_t>(rays.size()));
+    for (const Payload& frame : depths) out.put(static_cast<std::uint32_t>(frame.size()));
+    for (const ShapeGap& gap : shape.gaps) out.put(gap.lines);
+    for (const NormalLine& line : shape.normal_lines) {
+        out.put(line.l2_q30);
+        out.put(line.q2_q16);
+        out.put(line.a_q20);
+        out.put(line.c_q20);
+    }
+    out.put(std::span<const std::byte>(rays));
+    for (const Payload& frame : depths) out.put(std::span<const std::byte>(frame));
+    return {out.bytes().begin(), out.bytes().end()};
+}
+
+Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Ring& ring) {
+    ShapeMap& shape = ring.shape;
+    ByteReader in(payload);
+    const auto coding = in.get<std::uint8_t>();
+    if (!in.ok()) return Error{"is empty"};
+    if (coding != kZstdCoding) {
+        return Error{"has shape coding " + std::to_string(coding) + ", which is not known here; update these tools"};
+    }
+    const bool is_reserved_zero = in.take_zeros(kReserved_bytes);
+    get_numbers(in, shape);
+    CodedShapeCells coded;
+    const auto layer0_cells = in.get<std::uint32_t>();
+    const auto layer1_cells = in.get<std::uint32_t>();
+    coded.cells_with = {layer0_cells, layer1_cells, layer0_cells};
+    const auto rays_bytes = in.get<std::uint32_t>();
+    std::array<std::uint32_t, kDepths.size()> depths_bytes{};
+    for (std::uint32_t& bytes : depths_bytes) bytes = in.get<std::uint32_t>();
+    if (!in.ok()) return Error{"is too short"};
+    if (!is_reserved_zero) return Error{"has reserved bytes that are not zero"};
+    const auto is_side = [](int side) { return side >= 1 && side <= kMaxMapSide; };
+    if (!is_side(shape.p_cells) || !is_side(shape.bands)) {
+        return Error{"has lines of " + std::to_string(shape.p_cells) + "x" + std::to_string(shape.bands) +
+                     " cells; each side must be 1.." + std::to_string(kMaxMapSide)};
+    }
+
+    const std::size_t normal_lines = ring.views.size() * static_cast<std::size_t>(ring.planes);
+    const std::uint64_t expected_bytes = kFixed_bytes + ring.views.size() * sizeof(std::uint16_t) +
+                                         normal_lines * kNormalLine_bytes + rays_bytes +
+                                         std::accumulate(depths_bytes.begin(), depths_bytes.end(), std::uint64_t{0});
+    if (payload.size() != expected_bytes) {
+        return Error{"is " + std::to_string(payload.size()) + " bytes long instead of " +
+                     std::to_string(expected_bytes)};
+    }
+    shape.gaps.resize(ring.views.size());
+    const auto lines = get_gaps(in, shape);
+    if (!lines) return lines.error();
+    shape.normal_lines.resize(normal_lines);
+    for (NormalLine& line : shape.normal_lines) {
+        line.l2_q30 = in.get<std::int32_t>();
+        line.q2_q16 = in.get<std::int32_t>();
+        line.a_q20 = in.get<std::int32_t>();
+        line.c_q20 = in.get<std::int32_t>();
+    }
+    coded.cells = *lines * static_cast<std::uint64_t>(shape.p_cells) * static_cast<std::uint64_t>(shape.bands);
+    if (Status status = check_counts(coded); !status) return status.error();
+    coded.rays = in.take(rays_bytes);
+    const std::uint64_t rays_plane_bytes = shape_coding::rays_plane_bytes(coded.cells);
+    if (Status status = check_frame(coded.rays, rays_plane_bytes, kRaysName); !status) return status.error();
+    for (std::size_t i = 0; i < kDepths.size(); ++i) {
+        coded.depths[i] = in.take(depths_bytes[i]);
+        const Status status = check_frame(coded.depths[i], coded.cells_with[i], kDepthNames[i]);
+        if (!status) return status.error();
+    }
+    return coded;
+}
+
+Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
+    shape.cells.assign(static_cast<std::size_t>(coded.cells), ShapeCell{});
+    Plane plane;  // one at a time
+    const std::uint64_t rays_plane_bytes = shape_coding::rays_plane_bytes(shape.cells.size());
+    if (Status status = decompress(coded.rays, rays_plane_bytes, kRaysName, plane); !status) return status;
+    if (Status status = shape_coding::put_rays(plane, shape); !status) return status;
+    for (std::size_t i = 0; i < kDepths.size(); ++i) {
+        const std::uint64_t cells = coded.cells_with[i];
+        const std::uint64_t found = shape_coding::cells_with(shape, kDepths[i]);
+        if (found != cells) {
+            return Error{"claims " + std::to_string(cells) + " cells with layer " + std::to_string(i) +
+                         ", but its rays show " + std::to_string(found)};
+        }
+        if (Status status = decompress(coded.depths[i], cells, kDepthNames[i], plane); !status) return status;
+        shape_coding::put_residuals(plane, kDepths[i], shape);
+    }
+    return {};
+}
+
+}  // namespace rs::object_chunks

@@ -1,0 +1,85 @@
+#pragma once
+// The RS map with height: which two captured rays answer a view ray, and at what depth they meet it.
+//
+// The paper's RS map has one depth per object, the reference plane's. Here ray space gets its third dimension, height:
+// for every ray of a vertical plane (two numbers) and every band of height there is a cell that says how far along the
+// ray the surface is, and which of the two neighbouring pictures see it.
+//
+// A *gap* is the piece of ray space between two neighbouring views of a ring, `first` and `second` in turning order.
+// It is sampled along `lines`: line s of S lies at the fraction (s + 1/2) / S between the two captured lines. A ray of
+// a vertical plane is met at its *foot*, the point nearest to the axis. Of a line, cells are laid out by p, the signed
+// distance of the ray from the axis, and by h, the height at which the ray passes the foot:
+//
+//     cells[(line * p_cells + pi) * bands + hi],  line = first_line of the gap + s
+//     pi = floor((p + p_half) * p_cells_per_unit)       clamped to the cells
+//     hi = floor((h - h_low) * bands_per_unit)          outside: no surface
+//
+// h is that of a ray from the ring's own distance and height (`reference`); for a ray of another slope the engine
+// follows the surface to the reference ray that sees the same point (engine/RECONSTRUCTION.md).
+//
+// A cell holds up to two *layers*, two surfaces that rays of the cell may meet. The engine takes, pixel by pixel, the
+// one at which the two captured rays agree. depth d means depth_low + d * depth_step along the ray from the foot,
+// away from the viewer.
+//
+// Lengths are in object radii; everything is integer. Stored as in encode/FORMAT.md, chunk `shap`.
+
+#include <cstdint>
+#include <vector>
+
+namespace rs {
+
+struct ShapeCell {
+    std::uint8_t depth[2] = {0, 0};
+    std::uint8_t back = 0;  // where the object ends behind its nearest layer, as far as silhouettes tell
+    std::uint8_t rays = 0;  // ShapeRays bits; 0 = no surface
+
+    bool operator==(const ShapeCell&) const = default;
+};
+
+// Bits of ShapeCell::rays: which captured picture sees which layer. Layer 1 without a bit does not exist; where layer 1
+// exists so does layer 0.
+enum ShapeRays : std::uint8_t {
+    kFirstSeesLayer0 = 1,
+    kSecondSeesLayer0 = 2,
+    kFirstSeesLayer1 = 4,
+    kSecondSeesLayer1 = 8,
+};
+
+// What a captured line (CapturedLine) lacks for points beside its reference plane: with z along the plane's normal,
+// towards the viewer, the point (x, z) is at axial depth l0 + x l1 + z l2 and at column cx + (q0 + x q1 + z q2) / l.
+// a and c are the camera's own place in the plane's frame (equation 1).
+struct NormalLine {
+    std::int32_t l2_q30 = 0;
+    std::int32_t q2_q16 = 0;
+    std::int32_t a_q20 = 0;
+    std::int32_t c_q20 = 0;
+    bool operator==(const NormalLine&) const = default;
+};
+
+// The gap behind view n of the ring (to view n + 1, or from the last to view 0).
+struct ShapeGap {
+    std::uint16_t lines = 0;       // S; 0: nothing is known of this sector, its rays show the nearest picture
+    std::uint32_t first_line = 0;  // sum of `lines` of the gaps before it
+    bool operator==(const ShapeGap&) const = default;
+};
+
+struct ShapeMap {
+    int p_cells = 0;
+    int bands = 0;
+    std::int32_t p_half_q20 = 0;
+    std::int32_t p_cells_per_unit_q12 = 0;
+    std::int32_t h_low_q20 = 0;
+    std::int32_t bands_per_unit_q12 = 0;
+    std::int32_t reference_distance_q20 = 0;  // from the axis
+    std::int32_t reference_height_q20 = 0;
+    std::int32_t depth_low_q20 = 0;
+    std::int32_t depth_step_q24 = 0;
+    std::vector<ShapeGap> gaps;            // [n], one per view of the ring
+    std::vector<NormalLine> normal_lines;  // [n * planes + k]
+    std::vector<ShapeCell> cells;
+
+    [[nodiscard]] bool empty() const { return gaps.empty(); }
+    bool operator==(const ShapeMap&) const = default;
+};
+
+}  // namespace rs
