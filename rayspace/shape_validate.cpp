@@ -13,7 +13,7 @@ using namespace object_ranges;
 namespace {
 
 constexpr std::int32_t kMaxBandsPerUnit_q12 = 1 << 26;
-constexpr std::int32_t kMaxDepthStep_q24 = 1 << 20;
+constexpr std::int32_t kMaxDepthStep_q24 = 1 << 18;
 constexpr unsigned kLayer0 = kFirstSeesLayer0 | kSecondSeesLayer0;
 constexpr unsigned kLayer1 = kFirstSeesLayer1 | kSecondSeesLayer1;
 
@@ -45,7 +45,7 @@ Status check_numbers(const ShapeMap& shape) {
     }
     if (!below(shape.depth_low_q20, kMaxHalf_q20 + 1)) return Error{"its lowest depth is beyond 2 + 1/16"};
     if (!is_within(shape.depth_step_q24, 1, kMaxDepthStep_q24)) {
-        return Error{"its depth step is not between 0 and 1/16"};
+        return Error{"its depth step is not between 0 and 1/64"};
     }
     return {};
 }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kDeepest = 1 + 1.0 / 32;  // object radii, to either side of the foot
 constexpr int kSampleViews = 4;
+constexpr double kMostContradicted = 0.01;
 
 NormalLine normal_line(const Camera& camera, const ReferencePlane& plane) {
     const auto fixed = [](double value, int bits) { return static_cast<std::int32_t>(std::lround(std::ldexp(value, bits))); };
@@ -53,8 +54,7 @@ public:
     Status search(Progress* progress, std::vector<FoundDepth>& samples) {
         std::vector<const WorkView*> all;
         for (const DepthView& view : views_) all.push_back(&view.view);
-        hull_ = std::make_unique<VisualHull>(all, options_.hull_margin_px);
-        outline_ = std::make_unique<VisualHull>(all, 0);
+        choose_hull(all);
         const int count = static_cast<int>(views_.size());
         const int every = std::max(1, (count + kSampleViews - 1) / kSampleViews);
         const std::size_t first_sample = samples.size();
@@ -101,6 +101,17 @@ public:
     }
 
 private:
+    // The narrowest margin at which the silhouettes agree; a rig that is only nominal needs a wide one.
+    void choose_hull(const std::vector<const WorkView*>& all) {
+        const DepthRange range{-kDeepest, 2 * kDeepest / (options_.depths - 1), options_.depths};
+        for (margin_px_ = 1; ; margin_px_ *= 2) {
+            hull_ = std::make_unique<VisualHull>(all, margin_px_);
+            const double share = contradicted_share(all, *hull_, range);
+            if (margin_px_ >= options_.widest_hull_margin_px || share <= kMostContradicted) break;
+        }
+        outline_ = std::make_unique<VisualHull>(all, margin_px_ - 1);
+    }
+
     [[nodiscard]] double gap_deg(int n) const {
         return degrees(gap_width(views_, static_cast<std::size_t>(n)));
     }
@@ -149,7 +160,8 @@ private:
     const ShapeOptions& options_;
     std::vector<DepthView> views_;
     std::unique_ptr<VisualHull> hull_;
-    std::unique_ptr<VisualHull> outline_;  // without a margin
+    std::unique_ptr<VisualHull> outline_;  // a pixel narrower
+    int margin_px_ = 1;
 };
 
 }  // namespace

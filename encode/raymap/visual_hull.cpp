@@ -1,6 +1,9 @@
 #include "encode/raymap/visual_hull.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <numeric>
 
 namespace rs::encode {
 namespace {
@@ -91,6 +94,40 @@ void VisualHull::heights_above(const glm::dvec2& place, std::vector<Interval>& h
         }
         if (heights.empty()) return;
     }
+}
+
+double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range) {
+    constexpr int kEveryColumn = 8;
+    std::vector<std::int64_t> pixels(views.size(), 0);
+    std::vector<std::int64_t> contradicted(views.size(), 0);
+    tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
+        const WorkView& view = *views[v];
+        std::vector<Interval> heights;
+        std::vector<char> covered;
+        for (int column = static_cast<int>(v) % kEveryColumn; column < view.width; column += kEveryColumn) {
+            const HorizontalRay ray = view.ray_of(column + 0.5);
+            covered.assign(static_cast<std::size_t>(view.height), 0);
+            for (int level = 0; level < range.count; ++level) {
+                const double depth = range.at(level);
+                const double axial = (ray.to_foot + depth) / ray.horizontal_per_axial;
+                if (axial <= 0) continue;
+                hull.heights_above(ray.foot + depth * ray.along, heights);
+                for (const Interval& interval : heights) {
+                    const int top = static_cast<int>(std::clamp(view.row_of(interval.high, axial), 0.0, double(view.height)));
+                    const int bottom = static_cast<int>(std::clamp(view.row_of(interval.low, axial), 0.0, double(view.height)));
+                    std::fill(covered.begin() + top, covered.begin() + bottom, 1);
+                }
+            }
+            for (int row = 0; row < view.height; ++row) {
+                if (view.at(column, row).a < kInside) continue;
+                ++pixels[v];
+                if (covered[static_cast<std::size_t>(row)] == 0) ++contradicted[v];
+            }
+        }
+    });
+    const auto all = std::accumulate(pixels.begin(), pixels.end(), std::int64_t{0});
+    const auto bad = std::accumulate(contradicted.begin(), contradicted.end(), std::int64_t{0});
+    return all == 0 ? 0 : static_cast<double>(bad) / static_cast<double>(all);
 }
 
 }  // namespace rs::encode

@@ -5,6 +5,7 @@
 // in height. A column of a silhouette is a few runs of rows; so the hull above a place is an intersection of runs, exact
 // and without a grid of voxels.
 
+#include "encode/raymap/depth_range.hpp"
 #include "encode/raymap/work_view.hpp"
 
 #include <vector>
@@ -34,5 +35,9 @@ private:
     };
     std::vector<Silhouette> silhouettes_;
 };
+
+// The share of object pixels (0..1, sampled) whose rays the hull rules out entirely: what the silhouettes contradict one
+// another by. `range` covers the object.
+double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range);
 
 }  // namespace rs::encode

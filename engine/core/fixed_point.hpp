@@ -21,9 +21,9 @@ inline std::int64_t floor_square_root(std::int64_t square) {
     return root;
 }
 
-inline constexpr std::int64_t kSaturated = (std::int64_t{1} << 30) - 1;
+inline constexpr std::int64_t kSaturated = (std::int64_t{1} << 29) - 1;
 
-// (a * b) >> shift, held within -2^30 .. 2^30 - 1.
+// (a * b) >> shift, held within -2^29 .. 2^29 - 1.
 constexpr std::int32_t multiply_shift(std::int32_t a, std::int32_t b, int shift) {
     return static_cast<std::int32_t>(
         std::clamp<std::int64_t>((std::int64_t{a} * b) >> shift, -kSaturated - 1, kSaturated));

@@ -8,6 +8,7 @@
 namespace rs::engine {
 namespace {
 
+constexpr std::int64_t kMostPerStep = std::int64_t{1} << 22;
 constexpr std::int64_t kFarthest_q20 = std::int64_t{1} << 29;
 
 // A ray of a vertical plane: through its foot, in direction (sine, -cosine) along (tangent, normal).
@@ -76,7 +77,8 @@ ShapePicture along_ray(const RaySpaceObject& object, const Ring& ring, int n, in
     picture.l0_q20 = static_cast<std::int32_t>(l_foot_q20 + ((depth_low_q20 * l_along_q30) >> 30));
     picture.l1_q24 = static_cast<std::int32_t>((depth_step_q24 * l_along_q30) >> 30);
     picture.n0_q12 = static_cast<std::int32_t>((n_foot_q16 + ((depth_low_q20 * n_along_q16) >> 20)) >> 4);
-    picture.n1_q14 = static_cast<std::int32_t>((depth_step_q24 * n_along_q16) >> 26);
+    picture.n1_q14 = static_cast<std::int32_t>(
+        std::clamp((depth_step_q24 * n_along_q16) >> 26, -kMostPerStep, kMostPerStep));
     return picture;
 }
 
@@ -117,6 +119,8 @@ ShapeSetup set_up_shape(const RaySpaceObject& object, const ViewRegisters& regis
         const std::int64_t line = gap.first_line + bracket.from_first_q20 * gap.lines / bracket.width_q20;
         const std::int64_t column = line * shape.p_cells + std::clamp<std::int64_t>(pi, 0, shape.p_cells - 1);
         setup.cells = shape.cells.data() + column * shape.bands;
+        setup.foot_depth = static_cast<std::uint8_t>(
+            std::clamp<std::int64_t>(-depth_low_q20 * 16 / depth_step_q24, 0, 255));
         setup.weight = static_cast<std::int32_t>((bracket.from_first_q20 * 512 + bracket.width_q20) / (2 * bracket.width_q20));
         const int next = (bracket.gap + 1) % static_cast<int>(ring.views.size());
         setup.first = along_ray(object, ring, bracket.gap, point.plane, ray, depth_low_q20, depth_step_q24);

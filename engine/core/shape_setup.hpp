@@ -26,6 +26,7 @@ struct ShapeSetup {
     ShapePicture second;
     std::int32_t weight = 0;           // of the second picture, 0..256
     const ShapeCell* cells = nullptr;  // the ray's bands; null: there is no shape, d = 0 is the foot
+    std::uint8_t foot_depth = 0;       // the depth nearest to the foot
     std::int32_t lambda_foot_q20 = 0;  // axial depth in the view
     std::int32_t lambda0_q20 = 0;      // at depth d: lambda0 + (d * lambda1 >> 4)
     std::int32_t lambda1_q24 = 0;

@@ -11,9 +11,11 @@
 namespace rs::engine {
 namespace {
 
-constexpr double kFarthest = 200;        // object radii; farther viewpoints are brought here
-constexpr double kLargestDirection = 8;  // bound of N, T, S
-constexpr double kLargestRowStep = 2;    // bound of sy
+constexpr double kFarthest = 200;  // object radii; farther viewpoints are brought here
+// Bound of N, T, S: so far below 8 that rounding over a whole view does not reach it, and N^2 + T^2 stays within 63
+// bits.
+constexpr double kLargestDirection = 8 - 1.0 / 1024;
+constexpr double kLargestRowStep = 2;  // bound of sy
 
 std::int64_t fixed(double value, int fractional_bits) {
     return std::llround(std::ldexp(value, fractional_bits));

@@ -36,7 +36,9 @@ void check_rewriting(const RaySpaceObject& object) {
 
 // What was accepted must be safe to render, from anywhere.
 void check_rendering(const RaySpaceObject& object) {
-    for (const glm::dvec3 eye : {glm::dvec3(0, 0, 3), glm::dvec3(-1.1, 0.4, -0.6), glm::dvec3(40, -30, 2)}) {
+    // In front, close by, far below, and nearly overhead, where rays have the least horizontal length.
+    for (const glm::dvec3 eye :
+         {glm::dvec3(0, 0, 3), glm::dvec3(-1.1, 0.4, -0.6), glm::dvec3(40, -30, 2), glm::dvec3(0.2, 2.5, 0.3)}) {
         const Camera camera = look_at_camera(eye * object.units_per_radius, glm::dvec3(0), 0.8, 24, 20);
         for (const Camera& each : {camera, upright_camera(camera)}) {
             const auto registers = engine::prepare_view(object, each);

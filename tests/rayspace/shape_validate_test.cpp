@@ -61,7 +61,7 @@ TEST(ValidateShape, Numbers) {
     expect_range(&ShapeMap::reference_distance_q20, (1 << 20) + 1, k2To28 - 1, "reference distance");
     expect_range(&ShapeMap::reference_height_q20, -k2To28 + 1, k2To28 - 1, "reference height");
     expect_range(&ShapeMap::depth_low_q20, -(1 << 21) - (1 << 16), (1 << 21) + (1 << 16), "lowest depth");
-    expect_range(&ShapeMap::depth_step_q24, 1, 1 << 20, "depth step");
+    expect_range(&ShapeMap::depth_step_q24, 1, 1 << 18, "depth step");
 }
 
 TEST(ValidateShape, Sides) {

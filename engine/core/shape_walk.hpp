@@ -1,0 +1,86 @@
+#pragma once
+// The inner loop of the fast core for objects with a shape map: a strip of view columns goes down the view together,
+// each along its own line of cells and its own two captured pictures. The fast twin of shape_pixel.hpp; what a lane
+// computes is what shape_pixel() says, number by number.
+//
+// Only for upright views: there one set-up serves a column, and all pixels of a row have the same rise.
+
+#include "engine/core/column_walk.hpp"
+#include "engine/core/shape_setup.hpp"
+#include "engine/core/texel_store.hpp"
+#include "engine/core/view_registers.hpp"
+#include "rayspace/image.hpp"
+#include "rayspace/ray_space_object.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace rs::engine {
+
+// A captured picture of each lane: ShapePicture and what it needs of CapturedView.
+struct ShapePictureLanes {
+    alignas(64) std::int32_t used[kStripColumns];   // -1, or 0: the lane does not look at this picture
+    alignas(64) std::int32_t start[kStripColumns];  // index of texel (0, 0)
+    alignas(64) std::int32_t l0_q20[kStripColumns];
+    alignas(64) std::int32_t l1_q24[kStripColumns];
+    alignas(64) std::int32_t n0_q12[kStripColumns];
+    alignas(64) std::int32_t n1_q14[kStripColumns];
+    alignas(64) std::int32_t cx_q8[kStripColumns];
+    alignas(64) std::int32_t cy_q8[kStripColumns];
+    alignas(64) std::int32_t fl_y_q8[kStripColumns];
+    alignas(64) std::int32_t height_q16[kStripColumns];
+};
+
+// ShapeSetup, lane by lane. A lane without a ray uses neither picture.
+struct ShapeStrip {
+    ShapePictureLanes first;
+    ShapePictureLanes second;
+    alignas(64) std::int32_t weight[kStripColumns];
+    alignas(64) std::int32_t alone[kStripColumns];       // ShapeRays bit of the picture that answers alone; 0: both do
+    alignas(64) std::int32_t cell_start[kStripColumns];  // index of the lane's bands in ShapeMap::cells
+    alignas(64) std::int32_t bands[kStripColumns];       // 0: there is no shape
+    alignas(64) std::int32_t foot_depth[kStripColumns];
+    alignas(64) std::int32_t lambda_foot_q20[kStripColumns];
+    alignas(64) std::int32_t lambda0_q20[kStripColumns];
+    alignas(64) std::int32_t lambda1_q24[kStripColumns];
+    alignas(64) std::int32_t inverse_r_q20[kStripColumns];
+    alignas(64) std::int32_t inverse_rho_q20[kStripColumns];
+    bool empty = true;  // no lane has a ray
+};
+
+// What all lanes of all strips share.
+struct ShapeWalk {
+    const ShapeCell* cells = nullptr;  // at least one
+    const Rgba8* texels = nullptr;     // TexelStore's
+    std::int32_t column_stride = 0;
+    std::int32_t width_q8 = 0;  // of the captured pictures
+    std::int32_t height_q8 = 0;
+    std::int32_t b_q16 = 0;
+    std::int32_t reference_height_q16 = 0;
+    std::int32_t h_low_q16 = 0;
+    std::int32_t bands_per_unit_q12 = 0;
+    std::int32_t depth_low_q20 = 0;
+    std::int32_t depth_step_q24 = 0;
+};
+
+ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers);
+
+// View columns first_column .. first_column + kStripColumns - 1, those that exist.
+ShapeStrip set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
+                              int first_column);
+
+// Where the pixels go: row j of the strip to colour + j * colour_stride and, where it is wanted, lambda_q20 + j *
+// lambda_stride.
+struct ShapeWalkOutput {
+    Rgba8* colour = nullptr;
+    std::ptrdiff_t colour_stride = 0;
+    std::int32_t* lambda_q20 = nullptr;
+    std::ptrdiff_t lambda_stride = 0;
+};
+
+// Writes `columns` (1..kStripColumns) pixels of `rows` view rows whose rises are rise_q24[0 .. rows - 1]. The SIMD code
+// for the machine at hand is chosen at the first call; all choices give the same bytes.
+void walk_shape(const ShapeWalk& walk, const ShapeStrip& strip, const std::int32_t* rise_q24, int rows, int columns,
+                const ShapeWalkOutput& out);
+
+}  // namespace rs::engine
