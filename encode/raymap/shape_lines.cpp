@@ -166,7 +166,7 @@ void grow(ShapeCell* cells, int p_cells, int bands) {
 // How far behind its nearest layer each cell of a column stays within the hull.
 void find_backs(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
                 ShapeCell* cells) {
-    constexpr int kStride = 2;
+    constexpr int kStride = 8;  // levels of depth: a coarse back is enough, and packs well
     const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
     // The ray through the viewpoint at distance p from the axis.
     const double distance = glm::length(viewpoint);

@@ -165,6 +165,7 @@ Status run_build(const BuildArguments& arguments) {
         report.rig = set->upright;
         built->object.pictures.clear();  // their memory is wanted for the objects that are scored
         if (Status status = add_captured_pictures(*set, report); !status) return status;
+        add_depths(*set, built->depths, report);
         if (Status status = add_held_out_views(*set, options->map.planes, report, &bar); !status) return status;
         if (Status status = write_report(*page, report); !status) return status;
     }

@@ -73,6 +73,15 @@ private:
     std::map<std::pair<std::size_t, Method>, Kept> kept_;
 };
 
+// What was found column by column, as a picture.
+Image<float> transposed(const Image<float>& columns) {
+    Image<float> picture(columns.height(), columns.width());
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) picture(x, y) = columns(y, x);
+    }
+    return picture;
+}
+
 }  // namespace
 
 Status add_captured_pictures(const CaptureSet& set, BuildReport& report) {
@@ -101,6 +110,17 @@ Status add_held_out_views(const CaptureSet& set, int planes, BuildReport& report
                       std::to_string(hold_out->held.size()) + " in all.";
     report.held_out = std::move(answers).rows(set);
     return {};
+}
+
+void add_depths(const CaptureSet& set, const std::vector<FoundDepth>& depths, BuildReport& report) {
+    constexpr float kDeepest = 1;  // object radii to either side of the foot
+    for (const FoundDepth& found : depths) {
+        const std::string caption = caption_of(set, found.view);
+        report.hull_pictures.push_back(
+            {scaled_down(depth_picture(transposed(found.hull), -kDeepest, kDeepest), kKept_px), caption});
+        report.depth_pictures.push_back(
+            {scaled_down(depth_picture(transposed(found.depth), -kDeepest, kDeepest), kKept_px), caption});
+    }
 }
 
 }  // namespace rs::encode

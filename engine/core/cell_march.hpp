@@ -18,6 +18,7 @@ namespace rs::engine {
 class CellMarch {
 public:
     static constexpr int kMostSteps = 64;
+    static constexpr std::int32_t kMostPerDepth_q20 = 1 << 22;
 
     CellMarch(const ShapeMap& shape, const ShapeSetup& setup, std::int32_t b_q20, std::int32_t rise_q24)
         : cells_(setup.cells), bands_(shape.bands) {
@@ -25,12 +26,11 @@ public:
         const std::int32_t slope_q20 = multiply_shift(rise_q24, setup.inverse_r_q20, 24);
         const std::int32_t reference_q20 =
             multiply_shift(h_q16 - (shape.reference_height_q20 >> 4), setup.inverse_rho_q20, 16);
-        const std::int32_t per_radius_q20 =
-            multiply_shift(slope_q20 - reference_q20, shape.bands_per_unit_q12, 12);
+        const std::int32_t per_radius_q20 = multiply_shift(slope_q20 - reference_q20, shape.bands_per_unit_q12, 12);
         foot_q12_ = multiply_shift(h_q16 - (shape.h_low_q20 >> 4), shape.bands_per_unit_q12, 16);
         zero_q12_ = foot_q12_ + multiply_shift(per_radius_q20, shape.depth_low_q20, 28);
-        per_depth_q20_ = std::clamp(multiply_shift(per_radius_q20, shape.depth_step_q24, 24), -kMostPerDepth_q20,
-                                    kMostPerDepth_q20);
+        per_depth_q20_ =
+            std::clamp(multiply_shift(per_radius_q20, shape.depth_step_q24, 24), -kMostPerDepth_q20, kMostPerDepth_q20);
         const int steps = std::min((std::abs(per_depth_q20_) >> 11) + 1, kMostSteps);
         step_ = 256 / steps;
         if (steps == 1) begin_ = 256;
@@ -55,8 +55,6 @@ public:
     }
 
 private:
-    static constexpr std::int32_t kMostPerDepth_q20 = 1 << 22;
-
     [[nodiscard]] ShapeCell cell_at(std::int32_t at_q12) const {
         const std::int32_t band = at_q12 >> 12;
         return band >= 0 && band < bands_ ? cells_[band] : ShapeCell{};
@@ -64,7 +62,7 @@ private:
     [[nodiscard]] std::int32_t band_q12(int d) const { return zero_q12_ + ((d * per_depth_q20_) >> 8); }
     static int nearest(const ShapeCell& cell) {
         return (cell.rays & (kFirstSeesLayer1 | kSecondSeesLayer1)) != 0 ? std::min(cell.depth[0], cell.depth[1])
-                                                                        : cell.depth[0];
+                                                                         : cell.depth[0];
     }
 
     const ShapeCell* cells_;

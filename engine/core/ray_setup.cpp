@@ -41,6 +41,7 @@ RaySetup set_up_ray(const RaySpaceObject& object, const ViewRegisters& registers
     RaySetup setup;
     setup.picture = picture;
     setup.column = static_cast<int>(column);
+    setup.lambda_q20 = static_cast<std::int32_t>(point.lambda_q20);
     setup.row_0_q16 = view.cy_q16 - ((m_q16 * (height_q20 - view.height_q20)) >> 20);
     setup.row_step_q16 = -((m_q16 * rise_per_row_q24) >> 24);
     return setup;

@@ -14,6 +14,7 @@ struct RaySetup {
     int column = 0;
     std::int64_t row_0_q16 = 0;
     std::int64_t row_step_q16 = 0;
+    std::int32_t lambda_q20 = 0;  // axial depth of the reference plane
 
     // Row of the picture for view row j; may lie outside of the picture.
     [[nodiscard]] std::int64_t row(int j) const { return (row_0_q16 + j * row_step_q16) >> 16; }

@@ -3,6 +3,7 @@
 #include "engine/core/column_walk.hpp"
 #include "engine/core/ray_setup.hpp"
 #include "engine/core/shape_pixel.hpp"
+#include "engine/core/shape_walk.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -79,6 +80,22 @@ ColumnStrip set_up_strip(const RaySpaceObject& object, const TexelStore& texels,
     return strip;
 }
 
+int strips_of(const ViewRegisters& registers) {
+    return (registers.width + kStripColumns - 1) / kStripColumns;
+}
+
+// pixel(i, j) of every pixel of the view, row by row.
+template <class Pixel>
+void render_pixels(const Pixel& pixel, ImageView<Rgba8> out, ImageView<std::int32_t> lambda) {
+    tbb::parallel_for(0, out.height(), [&](int j) {
+        for (int i = 0; i < out.width(); ++i) {
+            const ShapePixel found = pixel(i, j);
+            out(i, j) = found.colour;
+            if (!lambda.empty()) lambda(i, j) = found.colour.a > 0 ? found.lambda_q20 : 0;
+        }
+    });
+}
+
 }  // namespace
 
 Status substitute_missing_pictures(RaySpaceObject& object) {
@@ -99,6 +116,8 @@ Status substitute_missing_pictures(RaySpaceObject& object) {
                 return Error{object.name + ": a ring has no picture loaded; read the object at a higher level"};
             }
         }
+        const auto is_loaded = [&](std::uint16_t view) { return !object.pictures[view].empty(); };
+        if (!std::all_of(ring.views.begin(), ring.views.end(), is_loaded)) ring.shape = {};
         for (std::uint16_t& cell : ring.cells) {
             if (cell != kNoPicture) cell = stand_in[cell];
         }
@@ -117,19 +136,24 @@ Result<Renderer> Renderer::create(RaySpaceObject object) {
     return Renderer(std::move(object), std::move(*texels));
 }
 
-void Renderer::render(const ViewRegisters& registers, ImageView<Rgba8> out) const {
+void Renderer::render(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20) const {
     RS_CHECK(out.width() == registers.width && out.height() == registers.height);
-    if (!object_.rings[static_cast<std::size_t>(registers.ring)].shape.empty()) {
-        render_shape(registers, out);
+    RS_CHECK(lambda_q20.empty() || (lambda_q20.width() == registers.width && lambda_q20.height() == registers.height));
+    const bool has_shape = !object_.rings[static_cast<std::size_t>(registers.ring)].shape.empty();
+    if (has_shape && registers.upright() && can_walk_shape()) {
+        render_shape_upright(registers, out, lambda_q20);
+    } else if (has_shape) {
+        render_shape_pixels(registers, out, lambda_q20);
     } else if (registers.upright()) {
-        render_upright(registers, out);
+        render_upright(registers, out, lambda_q20);
     } else {
-        render_tilted(registers, out);
+        render_tilted(registers, out, lambda_q20);
     }
 }
 
-void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> out) const {
-    const int strips = (registers.width + kStripColumns - 1) / kStripColumns;
+void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> out,
+                              ImageView<std::int32_t> lambda) const {
+    const int strips = strips_of(registers);
     std::vector<ColumnStrip> strip(static_cast<std::size_t>(strips));
     tbb::parallel_for(tbb::blocked_range<int>(0, strips, 8), [&](const tbb::blocked_range<int>& range) {
         for (int s = range.begin(); s < range.end(); ++s) {
@@ -146,37 +170,59 @@ void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> o
                          std::min(kStripColumns, registers.width - first), out.row(row_begin) + first, out.stride());
         }
     });
+    if (lambda.empty()) return;
+    std::vector<std::int32_t> of_column;
+    for (int i = 0; i < registers.width; ++i) of_column.push_back(set_up_ray(object_, registers, i, 0).lambda_q20);
+    tbb::parallel_for(0, registers.height, [&](int j) {
+        for (int i = 0; i < registers.width; ++i) {
+            lambda(i, j) = out(i, j).a > 0 ? of_column[static_cast<std::size_t>(i)] : 0;
+        }
+    });
 }
 
-void Renderer::render_shape(const ViewRegisters& registers, ImageView<Rgba8> out) const {
+void Renderer::render_tilted(const ViewRegisters& registers, ImageView<Rgba8> out,
+                             ImageView<std::int32_t> lambda) const {
+    const auto pixel = [&](int i, int j) -> ShapePixel {
+        const RaySetup ray = set_up_ray(object_, registers, i, j);
+        if (ray.picture < 0) return {};
+        const std::int64_t row = ray.row(j);
+        if (row < 0 || row >= object_.height) return {};
+        return {texels_.texels()[texels_.column_start(ray.picture, ray.column) + row], ray.lambda_q20};
+    };
+    render_pixels(pixel, out, lambda);
+}
+
+void Renderer::render_shape_upright(const ViewRegisters& registers, ImageView<Rgba8> out,
+                                    ImageView<std::int32_t> lambda) const {
+    const ShapeWalk walk = set_up_walk(object_, texels_, registers);
+    std::vector<std::int32_t> rise_q24;
+    for (int j = 0; j < registers.height; ++j) {
+        rise_q24.push_back(static_cast<std::int32_t>(registers.rise.at(0, j) >> 8));
+    }
+    tbb::parallel_for(0, strips_of(registers), [&](int s) {
+        const int first = s * kStripColumns;
+        const ShapeStrip strip = set_up_shape_strip(object_, texels_, registers, first);
+        ShapeWalkOutput to{out.row(0) + first, out.stride(), nullptr, 0};
+        if (!lambda.empty()) {
+            to.lambda_q20 = lambda.row(0) + first;
+            to.lambda_stride = lambda.stride();
+        }
+        walk_shape(walk, strip, rise_q24.data(), registers.height, std::min(kStripColumns, registers.width - first),
+                   to);
+    });
+}
+
+void Renderer::render_shape_pixels(const ViewRegisters& registers, ImageView<Rgba8> out,
+                                   ImageView<std::int32_t> lambda) const {
     const auto texel = [&](int view, int column, int row) {
         return texels_.texels()[texels_.column_start(view, column) + row];
     };
-    const bool upright = registers.upright();
-    tbb::parallel_for(0, registers.width, [&](int i) {
-        ShapeSetup setup = set_up_shape(object_, registers, i, 0);
-        for (int j = 0; j < registers.height; ++j) {
-            if (!upright) setup = set_up_shape(object_, registers, i, j);
-            out(i, j) = setup.has_ray ? shape_pixel(object_, registers, setup,
-                                                    static_cast<std::int32_t>(registers.rise.at(i, j) >> 8), texel)
-                                            .colour
-                                      : Rgba8{};
-        }
-    });
-}
-
-void Renderer::render_tilted(const ViewRegisters& registers, ImageView<Rgba8> out) const {
-    tbb::parallel_for(0, registers.height, [&](int j) {
-        Rgba8* const pixels = out.row(j);
-        for (int i = 0; i < registers.width; ++i) {
-            pixels[i] = Rgba8{};
-            const RaySetup ray = set_up_ray(object_, registers, i, j);
-            if (ray.picture < 0) continue;
-            const std::int64_t row = ray.row(j);
-            if (row < 0 || row >= object_.height) continue;
-            pixels[i] = texels_.texels()[texels_.column_start(ray.picture, ray.column) + row];
-        }
-    });
+    const auto pixel = [&](int i, int j) -> ShapePixel {
+        const ShapeSetup setup = set_up_shape(object_, registers, i, j);
+        if (!setup.has_ray) return {};
+        return shape_pixel(object_, registers, setup, static_cast<std::int32_t>(registers.rise.at(i, j) >> 8), texel);
+    };
+    render_pixels(pixel, out, lambda);
 }
 
 }  // namespace rs::engine

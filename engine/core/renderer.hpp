@@ -3,7 +3,8 @@
 // bit.
 //
 // Upright views go column by column: one set-up for each view column, then strips of columns walk down the captured
-// pictures together. Views from tilted cameras are set up pixel by pixel (some thirty times slower).
+// pictures together (column_walk.hpp; shape_walk.hpp for objects with a shape map). Views from tilted cameras are set
+// up pixel by pixel (some thirty times slower).
 
 #include "engine/core/texel_store.hpp"
 #include "engine/core/view_registers.hpp"
@@ -11,10 +12,13 @@
 #include "rayspace/ray_space_object.hpp"
 #include "rayspace/result.hpp"
 
+#include <cstdint>
+
 namespace rs::engine {
 
 // Lets the loaded pictures of each ring stand in for those that are not: every map cell of a missing picture gets the
-// loaded picture nearest to it in turning order. Does nothing where all are loaded. Fails where a ring has no picture.
+// loaded picture nearest to it in turning order, and a ring's shape map, which needs all of its pictures, is dropped.
+// Does nothing where all are loaded. Fails where a ring has no picture.
 Status substitute_missing_pictures(RaySpaceObject& object);
 
 class Renderer {
@@ -26,15 +30,20 @@ public:
     // The object without its pictures.
     [[nodiscard]] const RaySpaceObject& object() const { return object_; }
 
-    // `out` has the view's size; straight RGBA, every pixel is written. `registers` come from prepare_view on object().
-    // Uses the threads of the calling tbb arena; may be called from several threads at once.
-    void render(const ViewRegisters& registers, ImageView<Rgba8> out) const;
+    // `out` has the view's size; straight RGBA, every pixel is written. `lambda_q20`, where not empty, has that size
+    // too and receives the axial depth of what is shown, 0 where alpha is 0 (as reconstruct_scalar says). `registers`
+    // come from prepare_view on object(). Uses the threads of the calling tbb arena; may be called from several threads
+    // at once.
+    void render(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20 = {}) const;
 
 private:
     Renderer(RaySpaceObject object, TexelStore texels);
-    void render_upright(const ViewRegisters& registers, ImageView<Rgba8> out) const;
-    void render_shape(const ViewRegisters& registers, ImageView<Rgba8> out) const;
-    void render_tilted(const ViewRegisters& registers, ImageView<Rgba8> out) const;
+    void render_upright(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda) const;
+    void render_tilted(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda) const;
+    void render_shape_upright(const ViewRegisters& registers, ImageView<Rgba8> out,
+                              ImageView<std::int32_t> lambda) const;
+    void render_shape_pixels(const ViewRegisters& registers, ImageView<Rgba8> out,
+                             ImageView<std::int32_t> lambda) const;
 
     RaySpaceObject object_;
     TexelStore texels_;

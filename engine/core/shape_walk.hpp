@@ -37,8 +37,13 @@ struct ShapeStrip {
     ShapePictureLanes second;
     alignas(64) std::int32_t weight[kStripColumns];
     alignas(64) std::int32_t alone[kStripColumns];       // ShapeRays bit of the picture that answers alone; 0: both do
-    alignas(64) std::int32_t cell_start[kStripColumns];  // index of the lane's bands in ShapeMap::cells
-    alignas(64) std::int32_t bands[kStripColumns];       // 0: there is no shape
+    // Of the lane's bands those between the lowest and the highest that are not empty: the number of the lowest one, its
+    // index in ShapeMap::cells, and how many there are (0: there is no shape).
+    alignas(64) std::int32_t low_band[kStripColumns];
+    alignas(64) std::int32_t cell_start[kStripColumns];
+    alignas(64) std::int32_t bands[kStripColumns];
+    alignas(64) std::int32_t nearest[kStripColumns];     // of the layers of all bands; 256 where there are none
+    alignas(64) std::int32_t beyond[kStripColumns];      // one more than the farthest back of all bands, or 0
     alignas(64) std::int32_t foot_depth[kStripColumns];
     alignas(64) std::int32_t lambda_foot_q20[kStripColumns];
     alignas(64) std::int32_t lambda0_q20[kStripColumns];
@@ -78,8 +83,12 @@ struct ShapeWalkOutput {
     std::ptrdiff_t lambda_stride = 0;
 };
 
-// Writes `columns` (1..kStripColumns) pixels of `rows` view rows whose rises are rise_q24[0 .. rows - 1]. The SIMD code
-// for the machine at hand is chosen at the first call; all choices give the same bytes.
+// False on a machine without vectors of 16 bytes; there is nothing to be gained over shape_pixel() then.
+bool can_walk_shape();
+
+// can_walk_shape() must be true. Writes `columns` (1..kStripColumns) pixels of `rows` view rows whose rises are
+// rise_q24[0 .. rows - 1]. The SIMD code for the machine at hand is chosen at the first call; all choices give the same
+// bytes.
 void walk_shape(const ShapeWalk& walk, const ShapeStrip& strip, const std::int32_t* rise_q24, int rows, int columns,
                 const ShapeWalkOutput& out);
 

@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -13,7 +14,7 @@ Result<TexelStore> TexelStore::create(const RaySpaceObject& object) {
     TexelStore store;
     store.width_ = object.width;
     store.height_ = object.height;
-    const std::int64_t picture_size = std::int64_t{object.width} * object.height;
+    const std::int64_t picture_size = (std::int64_t{object.width} + 2) * (std::int64_t{object.height} + 2);
     std::int64_t size = 1;
     for (const PlanarPicture& picture : object.pictures) {
         store.picture_start_.push_back(static_cast<std::int32_t>(size));
@@ -39,8 +40,17 @@ Result<TexelStore> TexelStore::create(const RaySpaceObject& object) {
                 if (span.end == 0) span.begin = row;
                 span.end = row + 1;
             }
+            texel[-1] = texel[0];
+            texel[object.height] = texel[object.height - 1];
             store.spans_[p * static_cast<std::size_t>(object.width) + static_cast<std::size_t>(column)] = span;
         }
+        const auto repeat = [&](int from, int to) {
+            const Rgba8* source = store.texels_.data() + store.column_start(static_cast<int>(p), from) - 1;
+            std::copy_n(source, store.column_stride(),
+                        store.texels_.data() + store.column_start(static_cast<int>(p), to) - 1);
+        };
+        repeat(0, -1);
+        repeat(object.width - 1, object.width);
     });
     return store;
 }

@@ -4,8 +4,11 @@
 // Converting YUV to RGB is done once per stored pixel instead of once per rendered one. Fetching is nearest, so the two
 // commute and the bits stay the same. Columns are contiguous because the engine walks pictures downwards.
 //
-// Layout: texel (column, row) of picture p stands at texels()[column_start(p, column) + row]. texels()[0] is
-// transparent and belongs to no picture: the place that lanes without a ray read.
+// Layout: texel (column, row) of picture p stands at texels()[column_start(p, column) + row], and column_start(p,
+// column
+// + 1) = column_start(p, column) + column_stride(). Every picture has a border one texel wide that repeats its rim
+// (column -1 and `width`, row -1 and `height`), so that bilinear reads need no clamps. texels()[0] is transparent and
+// belongs to no picture: the place that lanes without a ray read; the texels a bilinear read from there takes exist.
 
 #include "rayspace/image.hpp"
 #include "rayspace/ray_space_object.hpp"
@@ -24,14 +27,15 @@ struct RowSpan {
 
 class TexelStore {
 public:
-    // Fails where the pictures have 2^31 pixels or more (the fast core's indices are 32 bits wide). Pictures that are
-    // not loaded take no room and must not be asked for.
+    // Fails where the pictures and their borders have 2^31 pixels or more (the fast core's indices are 32 bits wide).
+    // Pictures that are not loaded take no room and must not be asked for.
     static Result<TexelStore> create(const RaySpaceObject& object);
 
     [[nodiscard]] const Rgba8* texels() const { return texels_.data(); }
     [[nodiscard]] std::int32_t column_start(int picture, int column) const {
-        return picture_start_[static_cast<std::size_t>(picture)] + column * height_;
+        return picture_start_[static_cast<std::size_t>(picture)] + (column + 1) * column_stride() + 1;
     }
+    [[nodiscard]] std::int32_t column_stride() const { return height_ + 2; }
     [[nodiscard]] RowSpan occupied(int picture, int column) const {
         return spans_[static_cast<std::size_t>(picture) * static_cast<std::size_t>(width_) +
                       static_cast<std::size_t>(column)];

@@ -78,6 +78,11 @@ bool ViewRegisters::upright() const {
            });
 }
 
+glm::dvec3 prepared_viewpoint(const RaySpaceObject& object, const Camera& camera) {
+    const glm::dvec3 centre = camera.centre() / object.units_per_radius;
+    return centre * std::min(1.0, kFarthest / glm::length(centre));
+}
+
 Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera_in_rig) {
     if (object.rings.empty()) return view_error("the object holds no ring of views");
     if (camera_in_rig.width < 1 || camera_in_rig.height < 1 || camera_in_rig.width > kMaxPictureSide_px ||

@@ -44,4 +44,7 @@ struct ViewRegisters {
 // enough, finite numbers. Pure; thread-safe.
 Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera);
 
+// The viewpoint that prepare_view takes, in object radii: the camera's centre, or where it was brought to.
+glm::dvec3 prepared_viewpoint(const RaySpaceObject& object, const Camera& camera);
+
 }  // namespace rs::engine

@@ -36,9 +36,12 @@ Status run_conformance(const ConformanceArguments& arguments) {
     const Result<ConformanceReport> report =
         check_conformance(std::move(*object), arguments.views, arguments.seed, &progress);
     if (!report) return report.error();
-    std::printf("%s: %d views (%d upright), %lld pixels, %lld of the object: %lld differ from the definition\n",
-                arguments.object.c_str(), report->views, report->upright_views, static_cast<long long>(report->pixels),
-                static_cast<long long>(report->object_pixels), static_cast<long long>(report->different_pixels));
+    std::printf(
+        "%s: %d views (%d upright, %d of them on a ring), %lld pixels, %lld of the object: %lld differ from the "
+        "definition\n",
+        arguments.object.c_str(), report->views, report->upright_views, report->on_ring_views,
+        static_cast<long long>(report->pixels), static_cast<long long>(report->object_pixels),
+        static_cast<long long>(report->different_pixels));
     if (report->different_pixels != 0) {
         return Error{arguments.object +
                      ": the core's pictures are not those of the definition; this is a defect of the renderer"};

@@ -1,6 +1,7 @@
 #include "engine/tools/render_command.hpp"
 
 #include "engine/core/contact_sheet.hpp"
+#include "engine/core/depth_picture.hpp"
 #include "engine/core/orbit.hpp"
 #include "engine/core/renderer.hpp"
 #include "rayspace/conventions.hpp"
@@ -14,6 +15,7 @@
 #include "rayspace/view_output.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 namespace rs::engine {
@@ -31,6 +33,7 @@ struct RenderArguments {
     double fov_deg = 0;
     double frames_per_second = 30;
     int level = kProgressiveLevels - 1;
+    bool depth = false;
     bool quiet = false;
 };
 
@@ -94,18 +97,39 @@ Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camer
     return picture;
 }
 
+// "vase.depth.exr" for "vase.png".
+std::filesystem::path depth_name(std::filesystem::path picture) {
+    return picture.replace_extension(".depth.exr");
+}
+
+// The view as PNG and, beside it, its depth.
+Status write_view_with_depth(const Renderer& renderer, const Camera& camera, const std::filesystem::path& path) {
+    const Result<ViewRegisters> registers = prepare_view(renderer.object(), camera);
+    if (!registers) return registers.error();
+    Image<Rgba8> picture(camera.width, camera.height);
+    Image<std::int32_t> lambda_q20(camera.width, camera.height);
+    renderer.render(*registers, picture, lambda_q20);
+    if (Status status = write_png(path, picture); !status) return status;
+    return write_exr_channel(depth_name(path), depth_picture(renderer.object(), camera, lambda_q20));
+}
+
 Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
                     Progress& progress) {
     Result<StagedFolder> staged = StagedFolder::create(arguments.output);
     if (!staged) return staged.error();
     Rig rig = rig_of_views(cameras);
     rig.object_radius = renderer.object().units_per_radius;
+    for (RigView& view : rig.views) {
+        if (arguments.depth) view.depth_file_path = depth_name(view.file_path).string();
+    }
     const int count = static_cast<int>(cameras.size());
     Status written = for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
+        const std::filesystem::path path = staged->temporary_path() / rig.views[n].file_path;
+        if (arguments.depth) return write_view_with_depth(renderer, cameras[n], path);
         const Result<Image<Rgba8>> picture = render_camera(renderer, cameras[n]);
         if (!picture) return picture.error();
-        return write_png(staged->temporary_path() / rig.views[n].file_path, *picture);
+        return write_png(path, *picture);
     });
     if (!written) return written;
     if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
@@ -137,6 +161,7 @@ Status check_one_picture(const std::vector<Camera>& cameras, const RenderArgumen
 
 Status write_picture(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments) {
     if (Status status = check_one_picture(cameras, arguments); !status) return status;
+    if (arguments.depth) return write_view_with_depth(renderer, cameras.front(), arguments.output);
     std::vector<Image<Rgba8>> pictures;
     for (const Camera& camera : cameras) {
         Result<Image<Rgba8>> picture = render_camera(renderer, camera);
@@ -153,6 +178,11 @@ Status run_render(const RenderArguments& arguments) {
     if (!kind) return kind.error();
     if (arguments.sheet_columns > 0 && *kind != OutputKind::picture) {
         return Error{arguments.output + ": --sheet makes one picture; give a name that ends in .png to -o"};
+    }
+    if (arguments.depth && (*kind == OutputKind::video || arguments.sheet_columns > 0)) {
+        return Error{arguments.output +
+                     ": a video or a sheet has no depth; give a folder or one view's FILE.png to -o, "
+                     "or leave out --depth"};
     }
     const Result<Renderer> renderer = open_renderer(arguments.object, arguments.level);
     if (!renderer) return renderer.error();
@@ -200,6 +230,9 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("--level", arguments->level, "load only every 8th (0), 4th (1), 2nd (2) picture or all (3)")
         ->check(CLI::Range(0, kProgressiveLevels - 1))
         ->capture_default_str();
+    command->add_flag("--depth", arguments->depth,
+                      "also write NAME.depth.exr beside each picture: axial depth in the units of the object's rig, 0 "
+                      "where nothing is shown");
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
     command->footer(
         "Examples:\n  rs-engine render vase.rso --orbit 120 -o vase.mp4\n"

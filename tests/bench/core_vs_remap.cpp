@@ -1,15 +1,18 @@
-// The core's speed beside cv::remap (8UC4, nearest) at the same output size, in one run, on two threads.
+// The core's speed beside cv::remap (8UC4) at the same output size, in one run, on two threads: by reference planes
+// beside nearest, with a shape map beside linear.
 //
 //     bench_core --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
 //
 // Both write 1024x1024 pixels of four bytes from 512x512 pictures. The core renders an orbit around a 90-view object,
 // so that every frame reads other pictures; cv::remap reads one picture through a fixed-point map of the same scale,
-// its fastest form. Compare items_per_second (pixels).
+// its fastest form. core_shape orbits at the captured distance, between the captured views; core_shape_near goes
+// nearer, where every ray passes many bands of the map. Compare items_per_second (pixels).
 
 #include "engine/core/reconstruct.hpp"
 #include "engine/core/renderer.hpp"
 #include "rayspace/conventions.hpp"
 #include "tests/support/ring_object.hpp"
+#include "tests/support/small_shape.hpp"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -31,18 +34,28 @@ const RaySpaceObject& object() {
     return kObject;
 }
 
-std::vector<engine::ViewRegisters> orbit() {
+// Two balls as the encoder would map them; between them they fill half of the picture.
+const RaySpaceObject& object_with_shape() {
+    static const RaySpaceObject kObject = [] {
+        RaySpaceObject with_shape = object();
+        with_shape.rings[0].shape = test::small_shape(with_shape, 0, {.p_cells = 512, .bands = 256, .lines = {8}});
+        return with_shape;
+    }();
+    return kObject;
+}
+
+std::vector<engine::ViewRegisters> orbit(double distance = 3.5) {
     std::vector<engine::ViewRegisters> views;
     const Rig rig = make_ring(
-        {.count = 61, .distance = 3.5, .fl_px = 1.4 * kSide, .width = kSide, .height = kSide, .first_rad = 0.01});
+        {.count = 61, .distance = distance, .fl_px = 1.4 * kSide, .width = kSide, .height = kSide, .first_rad = 0.01});
     for (const RigView& view : rig.views) views.push_back(*engine::prepare_view(object(), view.camera));
     return views;
 }
 
-void core(benchmark::State& state) {
+void render_orbit(benchmark::State& state, const RaySpaceObject& shown, double distance) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
-    const engine::Renderer renderer = *engine::Renderer::create(object());
-    const std::vector<engine::ViewRegisters> views = orbit();
+    const engine::Renderer renderer = *engine::Renderer::create(shown);
+    const std::vector<engine::ViewRegisters> views = orbit(distance);
     Image<Rgba8> out(kSide, kSide);
     std::size_t next = 0;
     for (auto _ : state) {
@@ -51,7 +64,21 @@ void core(benchmark::State& state) {
     }
     state.SetItemsProcessed(state.iterations() * kSide * kSide);
 }
+
+void core(benchmark::State& state) {
+    render_orbit(state, object(), 3.5);
+}
 BENCHMARK(core)->UseRealTime()->MinTime(1);
+
+void core_shape(benchmark::State& state) {
+    render_orbit(state, object_with_shape(), 3.5);
+}
+BENCHMARK(core_shape)->UseRealTime()->MinTime(1);
+
+void core_shape_near(benchmark::State& state) {
+    render_orbit(state, object_with_shape(), 3);
+}
+BENCHMARK(core_shape_near)->UseRealTime()->MinTime(1);
 
 void scalar_definition(benchmark::State& state) {
     const std::vector<engine::ViewRegisters> views = orbit();
@@ -62,7 +89,7 @@ void scalar_definition(benchmark::State& state) {
 }
 BENCHMARK(scalar_definition)->UseRealTime();
 
-void cv_remap(benchmark::State& state) {
+void remap(benchmark::State& state, bool linear) {
     cv::setNumThreads(kThreads);
     cv::Mat source(512, 512, CV_8UC4);
     cv::randu(source, 0, 255);
@@ -73,15 +100,24 @@ void cv_remap(benchmark::State& state) {
             y.at<float>(j, i) = static_cast<float>(j) * 0.5F;
         }
     }
-    cv::convertMaps(x, y, fixed, fraction, CV_16SC2, true);
+    cv::convertMaps(x, y, fixed, fraction, CV_16SC2, !linear);
     cv::Mat out(kSide, kSide, CV_8UC4);
     for (auto _ : state) {
-        cv::remap(source, out, fixed, cv::Mat(), cv::INTER_NEAREST);
+        cv::remap(source, out, fixed, linear ? fraction : cv::Mat(), linear ? cv::INTER_LINEAR : cv::INTER_NEAREST);
         benchmark::DoNotOptimize(out.data);
     }
     state.SetItemsProcessed(state.iterations() * kSide * kSide);
 }
+
+void cv_remap(benchmark::State& state) {
+    remap(state, false);
+}
 BENCHMARK(cv_remap)->UseRealTime()->MinTime(1);
+
+void cv_remap_linear(benchmark::State& state) {
+    remap(state, true);
+}
+BENCHMARK(cv_remap_linear)->UseRealTime()->MinTime(1);
 
 }  // namespace
 }  // namespace rs

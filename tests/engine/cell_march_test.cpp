@@ -45,7 +45,8 @@ struct Column {
 
 TEST(CellMarch, ARayOfReferenceSlopeMeetsTheCellOfItsFootAlone) {
     Column column(8, {});
-    for (int band = 0; band < 8; ++band) column.cells[static_cast<std::size_t>(band)] = {{std::uint8_t(band * 10), 0}, 255, kBoth};
+    for (int band = 0; band < 8; ++band)
+        column.cells[static_cast<std::size_t>(band)] = {{std::uint8_t(band * 10), 0}, 255, kBoth};
     const auto at = [&](std::int32_t b_q20) {
         column.shape.reference_height_q20 = b_q20;
         return column.met(0, b_q20);
@@ -99,7 +100,7 @@ TEST(CellMarch, NeverTakesMoreThanItsMostSteps) {
     for (const std::int32_t slope_q20 : {kOne_q20, -kOne_q20, 127 * kOne_q20, -127 * kOne_q20}) {
         EXPECT_LE(column.met(slope_q20 >> 4).size(), CellMarch::kMostSteps + 1U);
     }
-    // 4 bands per depth at most: from 512 bands below the foot to 512 above, all of them in the map.
+    // 4 bands per depth at most: from 1024 bands below the foot up to it, all of them in the map.
     EXPECT_EQ(column.met(7 * kOne_q20).size(), CellMarch::kMostSteps + 1U);
 }
 
@@ -141,11 +142,11 @@ TEST(CellMarch, MeetsACellBetweenItsNearestLayerAndItsBack) {
     const auto one = [&](int depth, int back) {
         return met({{static_cast<std::uint8_t>(depth), 0}, static_cast<std::uint8_t>(back), kBoth});
     };
-    EXPECT_EQ(one(200, 210), (std::vector<ShapeCell>{{{200, 0}, 210, kBoth}}));
+    EXPECT_EQ(one(200, 210), (std::vector<ShapeCell>{{{200, 192}, 210, kBoth}}));
     EXPECT_EQ(one(193, 193).size(), 1U);
     EXPECT_EQ(one(192, 192).size(), 2U);  // on the border of two steps
     EXPECT_EQ(one(20, 63).size(), 1U);
-    EXPECT_EQ(one(20, 64), (std::vector<ShapeCell>{{{20, 0}, 64, kBoth}, {{64, 0}, 64, kBoth}}));
+    EXPECT_EQ(one(20, 64), (std::vector<ShapeCell>{{{20, 0}, 64, kBoth}, {{64, 64}, 64, kBoth}}));
     // Layer 1 is nearer, and counts only where it exists.
     const std::uint8_t all = kBoth | kFirstSeesLayer1;
     EXPECT_EQ(met({{200, 100}, 210, all}),

@@ -63,13 +63,17 @@ TEST(MultiplyShiftProperty, IsTheExactProductShiftedAndHeld) {
         Wide quotient = product / divisor;
         if (quotient * divisor > product) --quotient;
         const Wide highest = (Wide{1} << 29) - 1;
-        return static_cast<std::int32_t>(quotient > highest ? highest : quotient < -highest - 1 ? -highest - 1 : quotient);
+        return static_cast<std::int32_t>(quotient > highest        ? highest
+                                         : quotient < -highest - 1 ? -highest - 1
+                                                                   : quotient);
     };
-    constexpr std::int32_t kEdges[] = {std::numeric_limits<std::int32_t>::min(), -(1 << 29) - 1, -(1 << 29), -1, 0, 1,
-                                       (1 << 29) - 1, 1 << 29, std::numeric_limits<std::int32_t>::max()};
+    constexpr std::int32_t kEdges[] = {
+        std::numeric_limits<std::int32_t>::min(), -(1 << 29) - 1, -(1 << 29), -1, 0, 1, (1 << 29) - 1, 1 << 29,
+        std::numeric_limits<std::int32_t>::max()};
     for (const int shift : {0, 12, 16, 24, 28}) {
         for (const std::int32_t a : kEdges) {
-            for (const std::int32_t b : kEdges) EXPECT_EQ(multiply_shift(a, b, shift), expected(a, b, shift)) << a << " " << b;
+            for (const std::int32_t b : kEdges)
+                EXPECT_EQ(multiply_shift(a, b, shift), expected(a, b, shift)) << a << " " << b;
         }
     }
     std::mt19937_64 random(3);

@@ -1,7 +1,8 @@
 #pragma once
-// A ray-space object whose shape is known exactly: a ball beside the axis with a grey texture, drawn by ray casting into
-// the pictures of a ring_object() and into its shape map, straight from the formulas of rayspace/shape_map.hpp.
+// A ray-space object whose shape is known exactly: a ball beside the axis with a grey texture, drawn by ray casting
+// into the pictures of a ring_object() and into its shape map, straight from the formulas of rayspace/shape_map.hpp.
 
+#include "rayspace/ray_space.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <algorithm>
@@ -49,7 +50,9 @@ inline Image<Rgba8> sphere_picture(const Sphere& sphere, const Camera& camera) {
 
 // Numbers, gaps and normal lines of a shape map for the ring of `rig`; all cells empty.
 inline ShapeMap empty_shape(const Rig& rig, const Ring& ring, int lines, int p_cells, int bands) {
-    const auto fixed = [](double value, int bits) { return static_cast<std::int32_t>(std::lround(std::ldexp(value, bits))); };
+    const auto fixed = [](double value, int bits) {
+        return static_cast<std::int32_t>(std::lround(std::ldexp(value, bits)));
+    };
     const double half = 1 + 1.0 / 32;
     const glm::dvec3 first = rig.views.front().camera.centre();
     ShapeMap shape;
@@ -65,7 +68,8 @@ inline ShapeMap empty_shape(const Rig& rig, const Ring& ring, int lines, int p_c
     shape.depth_step_q24 = fixed(2 * half / 255, 24);
     for (std::size_t n = 0; n < rig.views.size(); ++n) {
         const Camera& camera = rig.views[n].camera;
-        shape.gaps.push_back({static_cast<std::uint16_t>(lines), static_cast<std::uint32_t>(n) * static_cast<std::uint32_t>(lines)});
+        shape.gaps.push_back(
+            {static_cast<std::uint16_t>(lines), static_cast<std::uint32_t>(n) * static_cast<std::uint32_t>(lines)});
         for (int k = 0; k < ring.planes; ++k) {
             const ReferencePlane plane = reference_plane(k, ring.planes);
             const ViewpointLine line = viewpoint_line(camera.centre(), plane);
@@ -91,12 +95,12 @@ inline CellRay cell_ray(const Rig& rig, std::size_t gap, double fraction, double
     const glm::dvec3 between = (1 - fraction) * first + fraction * second;
     const double alpha = std::atan2(between.x, between.z) - std::asin(p / std::hypot(between.x, between.z));
     const double rho = std::sqrt(first.x * first.x + first.z * first.z - p * p);
-    return {{p * std::cos(alpha), h, -p * std::sin(alpha)},
-            {-std::sin(alpha), (h - first.y) / rho, -std::cos(alpha)}};
+    return {{p * std::cos(alpha), h, -p * std::sin(alpha)}, {-std::sin(alpha), (h - first.y) / rho, -std::cos(alpha)}};
 }
 
 // One layer, seen by both pictures. Rays that miss the ball by less than a cell get the depth of its rim.
-inline ShapeMap sphere_shape(const Sphere& sphere, const Rig& rig, const Ring& ring, int lines, int p_cells, int bands) {
+inline ShapeMap sphere_shape(const Sphere& sphere, const Rig& rig, const Ring& ring, int lines, int p_cells,
+                             int bands) {
     ShapeMap shape = empty_shape(rig, ring, lines, p_cells, bands);
     const double half = std::ldexp(shape.p_half_q20, -20);
     const Sphere wider{sphere.centre, sphere.radius + 2 * half / std::min(p_cells, bands)};

@@ -1,14 +1,8 @@
 // The arithmetic of shape_walk.cpp on vectors, once for every SIMD target. Vectors hold a pixel per 32-bit lane
 // ("lanes"), or, in four of them, the four channels of a pixel side by side: block b (16 bytes) of channel vector k
 // belongs to lane 4 b + k ("channels"). No operation crosses a block.
-
-// NOLINTNEXTLINE(llvm-header-guard): Highway's toggle, not a guard
-#if defined(RS_ENGINE_SHAPE_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef RS_ENGINE_SHAPE_LANES_INL_HPP
-#undef RS_ENGINE_SHAPE_LANES_INL_HPP
-#else
-#define RS_ENGINE_SHAPE_LANES_INL_HPP
-#endif
+//
+// No include guard: shape_walk.cpp includes it once for each target.
 
 #include "engine/core/column_walk.hpp"
 #include "engine/core/fixed_point.hpp"
@@ -33,6 +27,11 @@ using WideVector = hn::Vec<Wide>;
 
 HWY_INLINE Vector number(std::int32_t value) {
     return hn::Set(Lanes(), value);
+}
+
+// a >= b
+HWY_INLINE LaneMask at_least(Vector a, Vector b) {
+    return hn::Not(hn::Lt(a, b));
 }
 
 // The odd lanes in place of the even ones.
@@ -81,7 +80,7 @@ HWY_INLINE Vector inverse(Vector l) {
     const Floats floats;
     const Vector guess = hn::ConvertTo(Lanes(), hn::Div(hn::Set(floats, 0x1p40F), hn::ConvertTo(floats, l)));
     const Vector rest = hn::Sub(hn::Zero(Lanes()), hn::Mul(guess, l));  // 2^40 is 0 modulo 2^32
-    const Vector up = hn::Sub(guess, hn::VecFromMask(Lanes(), hn::Ge(rest, l)));
+    const Vector up = hn::Sub(guess, hn::VecFromMask(Lanes(), at_least(rest, l)));
     return hn::Add(up, hn::VecFromMask(Lanes(), hn::Lt(rest, hn::Zero(Lanes()))));
 }
 
@@ -132,9 +131,7 @@ HWY_INLINE void add_weighted(const TexelPairs& texels, Vector weighted_alpha, Ch
     constexpr int o = 0x80;
     alignas(16) static constexpr std::uint8_t kLower[16] = {0, o, 4, o, 1, o, 5, o, 2, o, 6, o, 3, o, 7, o};
     alignas(16) static constexpr std::uint8_t kUpper[16] = {8, o, 12, o, 9, o, 13, o, 10, o, 14, o, 11, o, 15, o};
-    const auto one_for_alpha = [](Vector v) {
-        return hn::Or(hn::And(v, number(0x00FFFFFF)), number(0x01000000));
-    };
+    const auto one_for_alpha = [](Vector v) { return hn::Or(hn::And(v, number(0x00FFFFFF)), number(0x01000000)); };
     const Vector even = one_for_alpha(texels.even);
     const Vector odd = one_for_alpha(texels.odd);
     const auto add = [](Vector& to, Vector colours, Vector weights) {
@@ -179,7 +176,7 @@ HWY_INLINE Vector resolve_lanes(const Channels& sum, Vector a) {
             hn::MulSub(hn::ConvertTo(floats, dividend), hn::BitCast(floats, inverse_divisor), hn::Set(floats, 0x1p-9F));
         const Vector guess = hn::ConvertTo(Lanes(), quotient);
         const Vector rest = hn::Sub(dividend, hn::Mul(guess, by));
-        return hn::Sub(guess, hn::VecFromMask(Lanes(), hn::Ge(rest, by)));
+        return hn::Sub(guess, hn::VecFromMask(Lanes(), at_least(rest, by)));
     });
     constexpr int o = 0x80;
     alignas(16) static constexpr std::uint8_t kTo0[16] = {0, 4, 8, o, o, o, o, o, o, o, o, o, o, o, o, o};
@@ -193,5 +190,3 @@ HWY_INLINE Vector resolve_lanes(const Channels& sum, Vector a) {
 
 }  // namespace rs::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,0 +1,278 @@
+// Shape maps found from pictures: the hull, the matching, the lines, and whole objects of ordinary and odd sets.
+
+#include "encode/raymap/shape_map.hpp"
+
+#include "encode/build.hpp"
+#include "encode/raymap/cost_volume.hpp"
+#include "encode/raymap/visual_hull.hpp"
+#include "engine/core/compare.hpp"
+#include "engine/core/renderer.hpp"
+#include "rayspace/conventions.hpp"
+#include "rayspace/object_file.hpp"
+#include "tests/support/drawn_set.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <random>
+
+namespace rs::encode {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Rig ring(int count, double first_deg = 0, double distance = 3.5) {
+    Rig rig = make_ring({.count = count,
+                         .distance = distance,
+                         .fl_px = 180,
+                         .width = 128,
+                         .height = 112,
+                         .first_rad = radians(first_deg)});
+    rig.object_radius = 0.9;
+    return rig;
+}
+
+std::vector<WorkView> drawn_views(const Rig& rig) {
+    std::vector<WorkView> views;
+    for (const RigView& view : rig.views) {
+        Camera camera = view.camera;
+        const Image<Rgba8> picture = test::drawn_picture(camera);
+        camera.world_from_camera[3] = glm::dvec4(camera.centre() / rig.object_radius, 1);
+        views.push_back(make_work_view(camera, picture, 1));
+    }
+    return views;
+}
+
+std::vector<const WorkView*> pointers(const std::vector<WorkView>& views) {
+    std::vector<const WorkView*> found;
+    for (const WorkView& view : views) found.push_back(&view);
+    return found;
+}
+
+BuiltObject build(const std::filesystem::path& folder, MapKind kind = MapKind::kShape) {
+    const Result<CaptureSet> set = open_capture_set(folder);
+    EXPECT_TRUE(set.ok()) << set.error().message;
+    BuildOptions options;
+    options.raymap = kind;
+    options.map = usual_plane_map(kind);
+    Result<BuiltObject> built = build_object(*set, options);
+    EXPECT_TRUE(built.ok()) << built.error().message;
+    const Status valid = validate_object(built->object, "built");
+    EXPECT_TRUE(valid.ok()) << valid.error().message;
+    return std::move(*built);
+}
+
+double psnr_of(const BuiltObject& built, const std::filesystem::path& truth) {
+    const Result<engine::Renderer> renderer = engine::Renderer::create(built.object);
+    EXPECT_TRUE(renderer.ok());
+    const Result<engine::Comparison> comparison = engine::compare_with_set(*renderer, truth);
+    EXPECT_TRUE(comparison.ok()) << comparison.error().message;
+    return comparison->mean_psnr_db;
+}
+
+TEST(WorkView, PixelsGoToPointsAndBack) {
+    const Rig rig = ring(7, 11);
+    const std::vector<WorkView> views = drawn_views(rig);
+    for (const WorkView& view : views) {
+        for (const double column : {3.5, 64.5, 120.5}) {
+            const HorizontalRay ray = view.ray_of(column);
+            EXPECT_NEAR(glm::dot(ray.foot, ray.along), 0, 1e-12);
+            for (const double depth : {-0.8, 0.0, 0.7}) {
+                const SeenColumn seen = view.see(ray.foot + depth * ray.along);
+                EXPECT_NEAR(seen.column, column, 1e-9);
+                EXPECT_NEAR(seen.axial, (ray.to_foot + depth) / ray.horizontal_per_axial, 1e-12);
+                EXPECT_NEAR(view.row_of(view.height_of(17.25, seen.axial), seen.axial), 17.25, 1e-9);
+            }
+        }
+    }
+}
+
+TEST(WorkView, ReductionAveragesByAlpha) {
+    Image<Rgba8> picture(5, 4);
+    picture(0, 0) = {200, 100, 0, 255};
+    picture(1, 0) = {0, 0, 200, 85};
+    const WorkView view = make_work_view(ring(1).views[0].camera, picture, 2);
+    EXPECT_EQ(view.width, 2);
+    EXPECT_EQ(view.height, 2);
+    EXPECT_EQ(view.at(0, 0), (Rgba8{150, 75, 50, 85}));
+    EXPECT_EQ(view.at(1, 1), Rgba8{});
+}
+
+// The plain twin of heights_above: ask every silhouette about one point.
+bool is_allowed(const std::vector<WorkView>& views, const glm::dvec2& place, double y, int margin) {
+    for (const WorkView& view : views) {
+        const SeenColumn seen = view.see(place);
+        if (seen.axial <= 0 || seen.column < 0 || seen.column >= view.width) continue;
+        const double row = view.row_of(y, seen.axial);
+        if (row < 0 || row >= view.height) continue;
+        bool near_object = false;
+        const int middle = static_cast<int>(seen.column);
+        for (int c = std::max(0, middle - margin); c <= std::min(view.width - 1, middle + margin); ++c) {
+            for (int r = 0; r < view.height; ++r) {
+                near_object |= view.at(c, r).a >= 128 && row >= r - margin && row < r + 1 + margin;
+            }
+        }
+        if (!near_object) return false;
+    }
+    return true;
+}
+
+TEST(VisualHull, EqualsAskingEverySilhouette) {
+    const std::vector<WorkView> views = drawn_views(ring(12, 3));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> across(-1.1, 1.1);
+    for (const int margin : {0, 1, 4}) {
+        const VisualHull hull(pointers(views), margin);
+        std::vector<Interval> heights;
+        int inside = 0;
+        for (int n = 0; n < 4000; ++n) {
+            const glm::dvec2 place(across(random), across(random));
+            hull.heights_above(place, heights);
+            const double y = across(random);
+            const bool allowed = std::any_of(heights.begin(), heights.end(),
+                                             [&](const Interval& i) { return y >= i.low && y < i.high; });
+            inside += allowed ? 1 : 0;
+            ASSERT_EQ(allowed, is_allowed(views, place, y, margin)) << "margin " << margin << ", point " << n;
+        }
+        EXPECT_GT(inside, 100);
+        EXPECT_LT(inside, 3000);
+    }
+}
+
+TEST(VisualHull, SilhouettesOfTheRightRigAgreeAndOfAWrongOneDoNot) {
+    const std::vector<WorkView> views = drawn_views(ring(12));
+    const DepthRange range;
+    EXPECT_LT(contradicted_share(pointers(views), VisualHull(pointers(views), 1), range), 0.01);
+    std::vector<WorkView> wrong = views;
+    for (WorkView& view : wrong) view.cx += 9;
+    EXPECT_GT(contradicted_share(pointers(wrong), VisualHull(pointers(wrong), 1), range), 0.1);
+}
+
+TEST(VisualHull, AViewWithoutAnObjectSaysNothing) {
+    std::vector<WorkView> views = drawn_views(ring(6));
+    const VisualHull before(pointers(views), 1);
+    WorkView empty = views[2];
+    for (Rgba8& pixel : empty.columns.pixels()) pixel = {};
+    views.push_back(empty);
+    const VisualHull after(pointers(views), 1);
+    std::vector<Interval> a, b;
+    before.heights_above({0.1, 0.2}, a);
+    after.heights_above({0.1, 0.2}, b);
+    ASSERT_EQ(a.size(), b.size());
+    EXPECT_FALSE(a.empty());
+    EXPECT_EQ(a[0].low, b[0].low);
+}
+
+TEST(SemiGlobal, FindsTheDepthOfTheBalls) {
+    const Rig rig = ring(60);
+    const std::vector<WorkView> views = drawn_views(rig);
+    const WorkView* const neighbours[] = {&views[1], &views[59]};
+    const DepthRange range{-1.03, 2.06 / 127, 128};
+    CostVolume costs = matching_costs(views[0], neighbours, range);
+    forbid_outside(costs, views[0], VisualHull(pointers(views), 1), range);
+    const Image<float> levels = semi_global_levels(views[0], costs, {});
+    // The big ball's middle, seen from +Z: its surface is 0.5 before the axis.
+    const double truth = -0.5 / rig.object_radius;
+    EXPECT_NEAR(range.at(static_cast<double>(levels(50, 64))), truth, 0.08);
+    EXPECT_TRUE(std::isnan(levels(0, 0)));
+}
+
+TEST(ShapeMap, BeatsThePlaneHalfwayAndKeepsCapturedPictures) {
+    const test::TemporaryFolder folder;
+    test::write_drawn_set(folder / "set", ring(24));
+    test::write_drawn_set(folder / "halfway", ring(24, 7.5));
+    const BuiltObject shape = build(folder / "set");
+    const BuiltObject plane = build(folder / "set", MapKind::kPlane);
+    EXPECT_THAT(shape.warnings, IsEmpty());
+    EXPECT_EQ(shape.depths.size(), 4U);
+    const double shape_db = psnr_of(shape, folder / "halfway");
+    EXPECT_GT(shape_db, psnr_of(plane, folder / "halfway") + 5);
+    EXPECT_GT(shape_db, 24);
+    EXPECT_NEAR(psnr_of(shape, folder / "set"), psnr_of(plane, folder / "set"), 1e-9);
+}
+
+TEST(ShapeMap, IsTheSameEveryTime) {
+    const test::TemporaryFolder folder;
+    test::write_drawn_set(folder / "set", ring(10));
+    EXPECT_EQ(build(folder / "set").object.rings, build(folder / "set").object.rings);
+}
+
+TEST(ShapeMap, LevelsAndLinesFollowUnequalSteps) {
+    const test::TemporaryFolder folder;
+    Rig rig = ring(36);
+    // 10-degree steps, but for some that are left out: 20, 30 degrees.
+    rig.views.erase(rig.views.begin() + 7);
+    rig.views.erase(rig.views.begin() + 20, rig.views.begin() + 22);
+    test::write_drawn_set(folder / "set", rig);
+    test::write_drawn_set(folder / "halfway", ring(36, 5));
+    const BuiltObject shape = build(folder / "set");
+    EXPECT_THAT(shape.warnings, IsEmpty());
+    const auto& gaps = shape.object.rings[0].shape.gaps;
+    EXPECT_EQ(gaps[6].lines, 2 * gaps[0].lines);
+    EXPECT_EQ(gaps[19].lines, 3 * gaps[0].lines);
+    EXPECT_GT(psnr_of(shape, folder / "halfway"), psnr_of(build(folder / "set", MapKind::kPlane), folder / "halfway") + 4);
+}
+
+TEST(ShapeMap, AMissingSectorIsSaidAndNotInvented) {
+    const test::TemporaryFolder folder;
+    Rig rig = ring(36);
+    rig.views.erase(rig.views.begin() + 10, rig.views.begin() + 19);
+    test::write_drawn_set(folder / "set", rig);
+    const BuiltObject shape = build(folder / "set");
+    EXPECT_THAT(shape.warnings, Contains(HasSubstr("no pictures between 90 and 190 degrees")));
+    EXPECT_EQ(shape.object.rings[0].shape.gaps[9].lines, 0);
+}
+
+TEST(ShapeMap, OneAndTwoViews) {
+    const test::TemporaryFolder folder;
+    Rig rig = ring(36);
+    rig.views.resize(1);
+    test::write_drawn_set(folder / "one", rig);
+    const BuiltObject one = build(folder / "one");
+    EXPECT_THAT(one.warnings, Contains(HasSubstr("one picture")));
+    EXPECT_GT(psnr_of(one, folder / "one"), 40);
+
+    rig = ring(36);
+    rig.views.resize(2);
+    test::write_drawn_set(folder / "two", rig);
+    const BuiltObject two = build(folder / "two");
+    EXPECT_THAT(two.warnings, Contains(HasSubstr("no pictures between 10 and 0 degrees")));
+    EXPECT_GT(psnr_of(two, folder / "two"), 40);
+    Rig between = ring(36, 5);
+    between.views.resize(1);
+    test::write_drawn_set(folder / "between", between);
+    EXPECT_GT(psnr_of(two, folder / "between"), 18);
+}
+
+TEST(ShapeMap, AnEmptyPictureIsNamedAndHurtsNobodyElse) {
+    const test::TemporaryFolder folder;
+    const Rig rig = ring(24);
+    test::write_drawn_set(folder / "set", rig);
+    ASSERT_TRUE(write_png(folder / "set" / "5.png", Image<Rgba8>(128, 112)).ok());
+    const BuiltObject shape = build(folder / "set");
+    EXPECT_THAT(shape.warnings, Contains(HasSubstr("5.png shows no object")));
+    Rig opposite = ring(24, 7.5);
+    opposite.views.erase(opposite.views.begin(), opposite.views.begin() + 12);
+    test::write_drawn_set(folder / "halfway", opposite);
+    EXPECT_GT(psnr_of(shape, folder / "halfway"), 24);
+}
+
+TEST(ShapeMap, AnObjectThatLeavesTheFrameKeepsWhatIsSeen) {
+    const test::TemporaryFolder folder;
+    const auto narrow = [](double first_deg) {
+        Rig rig = make_ring({.count = 36, .distance = 3.5, .fl_px = 330, .width = 128, .height = 72, .first_rad = radians(first_deg)});
+        rig.object_radius = 0.9;
+        return rig;
+    };
+    test::write_drawn_set(folder / "set", narrow(0));
+    test::write_drawn_set(folder / "halfway", narrow(5));
+    const BuiltObject shape = build(folder / "set");
+    EXPECT_GT(psnr_of(shape, folder / "halfway"), 20);
+    EXPECT_GT(psnr_of(shape, folder / "halfway"), psnr_of(build(folder / "set", MapKind::kPlane), folder / "halfway") + 3);
+}
+
+}  // namespace
+}  // namespace rs::encode

@@ -1,0 +1,262 @@
+// The fast renderer of objects with a shape map equals the scalar definition bit for bit, colour and depth: random
+// maps, sizes and poses, every SIMD target.
+
+#include "engine/core/conformance.hpp"
+#include "engine/core/reconstruct.hpp"
+#include "engine/core/renderer.hpp"
+#include "rayspace/conventions.hpp"
+#include "rayspace/ray_space.hpp"
+#include "rayspace/shape_validate.hpp"
+#include "tests/support/random_shape.hpp"
+#include "tests/support/ring_object.hpp"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <tbb/global_control.h>
+
+#include <array>
+#include <random>
+
+namespace rs::engine {
+namespace {
+
+enum class Pose { on_ring, at_captured_view, upright, tilted };
+
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : engine(seed) {}
+    double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+    int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine); }
+
+    std::mt19937_64 engine;
+};
+
+test::RingObjectOptions random_options(Random& random) {
+    test::RingObjectOptions options;
+    options.views = random.whole(1, 16);
+    options.width = random.whole(1, 50);
+    options.height = random.whole(6, 50);
+    options.distance = random.real(1.5, 8);
+    options.fl_px = options.width * options.distance * random.real(0.3, 0.8);
+    options.planes = random.whole(3, 14);
+    options.x_cells = random.whole(1, 80);
+    options.u_cells = random.whole(1, 80);
+    options.camera_height = random.real(-0.5, 0.5);
+    options.seed = random.engine();
+    return options;
+}
+
+RaySpaceObject random_object(Random& random, const test::RingObjectOptions& options) {
+    RaySpaceObject object = test::ring_object(options);
+    const double empty_share = random.whole(0, 3) == 0 ? 0.9 : random.real(0, 0.5);
+    for (std::size_t r = 0; r < object.rings.size(); ++r) {
+        object.rings[r].shape = test::random_shape(object, r, random.engine, empty_share);
+    }
+    return object;
+}
+
+Camera random_camera(Random& random, const test::RingObjectOptions& options, Pose pose) {
+    constexpr std::array kWidths = {1, 2, 15, 16, 17, 31, 33, 48, 65};
+    if (pose == Pose::at_captured_view) {
+        return test::ring_rig(options).views[static_cast<std::size_t>(random.whole(0, options.views - 1))].camera;
+    }
+    const bool free = pose != Pose::on_ring;
+    const double angle = random.real(0, 2 * kPi);
+    const double distance = free ? random.real(0.3, 12) : options.distance;
+    const double height = free ? random.real(-1, 1) : options.camera_height;
+    const glm::dvec3 eye(distance * std::sin(angle), height, distance * std::cos(angle));
+    const double fov = free ? radians(random.real(5, 100)) : 2 * std::atan(random.real(0.5, 1.4) / distance);
+    const glm::dvec3 at(random.real(-0.2, 0.2), pose == Pose::tilted ? random.real(-1, 1) : eye.y,
+                        random.real(-0.2, 0.2));
+    Camera camera =
+        look_at_camera(eye, at, fov, kWidths[static_cast<std::size_t>(random.whole(0, 8))], random.whole(1, 60));
+    if (pose == Pose::tilted) return camera;
+    camera = upright_camera(camera);
+    camera.cy += random.real(-10, 10);
+    if (!free) camera.cy -= camera.fl_y * height / distance;
+    if (random.whole(0, 9) == 0) {  // upside down: a half turn about the viewing axis
+        camera.world_from_camera[0] = -camera.world_from_camera[0];
+        camera.world_from_camera[1] = -camera.world_from_camera[1];
+    }
+    return camera;
+}
+
+struct Rendered {
+    Image<Rgba8> colour;
+    Image<std::int32_t> lambda;
+    bool operator==(const Rendered&) const = default;
+};
+
+// On a canvas with a border, to see that nothing else is written.
+template <class Render>
+Rendered on_canvas(const Camera& camera, int border, const Render& render) {
+    Rendered canvas{Image<Rgba8>(camera.width + 2 * border, camera.height + 2 * border, {1, 2, 3, 4}),
+                    Image<std::int32_t>(camera.width + 2 * border + 1, camera.height + 2 * border, -7)};
+    render(canvas.colour.view().crop(border, border, camera.width, camera.height),
+           canvas.lambda.view().crop(border, border, camera.width, camera.height));
+    return canvas;
+}
+
+struct Seen {
+    std::int64_t pixels = 0;
+    std::int64_t opaque = 0;  // alpha above 0
+};
+
+Seen expect_equal(Pose pose, std::uint64_t first_seed, int objects, int views) {
+    Seen seen;
+    for (std::uint64_t seed = first_seed; seed < first_seed + static_cast<std::uint64_t>(objects); ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        const test::RingObjectOptions options = random_options(random);
+        const RaySpaceObject object = random_object(random, options);
+        for (const Ring& ring : object.rings) {
+            const Status valid = check_shape(ring);
+            EXPECT_TRUE(valid.ok()) << valid.error().message;
+        }
+        const Result<Renderer> renderer = Renderer::create(object);
+        EXPECT_TRUE(renderer.ok());
+        for (int v = 0; v < views; ++v) {
+            SCOPED_TRACE(v);
+            const Camera camera = random_camera(random, options, pose);
+            const Result<ViewRegisters> registers = prepare_view(object, camera);
+            if (!registers) continue;
+            EXPECT_EQ(registers->upright(), pose != Pose::tilted);
+            const int border = random.whole(0, 3);
+            const Rendered defined = on_canvas(camera, border, [&](const auto& colour, const auto& lambda) {
+                reconstruct_scalar(object, *registers, colour, lambda);
+            });
+            const Rendered rendered = on_canvas(camera, border, [&](const auto& colour, const auto& lambda) {
+                renderer->render(*registers, colour, lambda);
+            });
+            EXPECT_EQ(rendered.colour, defined.colour);
+            EXPECT_EQ(rendered.lambda, defined.lambda);
+            if (!(rendered == defined)) return seen;
+            seen.pixels += std::int64_t{camera.width} * camera.height;
+            for (int j = border; j < border + camera.height; ++j) {
+                for (int i = border; i < border + camera.width; ++i) {
+                    const bool shown = defined.colour(i, j).a > 0;
+                    seen.opaque += shown;
+                    EXPECT_EQ(defined.lambda(i, j) > 0, shown);
+                }
+            }
+        }
+    }
+    // The views must show enough for their equality to mean something.
+    EXPECT_GT(seen.opaque * 20, seen.pixels);
+    return seen;
+}
+
+TEST(ShapeRendererProperty, EqualsTheScalarDefinitionOnTheRing) {
+    expect_equal(Pose::on_ring, 100, 150, 12);
+}
+
+TEST(ShapeRendererProperty, EqualsTheScalarDefinitionAtCapturedViews) {
+    expect_equal(Pose::at_captured_view, 1100, 100, 6);
+}
+
+TEST(ShapeRendererProperty, EqualsTheScalarDefinitionNearerFartherAndHigher) {
+    expect_equal(Pose::upright, 2100, 200, 16);
+}
+
+TEST(ShapeRendererProperty, EqualsTheScalarDefinitionOnTiltedViews) {
+    expect_equal(Pose::tilted, 3100, 50, 8);
+}
+
+TEST(ShapeRendererProperty, EverySimdTargetGivesTheSameBytes) {
+    std::int64_t targets = hwy::SupportedTargets();
+    int tried = 0;
+    while (targets != 0) {
+        const std::int64_t target = targets & -targets;
+        targets &= targets - 1;
+        SCOPED_TRACE(hwy::TargetName(target));
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        expect_equal(Pose::on_ring, 5000, 25, 6);
+        expect_equal(Pose::upright, 6000, 25, 10);
+        ++tried;
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    EXPECT_GE(tried, 1);
+}
+
+TEST(ShapeRenderer, GivesTheSameBytesOnAnyNumberOfThreadsAndWithoutDepth) {
+    const test::RingObjectOptions options{.views = 24, .width = 100, .height = 90, .fl_px = 140};
+    Random random(1);
+    const RaySpaceObject object = random_object(random, options);
+    const Result<Renderer> renderer = Renderer::create(object);
+    ASSERT_TRUE(renderer.ok());
+    const Camera camera = look_at_camera({1, 0.2, 3}, {0, 0.2, 0}, radians(40), 131, 77);
+    const Result<ViewRegisters> registers = prepare_view(object, camera);
+    ASSERT_TRUE(registers.ok());
+    Image<Rgba8> defined(131, 77);
+    reconstruct_scalar(object, *registers, defined);
+    for (const std::size_t threads : {1U, 2U, 4U}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        Image<Rgba8> picture(131, 77);
+        renderer->render(*registers, picture);
+        EXPECT_EQ(picture, defined);
+    }
+}
+
+TEST(ShapeRenderer, ShowsReferencePlanesWherePicturesAreMissing) {
+    const test::RingObjectOptions options{.views = 16, .width = 64, .height = 64, .fl_px = 90};
+    Random random(2);
+    RaySpaceObject with_shape = random_object(random, options);
+    for (std::size_t i = 0; i < with_shape.pictures.size(); ++i) {
+        if (progressive_level(static_cast<int>(i)) > 0) with_shape.pictures[i] = {};
+    }
+    RaySpaceObject without = with_shape;
+    without.rings[0].shape = {};
+    const Camera camera = test::ring_rig(options).views[3].camera;
+    Image<Rgba8> pictures[2] = {Image<Rgba8>(64, 64), Image<Rgba8>(64, 64)};
+    for (const int n : {0, 1}) {
+        const Result<Renderer> renderer = Renderer::create(n == 0 ? with_shape : without);
+        ASSERT_TRUE(renderer.ok());
+        renderer->render(*prepare_view(renderer->object(), camera), pictures[n]);
+    }
+    EXPECT_EQ(pictures[0], pictures[1]);
+}
+
+TEST(Renderer, SaysHowFarTheReferencePlaneIs) {
+    const test::RingObjectOptions options{.views = 12, .width = 64, .height = 64, .fl_px = 90};
+    const RaySpaceObject object = test::ring_object(options);
+    const Result<Renderer> renderer = Renderer::create(object);
+    ASSERT_TRUE(renderer.ok());
+    for (const double height : {0.0, 0.8}) {  // upright, tilted
+        const Camera camera = look_at_camera({0, height, 3}, {0, 0, 0}, radians(45), 41, 33);
+        const Result<ViewRegisters> registers = prepare_view(object, camera);
+        ASSERT_TRUE(registers.ok());
+        EXPECT_EQ(registers->upright(), height == 0);
+        Rendered rendered{Image<Rgba8>(41, 33), Image<std::int32_t>(41, 33)};
+        Rendered defined = rendered;
+        renderer->render(*registers, rendered.colour, rendered.lambda);
+        reconstruct_scalar(object, *registers, defined.colour, defined.lambda);
+        EXPECT_EQ(rendered, defined);
+        for (int j = 0; j < 33; ++j) {
+            for (int i = 0; i < 41; ++i) {
+                const double depth = std::ldexp(rendered.lambda(i, j), -20);
+                if (rendered.colour(i, j).a == 0) {
+                    EXPECT_EQ(depth, 0);
+                } else {
+                    // The point lies on a vertical plane through the axis that is nearly square to the ray.
+                    const glm::dvec3 point = camera.centre() + depth * camera.ray(i + 0.5, j + 0.5);
+                    EXPECT_LT(std::abs(point.z), std::abs(point.x) * std::tan(kPi / 6) + 1e-4);
+                }
+            }
+        }
+    }
+}
+
+TEST(Conformance, CoversShapeMaps) {
+    Random random(3);
+    const RaySpaceObject object = random_object(random, {.views = 12, .width = 50, .height = 50});
+    const Result<ConformanceReport> report = check_conformance(object, 16, 1);
+    ASSERT_TRUE(report.ok());
+    EXPECT_EQ(report->different_pixels, 0);
+    EXPECT_GT(report->object_pixels, 1000);
+    EXPECT_GT(report->on_ring_views, 2);
+}
+
+}  // namespace
+}  // namespace rs::engine

@@ -1,0 +1,60 @@
+#pragma once
+// Shape maps that are valid but mean nothing: for ring objects (ring_object.hpp) and small ones, to compare renderers
+// on.
+
+#include "rayspace/shape_map.hpp"
+#include "tests/support/small_shape.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+
+namespace rs::test {
+
+// Lines, right normal lines and sizes as small_shape() makes them; then, by chance, another band height, other depths,
+// another reference viewpoint, gaps without lines, and cells of which `empty_share` are empty. The rest have one or two
+// layers, seen by either picture or both, at depths near one another (`smooth`) or anywhere.
+inline ShapeMap random_shape(const RaySpaceObject& object, std::size_t ring, std::mt19937_64& random,
+                             double empty_share) {
+    using small_object_detail::fixed;
+    const auto real = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    const auto whole = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+    SmallShapeOptions options;
+    options.p_cells = whole(1, 40);
+    options.bands = whole(1, 60);
+    options.lines.clear();
+    for (int n = whole(1, 5); n > 0; --n) options.lines.push_back(whole(0, 3) == 0 ? 0 : whole(1, 5));
+    ShapeMap shape = small_shape(object, ring, options);
+    if (whole(0, 1) == 0) {
+        shape.h_low_q20 = fixed(real(-1.5, 0.2), 20);
+        shape.bands_per_unit_q12 = fixed(options.bands * real(0.3, 3), 12);
+    }
+    if (whole(0, 2) == 0) {
+        shape.reference_distance_q20 = fixed(real(1.1, 9), 20);
+        shape.reference_height_q20 = fixed(real(-1, 1), 20);
+    }
+    if (whole(0, 2) == 0) {
+        shape.depth_low_q20 = fixed(real(-2, 1), 20);
+        shape.depth_step_q24 = fixed(real(0.0001, 0.015), 24);
+    }
+    const bool smooth = whole(0, 1) == 0;
+    const int middle = whole(0, 255);
+    for (ShapeCell& cell : shape.cells) {
+        cell = {};
+        if (real(0, 1) < empty_share) continue;
+        const auto depth = [&] { return smooth ? std::clamp(middle + whole(-9, 9), 0, 255) : whole(0, 255); };
+        cell.depth[0] = static_cast<std::uint8_t>(depth());
+        cell.back = static_cast<std::uint8_t>(std::min(cell.depth[0] + whole(0, 60), 255));
+        int rays = whole(1, 3);
+        if (whole(0, 2) == 0) {
+            cell.depth[1] = static_cast<std::uint8_t>(depth());
+            rays |= whole(1, 3) << 2;
+        }
+        cell.rays = static_cast<std::uint8_t>(rays);
+    }
+    return shape;
+}
+
+}  // namespace rs::test
