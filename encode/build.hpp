@@ -31,7 +31,7 @@ struct BuildOptions {
     PlaneMapOptions map;
     std::string name;  // of the object; the set's folder name where empty
     MapKind raymap = MapKind::kShape;
-    ShapeOptions shape;
+    ShapeOptions shape = {};
 };
 
 struct BuiltObject {

@@ -12,7 +12,7 @@ constexpr std::uint8_t kOutside = 254;
 
 // Rows [top, bottom) of one column at one depth against one neighbour.
 void compare_column(const WorkView& view, const WorkView& neighbour, const HorizontalRay& ray, double depth, int column,
-                    const PixelBox& box, std::uint8_t* costs) {
+                    const ObjectBox& box, std::uint8_t* costs) {
     const int rows = box.height();
     std::fill(costs, costs + rows, kUnknown);
     const double axial = (ray.to_foot + depth) / ray.horizontal_per_axial;
@@ -45,15 +45,16 @@ void compare_column(const WorkView& view, const WorkView& neighbour, const Horiz
         const auto difference = [&](int mine, int one, int other) {
             return std::abs(mine * 32 - one * (32 - part) - other * part);
         };
-        const int sum = difference(own[n].r, a.r, b.r) + difference(own[n].g, a.g, b.g) + difference(own[n].b, a.b, b.b);
+        const int sum =
+            difference(own[n].r, a.r, b.r) + difference(own[n].g, a.g, b.g) + difference(own[n].b, a.b, b.b);
         costs[n] = static_cast<std::uint8_t>(std::min(sum / 96, kMostCost));
     }
 }
 
 }  // namespace
 
-PixelBox object_box(const WorkView& view) {
-    PixelBox box{view.width, view.height, 0, 0};
+ObjectBox object_box(const WorkView& view) {
+    ObjectBox box{view.width, view.height, 0, 0};
     for (int column = 0; column < view.width; ++column) {
         for (int row = 0; row < view.height; ++row) {
             if (view.at(column, row).a == 0) continue;
@@ -95,7 +96,9 @@ CostVolume matching_costs(const WorkView& view, std::span<const WorkView* const>
                     best = std::min(best, cost);
                     worst = std::max(worst, cost);
                 }
-                const int cost = outside ? kOutsideCost : known ? (3 * best + std::min(worst, best + 20)) / 4 : kMostCost / 2;
+                const int cost = outside ? kOutsideCost
+                                 : known ? (3 * best + std::min(worst, best + 20)) / 4
+                                         : kMostCost / 2;
                 to[static_cast<std::size_t>(row) * levels + static_cast<std::size_t>(level)] =
                     static_cast<std::uint8_t>(cost);
             }
@@ -105,7 +108,7 @@ CostVolume matching_costs(const WorkView& view, std::span<const WorkView* const>
 }
 
 void forbid_outside(CostVolume& volume, const WorkView& view, const VisualHull& hull, const DepthRange& range) {
-    const PixelBox& box = volume.box;
+    const ObjectBox& box = volume.box;
     std::vector<Interval> heights;
     for (int column = box.left; column < box.right; ++column) {
         const HorizontalRay ray = view.ray_of(column + 0.5);

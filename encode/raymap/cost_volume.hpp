@@ -12,7 +12,7 @@
 namespace rs::encode {
 
 // A rectangle of pixels, [left, right) x [top, bottom).
-struct PixelBox {
+struct ObjectBox {
     int left = 0, top = 0, right = 0, bottom = 0;
     [[nodiscard]] int width() const { return right - left; }
     [[nodiscard]] int height() const { return bottom - top; }
@@ -20,11 +20,11 @@ struct PixelBox {
 };
 
 // The smallest box of all pixels with alpha above 0.
-PixelBox object_box(const WorkView& view);
+ObjectBox object_box(const WorkView& view);
 
 // cost of pixel (column, row) at a level: costs[((column - left) * height + row - top) * levels + level]
 struct CostVolume {
-    PixelBox box;
+    ObjectBox box;
     int levels = 0;
     std::vector<std::uint8_t> costs;
     [[nodiscard]] const std::uint8_t* at(int column, int row) const {

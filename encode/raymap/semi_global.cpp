@@ -15,7 +15,8 @@ constexpr Path kBeyond = 8000;  // beside the first and the last level
 class PathCosts {
 public:
     PathCosts(int pixels, int levels)
-        : stride_(static_cast<std::size_t>(levels) + 2), costs_(static_cast<std::size_t>(pixels) * stride_, kBeyond),
+        : stride_(static_cast<std::size_t>(levels) + 2),
+          costs_(static_cast<std::size_t>(pixels) * stride_, kBeyond),
           least_(static_cast<std::size_t>(pixels), 0) {}
     Path* at(int pixel) { return costs_.data() + static_cast<std::size_t>(pixel) * stride_; }
     Path& least(int pixel) { return least_[static_cast<std::size_t>(pixel)]; }
@@ -27,8 +28,8 @@ private:
 };
 
 // One step of a path: into `to`, and added to `sum`.
-Path step_path(const Path* from, Path least_from, const std::uint8_t* costs, Path small_step, Path large_step, int levels,
-               Path* to, Path* sum) {
+Path step_path(const Path* from, Path least_from, const std::uint8_t* costs, Path small_step, Path large_step,
+               int levels, Path* to, Path* sum) {
     Path least = kBeyond;
     const auto jump = static_cast<Path>(least_from + large_step);
     for (int n = 0; n < levels; ++n) {
@@ -60,7 +61,7 @@ public:
 
     // Paths that run with (direction 1) or against (-1) the columns, and within a column.
     void sweep(int direction) {
-        const PixelBox& box = volume_.box;
+        const ObjectBox& box = volume_.box;
         const int rows = box.height();
         constexpr int kSlopes = 3;  // the previous column's row above, the same, below
         std::vector<PathCosts> before(kSlopes, PathCosts(rows, volume_.levels));
@@ -95,7 +96,7 @@ public:
 
 private:
     void follow(PathCosts& from, int from_r, int from_column, PathCosts& to, int r, int column) {
-        const PixelBox& box = volume_.box;
+        const ObjectBox& box = volume_.box;
         const int row = box.top + r;
         const std::uint8_t* const costs = volume_.at(column, row);
         Path* const sum = sums_.data() + (costs - volume_.costs.data());

@@ -42,7 +42,8 @@ LinePoint on_line(const LineGrid& grid, const glm::dvec2& viewpoint, const glm::
     LinePoint point;
     point.p = -place.x * along.y + place.y * along.x;
     point.depth = glm::dot(place, along);
-    const double rho = std::sqrt(std::max(grid.distance * grid.distance - point.p * point.p, grid.distance * grid.distance / 4));
+    const double rho =
+        std::sqrt(std::max(grid.distance * grid.distance - point.p * point.p, grid.distance * grid.distance / 4));
     point.h = grid.height + (y - grid.height) * rho / (rho + point.depth);
     return point;
 }
@@ -60,7 +61,8 @@ public:
             for (int row = 0; row < source.view.height; ++row) {
                 const float depth = source.depth(row, column);
                 if (std::isnan(depth)) continue;
-                const double y = source.view.height_of(row + 0.5, (ray.to_foot + static_cast<double>(depth)) / ray.horizontal_per_axial);
+                const double y = source.view.height_of(
+                    row + 0.5, (ray.to_foot + static_cast<double>(depth)) / ray.horizontal_per_axial);
                 put(on_line(grid_, viewpoint, ray.foot + static_cast<double>(depth) * ray.along, y));
             }
         }
@@ -139,8 +141,10 @@ ShapeCell make_cell(std::vector<Found>& found, double low, double step, double t
         const Surface& surface = surfaces[n];
         cell.depth[n] = static_cast<std::uint8_t>(std::clamp(std::lround((surface.depth - low) / step), 0L, 255L));
         const int enough = (std::max(surface.by_first, surface.by_second) + 3) / 4;
-        if (surface.by_first >= enough) cell.rays = static_cast<std::uint8_t>(cell.rays | (kFirstSeesLayer0 << (2 * n)));
-        if (surface.by_second >= enough) cell.rays = static_cast<std::uint8_t>(cell.rays | (kSecondSeesLayer0 << (2 * n)));
+        if (surface.by_first >= enough)
+            cell.rays = static_cast<std::uint8_t>(cell.rays | (kFirstSeesLayer0 << (2 * n)));
+        if (surface.by_second >= enough)
+            cell.rays = static_cast<std::uint8_t>(cell.rays | (kSecondSeesLayer0 << (2 * n)));
     }
     return cell;
 }
@@ -152,7 +156,8 @@ void grow(ShapeCell* cells, int p_cells, int bands) {
         for (int h = 0; h < bands; ++h) {
             ShapeCell& cell = cells[p * bands + h];
             if (cell.rays != 0) continue;
-            for (const auto& [dp, dh] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}}) {
+            for (const auto& [dp, dh] :
+                 {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}}) {
                 if (p + dp < 0 || p + dp >= p_cells || h + dh < 0 || h + dh >= bands) continue;
                 const ShapeCell& other = before[static_cast<std::size_t>((p + dp) * bands + h + dh)];
                 if (other.rays == 0) continue;
@@ -195,10 +200,14 @@ void find_backs(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& 
             if (done[static_cast<std::size_t>(h)] != 0) continue;
             const int nearest = (cell.rays & 12) != 0 ? std::min(cell.depth[0], cell.depth[1]) : cell.depth[0];
             if (d < nearest) continue;
-            const double y = grid.height + (grid.h_low + (h + 0.5) / grid.bands_per_unit - grid.height) * (rho + depth) / rho;
-            const bool within = std::any_of(heights.begin(), heights.end(), [&](const Interval& i) { return y >= i.low && y <= i.high; });
-            if (within) cell.back = static_cast<std::uint8_t>(d);
-            else if (d > nearest + 300) done[static_cast<std::size_t>(h)] = 1;
+            const double y =
+                grid.height + (grid.h_low + (h + 0.5) / grid.bands_per_unit - grid.height) * (rho + depth) / rho;
+            const bool within = std::any_of(heights.begin(), heights.end(),
+                                            [&](const Interval& i) { return y >= i.low && y <= i.high; });
+            if (within)
+                cell.back = static_cast<std::uint8_t>(d);
+            else if (d > nearest + 300)
+                done[static_cast<std::size_t>(h)] = 1;
         }
     }
 }
@@ -215,7 +224,8 @@ HeightRange height_range(const std::vector<DepthView>& ring, double distance, do
             for (int row = 0; row < source.view.height; ++row) {
                 const float depth = source.depth(row, column);
                 if (std::isnan(depth)) continue;
-                const double y = source.view.height_of(row + 0.5, (ray.to_foot + static_cast<double>(depth)) / ray.horizontal_per_axial);
+                const double y = source.view.height_of(
+                    row + 0.5, (ray.to_foot + static_cast<double>(depth)) / ray.horizontal_per_axial);
                 const double h = height + (y - height) * distance / (distance + static_cast<double>(depth));
                 range.low = std::min(range.low, h);
                 range.high = std::max(range.high, h);
@@ -233,7 +243,8 @@ double gap_width(const std::vector<DepthView>& ring, std::size_t n) {
     return width > 0 ? width : width + 2 * kPi;
 }
 
-ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& hull, const ShapeLinesOptions& options) {
+ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& hull,
+                          const ShapeLinesOptions& options) {
     ShapeMap map;
     const double count = static_cast<double>(ring.size());
     LineGrid grid;
@@ -268,7 +279,8 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& 
     for (std::size_t n = 0; n < ring.size(); ++n) {
         const double width_deg = degrees(gap_width(ring, n));
         const bool wide = ring.size() < 2 || width_deg > options.widest_gap_deg;
-        const int count_of_gap = wide ? 0 : std::clamp(static_cast<int>(std::ceil(width_deg / options.line_deg - 0.01)), 1, 1024);
+        const int count_of_gap =
+            wide ? 0 : std::clamp(static_cast<int>(std::ceil(width_deg / options.line_deg - 0.01)), 1, 1024);
         map.gaps.push_back({static_cast<std::uint16_t>(count_of_gap), lines});
         lines += static_cast<std::uint32_t>(count_of_gap);
     }

@@ -19,9 +19,9 @@ struct DepthView {
 };
 
 struct ShapeLinesOptions {
-    double cell_px = 4.8;    // side of a cell in pixels of the working pictures
-    double line_deg = 2;  // lines of a gap are at most so far apart
-    double widest_gap_deg = 45;  // wider ones stay without lines
+    double cell_px = 4.8;        // side of a cell in pixels of the working pictures
+    double line_deg = 2;         // lines of a gap are at most so far apart
+    double widest_gap_deg = 45.01;  // wider ones stay without lines
 };
 
 // From view n of a ring to the next one in turning order, above 0 and at most 2 pi.

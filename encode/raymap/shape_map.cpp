@@ -17,10 +17,12 @@ constexpr int kSampleViews = 4;
 constexpr double kMostContradicted = 0.01;
 
 NormalLine normal_line(const Camera& camera, const ReferencePlane& plane) {
-    const auto fixed = [](double value, int bits) { return static_cast<std::int32_t>(std::lround(std::ldexp(value, bits))); };
+    const auto fixed = [](double value, int bits) {
+        return static_cast<std::int32_t>(std::lround(std::ldexp(value, bits)));
+    };
     const ViewpointLine line = viewpoint_line(camera.centre(), plane);
-    return {fixed(glm::dot(plane.normal, camera.forward()), 30), fixed(glm::dot(plane.normal, camera.right()) * camera.fl_x, 16),
-            fixed(line.a, 20), fixed(line.c, 20)};
+    return {fixed(glm::dot(plane.normal, camera.forward()), 30),
+            fixed(glm::dot(plane.normal, camera.right()) * camera.fl_x, 16), fixed(line.a, 20), fixed(line.c, 20)};
 }
 
 std::string sector_text(const DepthView& from, const DepthView& to) {
@@ -40,14 +42,15 @@ public:
     Status read(Progress* progress) {
         const int longest = std::max(set_.width, set_.height);
         const int reduction = (longest + options_.working_size_px - 1) / options_.working_size_px;
-        return for_each_in_parallel(static_cast<int>(views_.size()), "pictures for depth", progress, [&](int n) -> Status {
-            const int v = ring_.views[static_cast<std::size_t>(n)];
-            const Result<Image<Rgba8>> picture = read_upright_picture(set_, v);
-            if (!picture) return picture.error();
-            const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
-            views_[static_cast<std::size_t>(n)].view = make_work_view(camera, *picture, reduction);
-            return {};
-        });
+        return for_each_in_parallel(
+            static_cast<int>(views_.size()), "pictures for depth", progress, [&](int n) -> Status {
+                const int v = ring_.views[static_cast<std::size_t>(n)];
+                const Result<Image<Rgba8>> picture = read_upright_picture(set_, v);
+                if (!picture) return picture.error();
+                const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
+                views_[static_cast<std::size_t>(n)].view = make_work_view(camera, *picture, reduction);
+                return {};
+            });
     }
 
     // The hull and the depths; the first kSampleViews evenly spread ones are kept for people.
@@ -90,7 +93,8 @@ public:
         for (std::size_t n = 0; n < views_.size(); ++n) {
             const DepthView& view = views_[n];
             const std::string& name = rig_.views[static_cast<std::size_t>(ring_.views[n])].file_path;
-            if (object_box(view.view).empty()) warnings.push_back(name + " shows no object at all (its alpha is 0 everywhere)");
+            if (object_box(view.view).empty())
+                warnings.push_back(name + " shows no object at all (its alpha is 0 everywhere)");
             const DepthView& next = views_[(n + 1) % views_.size()];
             if (shape.gaps[n].lines == 0 && views_.size() > 1) {
                 warnings.push_back("there are no pictures between " + sector_text(view, next) +
@@ -104,7 +108,7 @@ private:
     // The narrowest margin at which the silhouettes agree; a rig that is only nominal needs a wide one.
     void choose_hull(const std::vector<const WorkView*>& all) {
         const DepthRange range{-kDeepest, 2 * kDeepest / (options_.depths - 1), options_.depths};
-        for (margin_px_ = 1; ; margin_px_ *= 2) {
+        for (margin_px_ = 1;; margin_px_ *= 2) {
             hull_ = std::make_unique<VisualHull>(all, margin_px_);
             const double share = contradicted_share(all, *hull_, range);
             if (margin_px_ >= options_.widest_hull_margin_px || share <= kMostContradicted) break;
@@ -112,9 +116,7 @@ private:
         outline_ = std::make_unique<VisualHull>(all, margin_px_ - 1);
     }
 
-    [[nodiscard]] double gap_deg(int n) const {
-        return degrees(gap_width(views_, static_cast<std::size_t>(n)));
-    }
+    [[nodiscard]] double gap_deg(int n) const { return degrees(gap_width(views_, static_cast<std::size_t>(n))); }
 
     // The pictures to either side, unless they are too far away to compare.
     [[nodiscard]] std::vector<const WorkView*> neighbours_of(int n) const {
@@ -137,7 +139,8 @@ private:
         for (const int gap : {n, (n + count - 1) % count}) {
             if (gap_deg(gap) <= options_.lines.widest_gap_deg) widest_deg = std::max(widest_deg, gap_deg(gap));
         }
-        const int levels = std::clamp(static_cast<int>(options_.depths * widest_deg / 5), options_.depths, 2 * options_.depths);
+        const int levels =
+            std::clamp(static_cast<int>(options_.depths * widest_deg / 5), options_.depths, 2 * options_.depths);
         return {-kDeepest, 2 * kDeepest / (levels - 1), levels};
     }
 
@@ -147,8 +150,10 @@ private:
             for (int row = costs.box.top; row < costs.box.bottom; ++row) {
                 if (view.at(column, row).a == 0) continue;
                 const std::uint8_t* const begin = costs.at(column, row);
-                const auto* const first = std::find_if(begin, begin + costs.levels, [](int cost) { return cost < kOutsideCost; });
-                if (first != begin + costs.levels) depth(row, column) = static_cast<float>(range.at(static_cast<double>(first - begin)));
+                const auto* const first =
+                    std::find_if(begin, begin + costs.levels, [](int cost) { return cost < kOutsideCost; });
+                if (first != begin + costs.levels)
+                    depth(row, column) = static_cast<float>(range.at(static_cast<double>(first - begin)));
             }
         }
         return depth;

@@ -19,9 +19,9 @@
 namespace rs::encode {
 
 struct ShapeOptions {
-    int working_size_px = 640;  // pictures whose longer side is longer are searched at a whole fraction of it
+    int working_size_px = 640;       // pictures whose longer side is longer are searched at a whole fraction of it
     int widest_hull_margin_px = 16;  // of the working pictures; the narrowest that fits is taken
-    int depths = 128;           // levels tried at most 5 degrees between pictures; more where they are farther apart
+    int depths = 128;  // levels tried at most 5 degrees between pictures; more where they are farther apart
     SmoothnessOptions smoothness;
     ShapeLinesOptions lines;
 };

@@ -113,8 +113,10 @@ double contradicted_share(const std::vector<const WorkView*>& views, const Visua
                 if (axial <= 0) continue;
                 hull.heights_above(ray.foot + depth * ray.along, heights);
                 for (const Interval& interval : heights) {
-                    const int top = static_cast<int>(std::clamp(view.row_of(interval.high, axial), 0.0, double(view.height)));
-                    const int bottom = static_cast<int>(std::clamp(view.row_of(interval.low, axial), 0.0, double(view.height)));
+                    const int top =
+                        static_cast<int>(std::clamp(view.row_of(interval.high, axial), 0.0, double(view.height)));
+                    const int bottom =
+                        static_cast<int>(std::clamp(view.row_of(interval.low, axial), 0.0, double(view.height)));
                     std::fill(covered.begin() + top, covered.begin() + bottom, 1);
                 }
             }

@@ -2,8 +2,8 @@
 // The visual hull: what all silhouettes of a ring allow. It bounds the search for depth.
 //
 // Cameras are upright, so all points above a place of the ground plan fall into one column of a picture, at rows linear
-// in height. A column of a silhouette is a few runs of rows; so the hull above a place is an intersection of runs, exact
-// and without a grid of voxels.
+// in height. A column of a silhouette is a few runs of rows; so the hull above a place is an intersection of runs,
+// exact and without a grid of voxels.
 
 #include "encode/raymap/depth_range.hpp"
 #include "encode/raymap/work_view.hpp"
@@ -36,8 +36,8 @@ private:
     std::vector<Silhouette> silhouettes_;
 };
 
-// The share of object pixels (0..1, sampled) whose rays the hull rules out entirely: what the silhouettes contradict one
-// another by. `range` covers the object.
+// The share of object pixels (0..1, sampled) whose rays the hull rules out entirely: what the silhouettes contradict
+// one another by. `range` covers the object.
 double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range);
 
 }  // namespace rs::encode

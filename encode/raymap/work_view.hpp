@@ -14,7 +14,7 @@ namespace rs::encode {
 struct HorizontalRay {
     glm::dvec2 along{0, 1};
     glm::dvec2 foot{0, 0};
-    double to_foot = 0;         // from the camera's centre to the foot
+    double to_foot = 0;               // from the camera's centre to the foot
     double horizontal_per_axial = 1;  // horizontal length of the ray per unit of axial depth
 };
 
@@ -43,8 +43,8 @@ struct WorkView {
     [[nodiscard]] double height_of(double row, double axial) const { return centre_y + axial * (cy - row) / fl_y; }
 };
 
-// `camera` is upright and in object radii. `picture` is averaged over blocks of `reduction` x `reduction` pixels (colour
-// weighted by alpha); what is left over at the right and lower edges is dropped.
+// `camera` is upright and in object radii. `picture` is averaged over blocks of `reduction` x `reduction` pixels
+// (colour weighted by alpha); what is left over at the right and lower edges is dropped.
 WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int reduction);
 
 }  // namespace rs::encode

@@ -2,7 +2,7 @@
 // ("lanes"), or, in four of them, the four channels of a pixel side by side: block b (16 bytes) of channel vector k
 // belongs to lane 4 b + k ("channels"). No operation crosses a block.
 //
-// No include guard: shape_walk.cpp includes it once for each target.
+// No include guard: cell_march_lanes.inl, which shape_walk.cpp includes, includes it once for each target.
 
 #include "engine/core/column_walk.hpp"
 #include "engine/core/fixed_point.hpp"
@@ -106,16 +106,29 @@ struct Channels {
     Vector of[4];
 };
 
-// Two texels of each lane, one below the other, at base + offset (bytes): of the even lanes and of the odd ones.
+// 64 bits each from base + index[0], base + index[2], ... Plain loads: faster than a gather instruction, several of
+// which would be busy with the same few cache lines.
+template <std::size_t kCount>
+HWY_INLINE hn::Vec<hn::FixedTag<std::int64_t, kCount>> every_second(const std::int32_t* base,
+                                                                    const std::int32_t* index) {
+    if constexpr (kCount == 1) {
+        return hn::LoadU(hn::FixedTag<std::int64_t, 1>(), reinterpret_cast<const std::int64_t*>(base + *index));
+    } else {
+        return hn::Combine(hn::FixedTag<std::int64_t, kCount>(), every_second<kCount / 2>(base, index + kCount),
+                           every_second<kCount / 2>(base, index));
+    }
+}
+
+// Two texels of each lane, one below the other, the upper one at base + index: of the even lanes and of the odd ones.
 struct TexelPairs {
     Vector even;
     Vector odd;
 };
 
-HWY_INLINE TexelPairs fetch(const std::int32_t* base, WideVector even_offset, WideVector odd_offset) {
-    const auto* const from = reinterpret_cast<const std::int64_t*>(base);
-    return {hn::BitCast(Lanes(), hn::GatherOffset(Wide(), from, even_offset)),
-            hn::BitCast(Lanes(), hn::GatherOffset(Wide(), from, odd_offset))};
+HWY_INLINE TexelPairs fetch(const std::int32_t* base, const std::int32_t* index) {
+    constexpr std::size_t kPairs = hn::MaxLanes(Wide());
+    return {hn::BitCast(Lanes(), every_second<kPairs>(base, index)),
+            hn::BitCast(Lanes(), every_second<kPairs>(base, index + 1))};
 }
 
 // Weight times alpha of two texels of each lane, as 16-bit halves.

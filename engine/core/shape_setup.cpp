@@ -36,8 +36,9 @@ struct Bracket {
 
 // Where the parallel ray from view n of the ring crosses the plane (equation 1).
 std::int64_t crossing_q20(const Ring& ring, int n, const PlanePoint& point) {
-    const NormalLine& line = ring.shape.normal_lines[static_cast<std::size_t>(n) * static_cast<std::size_t>(ring.planes) +
-                                                     static_cast<std::size_t>(point.plane)];
+    const NormalLine& line =
+        ring.shape.normal_lines[static_cast<std::size_t>(n) * static_cast<std::size_t>(ring.planes) +
+                                static_cast<std::size_t>(point.plane)];
     return line.a_q20 + ((point.u_q28 * line.c_q20) >> 28);
 }
 
@@ -64,8 +65,9 @@ ShapePicture along_ray(const RaySpaceObject& object, const Ring& ring, int n, in
                        std::int64_t depth_low_q20, std::int64_t depth_step_q24) {
     const int view = ring.views[static_cast<std::size_t>(n)];
     const CapturedLine& line = object.views[static_cast<std::size_t>(view)].lines[static_cast<std::size_t>(plane)];
-    const NormalLine& normal = ring.shape.normal_lines[static_cast<std::size_t>(n) * static_cast<std::size_t>(ring.planes) +
-                                                       static_cast<std::size_t>(plane)];
+    const NormalLine& normal =
+        ring.shape.normal_lines[static_cast<std::size_t>(n) * static_cast<std::size_t>(ring.planes) +
+                                static_cast<std::size_t>(plane)];
     const std::int64_t x_q20 = (ray.p_q20 * ray.cosine_q30) >> 30;
     const std::int64_t z_q20 = (ray.p_q20 * ray.sine_q30) >> 30;
     const std::int64_t l_foot_q20 = line.l0_q20 + ((x_q20 * line.l1_q30 + z_q20 * normal.l2_q30) >> 30);
@@ -77,8 +79,8 @@ ShapePicture along_ray(const RaySpaceObject& object, const Ring& ring, int n, in
     picture.l0_q20 = static_cast<std::int32_t>(l_foot_q20 + ((depth_low_q20 * l_along_q30) >> 30));
     picture.l1_q24 = static_cast<std::int32_t>((depth_step_q24 * l_along_q30) >> 30);
     picture.n0_q12 = static_cast<std::int32_t>((n_foot_q16 + ((depth_low_q20 * n_along_q16) >> 20)) >> 4);
-    picture.n1_q14 = static_cast<std::int32_t>(
-        std::clamp((depth_step_q24 * n_along_q16) >> 26, -kMostPerStep, kMostPerStep));
+    picture.n1_q14 =
+        static_cast<std::int32_t>(std::clamp((depth_step_q24 * n_along_q16) >> 26, -kMostPerStep, kMostPerStep));
     return picture;
 }
 
@@ -119,17 +121,18 @@ ShapeSetup set_up_shape(const RaySpaceObject& object, const ViewRegisters& regis
         const std::int64_t line = gap.first_line + bracket.from_first_q20 * gap.lines / bracket.width_q20;
         const std::int64_t column = line * shape.p_cells + std::clamp<std::int64_t>(pi, 0, shape.p_cells - 1);
         setup.cells = shape.cells.data() + column * shape.bands;
-        setup.foot_depth = static_cast<std::uint8_t>(
-            std::clamp<std::int64_t>(-depth_low_q20 * 16 / depth_step_q24, 0, 255));
-        setup.weight = static_cast<std::int32_t>((bracket.from_first_q20 * 512 + bracket.width_q20) / (2 * bracket.width_q20));
+        setup.foot_depth =
+            static_cast<std::uint8_t>(std::clamp<std::int64_t>(-depth_low_q20 * 16 / depth_step_q24, 0, 255));
+        setup.weight =
+            static_cast<std::int32_t>((bracket.from_first_q20 * 512 + bracket.width_q20) / (2 * bracket.width_q20));
         const int next = (bracket.gap + 1) % static_cast<int>(ring.views.size());
         setup.first = along_ray(object, ring, bracket.gap, point.plane, ray, depth_low_q20, depth_step_q24);
         setup.second = along_ray(object, ring, next, point.plane, ray, depth_low_q20, depth_step_q24);
     } else {
         setup.first = along_ray(object, ring, static_cast<int>(place), point.plane, ray, 0, 0);
     }
-    setup.lambda0_q20 = static_cast<std::int32_t>(
-        lambda_foot_q20 + floor_divide(depth_low_q20 * (std::int64_t{1} << 28), ray.r_q28));
+    setup.lambda0_q20 =
+        static_cast<std::int32_t>(lambda_foot_q20 + floor_divide(depth_low_q20 * (std::int64_t{1} << 28), ray.r_q28));
     setup.lambda1_q24 = static_cast<std::int32_t>((depth_step_q24 << 28) / ray.r_q28);
     return setup;
 }

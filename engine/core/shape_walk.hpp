@@ -36,14 +36,14 @@ struct ShapeStrip {
     ShapePictureLanes first;
     ShapePictureLanes second;
     alignas(64) std::int32_t weight[kStripColumns];
-    alignas(64) std::int32_t alone[kStripColumns];       // ShapeRays bit of the picture that answers alone; 0: both do
-    // Of the lane's bands those between the lowest and the highest that are not empty: the number of the lowest one, its
-    // index in ShapeMap::cells, and how many there are (0: there is no shape).
+    alignas(64) std::int32_t alone[kStripColumns];  // ShapeRays bit of the picture that answers alone; 0: both do
+    // Of the lane's bands those between the lowest and the highest that are not empty: the number of the lowest one,
+    // its index in ShapeMap::cells, and how many there are (0: there is no shape).
     alignas(64) std::int32_t low_band[kStripColumns];
     alignas(64) std::int32_t cell_start[kStripColumns];
     alignas(64) std::int32_t bands[kStripColumns];
-    alignas(64) std::int32_t nearest[kStripColumns];     // of the layers of all bands; 256 where there are none
-    alignas(64) std::int32_t beyond[kStripColumns];      // one more than the farthest back of all bands, or 0
+    alignas(64) std::int32_t nearest[kStripColumns];  // of the layers of all bands; 256 where there are none
+    alignas(64) std::int32_t beyond[kStripColumns];   // one more than the farthest back of all bands, or 0
     alignas(64) std::int32_t foot_depth[kStripColumns];
     alignas(64) std::int32_t lambda_foot_q20[kStripColumns];
     alignas(64) std::int32_t lambda0_q20[kStripColumns];

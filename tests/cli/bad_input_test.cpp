@@ -163,6 +163,11 @@ TEST_F(BadInput, OutputThatCannotBe) {
     expect_failure("rs-engine", {"render", object, "--orbit", "2", "-o", in("no/such/folder/v.mp4"), "-q"},
                    {"no/such/folder"});
     expect_failure("rs-engine", {"render", object, "--orbit", "2", "-o", in("two.png"), "-q"}, {"two.png", "--sheet"});
+    expect_failure("rs-engine", {"render", object, "--orbit", "2", "--depth", "-o", in("two.mp4"), "-q"},
+                   {"two.mp4", "--depth"});
+    expect_failure("rs-engine",
+                   {"render", object, "--orbit", "2", "--depth", "--sheet", "2", "-o", in("two.png"), "-q"},
+                   {"two.png", "--depth"});
     // A folder that is not ours is not replaced.
     std::filesystem::create_directories(work_ / "mine");
     write_text("mine/letter.txt", "dear");

@@ -79,6 +79,14 @@ TEST(WholeWay, AMeshBecomesAnObjectThatGivesItsPicturesBack) {
     ASSERT_TRUE(sheet.ok());
     EXPECT_EQ(sheet->width(), 192);
     EXPECT_EQ(sheet->height(), 128);
+    run("rs-engine", {"render", in("box.rso"), "--orbit", "2", "--depth", "-o", in("deep"), "-q"});
+    const auto picture = read_picture(folder / "deep" / "0001.png");
+    const auto depth = read_channel(folder / "deep" / "0001.depth.exr");
+    ASSERT_TRUE(picture.ok() && depth.ok());
+    ASSERT_EQ(depth->width(), picture->width());
+    for (std::size_t i = 0; i < depth->pixels().size(); ++i) {
+        ASSERT_EQ(depth->pixels()[i] > 0, picture->pixels()[i].a > 0);
+    }
 
     const test::ToolRun compare = run("rs-engine", {"compare", in("box.rso"), in("set"), "--json", "-q"});
     const auto json = nlohmann::json::parse(compare.out);

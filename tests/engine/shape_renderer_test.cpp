@@ -2,6 +2,7 @@
 // maps, sizes and poses, every SIMD target.
 
 #include "engine/core/conformance.hpp"
+#include "engine/core/depth_picture.hpp"
 #include "engine/core/reconstruct.hpp"
 #include "engine/core/renderer.hpp"
 #include "rayspace/conventions.hpp"
@@ -15,6 +16,8 @@
 #include <tbb/global_control.h>
 
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <random>
 
 namespace rs::engine {
@@ -245,6 +248,34 @@ TEST(Renderer, SaysHowFarTheReferencePlaneIs) {
                 }
             }
         }
+    }
+}
+
+TEST(DepthPicture, IsInTheRigsUnitsFromTheCamerasOwnCentre) {
+    RaySpaceObject object = test::ring_object({.views = 12, .width = 64, .height = 64, .fl_px = 90});
+    object.units_per_radius = 2.5;
+    const Result<Renderer> renderer = Renderer::create(object);
+    ASSERT_TRUE(renderer.ok());
+    for (const double radii : {3.0, 900.0}) {  // the view from 900 radii is brought to 200
+        const Camera camera = look_at_camera({0, 0, radii * 2.5}, {0, 0, 0}, 2 * std::atan(1 / radii), 41, 33);
+        const Result<ViewRegisters> registers = prepare_view(object, camera);
+        ASSERT_TRUE(registers.ok());
+        Rendered rendered{Image<Rgba8>(41, 33), Image<std::int32_t>(41, 33)};
+        renderer->render(*registers, rendered.colour, rendered.lambda);
+        const Image<float> depth = depth_picture(object, camera, rendered.lambda);
+        int shown = 0;
+        for (int j = 0; j < 33; ++j) {
+            for (int i = 0; i < 41; ++i) {
+                if (rendered.colour(i, j).a == 0) {
+                    EXPECT_EQ(depth(i, j), 0);
+                } else {
+                    ++shown;
+                    // The plane is within 15 degrees of square to a ray, and a ray within 19 of the axis.
+                    EXPECT_NEAR(depth(i, j), radii * 2.5, 2.5 * std::tan(radians(34)));
+                }
+            }
+        }
+        EXPECT_GT(shown, 100);
     }
 }
 

@@ -31,6 +31,10 @@ inline ShapeMap random_shape(const RaySpaceObject& object, std::size_t ring, std
         shape.h_low_q20 = fixed(real(-1.5, 0.2), 20);
         shape.bands_per_unit_q12 = fixed(options.bands * real(0.3, 3), 12);
     }
+    if (whole(0, 5) == 0) {  // to the ends of the ranges, where numbers saturate
+        shape.h_low_q20 = fixed(real(-255, 255), 20);
+        shape.bands_per_unit_q12 = fixed(real(100, 16383), 12);
+    }
     if (whole(0, 2) == 0) {
         shape.reference_distance_q20 = fixed(real(1.1, 9), 20);
         shape.reference_height_q20 = fixed(real(-1, 1), 20);
