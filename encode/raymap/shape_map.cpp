@@ -90,18 +90,22 @@ public:
     }
 
     void warn(const ShapeMap& shape, std::vector<std::string>& warnings) const {
+        std::string missing;
         for (std::size_t n = 0; n < views_.size(); ++n) {
             const DepthView& view = views_[n];
             const std::string& name = rig_.views[static_cast<std::size_t>(ring_.views[n])].file_path;
-            if (object_box(view.view).empty())
+            if (object_box(view.view).empty()) {
                 warnings.push_back(name + " shows no object at all (its alpha is 0 everywhere)");
-            const DepthView& next = views_[(n + 1) % views_.size()];
-            if (shape.gaps[n].lines == 0 && views_.size() > 1) {
-                warnings.push_back("there are no pictures between " + sector_text(view, next) +
-                                   "; from there the nearest picture is shown as it is");
             }
+            if (shape.gaps[n].lines != 0) continue;
+            missing += (missing.empty() ? "" : ", ") + sector_text(view, views_[(n + 1) % views_.size()]);
         }
-        if (views_.size() == 1) warnings.push_back("there is one picture; it is shown as it is from everywhere");
+        if (views_.size() == 1) {
+            warnings.push_back("there is one picture; it is shown as it is from everywhere");
+        } else if (!missing.empty()) {
+            warnings.push_back("there are no pictures between " + missing +
+                               "; from there the nearest picture is shown as it is");
+        }
     }
 
 private:

@@ -89,6 +89,15 @@ std::string curve(const PlotSeries& series, const PlotFrame& frame, const std::s
 
 }  // namespace
 
+std::string standalone_svg_of(const LinePlot& plot) {
+    std::string svg = svg_of(plot);
+    svg.insert(
+        svg.find('>') + 1,
+        "<style>svg{background:#fff;font:13px sans-serif;--ink:#1c1e21;--faint:#6b7280;--rule:#d5d9df;--s0:#1f6fd1;"
+        "--s1:#d1571f;--s2:#1c8a4c;--s3:#9440b8;--s4:#9a7500}</style>");
+    return svg;
+}
+
 std::string two_decimals(double value) {
     return decimal(value, 2);
 }

@@ -45,6 +45,9 @@ PlotFrame plot_frame(const LinePlot& plot);
 // Colours are the variables --s0 .. --s4 of HtmlPage's style, in turn. Texts are escaped.
 std::string svg_of(const LinePlot& plot);
 
+// The same as a picture of its own: with its colours, on white.
+std::string standalone_svg_of(const LinePlot& plot);
+
 // "12.50": a point whatever the locale, as SVG takes it; "0" where it is not finite.
 std::string two_decimals(double value);
 

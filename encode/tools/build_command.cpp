@@ -134,7 +134,8 @@ Status run_build(const BuildArguments& arguments) {
 
     Result<CaptureSet> set = open_capture_set(arguments.set, &progress);
     if (!set) return set.error();
-    // The page's place is tried before the work is done.
+    // The places of object and page are tried before the work is done.
+    if (const Result<StagedFile> object = StagedFile::create(arguments.output); !object) return object.error();
     std::optional<StagedFile> page;
     if (!arguments.report.empty()) {
         Result<StagedFile> created = StagedFile::create(arguments.report);

@@ -1,0 +1,100 @@
+// How much a shape map costs and what it brings: held-out dB over the map's size, by the size of its cells.
+//
+//     bench_map_size SET HELD_OUT [-o curve.svg]
+//
+// HELD_OUT is a second set of the same object, from other places (rs-capture synth --first-angle). Prints a table as
+// CSV: cell side in pixels, bytes in the file, share of the raw pictures, bytes in memory, dB.
+
+#include "encode/build.hpp"
+#include "encode/report/line_plot.hpp"
+#include "engine/core/compare.hpp"
+#include "engine/core/renderer.hpp"
+#include "rayspace/file_output.hpp"
+#include "rayspace/shape_chunk.hpp"
+#include "rayspace/tool_main.hpp"
+
+#include <cstdio>
+#include <span>
+
+namespace rs::encode {
+namespace {
+
+struct Arguments {
+    std::string set;
+    std::string held_out;
+    std::string plot;
+};
+
+struct Measured {
+    double share = 0;  // of the raw pictures, in the file
+    double psnr_db = 0;
+};
+
+Result<Measured> measure(const CaptureSet& set, const std::string& held_out, double cell_px) {
+    BuildOptions options;
+    options.map = usual_plane_map(MapKind::kShape);
+    options.shape.lines.cell_px = cell_px;
+    Result<BuiltObject> built = build_object(set, options);
+    if (!built) return built.error();
+    std::size_t file_bytes = 0;
+    std::size_t memory_bytes = 0;
+    for (const Ring& ring : built->object.rings) {
+        file_bytes += object_chunks::map_payload(ring).size();
+        memory_bytes += ring.cells.size() * sizeof(ring.cells[0]) + ring.shape.cells.size() * sizeof(ShapeCell);
+        if (!ring.shape.cells.empty()) file_bytes += object_chunks::shape_payload(ring).size();
+    }
+    const double raw_bytes = 1.5 * static_cast<double>(set.upright.views.size()) * set.width * set.height;
+    const Result<engine::Renderer> renderer = engine::Renderer::create(std::move(built->object));
+    if (!renderer) return renderer.error();
+    const Result<engine::Comparison> comparison = engine::compare_with_set(*renderer, held_out);
+    if (!comparison) return comparison.error();
+    const double share = static_cast<double>(file_bytes) / raw_bytes;
+    std::printf("%.1f,%zu,%.2f,%zu,%.2f,%.2f\n", cell_px, file_bytes, 100 * share, memory_bytes,
+                100 * static_cast<double>(memory_bytes) / raw_bytes, comparison->mean_psnr_db);
+    std::fflush(stdout);
+    return Measured{share, comparison->mean_psnr_db};
+}
+
+Status write_plot(const std::string& path, const std::vector<Measured>& measured) {
+    LinePlot plot;
+    plot.title = "Views held out against the size of the RS map";
+    plot.x_label = "RS map in the file, % of the raw pictures (YUV 4:2:0)";
+    plot.y_label = "mean PSNR, dB";
+    plot.series.push_back({"cells of 24, 16, 12, 8, 6, 4.8, 4 px", {}, {}});
+    for (const Measured& point : measured) {
+        plot.series[0].x.push_back(100 * point.share);
+        plot.series[0].y.push_back(point.psnr_db);
+    }
+    const std::string svg = standalone_svg_of(plot);
+    Result<StagedFile> file = StagedFile::create(path);
+    if (!file) return file.error();
+    if (Status status = file->write(std::as_bytes(std::span(svg))); !status) return status;
+    return file->commit();
+}
+
+Status run(const Arguments& arguments) {
+    const Result<CaptureSet> set = open_capture_set(arguments.set);
+    if (!set) return set.error();
+    std::printf("cell_px,file_bytes,file_percent,memory_bytes,memory_percent,psnr_db\n");
+    std::vector<Measured> measured;
+    for (const double cell_px : {24.0, 16.0, 12.0, 8.0, 6.0, 4.8, 4.0}) {
+        const Result<Measured> point = measure(*set, arguments.held_out, cell_px);
+        if (!point) return point.error();
+        measured.push_back(*point);
+    }
+    return arguments.plot.empty() ? Status{} : write_plot(arguments.plot, measured);
+}
+
+}  // namespace
+}  // namespace rs::encode
+
+int main(int argc, char** argv) {
+    rs::encode::Arguments arguments;
+    CLI::App app("Held-out dB over the size of the shape map.", "bench_map_size");
+    app.add_option("SET", arguments.set, "capture set to build from")->required();
+    app.add_option("HELD_OUT", arguments.held_out, "capture set to score on")->required();
+    app.add_option("-o,--output", arguments.plot, "plot to write, SVG");
+    app.footer("Example:\n  bench_map_size spot spot-halfway -o curve.svg");
+    const std::function<rs::Status()> run = [&] { return rs::encode::run(arguments); };
+    return rs::tool_main(app, argc, argv, run);
+}
