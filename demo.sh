@@ -56,7 +56,7 @@ step() {
 # from_set NAME: everything after the capture set $OUT/NAME-set.
 from_set() {
   local name=$1
-  step "$name: encode" "$OUT/$name.rso" "$BIN/rs-encode" build "$OUT/$name-set" -o "$OUT/$name.rso" --name "$name"
+  step "$name: encode" "$OUT/$name.rso" "$BIN/rs-encode" build "$OUT/$name-set" -o "$OUT/$name.rso" --name "$name" --report "$OUT/$name.html"
   step "$name: verify" "" "$BIN/rs-encode" verify "$OUT/$name.rso"
   step "$name: bit-accuracy" "" "$BIN/rs-engine" conformance "$OUT/$name.rso" --views 40
   step "$name: orbit video" "$OUT/$name-orbit.mp4" "$BIN/rs-engine" render "$OUT/$name.rso" --orbit 180 -o "$OUT/$name-orbit.mp4"

@@ -168,46 +168,43 @@ void grow(ShapeCell* cells, int p_cells, int bands) {
     }
 }
 
-// How far behind its nearest layer each cell of a column stays within the hull.
-void find_backs(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
-                ShapeCell* cells) {
-    constexpr int kStride = 8;  // levels of depth: a coarse back is enough, and packs well
-    const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
-    // The ray through the viewpoint at distance p from the axis.
+int nearest_layer(const ShapeCell& cell) {
+    const bool has_second = (cell.rays & (kFirstSeesLayer1 | kSecondSeesLayer1)) != 0;
+    return has_second ? std::min(cell.depth[0], cell.depth[1]) : cell.depth[0];
+}
+
+// The ray of a line's viewpoint that passes the axis at distance p, seen from above.
+HorizontalRay line_ray(const glm::dvec2& viewpoint, double p) {
     const double distance = glm::length(viewpoint);
-    const double to_foot = std::sqrt(std::max(distance * distance - p * p, 0.0));
     const glm::dvec2 inwards = -viewpoint / distance;
     const glm::dvec2 sideways(-inwards.y, inwards.x);
-    // along such that the foot is p times its perpendicular (-along.y, along.x)
-    const double sine = -p / distance;
-    const glm::dvec2 along = inwards * (to_foot / distance) - sideways * sine;
-    const glm::dvec2 foot = p * glm::dvec2(-along.y, along.x);
+    const double sine = p / distance;
+    HorizontalRay ray;
+    ray.along = inwards * std::sqrt(std::max(1 - sine * sine, 0.0)) + sideways * sine;
+    ray.foot = p * glm::dvec2(-ray.along.y, ray.along.x);
+    return ray;
+}
+
+// Where the object ends behind the nearest layer of each cell of a column: the last depth within the hull.
+void find_backs(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
+                ShapeCell* cells) {
+    constexpr int kStride = 8;  // a coarse back is enough, and packs well
+    const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
+    const HorizontalRay ray = line_ray(viewpoint, p);
     const double rho = std::sqrt(std::max(grid.distance * grid.distance - p * p, grid.distance * grid.distance / 4));
-    std::vector<char> inside(static_cast<std::size_t>(grid.bands), 0);
-    std::vector<char> done(static_cast<std::size_t>(grid.bands), 0);
-    for (int h = 0; h < grid.bands; ++h) {
-        ShapeCell& cell = cells[h];
-        const int nearest = (cell.rays & 12) != 0 ? std::min(cell.depth[0], cell.depth[1]) : cell.depth[0];
-        cell.back = static_cast<std::uint8_t>(nearest);
-        if (cell.rays == 0) done[static_cast<std::size_t>(h)] = 1;
-    }
+    for (int h = 0; h < grid.bands; ++h) cells[h].back = static_cast<std::uint8_t>(nearest_layer(cells[h]));
     std::vector<Interval> heights;
     for (int d = 0; d < kDepths; d += kStride) {
         const double depth = -kHalfWidth + d * step;
-        hull.heights_above(foot + depth * along, heights);
+        hull.heights_above(ray.foot + depth * ray.along, heights);
         for (int h = 0; h < grid.bands; ++h) {
             ShapeCell& cell = cells[h];
-            if (done[static_cast<std::size_t>(h)] != 0) continue;
-            const int nearest = (cell.rays & 12) != 0 ? std::min(cell.depth[0], cell.depth[1]) : cell.depth[0];
-            if (d < nearest) continue;
-            const double y =
-                grid.height + (grid.h_low + (h + 0.5) / grid.bands_per_unit - grid.height) * (rho + depth) / rho;
+            if (cell.rays == 0 || d <= cell.back) continue;
+            const double reference_h = grid.h_low + (h + 0.5) / grid.bands_per_unit;
+            const double y = grid.height + (reference_h - grid.height) * (rho + depth) / rho;
             const bool within = std::any_of(heights.begin(), heights.end(),
                                             [&](const Interval& i) { return y >= i.low && y <= i.high; });
-            if (within)
-                cell.back = static_cast<std::uint8_t>(d);
-            else if (d > nearest + 300)
-                done[static_cast<std::size_t>(h)] = 1;
+            if (within) cell.back = static_cast<std::uint8_t>(d);
         }
     }
 }

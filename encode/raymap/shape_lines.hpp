@@ -19,8 +19,8 @@ struct DepthView {
 };
 
 struct ShapeLinesOptions {
-    double cell_px = 4.8;        // side of a cell in pixels of the working pictures
-    double line_deg = 2;         // lines of a gap are at most so far apart
+    double cell_px = 4.8;           // side of a cell in pixels of the working pictures
+    double line_deg = 2;            // lines of a gap are at most so far apart
     double widest_gap_deg = 45.01;  // wider ones stay without lines
 };
 

@@ -147,8 +147,8 @@ Status run_build(const BuildArguments& arguments) {
     if (set->resampled) std::cerr << "rs-encode: the cameras look up or down; their pictures are made upright\n";
     Result<BuiltObject> built = build_object(*set, *options, &progress);
     if (!built) return built.error();
-    for (const std::string& warning : built->warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
     if (Status status = write_object(arguments.output, built->object, &progress); !status) return status;
+    for (const std::string& warning : built->warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
 
     BuildSummary summary;
     summary.bytes = std::filesystem::file_size(arguments.output);

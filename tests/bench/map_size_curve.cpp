@@ -95,6 +95,6 @@ int main(int argc, char** argv) {
     app.add_option("HELD_OUT", arguments.held_out, "capture set to score on")->required();
     app.add_option("-o,--output", arguments.plot, "plot to write, SVG");
     app.footer("Example:\n  bench_map_size spot spot-halfway -o curve.svg");
-    const std::function<rs::Status()> run = [&] { return rs::encode::run(arguments); };
+    std::function<rs::Status()> run = [&] { return rs::encode::run(arguments); };
     return rs::tool_main(app, argc, argv, run);
 }
