@@ -121,4 +121,17 @@ PictureDifference compare_pictures(ConstImageView<Rgba8> a, ConstImageView<Rgba8
     return difference;
 }
 
+DifferenceSummary summarise(std::span<const PictureDifference> differences) {
+    DifferenceSummary summary;
+    PictureDifference pooled;
+    for (const PictureDifference& difference : differences) {
+        summary.mean_psnr_db += difference.psnr_db() / static_cast<double>(differences.size());
+        summary.mean_ssim += difference.ssim / static_cast<double>(differences.size());
+        pooled.object_pixels += difference.object_pixels;
+        pooled.squared_error += difference.squared_error;
+    }
+    summary.pooled_psnr_db = pooled.psnr_db();
+    return summary;
+}
+
 }  // namespace rs

@@ -7,6 +7,7 @@
 #include "rayspace/image.hpp"
 
 #include <cstdint>
+#include <span>
 
 namespace rs {
 
@@ -18,6 +19,14 @@ struct PictureDifference {
     // dB with peak 255 over object pixels and R, G, B; 99 where the pictures are equal or both empty.
     [[nodiscard]] double psnr_db() const;
 };
+
+// Of several pictures, all counting alike.
+struct DifferenceSummary {
+    double mean_psnr_db = 0;    // mean of the pictures' dB
+    double pooled_psnr_db = 0;  // dB of all pictures' object pixels taken together; lower where pictures differ
+    double mean_ssim = 0;
+};
+DifferenceSummary summarise(std::span<const PictureDifference> differences);
 
 // Both pictures have the same size. SSIM as in Wang, Bovik, Sheikh, Simoncelli 2004: Gaussian window of sigma 1.5 and
 // 11x11 pixels (clipped at the picture's edge and renormalised), K1 = 0.01, K2 = 0.03.

@@ -23,18 +23,11 @@
 //
 // Lengths are in object radii; everything is integer. Stored as in encode/FORMAT.md, chunk `shap`.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 namespace rs {
-
-struct ShapeCell {
-    std::uint8_t depth[2] = {0, 0};
-    std::uint8_t back = 0;  // where the object ends behind its nearest layer, as far as silhouettes tell
-    std::uint8_t rays = 0;  // ShapeRays bits; 0 = no surface
-
-    bool operator==(const ShapeCell&) const = default;
-};
 
 // Bits of ShapeCell::rays: which captured picture sees which layer. Layer 1 without a bit does not exist; where layer 1
 // exists so does layer 0.
@@ -43,6 +36,18 @@ enum ShapeRays : std::uint8_t {
     kSecondSeesLayer0 = 2,
     kFirstSeesLayer1 = 4,
     kSecondSeesLayer1 = 8,
+};
+
+struct ShapeCell {
+    std::uint8_t depth[2] = {0, 0};
+    std::uint8_t back = 0;  // where the object ends behind its nearest layer, as far as silhouettes tell
+    std::uint8_t rays = 0;  // ShapeRays bits; 0 = no surface
+
+    [[nodiscard]] bool has_layer1() const { return (rays & (kFirstSeesLayer1 | kSecondSeesLayer1)) != 0; }
+    // Depth of the nearest layer; rays is not 0.
+    [[nodiscard]] int nearest() const { return has_layer1() ? std::min(depth[0], depth[1]) : depth[0]; }
+
+    bool operator==(const ShapeCell&) const = default;
 };
 
 // What a captured line (CapturedLine) lacks for points beside its reference plane: with z along the plane's normal,

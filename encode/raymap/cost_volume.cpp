@@ -1,7 +1,6 @@
 #include "encode/raymap/cost_volume.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace rs::encode {
@@ -15,9 +14,9 @@ void compare_column(const WorkView& view, const WorkView& neighbour, const Horiz
                     const ObjectBox& box, std::uint8_t* costs) {
     const int rows = box.height();
     std::fill(costs, costs + rows, kUnknown);
-    const double axial = (ray.to_foot + depth) / ray.horizontal_per_axial;
+    const double axial = ray.axial_at(depth);
     if (axial <= 0.05) return;
-    const SeenColumn seen = neighbour.see(ray.foot + depth * ray.along);
+    const SeenColumn seen = neighbour.see(ray.place_at(depth));
     if (seen.axial <= 0.05) return;
     // Between two columns of the neighbour, in 1/32 px.
     const double left = seen.column - 0.5;
@@ -76,8 +75,7 @@ CostVolume matching_costs(const WorkView& view, std::span<const WorkView* const>
     std::vector<std::uint8_t> side(static_cast<std::size_t>(rows) * neighbours.size());
     for (int column = volume.box.left; column < volume.box.right; ++column) {
         const HorizontalRay ray = view.ray_of(column + 0.5);
-        std::uint8_t* const to = volume.costs.data() + static_cast<std::size_t>(column - volume.box.left) *
-                                                           static_cast<std::size_t>(rows) * levels;
+        std::uint8_t* const to = volume.at(column, volume.box.top);
         for (int level = 0; level < range.count; ++level) {
             for (std::size_t n = 0; n < neighbours.size(); ++n) {
                 compare_column(view, *neighbours[n], ray, range.at(level), column, volume.box,
@@ -112,11 +110,11 @@ void forbid_outside(CostVolume& volume, const WorkView& view, const VisualHull& 
     std::vector<Interval> heights;
     for (int column = box.left; column < box.right; ++column) {
         const HorizontalRay ray = view.ray_of(column + 0.5);
-        std::uint8_t* const costs = volume.costs.data() + (volume.at(column, box.top) - volume.costs.data());
+        std::uint8_t* const costs = volume.at(column, box.top);
         for (int level = 0; level < range.count; ++level) {
             const double depth = range.at(level);
-            const double axial = (ray.to_foot + depth) / ray.horizontal_per_axial;
-            hull.heights_above(ray.foot + depth * ray.along, heights);
+            const double axial = ray.axial_at(depth);
+            hull.heights_above(ray.place_at(depth), heights);
             int row = box.top;
             const auto forbid_until = [&](int end) {
                 for (; row < end; ++row) {

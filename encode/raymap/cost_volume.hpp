@@ -27,10 +27,14 @@ struct CostVolume {
     ObjectBox box;
     int levels = 0;
     std::vector<std::uint8_t> costs;
-    [[nodiscard]] const std::uint8_t* at(int column, int row) const {
-        return costs.data() + (static_cast<std::size_t>(column - box.left) * static_cast<std::size_t>(box.height()) +
-                               static_cast<std::size_t>(row - box.top)) *
-                                  static_cast<std::size_t>(levels);
+    [[nodiscard]] const std::uint8_t* at(int column, int row) const { return costs.data() + index(column, row); }
+    [[nodiscard]] std::uint8_t* at(int column, int row) { return costs.data() + index(column, row); }
+
+    // Of level 0.
+    [[nodiscard]] std::size_t index(int column, int row) const {
+        return (static_cast<std::size_t>(column - box.left) * static_cast<std::size_t>(box.height()) +
+                static_cast<std::size_t>(row - box.top)) *
+               static_cast<std::size_t>(levels);
     }
 };
 

@@ -3,6 +3,9 @@
 
 namespace rs::encode {
 
+// To either side of the foot; a little beyond the object radius.
+inline constexpr double kDeepest = 1 + 1.0 / 32;
+
 // Level n of 0..count-1 is low + n * step.
 struct DepthRange {
     double low = -1;

@@ -84,7 +84,7 @@ public:
     }
 
     [[nodiscard]] float level_of(int column, int row) const {
-        const Path* const sum = sums_.data() + (volume_.at(column, row) - volume_.costs.data());
+        const Path* const sum = sums_.data() + volume_.index(column, row);
         const int best = static_cast<int>(std::min_element(sum, sum + volume_.levels) - sum);
         if (best == 0 || best == volume_.levels - 1) return static_cast<float>(best);
         // The vertex of the parabola through the three sums.
@@ -99,7 +99,7 @@ private:
         const ObjectBox& box = volume_.box;
         const int row = box.top + r;
         const std::uint8_t* const costs = volume_.at(column, row);
-        Path* const sum = sums_.data() + (costs - volume_.costs.data());
+        Path* const sum = sums_.data() + volume_.index(column, row);
         const bool begins = from_r < 0 || from_r >= box.height() || from_column < box.left ||
                             from_column >= box.right || view_.at(from_column, box.top + from_r).a == 0;
         if (begins) {

@@ -1,5 +1,6 @@
 #include "encode/raymap/shape_lines.hpp"
 
+#include "encode/raymap/depth_range.hpp"
 #include "encode/raymap/semi_global.hpp"
 #include "rayspace/conventions.hpp"
 
@@ -11,7 +12,7 @@
 namespace rs::encode {
 namespace {
 
-constexpr double kHalfWidth = 1 + 1.0 / 32;  // of p and of depth
+constexpr double kHalfWidth = kDeepest;  // of p and of depth
 constexpr int kDepths = 256;
 
 std::int32_t fixed(double value, int fractional_bits) {
@@ -30,6 +31,11 @@ struct LineGrid {
     double bands_per_unit = 0;
     double distance = 0, height = 0;  // of the reference viewpoint
     int fine = 1;                     // raster points along a cell's side
+
+    // From the reference viewpoint to the foot of a ray at distance p from the axis.
+    [[nodiscard]] double rho(double p) const {
+        return std::sqrt(std::max(distance * distance - p * p, distance * distance / 4));
+    }
 };
 
 struct LinePoint {
@@ -42,8 +48,7 @@ LinePoint on_line(const LineGrid& grid, const glm::dvec2& viewpoint, const glm::
     LinePoint point;
     point.p = -place.x * along.y + place.y * along.x;
     point.depth = glm::dot(place, along);
-    const double rho =
-        std::sqrt(std::max(grid.distance * grid.distance - point.p * point.p, grid.distance * grid.distance / 4));
+    const double rho = grid.rho(point.p);
     point.h = grid.height + (y - grid.height) * rho / (rho + point.depth);
     return point;
 }
@@ -61,9 +66,8 @@ public:
             for (int row = 0; row < source.view.height; ++row) {
                 const float depth = source.depth(row, column);
                 if (std::isnan(depth)) continue;
-                const double y = source.view.height_of(
-                    row + 0.5, (ray.to_foot + static_cast<double>(depth)) / ray.horizontal_per_axial);
-                put(on_line(grid_, viewpoint, ray.foot + static_cast<double>(depth) * ray.along, y));
+                const double y = source.view.height_of(row + 0.5, ray.axial_at(static_cast<double>(depth)));
+                put(on_line(grid_, viewpoint, ray.place_at(static_cast<double>(depth)), y));
             }
         }
     }
@@ -168,11 +172,6 @@ void grow(ShapeCell* cells, int p_cells, int bands) {
     }
 }
 
-int nearest_layer(const ShapeCell& cell) {
-    const bool has_second = (cell.rays & (kFirstSeesLayer1 | kSecondSeesLayer1)) != 0;
-    return has_second ? std::min(cell.depth[0], cell.depth[1]) : cell.depth[0];
-}
-
 // The ray of a line's viewpoint that passes the axis at distance p, seen from above.
 HorizontalRay line_ray(const glm::dvec2& viewpoint, double p) {
     const double distance = glm::length(viewpoint);
@@ -191,12 +190,12 @@ void find_backs(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& 
     constexpr int kStride = 8;  // a coarse back is enough, and packs well
     const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
     const HorizontalRay ray = line_ray(viewpoint, p);
-    const double rho = std::sqrt(std::max(grid.distance * grid.distance - p * p, grid.distance * grid.distance / 4));
-    for (int h = 0; h < grid.bands; ++h) cells[h].back = static_cast<std::uint8_t>(nearest_layer(cells[h]));
+    const double rho = grid.rho(p);
+    for (int h = 0; h < grid.bands; ++h) cells[h].back = static_cast<std::uint8_t>(cells[h].nearest());
     std::vector<Interval> heights;
     for (int d = 0; d < kDepths; d += kStride) {
         const double depth = -kHalfWidth + d * step;
-        hull.heights_above(ray.foot + depth * ray.along, heights);
+        hull.heights_above(ray.place_at(depth), heights);
         for (int h = 0; h < grid.bands; ++h) {
             ShapeCell& cell = cells[h];
             if (cell.rays == 0 || d <= cell.back) continue;
@@ -221,8 +220,7 @@ HeightRange height_range(const std::vector<DepthView>& ring, double distance, do
             for (int row = 0; row < source.view.height; ++row) {
                 const float depth = source.depth(row, column);
                 if (std::isnan(depth)) continue;
-                const double y = source.view.height_of(
-                    row + 0.5, (ray.to_foot + static_cast<double>(depth)) / ray.horizontal_per_axial);
+                const double y = source.view.height_of(row + 0.5, ray.axial_at(static_cast<double>(depth)));
                 const double h = height + (y - height) * distance / (distance + static_cast<double>(depth));
                 range.low = std::min(range.low, h);
                 range.high = std::max(range.high, h);

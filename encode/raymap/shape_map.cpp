@@ -12,7 +12,6 @@
 namespace rs::encode {
 namespace {
 
-constexpr double kDeepest = 1 + 1.0 / 32;  // object radii, to either side of the foot
 constexpr int kSampleViews = 4;
 constexpr double kMostContradicted = 0.01;
 

@@ -109,9 +109,9 @@ double contradicted_share(const std::vector<const WorkView*>& views, const Visua
             covered.assign(static_cast<std::size_t>(view.height), 0);
             for (int level = 0; level < range.count; ++level) {
                 const double depth = range.at(level);
-                const double axial = (ray.to_foot + depth) / ray.horizontal_per_axial;
+                const double axial = ray.axial_at(depth);
                 if (axial <= 0) continue;
-                hull.heights_above(ray.foot + depth * ray.along, heights);
+                hull.heights_above(ray.place_at(depth), heights);
                 for (const Interval& interval : heights) {
                     const int top =
                         static_cast<int>(std::clamp(view.row_of(interval.high, axial), 0.0, double(view.height)));

@@ -16,6 +16,9 @@ struct HorizontalRay {
     glm::dvec2 foot{0, 0};
     double to_foot = 0;               // from the camera's centre to the foot
     double horizontal_per_axial = 1;  // horizontal length of the ray per unit of axial depth
+
+    [[nodiscard]] glm::dvec2 place_at(double depth) const { return foot + depth * along; }
+    [[nodiscard]] double axial_at(double depth) const { return (to_foot + depth) / horizontal_per_axial; }
 };
 
 // A place seen from above by a camera: all points above each other share it.

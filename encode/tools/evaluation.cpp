@@ -62,16 +62,10 @@ Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Metho
         return look ? look({method, n, view, *truth, *given, scores.views[n].psnr_db}) : Status{};
     });
     if (!scored) return scored.error();
-    for (const HeldOutScore& view : scores.views) {
-        scores.mean_psnr_db += view.psnr_db / count;
-        scores.mean_ssim += view.ssim / count;
-    }
-    PictureDifference pooled;
-    for (const PictureDifference& difference : differences) {
-        pooled.object_pixels += difference.object_pixels;
-        pooled.squared_error += difference.squared_error;
-    }
-    scores.pooled_psnr_db = pooled.psnr_db();
+    const DifferenceSummary summary = summarise(differences);
+    scores.mean_psnr_db = summary.mean_psnr_db;
+    scores.pooled_psnr_db = summary.pooled_psnr_db;
+    scores.mean_ssim = summary.mean_ssim;
     return scores;
 }
 

@@ -113,13 +113,13 @@ Status add_held_out_views(const CaptureSet& set, int planes, BuildReport& report
 }
 
 void add_depths(const CaptureSet& set, const std::vector<FoundDepth>& depths, BuildReport& report) {
-    constexpr float kDeepest = 1;  // object radii to either side of the foot
+    constexpr float kShown = 1;  // object radii to either side of the foot
     for (const FoundDepth& found : depths) {
         const std::string caption = caption_of(set, found.view);
         report.hull_pictures.push_back(
-            {scaled_down(depth_picture(transposed(found.hull), -kDeepest, kDeepest), kKept_px), caption});
+            {scaled_down(depth_picture(transposed(found.hull), -kShown, kShown), kKept_px), caption});
         report.depth_pictures.push_back(
-            {scaled_down(depth_picture(transposed(found.depth), -kDeepest, kDeepest), kKept_px), caption});
+            {scaled_down(depth_picture(transposed(found.depth), -kShown, kShown), kKept_px), caption});
     }
 }
 

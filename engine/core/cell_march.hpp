@@ -42,7 +42,7 @@ public:
             const int begin = begin_;
             begin_ += step_;
             ShapeCell cell = cell_at(band_q12(begin + step_ / 2));
-            if (cell.rays == 0 || nearest(cell) > begin_ || cell.back < begin) continue;
+            if (cell.rays == 0 || cell.nearest() > begin_ || cell.back < begin) continue;
             for (std::uint8_t& d : cell.depth) d = static_cast<std::uint8_t>(std::max<int>(d, begin));
             return cell;
         }
@@ -60,10 +60,6 @@ private:
         return band >= 0 && band < bands_ ? cells_[band] : ShapeCell{};
     }
     [[nodiscard]] std::int32_t band_q12(int d) const { return zero_q12_ + ((d * per_depth_q20_) >> 8); }
-    static int nearest(const ShapeCell& cell) {
-        return (cell.rays & (kFirstSeesLayer1 | kSecondSeesLayer1)) != 0 ? std::min(cell.depth[0], cell.depth[1])
-                                                                         : cell.depth[0];
-    }
 
     const ShapeCell* cells_;
     int bands_;

@@ -49,16 +49,10 @@ Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesys
         return {};
     });
     if (!compared) return compared.error();
-    for (const ComparedView& view : comparison.views) {
-        comparison.mean_psnr_db += view.psnr_db / count;
-        comparison.mean_ssim += view.ssim / count;
-    }
-    PictureDifference pooled;
-    for (const PictureDifference& difference : differences) {
-        pooled.object_pixels += difference.object_pixels;
-        pooled.squared_error += difference.squared_error;
-    }
-    comparison.pooled_psnr_db = pooled.psnr_db();
+    const DifferenceSummary summary = summarise(differences);
+    comparison.mean_psnr_db = summary.mean_psnr_db;
+    comparison.pooled_psnr_db = summary.pooled_psnr_db;
+    comparison.mean_ssim = summary.mean_ssim;
     return comparison;
 }
 

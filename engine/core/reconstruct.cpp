@@ -23,7 +23,7 @@ ShapePixel pixel_with_height(const RaySpaceObject& object, const ViewRegisters& 
     const auto texel = [&](int view, int column, int row) {
         return rgba_at(object.pictures[static_cast<std::size_t>(view)], column, row);
     };
-    return shape_pixel(object, registers, setup, static_cast<std::int32_t>(registers.rise.at(i, j) >> 8), texel);
+    return shape_pixel(object, registers, setup, registers.rise_q24(i, j), texel);
 }
 
 }  // namespace

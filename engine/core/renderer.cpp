@@ -197,7 +197,7 @@ void Renderer::render_shape_upright(const ViewRegisters& registers, ImageView<Rg
     const ShapeWalk walk = set_up_walk(object_, texels_, registers);
     std::vector<std::int32_t> rise_q24;
     for (int j = 0; j < registers.height; ++j) {
-        rise_q24.push_back(static_cast<std::int32_t>(registers.rise.at(0, j) >> 8));
+        rise_q24.push_back(registers.rise_q24(0, j));
     }
     tbb::parallel_for(0, strips_of(registers), [&](int s) {
         const int first = s * kStripColumns;
@@ -220,7 +220,7 @@ void Renderer::render_shape_pixels(const ViewRegisters& registers, ImageView<Rgb
     const auto pixel = [&](int i, int j) -> ShapePixel {
         const ShapeSetup setup = set_up_shape(object_, registers, i, j);
         if (!setup.has_ray) return {};
-        return shape_pixel(object_, registers, setup, static_cast<std::int32_t>(registers.rise.at(i, j) >> 8), texel);
+        return shape_pixel(object_, registers, setup, registers.rise_q24(i, j), texel);
     };
     render_pixels(pixel, out, lambda);
 }

@@ -33,8 +33,7 @@ void set_cells(const ShapeMap& shape, const ShapeCell* cells, int lane, ShapeStr
         if (cell.rays == 0) continue;
         if (high == 0) low = band;
         high = band + 1;
-        nearest = std::min<int>(nearest, cell.depth[0]);
-        if ((cell.rays & (kFirstSeesLayer1 | kSecondSeesLayer1)) != 0) nearest = std::min<int>(nearest, cell.depth[1]);
+        nearest = std::min(nearest, cell.nearest());
         beyond = std::max(beyond, cell.back + 1);
     }
     strip.low_band[lane] = low;

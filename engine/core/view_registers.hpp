@@ -34,6 +34,9 @@ struct ViewRegisters {
     LinearForm rise;         // direction . Y
     std::vector<PlaneRegisters> planes;
 
+    // Of pixel (i, j), as rendering with height takes it.
+    [[nodiscard]] std::int32_t rise_q24(int i, int j) const { return static_cast<std::int32_t>(rise.at(i, j) >> 8); }
+
     // True where a column of the view is a vertical plane of rays, so that one set-up serves a column.
     [[nodiscard]] bool upright() const;
 };
