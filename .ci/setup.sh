@@ -3,7 +3,7 @@
 
 BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config
-  libopencv-dev libopenimageio-dev openimageio-tools libglm-dev libembree-dev libassimp-dev libcli11-dev
+  libopencv-dev libopenimageio-dev openimageio-tools libglm-dev libceres-dev libembree-dev libassimp-dev libcli11-dev
   nlohmann-json3-dev libtbb-dev libhwy-dev libepoxy-dev libegl-dev libgl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   libxxhash-dev libzstd-dev
 )

@@ -248,6 +248,15 @@ Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> picture, const s
                   picture.stride() * static_cast<std::ptrdiff_t>(sizeof(Rgba8)), shown);
 }
 
+Result<std::vector<std::byte>> encode_jpeg(ConstImageView<Rgba8> picture, int quality, const std::string& shown) {
+    OIIO::ImageSpec spec(picture.width(), picture.height(), 3, OIIO::TypeUInt8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("compression", "jpeg:" + std::to_string(quality));
+    spec.attribute("jpeg:subsampling", "4:2:0");
+    return encode("jpeg", spec, OIIO::TypeUInt8, picture.data(), sizeof(Rgba8),
+                  picture.stride() * static_cast<std::ptrdiff_t>(sizeof(Rgba8)), shown);
+}
+
 Result<std::vector<std::byte>> encode_exr(ConstImageView<RgbaF> picture, const std::string& shown) {
     std::vector<RgbaF> associated;
     associated.reserve(static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height()));
@@ -282,6 +291,7 @@ const Backend& table() {
         made.read_picture_linear = read_picture_linear;
         made.read_channel = read_channel;
         made.encode_png = encode_png;
+        made.encode_jpeg = encode_jpeg;
         made.encode_exr = encode_exr;
         made.encode_exr_channel = encode_exr_channel;
         made.open_video = open_video;

@@ -40,6 +40,8 @@ struct Backend {
     Result<Image<RgbaF>> (*read_picture_linear)(const std::string& path) = nullptr;
     Result<Image<float>> (*read_channel)(const std::string& path) = nullptr;
     Result<std::vector<std::byte>> (*encode_png)(ConstImageView<Rgba8> picture, const std::string& shown) = nullptr;
+    Result<std::vector<std::byte>> (*encode_jpeg)(ConstImageView<Rgba8> picture, int quality,
+                                                  const std::string& shown) = nullptr;
     Result<std::vector<std::byte>> (*encode_exr)(ConstImageView<RgbaF> picture, const std::string& shown) = nullptr;
     Result<std::vector<std::byte>> (*encode_exr_channel)(ConstImageView<float> channel,
                                                          const std::string& shown) = nullptr;
@@ -48,7 +50,7 @@ struct Backend {
 };
 
 // Grows with every change of the declarations above.
-inline constexpr std::uint32_t kBackendVersion = 2;
+inline constexpr std::uint32_t kBackendVersion = 3;
 inline constexpr const char* kBackendFileName = "librayspace_pictures.so";
 inline constexpr const char* kBackendSymbol = "rayspace_pictures_backend";
 using BackendFunction = const Backend* (*)();

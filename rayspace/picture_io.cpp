@@ -59,17 +59,16 @@ Status check_size(const std::string& shown, int width, int height) {
                  " pixels cannot be written; each side must be 1.." + std::to_string(kMaxPictureSide_px)};
 }
 
-template <class Pixel>
-Status write_encoded(const fs::path& path, ConstImageView<Pixel> picture,
-                     Result<std::vector<std::byte>> (*pictures::Backend::*encode)(ConstImageView<Pixel>,
-                                                                                  const std::string&)) {
+// `encode` makes the file's bytes with the backend.
+template <class Pixel, class Encode>
+Status write_encoded(const fs::path& path, ConstImageView<Pixel> picture, const Encode& encode) {
     if (Status status = check_size(path.string(), picture.width(), picture.height()); !status) return status;
     const auto backend = backend_for(path);
     if (!backend) return backend.error();
     // The place is tried before the work is done.
     auto file = StagedFile::create(path);
     if (!file) return file.error();
-    const auto bytes = ((*backend)->*encode)(picture, path.string());
+    const Result<std::vector<std::byte>> bytes = encode(**backend);
     if (!bytes) return bytes.error();
     if (Status status = file->write(*bytes); !status) return status;
     return file->commit();
@@ -98,7 +97,15 @@ Result<Image<float>> read_channel(const fs::path& path) {
 }
 
 Status write_png(const fs::path& path, ConstImageView<Rgba8> picture) {
-    return write_encoded(path, picture, &pictures::Backend::encode_png);
+    return write_encoded(path, picture,
+                         [&](const pictures::Backend& backend) { return backend.encode_png(picture, path.string()); });
+}
+
+Status write_jpeg(const fs::path& path, ConstImageView<Rgba8> picture, int quality) {
+    RS_CHECK(quality >= 1 && quality <= 100);
+    return write_encoded(path, picture, [&](const pictures::Backend& backend) {
+        return backend.encode_jpeg(picture, quality, path.string());
+    });
 }
 
 Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> picture, const std::string& shown) {
@@ -108,11 +115,14 @@ Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> picture, const s
 }
 
 Status write_exr(const fs::path& path, ConstImageView<RgbaF> picture) {
-    return write_encoded(path, picture, &pictures::Backend::encode_exr);
+    return write_encoded(path, picture,
+                         [&](const pictures::Backend& backend) { return backend.encode_exr(picture, path.string()); });
 }
 
 Status write_exr_channel(const fs::path& path, ConstImageView<float> channel) {
-    return write_encoded(path, channel, &pictures::Backend::encode_exr_channel);
+    return write_encoded(path, channel, [&](const pictures::Backend& backend) {
+        return backend.encode_exr_channel(channel, path.string());
+    });
 }
 
 struct VideoWriter::Backend {

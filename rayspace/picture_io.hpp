@@ -48,6 +48,9 @@ Result<Image<float>> read_channel(const std::filesystem::path& path);
 // PNG, 8 bit, straight alpha.
 Status write_png(const std::filesystem::path& path, ConstImageView<Rgba8> picture);
 
+// JPEG as cameras write it: 8-bit sRGB, alpha left out, colour differences at half the resolution. `quality` 1..100.
+Status write_jpeg(const std::filesystem::path& path, ConstImageView<Rgba8> picture, int quality);
+
 // The bytes that write_png would write, for pictures inside of other files; `shown` names the picture in errors.
 Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> picture, const std::string& shown);
 

@@ -1,16 +1,20 @@
 #include "capture/photos/import.hpp"
 
+#include "capture/calibration/turn_diagnosis.hpp"
+#include "capture/photos/bounded_work.hpp"
 #include "capture/photos/cut_turn.hpp"
+#include "capture/photos/import_rig.hpp"
 #include "capture/photos/photo_folder.hpp"
 #include "capture/photos/repeat.hpp"
 #include "capture/photos/survey.hpp"
-#include "capture/photos/turning.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/file_output.hpp"
+#include "rayspace/picture_io.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <mutex>
 #include <system_error>
 
 namespace rs::capture {
@@ -18,11 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDoubtfulSpread = 0.01;  // of the picture's width
-
 Status check(const ImportOptions& options) {
-    if (!(options.fov_deg >= 1 && options.fov_deg <= 120)) {
-        return Error{"--fov " + std::to_string(options.fov_deg) +
+    if (options.fov_deg && !(*options.fov_deg >= 1 && *options.fov_deg <= 120)) {
+        return Error{"--fov " + std::to_string(*options.fov_deg) +
                      ": give the horizontal field of view, 1 to 120 degrees"};
     }
     if (options.degrees_per_view && !(*options.degrees_per_view >= 0.01 && *options.degrees_per_view <= 180)) {
@@ -48,90 +50,122 @@ Status check_places(const ImportOptions& options) {
                  ", which would be replaced; give another place with -o"};
 }
 
-void find_axis(const ImportOptions& options, const PhotoFolder& folder, const CutTurn& turn, bool closed,
-               ImportReport& report) {
-    report.axis_x_px = folder.width / 2.0;
-    report.axis_from = "picture middle";
-    if (options.axis_x_px) {
-        report.axis_x_px = *options.axis_x_px;
-        report.axis_from = "given";
-        return;
-    }
-    const auto axis = turn.outline.axis();
-    if (!closed || !axis) {
-        report.notes.push_back(std::string("the axis cannot be found ") +
-                               (closed ? "(the object reaches the picture's sides)" : "from less than a full turn") +
-                               "; the picture's middle is taken, --axis-x PX sets it");
-        return;
-    }
-    report.axis_x_px = axis->x_px;
-    report.axis_spread_px = axis->spread_px;
-    report.axis_from = "silhouettes";
-    if (axis->spread_px > kDoubtfulSpread * folder.width) {
-        report.notes.push_back("the axis column is doubtful: the rows differ by " +
-                               std::to_string(std::lround(axis->spread_px)) +
-                               " px (camera not level, or steps uneven); --axis-x PX sets it");
-    }
+Status make_folder(const fs::path& folder, const fs::path& output) {
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    if (failure) return Error{output.string() + ": cannot be written (" + failure.message() + "); check the disk"};
+    return {};
 }
 
-void find_turning_sense(const ImportOptions& options, const PhotoFolder& folder, const CutTurn& turn, bool closed,
-                        ImportReport& report) {
-    report.turning_from = "assumed";
-    if (options.turning) {
-        report.turning = *options.turning;
-        report.turning_from = "given";
-        return;
+// What stands where another photograph does adds nothing but a place where two pictures disagree.
+void leave_out_repeats(ImportReport& report) {
+    for (const int view : repeated_views(report.calibration.calibration->model.angles_rad)) {
+        report.left_out.push_back(report.source_names[static_cast<std::size_t>(view)]);
     }
-    const double scale = static_cast<double>(turn.small.front().width()) / folder.width;
-    const TurnOutline::Box box = turn.outline.visible();
-    const double extent_px = std::max(report.axis_x_px - box.left, box.right - report.axis_x_px);
-    const TurningEvidence evidence =
-        find_turning(turn.small, report.axis_x_px * scale, extent_px * scale, radians(report.step_deg), closed);
-    if (evidence.turning) {
-        report.turning = *evidence.turning;
-        report.turning_from = "pictures";
-    } else {
-        report.notes.push_back(
-            "which way the object turns is not clear from the pictures; clockwise as seen from above is "
-            "assumed, --counter-clockwise says otherwise");
-    }
+    if (report.left_out.empty()) return;
+    report.notes.push_back(report.left_out.front() +
+                           (report.left_out.size() > 1
+                                ? " and " + std::to_string(report.left_out.size() - 1) + " more repeat other pictures"
+                                : " repeats another picture") +
+                           " and " + (report.left_out.size() > 1 ? "are" : "is") + " left out of the set");
 }
 
-// JSON takes UTF-8 only; file names may hold any bytes.
-std::string utf8(const std::string& name) {
-    return nlohmann::json::parse(nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+// Writes the upright pictures of all views that are not left out; what they cover together.
+Result<TurnOutline::Box> rectify(const PhotoFolder& folder, const fs::path& cut, const fs::path& output,
+                                 const ImportReport& report, Progress* progress) {
+    std::vector<std::size_t> number(folder.photos.size(), 0);  // in the set
+    std::vector<bool> is_left_out(folder.photos.size(), false);
+    for (std::size_t i = 0, next = 0; i < folder.photos.size(); ++i) {
+        is_left_out[i] =
+            std::find(report.left_out.begin(), report.left_out.end(), report.source_names[i]) != report.left_out.end();
+        number[i] = is_left_out[i] ? 0 : next++;
+    }
+    const TurntableModel& model = report.calibration.calibration->model;
+    TurnOutline outline(report.frame.lens.width, report.frame.lens.height);
+    std::mutex mutex;
+    const auto work = [&](std::size_t i) -> Status {
+        if (is_left_out[i]) return {};
+        const Result<Image<Rgba8>> picture = read_picture(cut / cut_picture_name(i));
+        if (!picture) return picture.error();
+        const Image<Rgba8> upright = rectified(model, report.frame, *picture);
+        if (Status status = write_png(output / cut_picture_name(number[i]), upright); !status) return status;
+        TurnOutline own(upright.width(), upright.height());
+        own.add(upright);
+        const std::lock_guard lock(mutex);
+        outline.merge(own);
+        return {};
+    };
+    constexpr int kRectifyBytesPerPixel = kReadBytesPerPixel + 24;
+    if (Status status = for_each_photo(folder, kRectifyBytesPerPixel, "rectifying", progress, work); !status) {
+        return status.error();
+    }
+    return outline.visible();
 }
 
-Rig make_rig(const ImportOptions& options, const PhotoFolder& folder, const ImportReport& report,
-             const TurnOutline::Box& visible) {
-    NominalRigOptions nominal;
-    nominal.width = folder.width;
-    nominal.height = folder.height;
-    nominal.views = report.views;
-    nominal.fov_deg = options.fov_deg;
-    nominal.step_deg = report.step_deg;
-    nominal.axis_x_px = report.axis_x_px;
-    nominal.turning = report.turning;
-    Rig rig = make_nominal_rig(nominal, visible);
-    for (std::size_t i = 0; i < rig.views.size(); ++i) {
-        rig.views[i].file_path = cut_picture_name(i);
-        rig.views[i].extras["source_file"] = utf8(folder.photos[i].filename().string());
+Result<CalibrationRequest> calibration_request(const ImportOptions& options, const ImportReport& report) {
+    Result<KnownInputs> of_photographs = known_of_photographs(options.known, report.source_names);
+    if (!of_photographs) return of_photographs.error();
+    CalibrationRequest request{options.calibration, std::move(*of_photographs), options.board, {}};
+    KnownInputs& known = request.known;
+    const double width = report.width;
+    if (options.fov_deg) known.f_px = 0.5 * width / std::tan(0.5 * radians(*options.fov_deg));
+    if (options.turning) known.counter_clockwise = *options.turning == Turning::kCounterClockwise;
+    const double sense = report.nominal.turning == Turning::kCounterClockwise ? 1 : -1;
+    if (options.degrees_per_view) known.step_rad = sense * radians(*options.degrees_per_view);
+
+    TurntableModel& nominal = request.nominal;
+    nominal.lens = {report.width, report.height, 0, 0.5 * width, 0.5 * report.height, 0, 0};
+    nominal.lens.f_px = known.f_px.value_or(0.5 * width / std::tan(0.5 * radians(kNominalFieldOfView_deg)));
+    if (known.principal_point) {
+        nominal.lens.cx = known.principal_point->x;
+        nominal.lens.cy = known.principal_point->y;
     }
-    rig.extras["axis_note"] = "Y is the turntable's axis; it appears in the column cx (" + report.axis_from + ")";
-    const Rgba8& colour = report.backdrop_colour;
-    nlohmann::json& made = rig.extras["photo_import"];
-    made["calibration"] = "nominal: equal steps, level camera, assumed field of view";
-    made["backdrop"] = to_string(report.backdrop);
-    made["backdrop_from"] = report.backdrop_given ? "given" : "pictures";
-    if (report.backdrop != BackdropKind::kAlpha) made["backdrop_srgb"] = {colour.r, colour.g, colour.b};
-    made["axis_column_px"] = report.axis_x_px;
-    made["axis_from"] = report.axis_from;
-    made["turning"] = to_string(report.turning);
-    made["turning_from"] = report.turning_from;
-    made["degrees_per_view"] = report.step_deg;
-    made["field_of_view_deg"] = options.fov_deg;
-    if (!report.dropped_repeat.empty()) made["dropped_repeat"] = utf8(report.dropped_repeat);
-    return rig;
+    if (known.distortion) {
+        nominal.lens.k1 = known.distortion->x;
+        nominal.lens.k2 = known.distortion->y;
+    }
+    nominal.pose.pan_rad = std::atan((nominal.lens.cx - report.nominal.axis_x_px) / nominal.lens.f_px);
+    for (std::size_t i = 0; i < report.source_names.size(); ++i) {
+        nominal.angles_rad.push_back(sense * static_cast<double>(i) * radians(report.nominal.step_deg));
+    }
+    return request;
+}
+
+Status finish_nominal(const ImportOptions& options, const CutTurn& turn, const fs::path& cut, const fs::path& staged,
+                      ImportReport& report) {
+    report.notes.insert(report.notes.end(), report.nominal.notes.begin(), report.nominal.notes.end());
+    report.method = CalibrationMethod::kNominal;
+    report.views = static_cast<int>(report.source_names.size());
+    report.step_deg = report.nominal.step_deg;
+    report.turning = report.nominal.turning;
+    std::error_code failure;
+    fs::rename(cut / "images", staged / "images", failure);
+    if (failure) return Error{options.output.string() + ": cannot be written (" + failure.message() + ")"};
+    const Rig rig = nominal_import_rig(options, report, turn.outline.visible());
+    report.fl_px = rig.views.front().camera.fl_x;
+    report.distance = glm::length(rig.views.front().camera.centre());
+    return write_rig(staged / kRigFileName, rig);
+}
+
+Status finish_calibrated(const ImportOptions& options, const PhotoFolder& folder, const CutTurn& turn,
+                         const fs::path& cut, const fs::path& staged, ImportReport& report, Progress* progress) {
+    const Calibration& calibration = *report.calibration.calibration;
+    report.method = calibration.method;
+    report.step_deg = std::abs(degrees(calibration.step_rad));
+    report.turning = calibration.step_rad > 0 ? Turning::kCounterClockwise : Turning::kClockwise;
+    report.notes.insert(report.notes.end(), calibration.warnings.begin(), calibration.warnings.end());
+    leave_out_repeats(report);
+    report.views = static_cast<int>(report.source_names.size() - report.left_out.size());
+    const Result<UprightFrame> frame = plan_upright_frame(calibration.model, turn.boxes);
+    if (!frame) return frame.error();
+    report.frame = *frame;
+    if (Status status = make_folder(staged / "images", options.output); !status) return status;
+    const Result<TurnOutline::Box> visible = rectify(folder, cut, staged, report, progress);
+    if (!visible) return visible.error();
+    const Rig rig = calibrated_import_rig(report, *visible);
+    report.fl_px = rig.views.front().camera.fl_x;
+    report.distance = glm::length(rig.views.front().camera.centre());
+    return write_rig(staged / kRigFileName, rig);
 }
 
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
@@ -140,10 +174,8 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
     if (Status status = check_places(options); !status) return status.error();
     Result<StagedFolder> staged = StagedFolder::create(options.output);
     if (!staged) return staged.error();
-    std::error_code failure;
-    fs::create_directory(staged->temporary_path() / "images", failure);
-    if (failure)
-        return Error{options.output.string() + ": cannot be written (" + failure.message() + "); check the disk"};
+    const fs::path cut = staged->temporary_path() / "cut";
+    if (Status status = make_folder(cut / "images", options.output); !status) return status.error();
 
     ImportReport report;
     report.width = folder->width;
@@ -161,35 +193,45 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
                                " and is left out");
         folder->photos.pop_back();
     }
-    const std::size_t views = folder->photos.size();
-    report.views = static_cast<int>(views);
-    report.step_deg = options.degrees_per_view.value_or(360.0 / static_cast<double>(views));
-    const bool closed =
-        std::abs(report.step_deg * static_cast<double>(views) - 360) < 1.5 * report.step_deg && views >= 4;
+    for (const fs::path& photo : folder->photos) report.source_names.push_back(photo.filename().string());
 
-    const Result<Backdrop> backdrop = find_backdrop(*survey, options.backdrop, options.photos.string());
-    if (!backdrop) return backdrop.error();
-    report.backdrop = backdrop->kind;
-    report.backdrop_colour = backdrop->colour;
+    Backdrop backdrop;
+    report.masks_given = !options.masks.empty();
+    if (!report.masks_given) {
+        Result<Backdrop> found = find_backdrop(*survey, options.backdrop, options.photos.string());
+        if (!found) return found.error();
+        backdrop = std::move(*found);
+    }
+    report.backdrop = backdrop.kind;
+    report.backdrop_colour = backdrop.colour;
     report.backdrop_given = options.backdrop.kind.has_value();
     survey = Survey{};  // the samples are not needed any more
 
-    const Result<CutTurn> turn = cut_turn(*folder, *backdrop, staged->temporary_path(), progress);
+    Result<CutTurn> turn = cut_turn(*folder, {backdrop, options.masks}, cut, progress);
     if (!turn) return turn.error();
     report.min_coverage = turn->min_coverage;
     report.max_coverage = turn->max_coverage;
     if (turn->at_border > 0) {
         report.notes.push_back("the object reaches the picture's border in " + std::to_string(turn->at_border) +
-                               " of " + std::to_string(views) + " pictures; it will look cut off there");
+                               " of " + std::to_string(folder->photos.size()) +
+                               " pictures; it will look cut off there");
     }
-    find_axis(options, *folder, *turn, closed, report);
-    const TurnOutline::Box visible = turn->outline.visible();
-    find_turning_sense(options, *folder, *turn, closed, report);
+    report.nominal = find_nominal_turn({options.degrees_per_view, options.axis_x_px, options.turning}, *folder, *turn);
+    const Result<CalibrationRequest> request = calibration_request(options, report);
+    if (!request) return request.error();
+    Result<PhotoCalibration> calibration = calibrate_photos(*folder, cut, *request, progress);
+    if (!calibration) return calibration.error();
+    report.calibration = std::move(*calibration);
+    report.notes.insert(report.notes.end(), report.calibration.notes.begin(), report.calibration.notes.end());
 
-    const Rig rig = make_rig(options, *folder, report, visible);
-    report.fl_px = rig.views.front().camera.fl_x;
-    report.distance = glm::length(rig.views.front().camera.centre());
-    if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status.error();
+    Status finished = report.calibration.calibration
+                          ? finish_calibrated(options, *folder, *turn, cut, staged->temporary_path(), report, progress)
+                          : finish_nominal(options, *turn, cut, staged->temporary_path(), report);
+    if (!finished) return finished.error();
+    report.small_cut_outs = std::move(turn->small);
+    std::error_code failure;
+    fs::remove_all(cut, failure);
+    if (failure) return Error{options.output.string() + ": cannot be written (" + failure.message() + ")"};
     if (Status status = staged->commit(); !status) return status.error();
     return report;
 }

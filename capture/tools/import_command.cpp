@@ -1,12 +1,19 @@
 #include "capture/tools/import_command.hpp"
 
 #include "capture/photos/import.hpp"
+#include "capture/photos/import_page.hpp"
+#include "rayspace/conventions.hpp"
+#include "rayspace/file_output.hpp"
 #include "rayspace/progress.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 
 namespace rs::capture {
@@ -15,8 +22,13 @@ namespace {
 struct CommandLine {
     ImportOptions import;
     std::string backdrop = "auto";
+    std::string board;
     bool clockwise = false;
     bool counter_clockwise = false;
+    std::string report;
+    std::string known;
+    bool equal_steps = false;
+    bool principal_point = false;
     bool json = false;
     bool quiet = false;
 };
@@ -27,27 +39,93 @@ std::string backdrop_text(const ImportReport& report) {
     return std::to_string(c.r) + "," + std::to_string(c.g) + "," + std::to_string(c.b);
 }
 
+nlohmann::json finite(double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+nlohmann::json calibration_json(const Calibration& calibration) {
+    const Lens& lens = calibration.model.lens;
+    const CameraPose& pose = calibration.model.pose;
+    const ModelDeviations& off = calibration.deviations;
+    const auto estimate = [](double value, double deviation) {
+        return nlohmann::json{{"value", value}, {"deviation", finite(deviation)}};
+    };
+    nlohmann::json json;
+    json["points"] = calibration.points;
+    json["observations"] = calibration.observations;
+    json["rms_px"] = calibration.rms_px;
+    json["held_out_rms_px"] = calibration.held_out_rms_px;
+    json["f_px"] = estimate(lens.f_px, off.f_px);
+    json["cx"] = estimate(lens.cx, off.cx);
+    json["cy"] = estimate(lens.cy, off.cy);
+    json["k1"] = estimate(lens.k1, off.k1);
+    json["k2"] = estimate(lens.k2, off.k2);
+    json["pan_deg"] = degrees(pose.pan_rad);
+    json["tilt_deg"] = estimate(degrees(pose.tilt_rad), degrees(off.tilt_rad));
+    json["roll_deg"] = estimate(degrees(pose.roll_rad), degrees(off.roll_rad));
+    json["axis_direction_deviation_deg"] = finite(degrees(off.axis_direction_rad));
+    json["axis_position_deviation_px"] = finite(off.axis_position_px);
+    const auto column = axis_column(lens, pose, 0.5 * lens.height);
+    json["axis_column_px"] = column ? nlohmann::json(*column) : nlohmann::json();
+    for (std::size_t i = 0; i < calibration.model.angles_rad.size(); ++i) {
+        json["angles"].push_back(estimate(degrees(calibration.model.angles_rad[i]),
+                                          i < off.angles_rad.size() ? degrees(off.angles_rad[i]) : 0));
+    }
+    return json;
+}
+
 void print_json(const std::string& output, const ImportReport& report) {
     nlohmann::json json;
     json["output"] = output;
     json["views"] = report.views;
     json["width"] = report.width;
     json["height"] = report.height;
-    json["backdrop"] = backdrop_text(report);
-    json["backdrop_from"] = report.backdrop_given ? "given" : "pictures";
+    json["backdrop"] = report.masks_given ? "masks" : backdrop_text(report);
+    json["backdrop_from"] = report.backdrop_given || report.masks_given ? "given" : "pictures";
     json["dropped_repeat"] = report.dropped_repeat;
+    json["left_out"] = report.left_out;
+    json["method"] = to_string(report.method);
+    if (report.calibration.calibration) {
+        json["calibration"] = calibration_json(*report.calibration.calibration);
+    } else {
+        json["axis_column_px"] = report.nominal.axis_x_px;
+        json["axis_spread_px"] = report.nominal.axis_spread_px;
+        json["axis_from"] = report.nominal.axis_from;
+        json["turning_from"] = report.nominal.turning_from;
+    }
     json["degrees_per_view"] = report.step_deg;
-    json["axis_column_px"] = report.axis_x_px;
-    json["axis_spread_px"] = report.axis_spread_px;
-    json["axis_from"] = report.axis_from;
     json["turning"] = to_string(report.turning);
-    json["turning_from"] = report.turning_from;
     json["fl_px"] = report.fl_px;
     json["distance_radii"] = report.distance;
     json["coverage"] = {report.min_coverage, report.max_coverage};
     json["notes"] = report.notes;
     const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
     std::printf("%s\n", text.c_str());
+}
+
+void print_summary(const std::string& output, const ImportReport& report) {
+    std::printf(
+        "%s: %d views of %dx%d photographs, backdrop %s (%s), %.4g degrees per view %s, coverage %.1f..%.1f %%\n",
+        output.c_str(), report.views, report.width, report.height,
+        report.masks_given ? "masks" : backdrop_text(report).c_str(),
+        report.backdrop_given || report.masks_given ? "given" : "from the pictures", report.step_deg,
+        to_string(report.turning).c_str(), 100 * report.min_coverage, 100 * report.max_coverage);
+    if (!report.calibration.calibration) {
+        std::printf(
+            "calibration: nominal (equal steps, a level camera, an assumed lens); axis at column %.1f (%s), turning "
+            "%s\n",
+            report.nominal.axis_x_px, report.nominal.axis_from.c_str(), report.nominal.turning_from.c_str());
+        return;
+    }
+    const Calibration& found = *report.calibration.calibration;
+    std::printf("calibration: %s, %d points in %d observations, %.2f px RMS (%.2f px held out)\n",
+                to_string(found.method).c_str(), found.points, found.observations, found.rms_px, found.held_out_rms_px);
+    std::printf(
+        "  focal length %.1f +- %.1f px, camera %.2f +- %.2f degrees above, axis direction +- %.3f degrees, "
+        "position +- %.2f px\n",
+        found.model.lens.f_px, found.deviations.f_px, degrees(found.model.pose.tilt_rad),
+        degrees(found.deviations.tilt_rad), degrees(found.deviations.axis_direction_rad),
+        found.deviations.axis_position_px);
 }
 
 Status run_import(const CommandLine& given) {
@@ -57,9 +135,33 @@ Status run_import(const CommandLine& given) {
     options.backdrop = *backdrop;
     if (given.clockwise) options.turning = Turning::kClockwise;
     if (given.counter_clockwise) options.turning = Turning::kCounterClockwise;
+    std::optional<StagedFile> page;  // made before the work, so that a bad place for it is told at once
+    if (!given.report.empty()) {
+        Result<StagedFile> created = StagedFile::create(given.report);
+        if (!created) return created.error();
+        page = std::move(*created);
+    }
+    if (!given.board.empty()) {
+        const Result<BoardDesign> board = parse_board_design(given.board);
+        if (!board) return board.error();
+        options.board = *board;
+    }
+    if (!given.known.empty()) {
+        Result<KnownFile> known = read_known_file(given.known);
+        if (!known) return known.error();
+        options.known = std::move(*known);
+    }
+    options.known.known.equal_steps = given.equal_steps;
+    options.known.known.estimate_principal_point = given.principal_point;
     ProgressBar bar(given.quiet);
     const Result<ImportReport> report = import_photos(options, &bar);
     if (!report) return report.error();
+    if (page) {
+        const Result<std::string> text = import_page(options, *report);
+        if (!text) return text.error();
+        if (Status status = page->write(std::as_bytes(std::span(*text))); !status) return status;
+        if (Status status = page->commit(); !status) return status;
+    }
     for (const std::string& note : report->notes) {
         if (!given.quiet) std::fprintf(stderr, "rs-capture: %s\n", note.c_str());
     }
@@ -67,13 +169,7 @@ Status run_import(const CommandLine& given) {
     if (given.json) {
         print_json(output, *report);
     } else {
-        std::printf(
-            "%s: %d views %dx%d, backdrop %s (%s), %.4g degrees per view %s (%s), axis at column %.1f (%s), coverage "
-            "%.1f..%.1f %%\n",
-            output.c_str(), report->views, report->width, report->height, backdrop_text(*report).c_str(),
-            report->backdrop_given ? "given" : "from the pictures", report->step_deg,
-            to_string(report->turning).c_str(), report->turning_from.c_str(), report->axis_x_px,
-            report->axis_from.c_str(), 100 * report->min_coverage, 100 * report->max_coverage);
+        print_summary(output, *report);
     }
     return {};
 }
@@ -101,18 +197,46 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
         });
     command
         ->add_option(
-            "--fov", given->import.fov_deg,
-            "Horizontal field of view in degrees. Nominal: it changes how strong the perspective of new views is, "
-            "not what the pictures show")
-        ->check(CLI::Range(1.0, 120.0))
-        ->capture_default_str();
+            "--masks", given->import.masks,
+            "Folder with one mask per photograph, of its name, white where the object is; instead of cutting out")
+        ->check(CLI::ExistingDirectory);
+    command
+        ->add_option(
+            "--calibration", given->import.calibration,
+            "auto (the surest that works), board, tracks, silhouettes or nominal (equal steps, a level camera)")
+        ->transform(CLI::CheckedTransformer(
+                        std::map<std::string, CalibrationChoice>{{"auto", CalibrationChoice::kAuto},
+                                                                 {"board", CalibrationChoice::kBoard},
+                                                                 {"tracks", CalibrationChoice::kTracks},
+                                                                 {"silhouettes", CalibrationChoice::kSilhouettes},
+                                                                 {"nominal", CalibrationChoice::kNominal}})
+                        .description(""))
+        ->default_str("auto");
+    command->add_option(
+        "--board", given->board,
+        "The board that lies on the plate: default, or how it differs from what rs-capture board prints, "
+        "as squares=9x9,square-mm=18");
+    command
+        ->add_option(
+            "--known", given->known,
+            "What is known and held: a transforms.json, a Middlebury *_par.txt, or intrinsics that OpenCV wrote "
+            "(.yml, .yaml, .xml)")
+        ->check(CLI::ExistingPath);
+    command->add_flag("--equal-steps", given->equal_steps, "All steps are the same; only their common size is found");
+    command->add_flag("--principal-point", given->principal_point,
+                      "Find the principal point too (default: the picture's middle)");
+    command
+        ->add_option("--fov", given->import.fov_deg,
+                     "Horizontal field of view in degrees, held (default: found by calibration; 25 in a nominal rig)")
+        ->check(CLI::Range(1.0, 120.0));
     command
         ->add_option("--degrees-per-view", given->import.degrees_per_view,
-                     "Step from picture to picture (default: 360 / number of pictures)")
+                     "Step from picture to picture, held (default: every angle is found; in a nominal rig 360 / number "
+                     "of pictures)")
         ->check(CLI::Range(0.01, 180.0));
-    command->add_option(
-        "--axis-x", given->import.axis_x_px,
-        "Picture column of the turntable's axis in px (default: from the silhouettes of the full turn)");
+    command->add_option("--axis-x", given->import.axis_x_px,
+                        "Picture column of the turntable's axis in px, for a nominal rig (default: from the "
+                        "silhouettes of the full turn)");
     CLI::Option* clockwise = command->add_flag("--clockwise", given->clockwise,
                                                "The object turns clockwise seen from above: its front goes to the left "
                                                "(default: read from the pictures, this where they do not tell)");
@@ -120,9 +244,11 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
         ->add_flag("--counter-clockwise", given->counter_clockwise,
                    "The object turns the other way: its front goes to the right")
         ->excludes(clockwise);
+    command->add_option("--report", given->report,
+                        "Also write this page (HTML): estimates, residuals, the axis on the photographs, the mattes");
     command->add_flag("--json", given->json, "Print the summary as JSON");
     command->add_flag("-q,--quiet", given->quiet, "No progress bar, no notes");
-    command->footer("Example: rs-capture import photos/ -o shoe.set");
+    command->footer("Example: rs-capture import photos/ -o shoe.set --report shoe.html");
     command->callback([given, &run] { run = [given] { return run_import(*given); }; });
 }
 

@@ -1,5 +1,6 @@
 // rs-capture: photographs or traced pictures -> a calibrated, matted capture set.
 
+#include "capture/tools/board_command.hpp"
 #include "capture/tools/import_command.hpp"
 #include "capture/tools/synth_command.hpp"
 #include "rayspace/tool_main.hpp"
@@ -14,5 +15,6 @@ int main(int argc, char** argv) {
     std::function<rs::Status()> run;
     rs::capture::add_synth_command(app, run);
     rs::capture::add_import_command(app, run);
+    rs::capture::add_board_command(app, run);
     return rs::tool_main(app, argc, argv, run);
 }

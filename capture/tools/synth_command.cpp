@@ -1,6 +1,10 @@
 #include "capture/tools/synth_command.hpp"
 
+#include "capture/tools/as_photos_options.hpp"
+#include "capture/tools/kept_input.hpp"
+#include "capture/tools/number_range.hpp"
 #include "capture/tracer/capture_set.hpp"
+#include "capture/tracer/photo_session.hpp"
 #include "capture/tracer/scene_file.hpp"
 #include "capture/tracer/tracer.hpp"
 #include "datasets-synthetic/objects.hpp"
@@ -11,10 +15,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +24,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct Options {
     bool list = false;
     bool json = false;
     bool quiet = false;
+    AsPhotosOptions as_photos;
 };
 
 constexpr const char* kExamples = R"(
@@ -82,16 +84,6 @@ Result<std::uint64_t> parse_seed(const std::string& text) {
     return seed;
 }
 
-// A number in the range; CLI::Range alone lets NaN pass.
-CLI::Validator within(double low, double high) {
-    const CLI::Validator is_number(
-        [](const std::string& text) {
-            return std::isnan(std::strtod(text.c_str(), nullptr)) ? "'" + text + "' is no number" : std::string();
-        },
-        "");
-    return CLI::Range(low, high) & is_number;
-}
-
 // The value, or wrong usage of `option`.
 template <class T>
 T parsed(const std::string& option, const Result<T>& value) {
@@ -109,31 +101,14 @@ Status check_usage(const Options& options) {
             "--poses: the file says where the cameras are; leave out --views, --size, --elevation, --first-angle, "
             "--distance and --focal-widths"};
     }
-    return {};
-}
-
-// Where `path` is once links are followed, and where its name is, which differs where it is a link itself.
-std::vector<std::filesystem::path> places_of(const std::filesystem::path& path) {
-    std::error_code ignored;
-    const std::filesystem::path plain = path.has_filename() ? path : path.parent_path();  // "set/" is "set"
-    const std::filesystem::path folder = plain.has_parent_path() ? plain.parent_path() : std::filesystem::path(".");
-    return {std::filesystem::weakly_canonical(plain, ignored),
-            std::filesystem::weakly_canonical(folder, ignored) / plain.filename()};
-}
-
-bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder) {
-    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
-}
-
-// A set's folder is replaced whole, with whatever stands in it.
-Status check_output_keeps(const std::filesystem::path& output, const std::filesystem::path& input) {
-    if (input.empty()) return {};
-    for (const std::filesystem::path& folder : places_of(output)) {
-        for (const std::filesystem::path& place : places_of(input)) {
-            if (!is_within(place, folder)) continue;
-            return Error{output.string() + ": writing the set would replace this folder and " + input.string() +
-                         " with it; give another -o"};
-        }
+    if (!options.as_photos.asked) return {};
+    if (!options.poses.empty() || options.first_angle_deg != 0 || options.depth || options.format != "png") {
+        return Error{
+            "--as-photos: the truth says where the camera is; leave out --poses, --first-angle, --depth and "
+            "--format"};
+    }
+    if (options.elevation_deg && !(*options.elevation_deg >= 0 && *options.elevation_deg <= 85)) {
+        return Error{"--as-photos: the camera must see the disc from above; give an --elevation of 0 to 85"};
     }
     return {};
 }
@@ -166,28 +141,74 @@ Result<Rig> choose_rig(const Options& options, const SceneFile& file) {
     return make_ring(ring);
 }
 
-void print_summary(const Options& options, const std::string& scene_name, const Rig& rig,
-                   const CaptureSetSummary& summary, int samples_per_pixel, double total_s) {
-    const Camera& camera = rig.views.front().camera;
+// What a run has made, for its summary.
+struct Made {
+    CaptureSetSummary summary;
+    PixelSize size;
+    double object_radius = 0;
+    int samples_per_pixel = 0;
+};
+
+void print_summary(const Options& options, const std::string& scene_name, const Made& made, double total_s) {
     if (options.json) {
         const nlohmann::json report = {{"set", options.output.string()},
                                        {"scene", scene_name},
-                                       {"views", summary.views},
-                                       {"width", camera.width},
-                                       {"height", camera.height},
-                                       {"spp", samples_per_pixel},
-                                       {"object_radius", rig.object_radius},
-                                       {"mean_coverage", summary.mean_coverage},
-                                       {"clipped_views", summary.clipped_views},
-                                       {"render_s", summary.render_s},
+                                       {"views", made.summary.views},
+                                       {"width", made.size.width},
+                                       {"height", made.size.height},
+                                       {"spp", made.samples_per_pixel},
+                                       {"object_radius", made.object_radius},
+                                       {"mean_coverage", made.summary.mean_coverage},
+                                       {"clipped_views", made.summary.clipped_views},
+                                       {"render_s", made.summary.render_s},
                                        {"total_s", total_s}};
         // Paths need not be UTF-8, JSON must.
         std::printf("%s\n", report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
         return;
     }
     std::printf("%s: %d views of %s, %dx%d, %d samples per pixel, %.0f %% covered, %.1f s\n", options.output.c_str(),
-                summary.views, scene_name.c_str(), camera.width, camera.height, samples_per_pixel,
-                100.0 * summary.mean_coverage, total_s);
+                made.summary.views, scene_name.c_str(), made.size.width, made.size.height, made.samples_per_pixel,
+                100.0 * made.summary.mean_coverage, total_s);
+}
+
+Result<Made> make_set(const Options& options, SceneFile file, Progress& progress) {
+    Result<Rig> rig = choose_rig(options, file);
+    if (!rig) return rig.error();
+    rig->object_radius = file.object_radius;
+
+    CaptureSetOptions set;
+    set.render.samples_per_pixel = options.samples_per_pixel.value_or(file.camera.samples_per_pixel);
+    set.render.seed = options.seed.value_or(file.seed);
+    set.render.depth = options.depth;
+    set.render.threads = options.threads;
+    set.format = options.format == "exr" ? PictureFormat::exr : PictureFormat::png;
+
+    const Result<Tracer> tracer = Tracer::create(std::move(file.scene));
+    if (!tracer) return tracer.error();
+    const Result<CaptureSetSummary> summary = write_capture_set(*tracer, *rig, set, options.output, &progress);
+    if (!summary) return summary.error();
+    const Camera& camera = rig->views.front().camera;
+    return Made{*summary, {camera.width, camera.height}, file.object_radius, set.render.samples_per_pixel};
+}
+
+Result<Made> make_photos(const Options& options, SceneFile file, Progress& progress) {
+    PhotoOptions photos = options.as_photos.photos;
+    SessionOptions& session = photos.session;
+    const PixelSize size = options.size.value_or(PixelSize{session.width, session.height});
+    session.views = options.views.value_or(session.views);
+    session.width = size.width;
+    session.height = size.height;
+    session.focal_widths = options.focal_widths.value_or(file.camera.focal_widths);
+    session.distance = options.distance_radii;
+    session.elevation_deg = options.elevation_deg.value_or(session.elevation_deg);
+    session.look_at_height = file.camera.look_at_height;
+    session.seed = options.seed.value_or(file.seed);
+    photos.samples_per_pixel = options.samples_per_pixel.value_or(file.camera.samples_per_pixel);
+    photos.threads = options.threads;
+    const Result<CaptureSetSummary> summary =
+        write_photo_session(std::move(file.scene), file.object_radius, photos, options.output, &progress);
+    if (!summary) return summary.error();
+    return Made{*summary, size, file.object_radius, photos.samples_per_pixel};
 }
 
 Status synthesise(const Options& options) {
@@ -195,38 +216,27 @@ Status synthesise(const Options& options) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begun = Clock::now();
 
-    for (const std::filesystem::path& input : {options.scene, options.poses}) {
+    std::vector<std::filesystem::path> inputs = input_files(options.as_photos);
+    inputs.insert(inputs.end(), {options.scene, options.poses});
+    for (const std::filesystem::path& input : inputs) {
         if (Status kept = check_output_keeps(options.output, input); !kept) return kept;
     }
     Result<SceneFile> file = load_scene_file(options.scene, synthetic::generate);
     if (!file) return file.error();
-    Result<Rig> rig = choose_rig(options, *file);
-    if (!rig) return rig.error();
-    rig->object_radius = file->object_radius;
-
-    CaptureSetOptions set;
-    set.render.samples_per_pixel = options.samples_per_pixel.value_or(file->camera.samples_per_pixel);
-    set.render.seed = options.seed.value_or(file->seed);
-    set.render.depth = options.depth;
-    set.render.threads = options.threads;
-    set.format = options.format == "exr" ? PictureFormat::exr : PictureFormat::png;
-
     const std::string scene_name = file->scene.name;
-    const Result<Tracer> tracer = Tracer::create(std::move(file->scene));
-    if (!tracer) return tracer.error();
     ProgressBar progress(options.quiet);
-    const Result<CaptureSetSummary> summary = write_capture_set(*tracer, *rig, set, options.output, &progress);
-    if (!summary) return summary.error();
+    const Result<Made> made = options.as_photos.asked ? make_photos(options, std::move(file).value(), progress)
+                                                      : make_set(options, std::move(file).value(), progress);
+    if (!made) return made.error();
     progress.finish();
-    if (summary->clipped_views > 0 && !options.quiet) {
+    if (made->summary.clipped_views > 0 && !options.quiet) {
         std::fprintf(
             stderr,
             "rs-capture: warning: the object touches the picture's edge in %d of %d views; use a larger --distance or "
             "a smaller --focal-widths\n",
-            summary->clipped_views, summary->views);
+            made->summary.clipped_views, made->summary.views);
     }
-    print_summary(options, scene_name, *rig, *summary, set.render.samples_per_pixel,
-                  std::chrono::duration<double>(Clock::now() - begun).count());
+    print_summary(options, scene_name, *made, std::chrono::duration<double>(Clock::now() - begun).count());
     return {};
 }
 
@@ -235,23 +245,25 @@ Status synthesise(const Options& options) {
 void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     const auto options = std::make_shared<Options>();
     CLI::App* synth = app.add_subcommand("synth", "Trace pictures of a synthetic object on a turntable");
-    synth->footer(kExamples);
+    synth->footer(std::string(kExamples) + kAsPhotosExamples);
     synth->add_option("SCENE", options->scene, "Mesh or recipe");
     synth->add_option("-o,--output", options->output, "Capture set to write: a folder")->type_name("SET");
-    synth->add_option("--views", options->views, "Cameras on the ring (recipe, or 90)")
+    synth->add_option("--views", options->views, "Cameras on the ring (recipe, or 90; photos: 36)")
         ->check(CLI::Range(1, kMaxViews))
         ->type_name("N");
     synth
         ->add_option_function<std::string>(
             "--size", [options](const std::string& text) { options->size = parsed("--size", parse_size(text)); },
-            "Picture size in pixels (recipe, or 512x512)")
+            "Picture size in pixels (recipe, or 512x512; photos: 640x512)")
         ->type_name("WxH");
     synth->add_option("--spp", options->samples_per_pixel, "Samples per pixel; best a power of two (recipe, or 64)")
         ->check(CLI::Range(1, 65536))
         ->type_name("N");
     synth->add_option("--poses", options->poses, "Cameras of this transforms.json instead of a ring")
         ->type_name("FILE");
-    synth->add_option("--elevation", options->elevation_deg, "Cameras' height above the horizon (recipe, or 0)")
+    synth
+        ->add_option("--elevation", options->elevation_deg,
+                     "Cameras' height above the horizon (recipe, or 0; photos: 20)")
         ->check(within(-89.0, 89.0))
         ->type_name("DEG");
     synth->add_option("--first-angle", options->first_angle_deg, "Turns the whole ring")
@@ -262,7 +274,9 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
             "--seed", [options](const std::string& text) { options->seed = parsed("--seed", parse_seed(text)); },
             "Seed of the pictures' noise; the object keeps the recipe's")
         ->type_name("N");
-    synth->add_option("--distance", options->distance_radii, "Distance to the axis in bounding radii (recipe, or 3.5)")
+    synth
+        ->add_option("--distance", options->distance_radii,
+                     "Distance to the axis in bounding radii (recipe, or 3.5; photos: to fit)")
         ->check(within(1.001, 1000.0))
         ->type_name("R");
     synth->add_option("--focal-widths", options->focal_widths, "Focal length in picture widths (recipe, or 1.4)")
@@ -278,6 +292,7 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     synth->add_flag("--list", options->list, "List the procedural objects and stop");
     synth->add_flag("--json", options->json, "Summary as JSON");
     synth->add_flag("-q,--quiet", options->quiet, "No progress bar, no warnings");
+    add_as_photos_options(*synth, options->as_photos);
     synth->callback([options, &run] {
         const Status usable = options->list ? Status{} : check_usage(*options);
         if (!usable) throw CLI::ValidationError(usable.error().message);  // wrong usage, which is not a failure

@@ -15,6 +15,9 @@ public:
     // Pixel values must be finite and not negative.
     explicit EnvironmentMap(Environment environment);
 
+    // As Environment::turn_rad.
+    void set_turn(float turn_rad) { turn_rad_ = turn_rad; }
+
     // No light at all: radiance() is 0 everywhere and sample() must not be called.
     [[nodiscard]] bool is_black() const { return row_cdf_.empty(); }
 

@@ -23,7 +23,7 @@ float brightness_of(const Material& material, const std::vector<Texture>& textur
 }  // namespace
 
 LightSet::LightSet(const Scene& scene, Environment environment, const glm::vec3& centre, float radius)
-    : scene_(scene), environment_(std::move(environment)) {
+    : scene_(scene), environment_turn_rad_(environment.turn_rad), environment_(std::move(environment)) {
     const float floor_distance2 = std::max(radius * radius, 1e-12F);
     const auto distance2 = [&](const glm::vec3& p) {
         return std::max(glm::dot(p - centre, p - centre), floor_distance2);
@@ -42,12 +42,13 @@ LightSet::LightSet(const Scene& scene, Environment environment, const glm::vec3&
     for (std::size_t i = 0; i < points_.size(); ++i) {
         add(SourceKind::point, i, luminance(points_[i].intensity) / distance2(points_[i].position));
     }
-    for (const RectangleLight& light : scene.rectangle_lights) {
+    for (std::size_t i = 0; i < scene.rectangle_lights.size(); ++i) {
+        const RectangleLight& light = scene.rectangle_lights[i];
         const glm::vec3 cross = glm::cross(light.edge_u, light.edge_v);
         const float area = glm::length(cross);
         if (!(area > 0.0F)) continue;
         const glm::vec3 middle = light.corner + 0.5F * (light.edge_u + light.edge_v);
-        rectangles_.push_back({light, cross / area, area});
+        rectangles_.push_back({light, cross / area, area, i});
         add(SourceKind::rectangle, rectangles_.size() - 1, luminance(light.radiance) * area / distance2(middle));
     }
     gather_emitters();
@@ -61,6 +62,24 @@ LightSet::LightSet(const Scene& scene, Environment environment, const glm::vec3&
         if (source.kind == SourceKind::environment) environment_probability_ = source.probability;
         if (source.kind == SourceKind::emitters) emitter_probability_ = source.probability;
         if (source.kind == SourceKind::rectangle) rectangles_[source.index].probability = source.probability;
+    }
+}
+
+void LightSet::turn(float angle_rad) {
+    const float c = std::cos(angle_rad);
+    const float s = std::sin(angle_rad);
+    const auto turned = [&](const glm::vec3& v) { return glm::vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x); };
+    environment_.set_turn(environment_turn_rad_ + angle_rad);
+    for (std::size_t i = 0; i < directional_.size(); ++i) {
+        directional_[i].direction = turned(glm::normalize(scene_.directional_lights[i].direction));
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i) points_[i].position = turned(scene_.point_lights[i].position);
+    for (Rectangle& rectangle : rectangles_) {
+        const RectangleLight& from = scene_.rectangle_lights[rectangle.index];
+        rectangle.light.corner = turned(from.corner);
+        rectangle.light.edge_u = turned(from.edge_u);
+        rectangle.light.edge_v = turned(from.edge_v);
+        rectangle.normal = glm::normalize(glm::cross(rectangle.light.edge_u, rectangle.light.edge_v));
     }
 }
 

@@ -28,6 +28,10 @@ public:
     // which must stay where it is and unchanged.
     LightSet(const Scene& scene, Environment environment, const glm::vec3& centre, float radius);
 
+    // Turns directional, point and rectangle lights and the environment about Y, from where they were at construction;
+    // positive angles take +Z to +X. Surfaces that shine stay.
+    void turn(float angle_rad);
+
     [[nodiscard]] bool empty() const { return sources_.empty(); }
 
     // Nothing where the drawn source does not light `position`. u_source picks the source, u the point on it.
@@ -65,6 +69,7 @@ private:
         RectangleLight light;
         glm::vec3 normal;
         float area;
+        std::size_t index;  // in the scene
         float probability = 0.0F;
     };
     struct Emitter {
@@ -81,6 +86,7 @@ private:
                                                             const glm::vec2& u) const;
 
     const Scene& scene_;
+    float environment_turn_rad_;  // at construction
     EnvironmentMap environment_;
     std::vector<DirectionalLight> directional_;
     std::vector<PointLight> points_;

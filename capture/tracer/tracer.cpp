@@ -1,19 +1,15 @@
 #include "capture/tracer/tracer.hpp"
 
+#include "capture/tracer/in_parallel.hpp"
 #include "capture/tracer/path.hpp"
 #include "capture/tracer/scene_check.hpp"
 #include "rayspace/check.hpp"
 #include "rayspace/linear_light.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -57,18 +53,29 @@ PixelRectangle visible_rectangle(const Camera& camera, const RayScene& rays) {
 }
 
 // Each camera position has noise of its own, so that neighbouring views do not share a pattern.
-std::uint64_t picture_key(std::uint64_t seed, const Camera& camera) {
+std::uint64_t picture_key(std::uint64_t seed, std::initializer_list<glm::dvec3> placement) {
     std::uint64_t key = mix_bits(seed);
-    for (int column = 0; column < 4; ++column) {
+    for (const glm::dvec3& vector : placement) {
         for (int row = 0; row < 3; ++row) {
             // Adding 0 makes -0 and 0 the same.
-            key = mix_bits(key ^ std::bit_cast<std::uint64_t>(camera.world_from_camera[column][row] + 0.0));
+            key = mix_bits(key ^ std::bit_cast<std::uint64_t>(vector[row] + 0.0));
         }
     }
     return key;
 }
 
+std::uint64_t picture_key(std::uint64_t seed, const Camera& camera) {
+    const glm::dmat4& m = camera.world_from_camera;
+    return picture_key(seed, {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2]), glm::dvec3(m[3])});
+}
+
 }  // namespace
+
+// What of a picture may show something, and what its noise is drawn from.
+struct Tracer::Frame {
+    PixelRectangle visible;
+    std::uint64_t key;
+};
 
 // `rays` and `lights` refer to `scene`, so they come after it and the whole never moves. The environment's pixels are
 // in `lights` only.
@@ -88,30 +95,49 @@ std::int64_t Tracer::step_count(const Camera& camera) {
     return static_cast<std::int64_t>(tiles_along(camera.width)) * tiles_along(camera.height);
 }
 
+std::int64_t Tracer::step_count(const RayPicture& rays) {
+    return static_cast<std::int64_t>(tiles_along(rays.width)) * tiles_along(rays.height);
+}
+
+void Tracer::turn_lights(double angle_rad) {
+    state_->lights->turn(static_cast<float>(angle_rad));
+}
+
 Rendering Tracer::render(const Camera& camera, const RenderOptions& options, Progress* progress) const {
+    const RayPicture rays{camera.width, camera.height, camera.centre(), camera.forward(),
+                          [&camera](double x, double y) { return camera.ray(x, y); }};
+    return render(rays, {visible_rectangle(camera, *state_->rays), picture_key(options.seed, camera)}, options,
+                  progress);
+}
+
+Rendering Tracer::render(const RayPicture& rays, const RenderOptions& options, Progress* progress) const {
+    const PixelRectangle whole{0, 0, rays.width, rays.height};
+    return render(rays, {whole, picture_key(options.seed, {rays.centre, rays.forward})}, options, progress);
+}
+
+Rendering Tracer::render(const RayPicture& rays, const Frame& frame, const RenderOptions& options,
+                         Progress* progress) const {
     RS_CHECK(options.samples_per_pixel >= 1 && options.samples_per_pixel <= 65536);
     RS_CHECK(options.filter_radius_px > 0.0F && options.filter_radius_px <= 0.5F);
     RS_CHECK(options.max_bounces >= 0);
     Rendering rendering;
-    rendering.picture = Image<RgbaF>(camera.width, camera.height);
-    if (options.depth) rendering.depth = Image<float>(camera.width, camera.height);
+    rendering.picture = Image<RgbaF>(rays.width, rays.height);
+    if (options.depth) rendering.depth = Image<float>(rays.width, rays.height);
 
     const PathTracer paths(state_->scene, *state_->rays, *state_->lights, state_->models, options.max_bounces);
-    const PixelRectangle visible = visible_rectangle(camera, *state_->rays);
-    const std::uint64_t key = picture_key(options.seed, camera);
-    const glm::vec3 centre(camera.centre());
-    const glm::dvec3 forward = camera.forward();
+    const PixelRectangle& visible = frame.visible;
+    const glm::vec3 centre(rays.centre);
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);
 
     const auto render_pixel = [&](int x, int y) {
         const std::uint64_t pixel_key =
-            mix_bits(key ^ (static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x)));
+            mix_bits(frame.key ^ (static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x)));
         glm::vec3 sum(0.0F);
         int hits = 0;
         for (int s = 0; s < options.samples_per_pixel; ++s) {
             Sampler sampler(pixel_key, static_cast<std::uint32_t>(s));
             const glm::dvec2 offset = (glm::dvec2(sampler.next_2d()) - 0.5) * filter_width_px;
-            const glm::vec3 direction(glm::normalize(camera.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)));
+            const glm::vec3 direction(glm::normalize(rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)));
             glm::vec3 radiance;
             if (!paths.trace(centre, direction, sampler, radiance)) continue;
             sum += radiance;
@@ -123,16 +149,16 @@ Rendering Tracer::render(const Camera& camera, const RenderOptions& options, Pro
                                        static_cast<float>(hits) / static_cast<float>(options.samples_per_pixel)};
         }
         if (options.depth) {
-            const glm::dvec3 ray = glm::normalize(camera.ray(x + 0.5, y + 0.5));
+            const glm::dvec3 ray = glm::normalize(rays.ray(x + 0.5, y + 0.5));
             SurfacePoint point;
             if (state_->rays->intersect(centre, glm::vec3(ray), point)) {
                 rendering.depth(x, y) =
-                    static_cast<float>(glm::dot(glm::dvec3(point.position) - camera.centre(), forward));
+                    static_cast<float>(glm::dot(glm::dvec3(point.position) - rays.centre, rays.forward));
             }
         }
     };
     const auto render_tile = [&](std::int64_t tile) {
-        const int across = tiles_along(camera.width);
+        const int across = tiles_along(rays.width);
         const int tile_x = static_cast<int>(tile % across) * kTileSide_px;
         const int tile_y = static_cast<int>(tile / across) * kTileSide_px;
         const int x1 = std::min(tile_x + kTileSide_px, visible.x1);
@@ -143,17 +169,7 @@ Rendering Tracer::render(const Camera& camera, const RenderOptions& options, Pro
         if (progress != nullptr) progress->advance(1);
     };
 
-    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-    const tbb::global_control workers(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-    tbb::task_arena arena(threads);
-    arena.execute([&] {
-        tbb::parallel_for(
-            tbb::blocked_range<std::int64_t>(0, step_count(camera), 1),
-            [&](const tbb::blocked_range<std::int64_t>& range) {
-                for (std::int64_t tile = range.begin(); tile != range.end(); ++tile) render_tile(tile);
-            },
-            tbb::simple_partitioner());
-    });
+    for_each_index(step_count(rays), options.threads, render_tile);
     return rendering;
 }
 

@@ -6,6 +6,7 @@
 // The same scene, camera and options give the same bytes, whatever the number of threads. Source: J. Kajiya, "The
 // Rendering Equation", 1986; E. Veach's thesis, 1997, for multiple importance sampling.
 
+#include "capture/tracer/ray_picture.hpp"
 #include "capture/tracer/scene.hpp"
 #include "rayspace/camera.hpp"
 #include "rayspace/progress.hpp"
@@ -43,9 +44,20 @@ public:
     [[nodiscard]] Rendering render(const Camera& camera, const RenderOptions& options,
                                    Progress* progress = nullptr) const;
     [[nodiscard]] static std::int64_t step_count(const Camera& camera);
+    // The same for any projection.
+    [[nodiscard]] Rendering render(const RayPicture& rays, const RenderOptions& options,
+                                   Progress* progress = nullptr) const;
+    [[nodiscard]] static std::int64_t step_count(const RayPicture& rays);
+
+    // Turns the scene's lights and environment, but not surfaces that shine, about Y by `angle_rad` from where the
+    // scene has them; positive angles take +Z to +X. Costs nothing. Not while render() runs.
+    void turn_lights(double angle_rad);
 
 private:
     struct State;
+    struct Frame;
+    [[nodiscard]] Rendering render(const RayPicture& rays, const Frame& frame, const RenderOptions& options,
+                                   Progress* progress) const;
     explicit Tracer(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };

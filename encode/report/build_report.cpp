@@ -1,8 +1,8 @@
 #include "encode/report/build_report.hpp"
 
-#include "encode/report/html_page.hpp"
-#include "encode/report/line_plot.hpp"
 #include "encode/report/ring_plan.hpp"
+#include "rayspace/page/html_page.hpp"
+#include "rayspace/page/line_plot.hpp"
 
 #include <numeric>
 

@@ -2,9 +2,9 @@
 // The page of a build: what was made from what, how good it is on views held out, and what was found on the way.
 
 #include "encode/held_out_scores.hpp"
-#include "encode/report/pictures.hpp"
 #include "encode/report/stage_clock.hpp"
 #include "rayspace/object_file.hpp"
+#include "rayspace/page/page_pictures.hpp"
 #include "rayspace/result.hpp"
 #include "rayspace/rig.hpp"
 

@@ -1,8 +1,8 @@
 #include "encode/report/ring_plan.hpp"
 
 #include "encode/raymap/rings.hpp"
-#include "encode/report/line_plot.hpp"
 #include "rayspace/conventions.hpp"
+#include "rayspace/page/line_plot.hpp"
 
 #include <algorithm>
 #include <cmath>

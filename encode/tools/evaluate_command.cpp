@@ -1,6 +1,6 @@
 #include "encode/tools/evaluate_command.hpp"
 
-#include "encode/report/pictures.hpp"
+#include "rayspace/page/page_pictures.hpp"
 #include "encode/tools/evaluation.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/picture_io.hpp"

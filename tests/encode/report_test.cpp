@@ -2,10 +2,10 @@
 // pictures that are what went in.
 
 #include "encode/report/build_report.hpp"
-#include "encode/report/html_page.hpp"
-#include "encode/report/line_plot.hpp"
 #include "encode/report/ring_plan.hpp"
 #include "rayspace/conventions.hpp"
+#include "rayspace/page/html_page.hpp"
+#include "rayspace/page/line_plot.hpp"
 #include "rayspace/picture_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -17,4 +17,7 @@ int fuzz_object(const std::uint8_t* data, std::size_t size);
 // The bytes as a transforms.json.
 int fuzz_rig(const std::uint8_t* data, std::size_t size);
 
+// The bytes as a Middlebury *_par.txt.
+int fuzz_middlebury(const std::uint8_t* data, std::size_t size);
+
 }  // namespace rs::fuzz

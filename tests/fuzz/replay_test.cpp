@@ -1,4 +1,5 @@
 // Runs every file of the corpus through its fuzz entry: what a fuzzer found once must not come back.
+#include "capture/calibration/known_files.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/object_file.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
@@ -62,6 +63,9 @@ TEST(FuzzReplay, Object) {
 TEST(FuzzReplay, Rig) {
     replay("rig", fuzz::fuzz_rig);
 }
+TEST(FuzzReplay, Middlebury) {
+    replay("middlebury", fuzz::fuzz_middlebury);
+}
 
 // The seeds are of use only as long as they pass all checks.
 TEST(FuzzReplay, SeedsAreValid) {
@@ -80,7 +84,13 @@ TEST(FuzzReplay, SeedsAreValid) {
         EXPECT_TRUE(read_object(file).ok()) << file;
         ++seeds;
     }
-    EXPECT_GE(seeds, 3);
+    for (const fs::path& file : corpus("middlebury")) {
+        if (file.filename().string().rfind("seed-", 0) != 0) continue;
+        const auto turn = capture::read_middlebury_parameters(file);
+        EXPECT_TRUE(turn.ok()) << turn.error().message;
+        ++seeds;
+    }
+    EXPECT_GE(seeds, 5);
 }
 
 }  // namespace

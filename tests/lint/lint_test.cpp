@@ -21,8 +21,9 @@ constexpr int kMostLines = 400;
 // Folder -> the folders whose headers it may include, besides its own. The longest matching folder counts.
 const std::map<std::string, std::vector<std::string>> kDoors = {
     {"rayspace", {}},
-    {"capture/tracer", {"rayspace"}},
-    {"capture/photos", {"rayspace"}},
+    {"capture/tracer", {"rayspace", "capture/calibration"}},  // the model that synthetic photographs follow
+    {"capture/calibration", {"rayspace"}},
+    {"capture/photos", {"rayspace", "capture/calibration"}},
     {"capture/tools", {"rayspace", "capture", "datasets-synthetic"}},
     {"encode", {"rayspace"}},
     {"encode/tools", {"rayspace", "encode", "engine"}},  // held-out views are rendered by the engine

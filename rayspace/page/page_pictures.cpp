@@ -1,4 +1,4 @@
-#include "encode/report/pictures.hpp"
+#include "rayspace/page/page_pictures.hpp"
 
 #include "rayspace/check.hpp"
 #include "rayspace/linear_light.hpp"
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace rs::encode {
+namespace rs {
 namespace {
 
 // One axis of an area average: output n is the mean of the input over [n * scale, (n + 1) * scale).
@@ -135,4 +135,4 @@ std::vector<int> evenly_spread(int count, int wanted) {
     return numbers;
 }
 
-}  // namespace rs::encode
+}  // namespace rs

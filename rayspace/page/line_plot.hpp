@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace rs::encode {
+namespace rs {
 
 struct PlotSeries {
     std::string name;
@@ -51,4 +51,4 @@ std::string standalone_svg_of(const LinePlot& plot);
 // "12.50": a point whatever the locale, as SVG takes it; "0" where it is not finite.
 std::string two_decimals(double value);
 
-}  // namespace rs::encode
+}  // namespace rs

@@ -1,7 +1,7 @@
-#include "encode/report/line_plot.hpp"
+#include "rayspace/page/line_plot.hpp"
 
-#include "encode/report/html_page.hpp"
 #include "rayspace/check.hpp"
+#include "rayspace/page/html_page.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace rs::encode {
+namespace rs {
 namespace {
 
 constexpr int kColours = 5;
@@ -167,4 +167,4 @@ std::string svg_of(const LinePlot& plot) {
     return svg + "</svg>";
 }
 
-}  // namespace rs::encode
+}  // namespace rs

@@ -1,4 +1,4 @@
-#include "encode/report/html_page.hpp"
+#include "rayspace/page/html_page.hpp"
 
 #include "rayspace/check.hpp"
 #include "rayspace/picture_io.hpp"
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace rs::encode {
+namespace rs {
 namespace {
 
 // currentColor and the variables are what the drawings use, so that they follow the page.
@@ -174,4 +174,4 @@ std::string HtmlPage::text() const {
            "</body>\n</html>\n";
 }
 
-}  // namespace rs::encode
+}  // namespace rs

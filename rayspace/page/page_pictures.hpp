@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace rs::encode {
+namespace rs {
 
 struct CaptionedPicture {
     Image<Rgba8> picture;  // straight alpha
@@ -34,4 +34,4 @@ inline constexpr int kErrorFullScale = 64;
 // `wanted` (or all, where there are fewer) of the numbers 0 .. count - 1, evenly spread, the first among them.
 std::vector<int> evenly_spread(int count, int wanted);
 
-}  // namespace rs::encode
+}  // namespace rs

@@ -3,7 +3,7 @@
 //
 // Every text is escaped; the page follows the reader's light or dark setting.
 
-#include "encode/report/pictures.hpp"
+#include "rayspace/page/page_pictures.hpp"
 #include "rayspace/result.hpp"
 
 #include <span>
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rs::encode {
+namespace rs {
 
 // For HTML and SVG, between tags and inside quotes. Bytes that XML does not allow, and those that are not UTF-8 (names
 // of files may hold anything), become U+FFFD.
@@ -52,4 +52,4 @@ private:
     bool in_details_ = false;
 };
 
-}  // namespace rs::encode
+}  // namespace rs

@@ -1,0 +1,177 @@
+#include "capture/calibration/bundle_deviations.hpp"
+
+#include "capture/calibration/projection.hpp"
+
+#include <ceres/autodiff_cost_function.h>
+#include <Eigen/Dense>
+
+#include <array>
+#include <cmath>
+
+namespace rs::capture {
+namespace {
+
+constexpr int kCameraNumbers = 8;  // f, cx, cy, k1, k2, pan, tilt, roll; then angles of views 1, 2, ... or the step
+
+// Which of the numbers above are unknown, and where they stand among the unknowns (-1: held).
+struct Unknowns {
+    std::vector<int> place;
+    int count = 0;
+
+    Unknowns(const BundleFreedom& free, std::size_t views) {
+        const std::array<bool, kCameraNumbers> camera{
+            free.f, free.principal_point, free.principal_point, free.k1, free.k2, free.pan, free.tilt, free.roll};
+        for (const bool is_free : camera) place.push_back(is_free ? count++ : -1);
+        for (std::size_t view = 0; view < views; ++view) {
+            const bool is_free = free.angles == AngleFreedom::kEach && view > 0;
+            place.push_back(is_free ? count++ : -1);
+        }
+        if (free.angles == AngleFreedom::kCommonStep) step = count++;
+    }
+
+    int step = -1;
+};
+
+double axis_position(const Lens& lens, const CameraPose& pose, double at_px) {
+    return (lies_sideways(pose) ? axis_row(lens, pose, at_px) : axis_column(lens, pose, at_px)).value_or(0);
+}
+
+// Derivatives of the axis' position with respect to the camera's numbers, by differences.
+std::array<double, kCameraNumbers> axis_slopes(const TurntableModel& model, double at_px) {
+    std::array<double, kCameraNumbers> slopes{};
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+        const double step = k < 3 ? 1e-3 : 1e-6;
+        std::array<double, 2> value{};
+        for (std::size_t side = 0; side < 2; ++side) {
+            Lens lens = model.lens;
+            CameraPose pose = model.pose;
+            const std::array<double*, kCameraNumbers> numbers{
+                &lens.f_px, &lens.cx, &lens.cy, &lens.k1, &lens.k2, &pose.pan_rad, &pose.tilt_rad, &pose.roll_rad};
+            *numbers[k] += side == 0 ? -step : step;
+            value[side] = axis_position(lens, pose, at_px);
+        }
+        slopes[k] = (value[1] - value[0]) / (2 * step);
+    }
+    return slopes;
+}
+
+}  // namespace
+
+bool lies_sideways(const CameraPose& pose) {
+    return std::abs(std::sin(pose.roll_rad)) > std::abs(std::cos(pose.roll_rad));
+}
+
+ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& options, double at_px) {
+    const TurntableModel& model = bundle.model;
+    const Unknowns unknowns(options.free, model.angles_rad.size());
+    const std::array<double, 5> lens{model.lens.f_px, model.lens.cx, model.lens.cy, model.lens.k1, model.lens.k2};
+    const std::array<double, 3> pose{model.pose.pan_rad, model.pose.tilt_rad, model.pose.roll_rad};
+    const bool common = options.free.angles == AngleFreedom::kCommonStep;
+    const int n = unknowns.count;
+
+    Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(n, n);
+    Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(n, n);
+    int tracks = 0;
+    for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
+        Eigen::MatrixXd camera_camera = Eigen::MatrixXd::Zero(n, n);
+        Eigen::MatrixXd camera_point = Eigen::MatrixXd::Zero(n, 3);
+        Eigen::Matrix3d point_point = Eigen::Matrix3d::Zero();
+        Eigen::VectorXd camera_score = Eigen::VectorXd::Zero(n);
+        Eigen::Vector3d point_score = Eigen::Vector3d::Zero();
+        for (const Observation& seen : bundle.tracks[i].seen) {
+            const auto view = static_cast<std::size_t>(seen.view);
+            const double turns = common ? static_cast<double>(seen.view) : 1.0;
+            const double angle =
+                common ? (seen.view == 0 ? 0.0 : model.angles_rad[view] / turns) : model.angles_rad[view];
+            const ceres::AutoDiffCostFunction<Reprojection, 2, 5, 3, 1, 3> cost(
+                new Reprojection{seen.p.x, seen.p.y, turns, seen.weight});
+            const std::array<const double*, 4> blocks{lens.data(), pose.data(), &angle, &bundle.points[i].x};
+            Eigen::Vector2d r;
+            Eigen::Matrix<double, 2, 5, Eigen::RowMajor> by_lens;
+            Eigen::Matrix<double, 2, 3, Eigen::RowMajor> by_pose, by_point;
+            Eigen::Vector2d by_angle;
+            std::array<double*, 4> jacobians{by_lens.data(), by_pose.data(), by_angle.data(), by_point.data()};
+            if (!cost.Evaluate(blocks.data(), r.data(), jacobians.data())) continue;
+            const double weight = 1 / (1 + r.squaredNorm() / (options.loss_px * options.loss_px));
+
+            std::array<std::pair<int, Eigen::Vector2d>, kCameraNumbers + 1> columns;
+            std::size_t used = 0;
+            const auto add = [&](int place, const Eigen::Vector2d& slope) {
+                if (place >= 0) columns[used++] = {place, slope};
+            };
+            for (int k = 0; k < 5; ++k) add(unknowns.place[static_cast<std::size_t>(k)], by_lens.col(k));
+            for (int k = 0; k < 3; ++k) add(unknowns.place[static_cast<std::size_t>(5 + k)], by_pose.col(k));
+            add(common ? unknowns.step : unknowns.place[kCameraNumbers + view], by_angle);
+            for (std::size_t a = 0; a < used; ++a) {
+                const auto& [place, slope] = columns[a];
+                camera_score(place) += weight * slope.dot(r);
+                camera_point.row(place) += weight * slope.transpose() * by_point;
+                for (std::size_t b = 0; b < used; ++b) {
+                    camera_camera(place, columns[b].first) += weight * slope.dot(columns[b].second);
+                }
+            }
+            point_point += weight * by_point.transpose() * by_point;
+            point_score += weight * by_point.transpose() * r;
+        }
+        const Eigen::Matrix3d inverse = point_point.inverse();
+        if (!inverse.allFinite()) continue;
+        bread += camera_camera - camera_point * inverse * camera_point.transpose();
+        const Eigen::VectorXd score = camera_score - camera_point * inverse * point_score;
+        meat += score * score.transpose();
+        ++tracks;
+    }
+    const std::array<double, 5> priors{0, kPriorPrincipalPoint * model.lens.width,
+                                       kPriorPrincipalPoint * model.lens.width, kPriorK1, kPriorK2};
+    for (std::size_t k = 1; k < priors.size(); ++k) {
+        if (unknowns.place[k] < 0) continue;
+        const double information = std::pow(options.loss_px / priors[k], 2);
+        bread(unknowns.place[k], unknowns.place[k]) += information;
+        meat(unknowns.place[k], unknowns.place[k]) += information * options.loss_px * options.loss_px;
+    }
+
+    ModelDeviations deviations;
+    deviations.angles_rad.assign(model.angles_rad.size(), std::numeric_limits<double>::infinity());
+    if (tracks <= n) return deviations;
+    const Eigen::LDLT<Eigen::MatrixXd> solver(bread);
+    if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-15)) return deviations;
+    const double few = static_cast<double>(tracks) / (tracks - n);  // the usual correction for few clusters
+    const Eigen::MatrixXd half = solver.solve(meat);
+    const Eigen::MatrixXd covariance = few * solver.solve(half.transpose());
+    const auto deviation = [&](int number) {
+        const int place = unknowns.place[static_cast<std::size_t>(number)];
+        return place < 0 ? 0.0 : std::sqrt(std::max(0.0, covariance(place, place)));
+    };
+    deviations.f_px = deviation(0);
+    deviations.cx = deviation(1);
+    deviations.cy = deviation(2);
+    deviations.k1 = deviation(3);
+    deviations.k2 = deviation(4);
+    deviations.tilt_rad = deviation(6);
+    deviations.roll_rad = deviation(7);
+    deviations.axis_direction_rad =
+        std::hypot(deviations.tilt_rad, std::cos(model.pose.tilt_rad) * deviations.roll_rad);
+    const auto slopes = axis_slopes(model, at_px);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+        if (unknowns.place[k] >= 0) gradient(unknowns.place[k]) = slopes[k];
+    }
+    deviations.axis_position_px = std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
+    // Angles count from the mean of all views: the first view's own error would otherwise be in every other one.
+    const std::size_t views = model.angles_rad.size();
+    for (std::size_t view = 0; view < views; ++view) {
+        Eigen::VectorXd from_mean = Eigen::VectorXd::Zero(n);
+        const double share = 1.0 / static_cast<double>(views);
+        if (common) {
+            from_mean(unknowns.step) = static_cast<double>(view) - 0.5 * static_cast<double>(views - 1);
+        } else {
+            for (std::size_t other = 0; other < views; ++other) {
+                const int place = unknowns.place[kCameraNumbers + other];
+                if (place >= 0) from_mean(place) = (other == view ? 1.0 : 0.0) - share;
+            }
+        }
+        deviations.angles_rad[view] = std::sqrt(std::max(0.0, from_mean.dot(covariance * from_mean)));
+    }
+    return deviations;
+}
+
+}  // namespace rs::capture

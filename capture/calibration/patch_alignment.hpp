@@ -1,0 +1,29 @@
+#pragma once
+// Observations made exact: the patch around a point as one view shows it is found again in every other view that may
+// see the point, to a few hundredths of a pixel. Stands between a first bundle, which says where to look, and the last
+// one.
+//
+// A feature detector places each observation by itself, so a track is as noisy as the detector, and it ends where the
+// detector fails. Alignment to one reference (Lucas and Kanade 1981, with affine warp, gain and bias) has neither
+// fault.
+
+#include "capture/calibration/bundle.hpp"
+#include "capture/calibration/tracks.hpp"
+
+#include <span>
+#include <vector>
+
+namespace rs::capture {
+
+// Patches are kPatchSide_px wide in the reference view, in px of the (reduced) pictures.
+inline constexpr int kPatchSide_px = 15;
+
+// What an observation by a detector counts beside aligned ones.
+inline constexpr double kDetectedWeight = 0.3;
+
+// One track per point of the bundle, its reference observation unchanged and the others found by alignment; a point
+// that is not found in three views keeps its own observations, with kDetectedWeight. Positions in px of the
+// photographs, `turn` reduced by `reduction`. Works side by side; the result does not depend on the number of threads.
+std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int reduction, const Bundle& bundle);
+
+}  // namespace rs::capture

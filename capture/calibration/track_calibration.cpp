@@ -1,0 +1,192 @@
+#include "capture/calibration/track_calibration.hpp"
+
+#include "capture/calibration/bundle_deviations.hpp"
+#include "capture/calibration/patch_alignment.hpp"
+#include "capture/calibration/start_search.hpp"
+#include "capture/calibration/turn_diagnosis.hpp"
+#include "rayspace/conventions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rs::capture {
+namespace {
+
+constexpr std::size_t kFewestViews = 5;
+constexpr std::size_t kFewestTracks = 40;
+constexpr std::size_t kHeldOutEvery = 10;  // of the tracks
+constexpr double kOutlierDeviations = 4;
+constexpr double kLeastOutlierLimit_px = 0.8;
+constexpr double kAlignedLimit_px = 1;  // alignment that went to another place
+
+std::vector<Track> enlarged(const std::vector<Track>& tracks, int reduction) {
+    std::vector<Track> result = tracks;
+    for (Track& track : result) {
+        for (Observation& seen : track.seen) seen.p *= static_cast<double>(reduction);
+    }
+    return result;
+}
+
+void split(const std::vector<Track>& tracks, std::vector<Track>& part, std::vector<Track>& held_out) {
+    for (std::size_t i = 0; i < tracks.size(); ++i) (i % kHeldOutEvery == 3 ? held_out : part).push_back(tracks[i]);
+}
+
+double outlier_limit(const Bundle& bundle, int reduction) {
+    return std::max(kLeastOutlierLimit_px * reduction, kOutlierDeviations * robust_deviation_px(bundle));
+}
+
+std::vector<ViewFit> fits(const Bundle& bundle) {
+    std::vector<ViewFit> views(bundle.model.angles_rad.size());
+    for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
+        for (const Observation& seen : bundle.tracks[i].seen) {
+            const auto r = residual(bundle.model, bundle.points[i], seen);
+            if (!r) continue;
+            ViewFit& fit = views[static_cast<std::size_t>(seen.view)];
+            ++fit.observations;
+            fit.rms_px += glm::dot(*r, *r);
+        }
+    }
+    for (ViewFit& fit : views) fit.rms_px = fit.observations > 0 ? std::sqrt(fit.rms_px / fit.observations) : 0;
+    return views;
+}
+
+// The representation whose picture is the same but whose axis points the other way; an axis that lies sideways has no
+// upper end in the picture, so the end that the camera looks down from is taken for it.
+void choose_upper_end(Bundle& bundle) {
+    CameraPose& pose = bundle.model.pose;
+    if (!lies_sideways(pose) || pose.tilt_rad >= 0) return;
+    pose.tilt_rad = -pose.tilt_rad;
+    pose.pan_rad = -pose.pan_rad;
+    pose.roll_rad += pose.roll_rad > 0 ? -kPi : kPi;
+    for (double& angle : bundle.model.angles_rad) angle = -angle;
+    for (glm::dvec3& p : bundle.points) p = {-p.x, -p.y, p.z};
+}
+
+const char* const kNoSolution = "the bundle adjustment fails; are the pictures in order?";
+
+Lens known_lens(const TurnPictures& turn, const KnownInputs& known) {
+    Lens lens{turn.width, turn.height, known.f_px.value_or(0), turn.width / 2.0, turn.height / 2.0, 0, 0};
+    if (known.principal_point) {
+        lens.cx = known.principal_point->x;
+        lens.cy = known.principal_point->y;
+    }
+    if (known.distortion) {
+        lens.k1 = known.distortion->x;
+        lens.k2 = known.distortion->y;
+    }
+    return lens;
+}
+
+BundleFreedom freedom(const KnownInputs& known) {
+    BundleFreedom free;
+    free.f = !known.f_px;
+    free.pan = free.tilt = free.roll = !known.pose;
+    free.principal_point = known.estimate_principal_point && !known.principal_point;
+    free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kHeld
+                  : known.equal_steps                ? AngleFreedom::kCommonStep
+                                                     : AngleFreedom::kEach;
+    return free;
+}
+
+// From a start that is roughly right to the best bundle of features as they were detected and matched.
+bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k1_is_free, BundleOptions& options) {
+    options.loss_px = 2.0 * reduction;
+    for (int round = 0; round < 5; ++round) {
+        options.free.k1 = round > 0 && k1_is_free;
+        if (!adjust(bundle, options)) return false;
+        const double limit = outlier_limit(bundle, reduction);
+        // Observations lost to a poor start get another chance.
+        if (round < 4) {
+            bundle = make_agreeing_bundle(bundle.model, tracks, limit);
+        } else {
+            drop_outliers(bundle, limit);
+        }
+        options.loss_px = std::max(0.3 * reduction, 2 * robust_deviation_px(bundle));
+    }
+    return adjust(bundle, options).has_value();
+}
+
+// The same points observed anew, by alignment of their patches.
+bool refine(Bundle& bundle, const TurnPictures& turn, BundleOptions& options) {
+    for (int round = 0; round < 2; ++round) {
+        const std::vector<Track> tracks = aligned_tracks(turn.pictures, turn.reduction, bundle);
+        Bundle next = make_agreeing_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
+        if (next.tracks.size() < kFewestTracks / 2) return false;
+        bundle = std::move(next);
+        for (int again = 0; again < 2; ++again) {
+            options.loss_px = std::max(0.1 * turn.reduction, 2 * robust_deviation_px(bundle));
+            if (!adjust(bundle, options)) return false;
+            drop_outliers(bundle, std::max(0.3 * turn.reduction, kOutlierDeviations * robust_deviation_px(bundle)));
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
+    const std::size_t views = turn.pictures.size();
+    if (views < kFewestViews) {
+        return Error{std::to_string(views) + " pictures do not make a turn that could be calibrated; take at least " +
+                     std::to_string(kFewestViews) + ", better 36"};
+    }
+    if (progress != nullptr) progress->start("following points", 2 * static_cast<std::int64_t>(views));
+    Result<FollowedPoints> followed = follow_points(turn.pictures, {}, progress);
+    if (!followed) return followed.error();
+    TrackCalibration result;
+    result.followed = std::move(*followed);
+    result.followed.tracks = enlarged(result.followed.tracks, turn.reduction);
+    const std::vector<Track>& tracks = result.followed.tracks;
+    if (tracks.size() < kFewestTracks) {
+        return Error{"only " + std::to_string(tracks.size()) +
+                     " points of the object can be followed over three pictures and more; an object with so little "
+                     "texture needs a board under it (rs-capture board)"};
+    }
+    std::vector<Track> part, held_out;
+    split(tracks, part, held_out);
+
+    if (progress != nullptr) progress->start("solving for axis, lens and angles", 3);
+    const auto start = find_start(part, result.followed.pairs, static_cast<int>(views), known_lens(turn, known), known);
+    if (!start) return Error{"no turn of equal steps explains how the object's points move"};
+    if (progress != nullptr) progress->advance();
+
+    BundleOptions options;
+    options.free = freedom(known);
+    Bundle bundle = make_agreeing_bundle(start->model, part, 4.0 * turn.reduction);
+    if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
+    choose_upper_end(bundle);
+    if (progress != nullptr) progress->advance();
+    const double at_px = 0.5 * (lies_sideways(bundle.model.pose) ? turn.width : turn.height);
+    const std::vector<int> candidates = observations_per_view(part, views);
+    Status accepted = accept(bundle, bundle_deviations(bundle, options, at_px), candidates, turn.names);
+    if (!accepted) return accepted.error();
+    const Bundle settled = bundle;
+    Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
+    if (refine(bundle, turn, options)) {
+        unseen.model = bundle.model;
+        unseen = make_agreeing_bundle(bundle.model, aligned_tracks(turn.pictures, turn.reduction, unseen),
+                                      kAlignedLimit_px * turn.reduction);
+    } else {
+        bundle = settled;
+    }
+    if (progress != nullptr) progress->advance();
+
+    Calibration& calibration = result.calibration;
+    calibration.method = CalibrationMethod::kTracks;
+    calibration.model = bundle.model;
+    calibration.deviations = bundle_deviations(bundle, options, at_px);
+    calibration.step_rad = median_step(bundle.model.angles_rad);
+    Bundle judged = settled;  // its observations, the better angles
+    judged.model = bundle.model;
+    calibration.warnings =
+        warnings_about(judged, calibration.deviations, candidates, result.followed.features, turn.names);
+    calibration.points = static_cast<int>(bundle.tracks.size());
+    calibration.observations = observation_count(bundle);
+    calibration.rms_px = rms_px(bundle);
+    calibration.held_out_rms_px = rms_px(unseen);
+    calibration.views = fits(bundle);
+    result.bundle = std::move(bundle);
+    return result;
+}
+
+}  // namespace rs::capture

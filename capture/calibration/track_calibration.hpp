@@ -1,0 +1,23 @@
+#pragma once
+// Calibration of a turn from points of the object alone: start search, bundle, outliers, hold-out, judgement.
+
+#include "capture/calibration/bundle.hpp"
+#include "capture/calibration/calibration.hpp"
+#include "capture/calibration/tracks.hpp"
+#include "rayspace/progress.hpp"
+#include "rayspace/result.hpp"
+
+namespace rs::capture {
+
+struct TrackCalibration {
+    Calibration calibration;
+    FollowedPoints followed;  // positions in px of the photographs
+    Bundle bundle;            // the tracks that took part, at the optimum
+};
+
+// Fails, with what a photographer can do about it, where the pictures do not determine a single-axis motion: too few
+// points, neighbours that share too little, points that do not agree (two cameras, a moved tripod), angles that make no
+// turn. One thread calls; works on all cores.
+Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress);
+
+}  // namespace rs::capture

@@ -1,0 +1,178 @@
+#include "capture/calibration/turn_diagnosis.hpp"
+
+#include "rayspace/conventions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace rs::capture {
+namespace {
+
+constexpr double kFewestAgreeing = 0.2;        // of all candidates
+constexpr double kFewestAgreeingOfView = 0.4;  // of the median over all views
+constexpr double kMostViewsApart = 0.15;
+constexpr double kLargestRms = 0.004;        // of the picture's longer side: 4 px of 1000
+constexpr double kMostUncertainLens = 0.25;  // deviation of f over f
+constexpr double kStepWarning_deg = 0.5;
+constexpr double kRepeat = 0.1;  // of the median step
+constexpr double kGap = 1.6;
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+std::string number(double value, int digits) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
+}
+
+// Views whose candidates mostly disagree with the rig.
+std::vector<std::size_t> views_apart(const Bundle& bundle, std::span<const int> candidates) {
+    const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
+    std::vector<double> shares;
+    for (std::size_t view = 0; view < kept.size(); ++view) {
+        shares.push_back(static_cast<double>(kept[view]) / std::max(1, candidates[view]));
+    }
+    const double least = kFewestAgreeingOfView * median(shares);
+    std::vector<std::size_t> apart;
+    for (std::size_t view = 0; view < kept.size(); ++view) {
+        if (kept[view] < kFewestObservations || shares[view] < least) {
+            apart.push_back(view);
+        }
+    }
+    return apart;
+}
+
+std::string listed(const std::vector<std::size_t>& views, std::span<const std::string> names) {
+    std::string text;
+    for (std::size_t i = 0; i < views.size() && i < 3; ++i) text += (i > 0 ? ", " : "") + names[views[i]];
+    if (views.size() > 3) text += " and " + std::to_string(views.size() - 3) + " more";
+    return text;
+}
+
+// The views run on from the first of them to the last: the mark of something that changed at one moment.
+bool is_one_run(const std::vector<std::size_t>& views) {
+    return views.size() > 1 && views.back() - views.front() + 1 == views.size();
+}
+
+}  // namespace
+
+double median_step(std::span<const double> angles_rad) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < angles_rad.size(); ++i) steps.push_back(angles_rad[i] - angles_rad[i - 1]);
+    return median(std::move(steps));
+}
+
+std::vector<int> repeated_views(std::span<const double> angles_rad) {
+    const double usual = std::abs(median_step(angles_rad));
+    std::vector<int> repeated;
+    for (std::size_t i = 1; i < angles_rad.size(); ++i) {
+        if (std::abs(angles_rad[i] - angles_rad[i - 1]) < kRepeat * usual) repeated.push_back(static_cast<int>(i));
+    }
+    return repeated;
+}
+
+Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span<const int> candidates,
+              std::span<const std::string> names) {
+    const TurntableModel& model = bundle.model;
+    double offered = 0;
+    for (const int count : candidates) offered += count;
+    const double share = observation_count(bundle) / std::max(1.0, offered);
+    const std::vector<std::size_t> apart = views_apart(bundle, candidates);
+    const auto views = static_cast<double>(names.size());
+    if (share < kFewestAgreeing || static_cast<double>(apart.size()) > kMostViewsApart * views) {
+        std::string text = "the pictures do not show one turn before a still camera: " + number(100 * share, 0) +
+                           " % of the observations agree with the best one";
+        if (!apart.empty()) text += ", and not those of " + listed(apart, names);
+        if (is_one_run(apart)) {
+            text += "; was the camera or the tripod moved before " + names[apart.front()] + "?";
+        } else {
+            text += "; are they of one camera, one zoom and one object that stood still on the plate?";
+        }
+        return Error{text};
+    }
+    const double longer = std::max(model.lens.width, model.lens.height);
+    if (rms_px(bundle) > kLargestRms * longer) {
+        return Error{"the best turn misses the observations by " + number(rms_px(bundle), 1) +
+                     " px; are the pictures in the order they were taken, from one still camera?"};
+    }
+    const double usual = median_step(model.angles_rad);
+    int against = 0;
+    for (std::size_t i = 1; i < model.angles_rad.size(); ++i) {
+        if ((model.angles_rad[i] - model.angles_rad[i - 1]) * usual < -kRepeat * usual * usual) ++against;
+    }
+    if (std::abs(degrees(usual)) < 0.05 || against > 0.1 * views) {
+        return Error{"the angles make no turn (median step " + number(degrees(usual), 2) + " degrees, " +
+                     std::to_string(against) +
+                     " steps against it); are the pictures in the order they were taken? Names are sorted naturally"};
+    }
+    const double turn_deg = std::abs(degrees(model.angles_rad.back() - model.angles_rad.front()));
+    if (turn_deg < 15 || turn_deg > 400) {
+        return Error{"the pictures cover " + number(turn_deg, 1) +
+                     " degrees of turn; 15 to 400 are needed (one turn, without repeats)"};
+    }
+    if (!(deviations.f_px < kMostUncertainLens * model.lens.f_px)) {
+        return Error{"the pictures leave the focal length open; give it with --fov, or put a board under the object"};
+    }
+    return {};
+}
+
+std::vector<std::string> warnings_about(const Bundle& bundle, const ModelDeviations& deviations,
+                                        std::span<const int> candidates, std::span<const int> features,
+                                        std::span<const std::string> names) {
+    const std::vector<double>& angles = bundle.model.angles_rad;
+    std::vector<std::string> lines;
+    const double usual = degrees(median_step(angles));
+    const auto off = [&](std::size_t i) {  // how far step i - 1 -> i differs from the usual one, degrees forward
+        return (degrees(angles[i] - angles[i - 1]) - usual) * (usual < 0 ? -1 : 1);
+    };
+    const auto tolerance = [&](std::size_t i) {
+        return std::max(kStepWarning_deg,
+                        4 * degrees(std::hypot(deviations.angles_rad[i], deviations.angles_rad[i - 1])));
+    };
+    for (std::size_t i = 1; i < angles.size(); ++i) {
+        const double step = std::abs(usual) + off(i);
+        if (std::abs(off(i)) <= tolerance(i)) continue;
+        if (std::abs(step) < kRepeat * std::abs(usual)) {
+            lines.push_back(names[i] + " stands where " + names[i - 1] + " does (" + number(step, 2) +
+                            " degrees on); the turntable had not turned");
+        } else if (i + 1 < angles.size() && std::abs(off(i) + off(i + 1)) <= tolerance(i)) {
+            lines.push_back(names[i] + " is " + number(std::abs(off(i)), 1) + " degrees off (" +
+                            (off(i) > 0 ? "too far" : "not far enough") + "); its true angle is used");
+            ++i;
+        } else if (step > kGap * std::abs(usual)) {
+            lines.push_back("there is a gap of " + number(step, 1) + " degrees between " + names[i - 1] + " and " +
+                            names[i] + " where other steps are " + number(std::abs(usual), 1));
+        } else {
+            lines.push_back("the step from " + names[i - 1] + " to " + names[i] + " is " + number(step, 1) +
+                            " degrees where others are " + number(std::abs(usual), 1) + "; the true angles are used");
+        }
+    }
+    const double closing = 360 - std::abs(degrees(angles.back() - angles.front()));
+    if (closing > kGap * std::abs(usual) && closing < 90) {
+        lines.push_back("the turn does not close: " + number(closing, 1) + " degrees are missing between " +
+                        names.back() + " and " + names.front());
+    }
+    std::vector<double> counts(features.begin(), features.end());
+    const double ordinary = median(counts);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (features[i] < 0.25 * ordinary) {
+            lines.push_back(names[i] + " shows " + std::to_string(features[i]) + " features where others show " +
+                            number(ordinary, 0) + "; is it blurred?");
+        }
+    }
+    const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
+    for (const std::size_t view : views_apart(bundle, candidates)) {
+        lines.push_back(names[view] + " does not fit the turn (" + std::to_string(kept[view]) + " of " +
+                        std::to_string(candidates[view]) +
+                        " observations agree); was the object or the camera moved? Take it again or leave it out");
+    }
+    return lines;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,36 @@
+#pragma once
+// Whether a bundle is to be believed, and what a photographer should know about the pictures.
+
+#include "capture/calibration/bundle.hpp"
+#include "capture/calibration/calibration.hpp"
+#include "capture/calibration/tracks.hpp"
+#include "rayspace/result.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rs::capture {
+
+// A view with fewer observations has no angle of its own.
+inline constexpr int kFewestObservations = 6;
+
+// The median step from view to view.
+double median_step(std::span<const double> angles_rad);
+
+// An error where no rig should be made of these pictures: most observations disagree with any single turn, too many
+// views stand apart, the angles make no turn, or the lens is left open. `candidates` are the observations of each view
+// that were offered to the bundle, wrong matches among them.
+Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span<const int> candidates,
+              std::span<const std::string> names);
+
+// One line each: steps that differ from the others, pictures that stand at the same angle, gaps, blurred pictures, and
+// pictures that do not fit.
+std::vector<std::string> warnings_about(const Bundle& bundle, const ModelDeviations& deviations,
+                                        std::span<const int> candidates, std::span<const int> features,
+                                        std::span<const std::string> names);
+
+// Views that repeat the one before them (the turntable had not turned): less than a tenth of the median step.
+std::vector<int> repeated_views(std::span<const double> angles_rad);
+
+}  // namespace rs::capture

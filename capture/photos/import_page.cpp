@@ -1,0 +1,165 @@
+#include "capture/photos/import_page.hpp"
+
+#include "capture/photos/annotated_photo.hpp"
+#include "rayspace/conventions.hpp"
+#include "rayspace/page/html_page.hpp"
+#include "rayspace/page/line_plot.hpp"
+#include "rayspace/picture_io.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace rs::capture {
+namespace {
+
+constexpr int kAnnotated = 6;
+constexpr int kMattes = 18;
+constexpr Rgba8 kMagenta{255, 0, 255, 255};
+
+std::string number(double value, int digits) {
+    if (!std::isfinite(value)) return "unknown";
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
+}
+
+std::string deviation(double value, int digits) {
+    if (value == 0) return "held";
+    return std::isfinite(value) ? number(value, digits) : "unknown";
+}
+
+std::string what_it_rests_on(CalibrationMethod method) {
+    switch (method) {
+        case CalibrationMethod::kBoard:
+            return "the printed board on the plate.";
+        case CalibrationMethod::kGiven:
+            return "numbers that were given; nothing was estimated.";
+        case CalibrationMethod::kTracks:
+            return "points of the object followed around the turn.";
+        case CalibrationMethod::kSilhouettes:
+            return "the outlines of the object alone, which know little of the lens and nothing of the steps.";
+        case CalibrationMethod::kNominal:
+            return "nothing but assumptions: equal steps, a level camera, a usual lens.";
+    }
+    return "";
+}
+
+void add_summary(HtmlPage& page, const ImportReport& report) {
+    page.paragraph(std::to_string(report.views) + " views of " + std::to_string(report.width) + "x" +
+                   std::to_string(report.height) + " photographs. Calibration: " + to_string(report.method) +
+                   ". It rests on " + what_it_rests_on(report.method));
+    if (report.notes.empty()) {
+        page.paragraph("There is nothing to warn of.");
+    } else {
+        page.heading("What you should know");
+        page.list(report.notes);
+    }
+}
+
+void add_estimates(HtmlPage& page, const Calibration& found) {
+    const Lens& lens = found.model.lens;
+    const CameraPose& pose = found.model.pose;
+    const ModelDeviations& off = found.deviations;
+    const double half_width = 0.5 * lens.width;
+    page.heading("Estimates");
+    std::vector<std::vector<std::string>> rows{
+        {"focal length, px", number(lens.f_px, 1), deviation(off.f_px, 1)},
+        {"field of view, degrees", number(degrees(2 * std::atan(half_width / lens.f_px)), 2),
+         deviation(
+             off.f_px == 0 ? 0 : degrees(2 * half_width * off.f_px / (lens.f_px * lens.f_px + half_width * half_width)),
+             2)},
+        {"principal point x, px", number(lens.cx, 1), deviation(off.cx, 1)},
+        {"principal point y, px", number(lens.cy, 1), deviation(off.cy, 1)},
+        {"radial distortion k1", number(lens.k1, 4), deviation(off.k1, 4)},
+        {"radial distortion k2", number(lens.k2, 4), deviation(off.k2, 4)},
+        {"camera above the plate, degrees", number(degrees(pose.tilt_rad), 3), deviation(degrees(off.tilt_rad), 3)},
+        {"roll, degrees", number(degrees(pose.roll_rad), 3), deviation(degrees(off.roll_rad), 3)},
+        {"axis' direction, degrees", "", deviation(degrees(off.axis_direction_rad), 3)},
+    };
+    if (const auto column = axis_column(lens, pose, 0.5 * lens.height)) {
+        rows.push_back({"axis' column at half height, px", number(*column, 2), deviation(off.axis_position_px, 2)});
+    }
+    rows.push_back({"median step, degrees", number(degrees(found.step_rad), 3), ""});
+    page.table({"", "value", "standard deviation"}, rows);
+    page.paragraph(std::to_string(found.points) + " points in " + std::to_string(found.observations) +
+                   " observations; residuals " + number(found.rms_px, 3) + " px RMS, " +
+                   number(found.held_out_rms_px, 3) + " px where they took no part in the fit.");
+}
+
+void add_plots(HtmlPage& page, const Calibration& found) {
+    const std::vector<double>& angles = found.model.angles_rad;
+    if (angles.size() < 2) return;
+    const auto last = static_cast<double>(angles.size() - 1);
+    // Against the straight line through the middle of all angles, so that one bad step shows as a step.
+    double mean = 0;
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        mean += degrees(angles[i] - static_cast<double>(i) * found.step_rad) / (last + 1);
+    }
+    PlotSeries value{"off equal steps", {}, {}}, above{"+2 deviations", {}, {}}, below{"-2 deviations", {}, {}};
+    PlotSeries rms{"residual, px RMS", {}, {}}, count{"observations", {}, {}};
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        const auto view = static_cast<double>(i);
+        const double off = degrees(angles[i] - view * found.step_rad) - mean;
+        const double doubt = i < found.deviations.angles_rad.size() ? 2 * degrees(found.deviations.angles_rad[i]) : 0;
+        value.x.push_back(view);
+        value.y.push_back(off);
+        above.x.push_back(view);
+        above.y.push_back(off + doubt);
+        below.x.push_back(view);
+        below.y.push_back(off - doubt);
+        if (i >= found.views.size()) continue;
+        rms.x.push_back(view);
+        rms.y.push_back(found.views[i].rms_px);
+        count.x.push_back(view);
+        count.y.push_back(found.views[i].observations);
+    }
+    page.heading("Angles and residuals");
+    page.drawing(svg_of({"Angles against equal steps", "photograph", "degrees", {value, above, below}}));
+    if (found.observations == 0) return;
+    page.drawing(svg_of({"Residuals", "photograph", "px", {rms}, 900, 220}));
+    page.drawing(svg_of({"Observations", "photograph", "", {count}, 900, 220}));
+}
+
+Status add_photographs(HtmlPage& page, const ImportOptions& options, const ImportReport& report) {
+    std::vector<CaptionedPicture> row;
+    for (const int view : evenly_spread(static_cast<int>(report.source_names.size()), kAnnotated)) {
+        const std::string& name = report.source_names[static_cast<std::size_t>(view)];
+        const Result<Image<Rgba8>> photo = read_picture(options.photos / name);
+        if (!photo) return photo.error();
+        row.push_back({annotated_photo(*photo, report, view), name});
+    }
+    page.heading("The axis and the points");
+    page.paragraph(
+        report.calibration.tracks
+            ? "White: the turntable's axis. Points: where they were seen, and the way they went from the view "
+              "before; green where the model agrees within a pixel, red where it misses by two and more."
+            : "White: the turntable's axis.");
+    return page.pictures(row, kAnnotatedSide_px);
+}
+
+Status add_mattes(HtmlPage& page, const ImportReport& report) {
+    std::vector<CaptionedPicture> row;
+    for (const int view : evenly_spread(static_cast<int>(report.small_cut_outs.size()), kMattes)) {
+        Image<Rgba8> matte = report.small_cut_outs[static_cast<std::size_t>(view)];
+        for (Rgba8& p : matte.pixels()) p = over(p, kMagenta);
+        row.push_back({std::move(matte), report.source_names[static_cast<std::size_t>(view)]});
+    }
+    page.heading("Mattes on magenta");
+    return page.pictures(row, 260);
+}
+
+}  // namespace
+
+Result<std::string> import_page(const ImportOptions& options, const ImportReport& report) {
+    HtmlPage page("Import of " + options.photos.string());
+    add_summary(page, report);
+    if (report.calibration.calibration) {
+        add_estimates(page, *report.calibration.calibration);
+        add_plots(page, *report.calibration.calibration);
+    }
+    if (Status status = add_photographs(page, options, report); !status) return status.error();
+    if (Status status = add_mattes(page, report); !status) return status.error();
+    return page.text();
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,111 @@
+#include "capture/photos/import_rig.hpp"
+
+#include "rayspace/conventions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rs::capture {
+namespace {
+
+// JSON takes UTF-8 only; file names may hold any bytes.
+std::string utf8(const std::string& name) {
+    return nlohmann::json::parse(nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+// Infinity has no place in JSON: what nothing is known about becomes null.
+nlohmann::json finite(double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+void describe(const ImportReport& report, nlohmann::json& made) {
+    made["calibration"] = to_string(report.method);
+    made["backdrop"] = report.masks_given ? "masks" : to_string(report.backdrop);
+    made["backdrop_from"] = report.backdrop_given || report.masks_given ? "given" : "pictures";
+    const Rgba8& colour = report.backdrop_colour;
+    if (report.backdrop != BackdropKind::kAlpha) made["backdrop_srgb"] = {colour.r, colour.g, colour.b};
+    made["turning"] = to_string(report.turning);
+    made["degrees_per_view"] = report.step_deg;
+    if (!report.dropped_repeat.empty()) made["dropped_repeat"] = utf8(report.dropped_repeat);
+    for (const std::string& name : report.left_out) made["left_out"].push_back(utf8(name));
+}
+
+void name_views(const ImportReport& report, Rig& rig) {
+    std::size_t view = 0;
+    for (const std::string& name : report.source_names) {
+        if (std::find(report.left_out.begin(), report.left_out.end(), name) != report.left_out.end()) continue;
+        rig.views[view].file_path = cut_picture_name(view);
+        rig.views[view].extras["source_file"] = utf8(name);
+        ++view;
+    }
+}
+
+}  // namespace
+
+Rig nominal_import_rig(const ImportOptions& options, const ImportReport& report, const TurnOutline::Box& visible) {
+    NominalRigOptions nominal;
+    nominal.width = report.width;
+    nominal.height = report.height;
+    nominal.views = report.views;
+    nominal.fov_deg = options.fov_deg.value_or(kNominalFieldOfView_deg);
+    nominal.step_deg = report.nominal.step_deg;
+    nominal.axis_x_px = report.nominal.axis_x_px;
+    nominal.turning = report.nominal.turning;
+    Rig rig = make_nominal_rig(nominal, visible);
+    name_views(report, rig);
+    rig.extras["axis_note"] =
+        "Y is the turntable's axis; it appears in the column cx (" + report.nominal.axis_from + ")";
+    nlohmann::json& made = rig.extras["photo_import"];
+    describe(report, made);
+    made["axis_column_px"] = report.nominal.axis_x_px;
+    made["axis_from"] = report.nominal.axis_from;
+    made["turning_from"] = report.nominal.turning_from;
+    made["field_of_view_deg"] = nominal.fov_deg;
+    return rig;
+}
+
+Rig calibrated_import_rig(const ImportReport& report, const TurnOutline::Box& visible) {
+    const Calibration& calibration = *report.calibration.calibration;
+    const TurntableModel& model = calibration.model;
+    Rig rig = make_rig(model, report.frame, visible);
+    std::vector<RigView> kept;
+    for (std::size_t i = 0; i < rig.views.size(); ++i) {
+        if (std::find(report.left_out.begin(), report.left_out.end(), report.source_names[i]) ==
+            report.left_out.end()) {
+            kept.push_back(std::move(rig.views[i]));
+        }
+    }
+    rig.views = std::move(kept);
+    name_views(report, rig);
+    rig.extras["axis_note"] = "Y is the turntable's axis; it appears in the column cx";
+    nlohmann::json& made = rig.extras["photo_import"];
+    describe(report, made);
+    made["rms_px"] = calibration.rms_px;
+    made["held_out_rms_px"] = calibration.held_out_rms_px;
+    // The photographs' own camera, in the convention of capture/calibration/turntable_model.hpp.
+    const ModelDeviations& off = calibration.deviations;
+    nlohmann::json& camera = made["photograph_camera"];
+    camera["f_px"] = model.lens.f_px;
+    camera["cx"] = model.lens.cx;
+    camera["cy"] = model.lens.cy;
+    camera["k1"] = model.lens.k1;
+    camera["k2"] = model.lens.k2;
+    camera["pan_deg"] = degrees(model.pose.pan_rad);
+    camera["tilt_deg"] = degrees(model.pose.tilt_rad);
+    camera["roll_deg"] = degrees(model.pose.roll_rad);
+    nlohmann::json& deviations = made["standard_deviations"];
+    deviations["f_px"] = finite(off.f_px);
+    deviations["k1"] = finite(off.k1);
+    deviations["tilt_deg"] = finite(degrees(off.tilt_rad));
+    deviations["roll_deg"] = finite(degrees(off.roll_rad));
+    deviations["axis_direction_deg"] = finite(degrees(off.axis_direction_rad));
+    deviations["axis_position_px"] = finite(off.axis_position_px);
+    for (std::size_t i = 0; i < model.angles_rad.size(); ++i) {
+        made["angles_deg"].push_back(degrees(model.angles_rad[i]));
+        deviations["angles_deg"].push_back(i < off.angles_rad.size() ? finite(degrees(off.angles_rad[i]))
+                                                                     : nlohmann::json());
+    }
+    return rig;
+}
+
+}  // namespace rs::capture

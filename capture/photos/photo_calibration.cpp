@@ -1,0 +1,149 @@
+#include "capture/photos/photo_calibration.hpp"
+
+#include "capture/calibration/silhouettes.hpp"
+#include "capture/photos/bounded_work.hpp"
+#include "rayspace/picture_io.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rs::capture {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSilhouetteSide_px = 640;
+
+// Cut-outs, so that nothing of the backdrop is followed.
+Result<TurnPictures> read_turn(const PhotoFolder& folder, const fs::path& cut_folder, Progress* progress) {
+    TurnPictures turn;
+    turn.width = folder.width;
+    turn.height = folder.height;
+    const int longer = std::max(folder.width, folder.height);
+    turn.reduction = (longer + kCalibrationSide_px - 1) / kCalibrationSide_px;
+    turn.pictures.resize(folder.photos.size());
+    for (const fs::path& photo : folder.photos) turn.names.push_back(photo.filename().string());
+    const auto read = [&](std::size_t i) -> Status {
+        const Result<Image<Rgba8>> cut = read_picture(cut_folder / cut_picture_name(i));
+        if (!cut) return cut.error();
+        turn.pictures[i] = calibration_picture(*cut, turn.reduction);
+        return {};
+    };
+    if (Status status = for_each_photo(folder, kReadBytesPerPixel, "reading the cut-outs", progress, read); !status) {
+        return status.error();
+    }
+    return turn;
+}
+
+Result<BoardCalibration> from_board(const PhotoFolder& folder, const CalibrationRequest& request,
+                                    const std::vector<std::string>& names, Progress* progress) {
+    const auto load = [&](int i) { return read_picture(folder.photos[static_cast<std::size_t>(i)]); };
+    const Result<std::vector<BoardCorners>> views =
+        detect_boards(static_cast<int>(folder.photos.size()), load, *request.board, progress);
+    if (!views) return views.error();
+    return calibrate_with_board(*views, *request.board, folder.width, folder.height, request.known, names);
+}
+
+// Outlines need no more than kSilhouetteSide_px for the longer side.
+std::vector<Image<std::uint8_t>> silhouettes(const TurnPictures& turn) {
+    const Image<std::uint8_t>& first = turn.pictures.front().alpha;
+    const int longer = std::max(first.width(), first.height());
+    const int factor = (longer + kSilhouetteSide_px - 1) / kSilhouetteSide_px;
+    std::vector<Image<std::uint8_t>> masks;
+    for (const CalibrationPicture& picture : turn.pictures) {
+        Image<std::uint8_t> mask(first.width() / factor, first.height() / factor);
+        for (int y = 0; y < mask.height(); ++y) {
+            for (int x = 0; x < mask.width(); ++x) {
+                int sum = 0;
+                for (int dy = 0; dy < factor; ++dy) {
+                    for (int dx = 0; dx < factor; ++dx) sum += picture.alpha(x * factor + dx, y * factor + dy);
+                }
+                mask(x, y) = static_cast<std::uint8_t>(sum / (factor * factor));
+            }
+        }
+        masks.push_back(std::move(mask));
+    }
+    return masks;
+}
+
+// Everything is known: nothing is estimated, so there are no deviations either.
+std::optional<Calibration> given(const CalibrationRequest& request, std::size_t views) {
+    const KnownInputs& known = request.known;
+    if (!known.f_px || !known.pose || !(known.angles_rad || known.step_rad)) return std::nullopt;
+    Calibration calibration;
+    calibration.method = CalibrationMethod::kGiven;
+    calibration.model = request.nominal;
+    calibration.model.lens.f_px = *known.f_px;
+    calibration.model.pose = *known.pose;
+    if (known.angles_rad) calibration.model.angles_rad = *known.angles_rad;
+    const std::size_t last = calibration.model.angles_rad.size() - 1;
+    calibration.step_rad = last > 0 ? calibration.model.angles_rad.back() / static_cast<double>(last) : 0;
+    calibration.views.resize(views);
+    ModelDeviations& held = calibration.deviations;
+    held.f_px = held.cx = held.cy = held.k1 = held.k2 = held.axis_direction_rad = held.tilt_rad = held.roll_rad =
+        held.axis_position_px = 0;
+    held.angles_rad.assign(views, 0);
+    return calibration;
+}
+
+}  // namespace
+
+Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const fs::path& cut_folder,
+                                          const CalibrationRequest& request, Progress* progress) {
+    PhotoCalibration result;
+    const CalibrationChoice choice = request.choice;
+    if (choice == CalibrationChoice::kNominal) return result;
+    const std::size_t views = folder.photos.size();
+    if (request.known.angles_rad && request.known.angles_rad->size() != views) {
+        return Error{"the given rig has " + std::to_string(request.known.angles_rad->size()) + " views, the folder " +
+                     std::to_string(views) + " photographs; give a rig of these photographs"};
+    }
+    Result<TurnPictures> turn = read_turn(folder, cut_folder, progress);
+    if (!turn) return turn.error();
+    if (choice == CalibrationChoice::kAuto) {
+        if (auto calibration = given(request, views)) {
+            result.calibration = std::move(*calibration);
+            return result;
+        }
+    }
+    if (choice == CalibrationChoice::kBoard && !request.board) {
+        return Error{
+            "calibration by a board was asked for, but the board is not described; say --board default for "
+            "what rs-capture board prints"};
+    }
+    if (request.board && (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kBoard)) {
+        Result<BoardCalibration> board = from_board(folder, request, turn->names, progress);
+        if (board) {
+            result.calibration = board->calibration;
+            result.board = std::move(*board);
+            return result;
+        }
+        if (choice == CalibrationChoice::kBoard) return board.error();
+        result.notes.push_back("no calibration from the board: " + board.error().message);
+    }
+    if (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kTracks) {
+        Result<TrackCalibration> tracks = calibrate_with_tracks(*turn, request.known, progress);
+        if (tracks) {
+            result.calibration = tracks->calibration;
+            result.tracks = std::move(*tracks);
+            return result;
+        }
+        if (choice == CalibrationChoice::kTracks) return tracks.error();
+        result.notes.push_back("no calibration from points: " + tracks.error().message);
+    }
+    if (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kSilhouettes) {
+        if (progress != nullptr) progress->start("fitting the silhouettes", 1);
+        const std::vector<Image<std::uint8_t>> masks = silhouettes(*turn);
+        Result<Calibration> outlines = calibrate_with_silhouettes(masks, request.nominal, request.known);
+        if (progress != nullptr) progress->advance();
+        if (outlines) {
+            result.calibration = std::move(*outlines);
+            return result;
+        }
+        if (choice == CalibrationChoice::kSilhouettes) return outlines.error();
+        result.notes.push_back("no calibration from silhouettes: " + outlines.error().message);
+    }
+    return result;
+}
+
+}  // namespace rs::capture

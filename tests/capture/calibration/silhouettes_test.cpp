@@ -1,0 +1,211 @@
+#include "capture/calibration/silhouettes.hpp"
+
+#include "rayspace/conventions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+struct Ellipsoid {  // in the object frame, units of the camera's distance
+    glm::dvec3 centre{0};
+    glm::dvec3 radii{0};
+};
+
+// A body without any symmetry about the axis: trunk, arm, head, foot.
+std::vector<Ellipsoid> figure() {
+    return {{{0.01, -0.30, 0.0}, {0.09, 0.13, 0.06}},
+            {{0.10, -0.27, 0.03}, {0.08, 0.025, 0.03}},
+            {{-0.03, -0.16, 0.05}, {0.04, 0.045, 0.04}},
+            {{-0.05, -0.40, -0.06}, {0.06, 0.03, 0.08}}};
+}
+
+// A body of revolution: nothing in its outline changes.
+std::vector<Ellipsoid> bottle() {
+    return {{{0, -0.30, 0}, {0.09, 0.13, 0.09}}, {{0, -0.17, 0}, {0.035, 0.1, 0.035}}};
+}
+
+TurntableModel true_model(int views) {
+    TurntableModel model;
+    model.lens = {320, 240, 420, 160, 120, 0, 0};
+    // The axis runs 12 px to the right of the picture's middle.
+    model.pose = {std::atan(-12.0 / 420), radians(15), radians(1)};
+    for (int i = 0; i < views; ++i) model.angles_rad.push_back(2 * kPi * i / views);
+    return model;
+}
+
+TurntableModel level_start(const TurntableModel& truth) {
+    TurntableModel start = truth;
+    start.pose = {};
+    start.lens.f_px = 1.2 * truth.lens.f_px;
+    return start;
+}
+
+bool hits(const std::vector<Ellipsoid>& body, const glm::dvec3& origin, const glm::dvec3& direction) {
+    for (const Ellipsoid& part : body) {
+        const glm::dvec3 o = (origin - part.centre) / part.radii;
+        const glm::dvec3 d = direction / part.radii;
+        const double b = glm::dot(o, d);
+        if (b * b >= glm::dot(d, d) * (glm::dot(o, o) - 1)) return true;
+    }
+    return false;
+}
+
+std::vector<Image<std::uint8_t>> drawn(const std::vector<Ellipsoid>& body, const TurntableModel& model) {
+    constexpr int kSamples = 3;  // per side of a pixel
+    std::vector<Image<std::uint8_t>> masks;
+    for (const double angle : model.angles_rad) {
+        const glm::dvec3 origin = turned({0, 0, 1}, -angle);
+        Image<std::uint8_t> mask(model.lens.width, model.lens.height);
+        for (int y = 0; y < mask.height(); ++y) {
+            for (int x = 0; x < mask.width(); ++x) {
+                int inside = 0;
+                for (int s = 0; s < kSamples * kSamples; ++s) {
+                    const glm::dvec2 p(x + (s % kSamples + 0.5) / kSamples, y + (s / kSamples + 0.5) / kSamples);
+                    const auto ray = table_ray(model.lens, model.pose, p);
+                    if (ray && hits(body, origin, turned(*ray, -angle))) ++inside;
+                }
+                mask(x, y) = static_cast<std::uint8_t>(inside * 255 / (kSamples * kSamples));
+            }
+        }
+        masks.push_back(std::move(mask));
+    }
+    return masks;
+}
+
+double axis_error_px(const TurntableModel& found, const TurntableModel& truth) {
+    double worst = 0;
+    for (const double y : {60.0, 180.0}) {
+        const auto a = axis_column(found.lens, found.pose, y);
+        const auto b = axis_column(truth.lens, truth.pose, y);
+        EXPECT_TRUE(a && b);
+        if (a && b) worst = std::max(worst, std::abs(*a - *b));
+    }
+    return worst;
+}
+
+const std::vector<Image<std::uint8_t>>& figure_masks() {
+    static const auto kMasks = drawn(figure(), true_model(36));
+    return kMasks;
+}
+
+TEST(Silhouettes, FindAxisTiltAndRollOfABodyWithoutSymmetry) {
+    const TurntableModel truth = true_model(36);
+    const auto found = calibrate_with_silhouettes(figure_masks(), level_start(truth), {});
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    EXPECT_EQ(found->method, CalibrationMethod::kSilhouettes);
+    EXPECT_LT(axis_error_px(found->model, truth), 0.3);
+    EXPECT_NEAR(degrees(found->model.pose.tilt_rad), 15, 0.5);
+    EXPECT_NEAR(degrees(found->model.pose.roll_rad), 1, 0.1);
+    EXPECT_NEAR(found->model.lens.f_px, truth.lens.f_px, 0.02 * truth.lens.f_px);
+    EXPECT_LT(found->rms_px, 0.2);
+    EXPECT_EQ(found->views.size(), 36U);
+    EXPECT_EQ(found->model.angles_rad, truth.angles_rad);
+    EXPECT_NEAR(found->step_rad, radians(10), 1e-12);
+    EXPECT_TRUE(found->warnings.empty()) << found->warnings[0];
+    // The deviations own up to the errors and are of use.
+    const ModelDeviations& d = found->deviations;
+    EXPECT_GT(3 * d.tilt_rad, std::abs(found->model.pose.tilt_rad - radians(15)));
+    EXPECT_LT(d.tilt_rad, radians(1.5));
+    EXPECT_LT(d.roll_rad, radians(0.3));
+    EXPECT_LT(d.axis_position_px, 0.5);
+    EXPECT_LT(d.f_px, 0.1 * truth.lens.f_px);
+    EXPECT_TRUE(std::isinf(d.angles_rad[3]));  // equal steps are an assumption
+}
+
+// With masks that are smaller than the photographs.
+TEST(Silhouettes, HoldWhatIsKnown) {
+    const TurntableModel truth = true_model(36);
+    TurntableModel start = level_start(truth);
+    for (double* number : {&start.lens.f_px, &start.lens.cx, &start.lens.cy}) *number *= 4;
+    start.lens.width *= 4;
+    start.lens.height *= 4;
+    KnownInputs known;
+    known.f_px = 4 * truth.lens.f_px;
+    known.step_rad = radians(10);
+    known.distortion = glm::dvec2(0);
+    const auto found = calibrate_with_silhouettes(figure_masks(), start, known);
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    EXPECT_EQ(found->model.lens.f_px, *known.f_px);
+    EXPECT_EQ(found->model.lens.width, 1280);
+    EXPECT_EQ(found->deviations.f_px, 0);
+    EXPECT_EQ(found->deviations.k1, 0);
+    EXPECT_EQ(found->deviations.angles_rad[3], 0);
+    EXPECT_NEAR(degrees(found->model.pose.tilt_rad), 15, 0.5);
+    const auto axis = axis_column(found->model.lens, found->model.pose, 4 * 120);
+    const auto expected = axis_column(truth.lens, truth.pose, 120);
+    ASSERT_TRUE(axis && expected);
+    EXPECT_NEAR(*axis, 4 * *expected, 4 * 0.3);
+}
+
+TEST(Silhouettes, DoNotPretendToKnowWhatABodyOfRevolutionHides) {
+    const TurntableModel truth = true_model(24);
+    TurntableModel one_view = truth;
+    one_view.angles_rad = {0};
+    const std::vector<Image<std::uint8_t>> masks(24, drawn(bottle(), one_view)[0]);
+    const auto found = calibrate_with_silhouettes(masks, level_start(truth), {});
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    // Where the axis runs in the picture is seen.
+    EXPECT_LT(axis_error_px(found->model, truth), 1);
+    const ModelDeviations& d = found->deviations;
+    EXPECT_GT(d.tilt_rad, radians(10));
+    EXPECT_GT(3 * d.tilt_rad, std::abs(found->model.pose.tilt_rad - truth.pose.tilt_rad));
+    EXPECT_GT(3 * d.roll_rad, std::abs(found->model.pose.roll_rad - truth.pose.roll_rad));
+    EXPECT_GT(3 * d.f_px, std::abs(found->model.lens.f_px - truth.lens.f_px));
+    EXPECT_LT(std::abs(found->model.pose.tilt_rad), radians(20));
+    ASSERT_FALSE(found->warnings.empty());
+    EXPECT_NE(found->warnings[0].find("how far the camera looks down"), std::string::npos);
+}
+
+TEST(Silhouettes, RefuseOutlinesThatAreOfNoTurn) {
+    const TurntableModel truth = true_model(36);
+    auto shuffled = figure_masks();
+    for (std::size_t i = 0; i < shuffled.size(); ++i) std::swap(shuffled[i], shuffled[i * 7 % 36]);
+    const auto found = calibrate_with_silhouettes(shuffled, level_start(truth), {});
+    ASSERT_FALSE(found.ok());
+    EXPECT_NE(found.error().message.find("check the steps"), std::string::npos);
+}
+
+TEST(Silhouettes, RefuseInputsThatDoNotFitTogether) {
+    const TurntableModel truth = true_model(36);
+    const auto message = [&](std::vector<Image<std::uint8_t>> masks, const TurntableModel& start) {
+        const auto found = calibrate_with_silhouettes(masks, start, {});
+        return found.ok() ? std::string("accepted") : found.error().message;
+    };
+    auto masks = figure_masks();
+    masks[4] = Image<std::uint8_t>(320, 240);
+    EXPECT_NE(message(masks, truth).find("view 5 shows no object"), std::string::npos);
+    masks[4] = Image<std::uint8_t>(320, 240, 255);
+    EXPECT_NE(message(masks, truth).find("view 5 has hardly any outline"), std::string::npos);
+    masks[4] = Image<std::uint8_t>(32, 24, 255);
+    EXPECT_NE(message(masks, truth).find("view 5 differs in size"), std::string::npos);
+    masks.resize(3);
+    EXPECT_NE(message(masks, truth).find("3 views say too little"), std::string::npos);
+    TurntableModel other = truth;
+    other.angles_rad.pop_back();
+    EXPECT_NE(message(figure_masks(), other).find("35 angles"), std::string::npos);
+    other = truth;
+    other.lens.width = 400;
+    EXPECT_NE(message(figure_masks(), other).find("no reduced pictures"), std::string::npos);
+}
+
+TEST(Silhouettes, TheOtherSenseOfTurningIsNoticed) {
+    const TurntableModel truth = true_model(36);
+    TurntableModel start = level_start(truth);
+    for (double& angle : start.angles_rad) angle = -angle;
+    const auto found = calibrate_with_silhouettes(figure_masks(), start, {});
+    if (found.ok()) {
+        ASSERT_FALSE(found->warnings.empty());
+        EXPECT_NE(found->warnings[0].find("the other sense of turning"), std::string::npos);
+        EXPECT_LT(found->model.pose.tilt_rad, 0);
+    } else {
+        EXPECT_NE(found.error().message.find("sense of turning"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace rs::capture
