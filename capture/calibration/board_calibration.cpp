@@ -263,6 +263,17 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
             return Error{"board: the adjustment fails; check that the pictures are of one turn and in order"};
         }
     }
+    std::vector<std::size_t> against;  // views of which nothing is left have no angle of their own
+    for (std::size_t i = 0; i < views.size() && free.angles == AngleFreedom::kEach; ++i) {
+        const bool left =
+            std::any_of(used.begin(), used.end(), [&](const auto& one) { return one.view == static_cast<int>(i); });
+        if (!left) against.push_back(i);
+    }
+    if (!against.empty()) {
+        return Error{
+            "board: its corners in " + list_of(names, against) +
+            " contradict all others; leave those pictures out, or check that the board lay still on the plate"};
+    }
     // The residual variance, for the deviations: each observation has two coordinates, each unknown takes one.
     std::set<int> shown, corners;
     for (const BoardObservation& one : used) shown.insert(one.view);

@@ -130,7 +130,7 @@ Track agreeing(const TurntableModel& model, const Track& track, double limit_px)
             Track kept;
             for (const Observation& seen : track.seen) {
                 const auto r = residual(model, *p, seen);
-                if (r && glm::length(*r) * seen.weight <= limit_px) kept.seen.push_back(seen);
+                if (r && glm::length(seen.weight * *r) <= limit_px) kept.seen.push_back(seen);
             }
             if (kept.seen.size() > best.seen.size()) best = std::move(kept);
             if (best.seen.size() == count) return best;
@@ -174,10 +174,10 @@ std::optional<double> adjust(Bundle& bundle, const BundleOptions& options) {
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
         for (const Observation& seen : bundle.tracks[i].seen) {
             double* angle = common ? &step : &model.angles_rad[static_cast<std::size_t>(seen.view)];
-            problem.AddResidualBlock(
-                new ceres::AutoDiffCostFunction<Reprojection, 2, 5, 3, 1, 3>(
-                    new Reprojection{seen.p.x, seen.p.y, common ? static_cast<double>(seen.view) : 1.0, seen.weight}),
-                &loss, lens.data(), pose.data(), angle, &bundle.points[i].x);
+            problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Reprojection, 2, 5, 3, 1, 3>(new Reprojection{
+                                         seen.p.x, seen.p.y, common ? static_cast<double>(seen.view) : 1.0,
+                                         seen.weight[0][0], seen.weight[1][0], seen.weight[1][1]}),
+                                     &loss, lens.data(), pose.data(), angle, &bundle.points[i].x);
             ordering->AddElementToGroup(angle, 1);
             ++observations;
         }
@@ -236,7 +236,7 @@ int drop_outliers(Bundle& bundle, double limit_px) {
         Track track;
         for (const Observation& seen : bundle.tracks[i].seen) {
             const auto r = residual(bundle.model, bundle.points[i], seen);
-            if (r && glm::length(*r) * seen.weight <= limit_px) {
+            if (r && glm::length(seen.weight * *r) <= limit_px) {
                 track.seen.push_back(seen);
             } else {
                 ++dropped;
@@ -282,8 +282,9 @@ double robust_deviation_px(const Bundle& bundle) {
         for (const Observation& seen : bundle.tracks[i].seen) {
             const auto r = residual(bundle.model, bundle.points[i], seen);
             if (!r) continue;
-            sizes.push_back(std::abs(r->x) * seen.weight);
-            sizes.push_back(std::abs(r->y) * seen.weight);
+            const glm::dvec2 weighted = seen.weight * *r;
+            sizes.push_back(std::abs(weighted.x));
+            sizes.push_back(std::abs(weighted.y));
         }
     }
     if (sizes.empty()) return 0;

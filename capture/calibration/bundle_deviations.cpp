@@ -1,12 +1,18 @@
 #include "capture/calibration/bundle_deviations.hpp"
 
 #include "capture/calibration/projection.hpp"
+#include "rayspace/conventions.hpp"
 
 #include <ceres/autodiff_cost_function.h>
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace rs::capture {
 namespace {
@@ -55,13 +61,57 @@ std::array<double, kCameraNumbers> axis_slopes(const TurntableModel& model, doub
     return slopes;
 }
 
+constexpr std::size_t kSharedErrors = 4;
+
+// By how much a point may seem to move, per px of shared error, seen `beside_rad` from the middle of its views.
+std::array<Eigen::Vector2d, kSharedErrors> shared_errors(double beside_rad) {
+    const double odd = std::sin(beside_rad), even = 1 - std::cos(beside_rad);
+    return {Eigen::Vector2d(odd, 0), Eigen::Vector2d(0, odd), Eigen::Vector2d(even, 0), Eigen::Vector2d(0, even)};
+}
+
+double middle_angle(const TurntableModel& model, const Track& track) {
+    double sine = 0, cosine = 0;
+    for (const Observation& seen : track.seen) {
+        sine += std::sin(model.angles_rad[static_cast<std::size_t>(seen.view)]);
+        cosine += std::cos(model.angles_rad[static_cast<std::size_t>(seen.view)]);
+    }
+    return std::atan2(sine, cosine);
+}
+
+// Which points are near each other: [point] a number of its neighbourhood, a sector around the axis in a band of
+// height; made smaller until there are at least `fewest`, or each point is alone.
+std::vector<std::size_t> neighbourhoods(const std::vector<glm::dvec3>& points, std::size_t fewest) {
+    constexpr int kSectors = 16, kBands = 6;
+    constexpr int kFinest = 64;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (const glm::dvec3& p : points) {
+        lowest = std::min(lowest, p.y);
+        highest = std::max(highest, p.y);
+    }
+    const double height = std::max(highest - lowest, 1e-12);
+    std::vector<std::size_t> result(points.size());
+    for (int finer = 1; finer <= kFinest; finer *= 2) {
+        std::map<std::pair<int, int>, std::size_t> numbers;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double around = std::atan2(points[i].x, points[i].z) / (2 * kPi) + 0.5;
+            const std::pair<int, int> place{static_cast<int>(around * kSectors * finer),
+                                            static_cast<int>((points[i].y - lowest) / height * kBands * finer)};
+            result[i] = numbers.try_emplace(place, numbers.size()).first->second;
+        }
+        if (numbers.size() >= fewest) return result;
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) result[i] = i;
+    return result;
+}
+
 }  // namespace
 
 bool lies_sideways(const CameraPose& pose) {
     return std::abs(std::sin(pose.roll_rad)) > std::abs(std::cos(pose.roll_rad));
 }
 
-ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& options, double at_px) {
+ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& options, double at_px,
+                                  double shared_error_px) {
     const TurntableModel& model = bundle.model;
     const Unknowns unknowns(options.free, model.angles_rad.size());
     const std::array<double, 5> lens{model.lens.f_px, model.lens.cx, model.lens.cy, model.lens.k1, model.lens.k2};
@@ -70,21 +120,26 @@ ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& opt
     const int n = unknowns.count;
 
     Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(n, n);
-    Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(n, n);
-    int tracks = 0;
+    Eigen::MatrixXd meat;
+    Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(n, kSharedErrors);  // what each shared error does to the score
+    const std::vector<std::size_t> neighbourhood = neighbourhoods(bundle.points, 2 * static_cast<std::size_t>(n));
+    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(bundle.points.size()));
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
         Eigen::MatrixXd camera_camera = Eigen::MatrixXd::Zero(n, n);
         Eigen::MatrixXd camera_point = Eigen::MatrixXd::Zero(n, 3);
         Eigen::Matrix3d point_point = Eigen::Matrix3d::Zero();
         Eigen::VectorXd camera_score = Eigen::VectorXd::Zero(n);
         Eigen::Vector3d point_score = Eigen::Vector3d::Zero();
+        Eigen::MatrixXd camera_shared = Eigen::MatrixXd::Zero(n, kSharedErrors);
+        Eigen::Matrix<double, 3, kSharedErrors> point_shared = Eigen::Matrix<double, 3, kSharedErrors>::Zero();
+        const double middle_rad = middle_angle(model, bundle.tracks[i]);
         for (const Observation& seen : bundle.tracks[i].seen) {
             const auto view = static_cast<std::size_t>(seen.view);
             const double turns = common ? static_cast<double>(seen.view) : 1.0;
             const double angle =
                 common ? (seen.view == 0 ? 0.0 : model.angles_rad[view] / turns) : model.angles_rad[view];
             const ceres::AutoDiffCostFunction<Reprojection, 2, 5, 3, 1, 3> cost(
-                new Reprojection{seen.p.x, seen.p.y, turns, seen.weight});
+                new Reprojection{seen.p.x, seen.p.y, turns, seen.weight[0][0], seen.weight[1][0], seen.weight[1][1]});
             const std::array<const double*, 4> blocks{lens.data(), pose.data(), &angle, &bundle.points[i].x};
             Eigen::Vector2d r;
             Eigen::Matrix<double, 2, 5, Eigen::RowMajor> by_lens;
@@ -93,6 +148,14 @@ ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& opt
             std::array<double*, 4> jacobians{by_lens.data(), by_pose.data(), by_angle.data(), by_point.data()};
             if (!cost.Evaluate(blocks.data(), r.data(), jacobians.data())) continue;
             const double weight = 1 / (1 + r.squaredNorm() / (options.loss_px * options.loss_px));
+
+            Eigen::Matrix2d whitening;
+            whitening << seen.weight[0][0], seen.weight[1][0], seen.weight[0][1], seen.weight[1][1];
+            Eigen::Matrix<double, 2, kSharedErrors> error;
+            const auto movements = shared_errors(model.angles_rad[view] - middle_rad);
+            for (std::size_t k = 0; k < kSharedErrors; ++k) {
+                error.col(static_cast<Eigen::Index>(k)) = whitening * movements[k];
+            }
 
             std::array<std::pair<int, Eigen::Vector2d>, kCameraNumbers + 1> columns;
             std::size_t used = 0;
@@ -105,6 +168,7 @@ ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& opt
             for (std::size_t a = 0; a < used; ++a) {
                 const auto& [place, slope] = columns[a];
                 camera_score(place) += weight * slope.dot(r);
+                camera_shared.row(place) += weight * slope.transpose() * error;
                 camera_point.row(place) += weight * slope.transpose() * by_point;
                 for (std::size_t b = 0; b < used; ++b) {
                     camera_camera(place, columns[b].first) += weight * slope.dot(columns[b].second);
@@ -112,14 +176,17 @@ ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& opt
             }
             point_point += weight * by_point.transpose() * by_point;
             point_score += weight * by_point.transpose() * r;
+            point_shared += weight * by_point.transpose() * error;
         }
         const Eigen::Matrix3d inverse = point_point.inverse();
         if (!inverse.allFinite()) continue;
         bread += camera_camera - camera_point * inverse * camera_point.transpose();
         const Eigen::VectorXd score = camera_score - camera_point * inverse * point_score;
-        meat += score * score.transpose();
-        ++tracks;
+        scores.col(static_cast<Eigen::Index>(neighbourhood[i])) += score;
+        shared += camera_shared - camera_point * inverse * point_shared;
     }
+    meat = scores * scores.transpose();
+    const auto clusters = static_cast<int>((scores.colwise().squaredNorm().array() > 0).count());
     const std::array<double, 5> priors{0, kPriorPrincipalPoint * model.lens.width,
                                        kPriorPrincipalPoint * model.lens.width, kPriorK1, kPriorK2};
     for (std::size_t k = 1; k < priors.size(); ++k) {
@@ -131,12 +198,13 @@ ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& opt
 
     ModelDeviations deviations;
     deviations.angles_rad.assign(model.angles_rad.size(), std::numeric_limits<double>::infinity());
-    if (tracks <= n) return deviations;
+    if (clusters <= n) return deviations;
     const Eigen::LDLT<Eigen::MatrixXd> solver(bread);
     if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-15)) return deviations;
-    const double few = static_cast<double>(tracks) / (tracks - n);  // the usual correction for few clusters
+    const double few = static_cast<double>(clusters) / (clusters - n);  // the usual correction for few clusters
     const Eigen::MatrixXd half = solver.solve(meat);
-    const Eigen::MatrixXd covariance = few * solver.solve(half.transpose());
+    const Eigen::MatrixXd moved = shared_error_px * solver.solve(shared);
+    const Eigen::MatrixXd covariance = few * solver.solve(half.transpose()) + moved * moved.transpose();
     const auto deviation = [&](int number) {
         const int place = unknowns.place[static_cast<std::size_t>(number)];
         return place < 0 ? 0.0 : std::sqrt(std::max(0.0, covariance(place, place)));

@@ -12,6 +12,7 @@ constexpr double kArm = 0.42;           // of the cross, in squares
 constexpr double kMost = 0.2;           // squares that the corner may stand from where it was expected
 constexpr double kCorrelation = 0.7;    // with an ideal chessboard
 constexpr double kLeastContrast = 0.4;  // of the worst two sectors, to the mean contrast
+constexpr double kSmear_px = 3;
 constexpr int kMostSteps = 12;
 
 struct Window {
@@ -121,10 +122,10 @@ std::optional<glm::dvec2> refined_corner(const cv::Mat1f& grey, const cv::Matx33
     Window window;
     window.half = std::clamp(static_cast<int>(std::lround(kArm * longest)), 8, 24);
     window.pitch = kArm / window.half;
-    // A marker's edge is smeared over about a pixel, which stays outside.
+    // A marker's edge is smeared by the smoothing and by the differences; that much stays outside where there is room.
     const cv::Matx22d to_px{h(0, 0) / h(2, 2), h(0, 1) / h(2, 2), h(1, 0) / h(2, 2), h(1, 1) / h(2, 2)};
     const double narrow_px = std::abs(cv::determinant(to_px)) / longest;  // squares' least height in pixels
-    const double band = std::clamp(margin - 1.2 / std::max(1.0, narrow_px), 0.4 * margin, margin);
+    const double band = std::clamp(margin - kSmear_px / std::max(1.0, narrow_px), 0.45 * margin, margin);
 
     glm::dvec2 centre(0);
     for (int i = 0; i < kMostSteps; ++i) {

@@ -15,9 +15,6 @@
 
 namespace rs::capture {
 
-// Patches are kPatchSide_px wide in the reference view, in px of the (reduced) pictures.
-inline constexpr int kPatchSide_px = 15;
-
 // What an observation by a detector counts beside aligned ones.
 inline constexpr double kDetectedWeight = 0.3;
 

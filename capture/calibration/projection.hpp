@@ -39,14 +39,17 @@ struct Reprojection {
     double x = 0;  // seen, px
     double y = 0;
     double turns = 1;  // the angle is this many times its parameter: the view's number where all share one step
-    double weight = 1;
+    // The residual is multiplied by this symmetric matrix.
+    double weight_xx = 1, weight_xy = 0, weight_yy = 1;
 
     template <class T>
     bool operator()(const T* lens, const T* pose, const T* angle, const T* point, T* residuals) const {
         const T at = angle[0] * T(turns);
         if (!project_turned(lens, pose, at, point, residuals)) return false;
-        residuals[0] = (residuals[0] - T(x)) * T(weight);
-        residuals[1] = (residuals[1] - T(y)) * T(weight);
+        const T dx = residuals[0] - T(x);
+        const T dy = residuals[1] - T(y);
+        residuals[0] = T(weight_xx) * dx + T(weight_xy) * dy;
+        residuals[1] = T(weight_xy) * dx + T(weight_yy) * dy;
         return true;
     }
 };

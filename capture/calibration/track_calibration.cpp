@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace rs::capture {
 namespace {
@@ -15,17 +16,14 @@ namespace {
 constexpr std::size_t kFewestViews = 5;
 constexpr std::size_t kFewestTracks = 40;
 constexpr std::size_t kHeldOutEvery = 10;  // of the tracks
+constexpr double kLossDeviations = 2;
 constexpr double kOutlierDeviations = 4;
+constexpr double kSharedError_px = 0.1;  // what the true errors on photographs with known truth ask for
+constexpr std::size_t kEnoughWideTracks = 80;
+constexpr double kWideArc_rad = 0.35;
+constexpr double kRoom = 1.15;  // around the points known, for those not known yet
 constexpr double kLeastOutlierLimit_px = 0.8;
 constexpr double kAlignedLimit_px = 1;  // alignment that went to another place
-
-std::vector<Track> enlarged(const std::vector<Track>& tracks, int reduction) {
-    std::vector<Track> result = tracks;
-    for (Track& track : result) {
-        for (Observation& seen : track.seen) seen.p *= static_cast<double>(reduction);
-    }
-    return result;
-}
 
 void split(const std::vector<Track>& tracks, std::vector<Track>& part, std::vector<Track>& held_out) {
     for (std::size_t i = 0; i < tracks.size(); ++i) (i % kHeldOutEvery == 3 ? held_out : part).push_back(tracks[i]);
@@ -60,6 +58,15 @@ void choose_upper_end(Bundle& bundle) {
     pose.roll_rad += pose.roll_rad > 0 ? -kPi : kPi;
     for (double& angle : bundle.model.angles_rad) angle = -angle;
     for (glm::dvec3& p : bundle.points) p = {-p.x, -p.y, p.z};
+}
+
+// Of the points, but for the farthest few, which may be wrong.
+double farthest_radius(const Bundle& bundle) {
+    std::vector<double> radii;
+    for (const glm::dvec3& p : bundle.points) radii.push_back(std::hypot(p.x, p.z));
+    const auto most = radii.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(radii.size() - 1));
+    std::nth_element(radii.begin(), most, radii.end());
+    return *most;
 }
 
 const char* const kNoSolution = "the bundle adjustment fails; are the pictures in order?";
@@ -106,17 +113,52 @@ bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k
     return adjust(bundle, options).has_value();
 }
 
+// The way around the turn from which a track is seen.
+double arc_rad(const TurntableModel& model, const Track& track) {
+    const double first = model.angles_rad[static_cast<std::size_t>(track.seen.front().view)];
+    double low = 0, high = 0;
+    for (const Observation& seen : track.seen) {
+        const double turn = std::remainder(model.angles_rad[static_cast<std::size_t>(seen.view)] - first, 2 * kPi);
+        low = std::min(low, turn);
+        high = std::max(high, turn);
+    }
+    return high - low;
+}
+
+// What is seen only for a short way may be the crossing of two contours or the edge of a shadow, which glide over the
+// object and still look like a point for that long. Where enough others are there it is left out.
+void keep_wide_tracks(Bundle& bundle) {
+    std::vector<double> arcs;
+    for (const Track& track : bundle.tracks) arcs.push_back(arc_rad(bundle.model, track));
+    std::vector<double> sorted = arcs;
+    std::sort(sorted.begin(), sorted.end(), std::greater<>());
+    if (sorted.size() <= kEnoughWideTracks) return;
+    const double least = std::min(kWideArc_rad, sorted[kEnoughWideTracks]);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
+        if (arcs[i] < least) continue;
+        if (kept != i) {
+            bundle.tracks[kept] = std::move(bundle.tracks[i]);
+            bundle.points[kept] = bundle.points[i];
+        }
+        ++kept;
+    }
+    bundle.tracks.resize(kept);
+    bundle.points.resize(kept);
+}
+
 // The same points observed anew, by alignment of their patches.
 bool refine(Bundle& bundle, const TurnPictures& turn, BundleOptions& options) {
     for (int round = 0; round < 2; ++round) {
         const std::vector<Track> tracks = aligned_tracks(turn.pictures, turn.reduction, bundle);
         Bundle next = make_agreeing_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
+        keep_wide_tracks(next);
         if (next.tracks.size() < kFewestTracks / 2) return false;
         bundle = std::move(next);
         for (int again = 0; again < 2; ++again) {
-            options.loss_px = std::max(0.1 * turn.reduction, 2 * robust_deviation_px(bundle));
+            options.loss_px = std::max(0.05 * turn.reduction, kLossDeviations * robust_deviation_px(bundle));
             if (!adjust(bundle, options)) return false;
-            drop_outliers(bundle, std::max(0.3 * turn.reduction, kOutlierDeviations * robust_deviation_px(bundle)));
+            drop_outliers(bundle, std::max(0.2 * turn.reduction, kOutlierDeviations * robust_deviation_px(bundle)));
         }
     }
     return true;
@@ -131,11 +173,12 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
                      std::to_string(kFewestViews) + ", better 36"};
     }
     if (progress != nullptr) progress->start("following points", 2 * static_cast<std::int64_t>(views));
-    Result<FollowedPoints> followed = follow_points(turn.pictures, {}, progress);
+    const Result<PointFollower> follower = PointFollower::look_at(turn.pictures, turn.reduction, {}, progress);
+    if (!follower) return follower.error();
+    Result<FollowedPoints> followed = follower->follow(progress);
     if (!followed) return followed.error();
     TrackCalibration result;
     result.followed = std::move(*followed);
-    result.followed.tracks = enlarged(result.followed.tracks, turn.reduction);
     const std::vector<Track>& tracks = result.followed.tracks;
     if (tracks.size() < kFewestTracks) {
         return Error{"only " + std::to_string(tracks.size()) +
@@ -161,6 +204,15 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     Status accepted = accept(bundle, bundle_deviations(bundle, options, at_px), candidates, turn.names);
     if (!accepted) return accepted.error();
     const Bundle settled = bundle;
+    // Now that it is known where a point can be, more of them are found.
+    const Result<std::vector<Track>> guided =
+        follower->follow_guided(bundle.model, kRoom * farthest_radius(bundle), 2.0 * turn.reduction);
+    if (!guided) return guided.error();
+    part.clear();
+    held_out.clear();
+    split(*guided, part, held_out);
+    bundle = make_agreeing_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
+    if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
     Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
     if (refine(bundle, turn, options)) {
         unseen.model = bundle.model;
@@ -174,7 +226,7 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     Calibration& calibration = result.calibration;
     calibration.method = CalibrationMethod::kTracks;
     calibration.model = bundle.model;
-    calibration.deviations = bundle_deviations(bundle, options, at_px);
+    calibration.deviations = bundle_deviations(bundle, options, at_px, kSharedError_px * turn.reduction);
     calibration.step_rad = median_step(bundle.model.angles_rad);
     Bundle judged = settled;  // its observations, the better angles
     judged.model = bundle.model;

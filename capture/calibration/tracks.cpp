@@ -1,98 +1,23 @@
 #include "capture/calibration/tracks.hpp"
 
+#include "capture/calibration/features.hpp"
 #include "rayspace/check.hpp"
 
 #include <tbb/parallel_for.h>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/features2d.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <optional>
 #include <set>
 
 namespace rs::capture {
 namespace {
 
 constexpr double kRatio = 0.8;            // Lowe: best distance over second best
+constexpr double kGuidedRatio = 0.9;      // among the few that the model allows
 constexpr double kEpipolarBand_px = 1.5;  // at 1000 px of the longer side; grows with the picture
 constexpr int kFewestMatches = 12;        // below, a pair says nothing
-
-struct ViewFeatures {
-    std::vector<cv::Point2f> positions;  // OpenCV's convention
-    cv::Mat descriptors;                 // one row each, square roots of L1-normalised SIFT
-};
-
-cv::Mat wrapped(const Image<std::uint8_t>& picture) {
-    const auto view = picture.view();
-    return {view.height(), view.width(), CV_8U, const_cast<std::uint8_t*>(view.row_span(0).data()),
-            static_cast<std::size_t>(view.stride())};
-}
-
-ViewFeatures features_of(const CalibrationPicture& picture, const FollowOptions& options) {
-    cv::Mat inside;
-    cv::threshold(wrapped(picture.alpha), inside, 250, 255, cv::THRESH_BINARY);
-    const int side = 2 * options.rim_px + 1;
-    cv::erode(inside, inside, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}), {-1, -1}, 1,
-              cv::BORDER_REPLICATE);
-    const auto sift = cv::SIFT::create(options.most_features, 4, 0.012, 12);
-    std::vector<cv::KeyPoint> points;
-    cv::Mat descriptors;
-    sift->detectAndCompute(wrapped(picture.grey), inside, points, descriptors);
-
-    // A place with two directions is two features there; keep the order OpenCV gives, which is deterministic.
-    ViewFeatures features;
-    features.descriptors = descriptors;
-    for (const cv::KeyPoint& point : points) features.positions.push_back(point.pt);
-    for (int row = 0; row < descriptors.rows; ++row) {  // RootSIFT (Arandjelovic and Zisserman, 2012)
-        cv::Mat line = features.descriptors.row(row);
-        line /= std::max(cv::norm(line, cv::NORM_L1), 1e-9);
-        cv::sqrt(line, line);
-    }
-    return features;
-}
-
-struct Match {
-    int first = 0;
-    int second = 0;
-};
-
-// Mutual best matches that pass the ratio test.
-std::vector<Match> alike(const ViewFeatures& a, const ViewFeatures& b) {
-    std::vector<Match> matches;
-    if (a.descriptors.rows < 2 || b.descriptors.rows < 2) return matches;
-    const cv::Mat products = a.descriptors * b.descriptors.t();  // unit vectors: distance^2 = 2 - 2 * product
-    std::vector<int> best_of_b(static_cast<std::size_t>(products.cols), -1);
-    std::vector<float> product_of_b(static_cast<std::size_t>(products.cols), -1.0F);
-    for (int i = 0; i < products.rows; ++i) {
-        const float* row = products.ptr<float>(i);
-        for (int j = 0; j < products.cols; ++j) {
-            if (row[j] > product_of_b[static_cast<std::size_t>(j)]) {
-                product_of_b[static_cast<std::size_t>(j)] = row[j];
-                best_of_b[static_cast<std::size_t>(j)] = i;
-            }
-        }
-    }
-    for (int i = 0; i < products.rows; ++i) {
-        const float* row = products.ptr<float>(i);
-        int best = 0;
-        for (int j = 1; j < products.cols; ++j) {
-            if (row[j] > row[best]) best = j;
-        }
-        // The second best lies elsewhere: one corner often has several features, of two directions or scales.
-        float second = -1;
-        const cv::Point2f at = b.positions[static_cast<std::size_t>(best)];
-        for (int j = 0; j < products.cols; ++j) {
-            const cv::Point2f off = b.positions[static_cast<std::size_t>(j)] - at;
-            if (row[j] > second && off.dot(off) > 4.0F) second = row[j];
-        }
-        const double nearest = std::sqrt(std::max(0.0, 2.0 - 2.0 * static_cast<double>(row[best])));
-        const double next = std::sqrt(std::max(0.0, 2.0 - 2.0 * static_cast<double>(second)));
-        if (nearest < kRatio * next && best_of_b[static_cast<std::size_t>(best)] == i) matches.push_back({i, best});
-    }
-    return matches;
-}
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0;
@@ -101,17 +26,19 @@ double median(std::vector<double> values) {
 }
 
 // Those that agree with one epipolar geometry (RANSAC with OpenCV's fixed seed).
-std::vector<Match> consistent(const std::vector<Match>& matches, const ViewFeatures& a, const ViewFeatures& b,
-                              double band_px) {
+std::vector<FeatureMatch> consistent(const std::vector<FeatureMatch>& matches, const ViewFeatures& a,
+                                     const ViewFeatures& b, double band_px) {
     if (static_cast<int>(matches.size()) < kFewestMatches) return {};
-    std::vector<cv::Point2f> in_a, in_b;
-    for (const Match& match : matches) {
-        in_a.push_back(a.positions[static_cast<std::size_t>(match.first)]);
-        in_b.push_back(b.positions[static_cast<std::size_t>(match.second)]);
+    std::vector<cv::Point2d> in_a, in_b;
+    for (const FeatureMatch& match : matches) {
+        const glm::dvec2 p = a.positions[static_cast<std::size_t>(match.first)];
+        const glm::dvec2 q = b.positions[static_cast<std::size_t>(match.second)];
+        in_a.emplace_back(p.x, p.y);
+        in_b.emplace_back(q.x, q.y);
     }
     std::vector<std::uint8_t> good;
     const cv::Mat f = cv::findFundamentalMat(in_a, in_b, cv::FM_RANSAC, band_px, 0.999, 3000, good);
-    std::vector<Match> kept;
+    std::vector<FeatureMatch> kept;
     if (f.empty()) return kept;
     for (std::size_t i = 0; i < matches.size(); ++i) {
         if (good[i] != 0) kept.push_back(matches[i]);
@@ -120,53 +47,73 @@ std::vector<Match> consistent(const std::vector<Match>& matches, const ViewFeatu
     return kept;
 }
 
-class Unions {
-public:
-    explicit Unions(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-    std::size_t root(std::size_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
+void measure_motion(const ViewFeatures& a, const ViewFeatures& b, const std::vector<FeatureMatch>& matches,
+                    PairOfViews& pair) {
+    pair.matches = static_cast<int>(matches.size());
+    std::vector<double> dx, dy;
+    for (const FeatureMatch& match : matches) {
+        const glm::dvec2 motion =
+            b.positions[static_cast<std::size_t>(match.second)] - a.positions[static_cast<std::size_t>(match.first)];
+        dx.push_back(motion.x);
+        dy.push_back(motion.y);
+        pair.spread_x_px += std::abs(motion.x) / static_cast<double>(matches.size());
+        pair.spread_y_px += std::abs(motion.y) / static_cast<double>(matches.size());
     }
-    void join(std::size_t a, std::size_t b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
+    pair.motion_x_px = median(std::move(dx));
+    pair.motion_y_px = median(std::move(dy));
+}
 
-private:
-    std::vector<std::size_t> parent_;
+// Views and the next few after each, around the end of the turn too; no pair twice.
+std::vector<PairOfViews> near_pairs(int count, int farthest_neighbour) {
+    std::set<std::pair<int, int>> wanted;
+    for (int i = 0; i < count; ++i) {
+        for (int step = 1; step <= farthest_neighbour && step < count; ++step) {
+            const int other = (i + step) % count;
+            if (!wanted.contains({other, i})) wanted.insert({i, other});
+        }
+    }
+    std::vector<PairOfViews> pairs;
+    for (const auto& [first, second] : wanted) pairs.push_back({.first = first, .second = second});
+    return pairs;
+}
+
+// Where a point seen at `p` in one view may appear in another: the projection of the part of its ray that lies within
+// the object's cylinder, nearly a straight piece.
+struct RayPiece {
+    glm::dvec2 from{0.0};
+    glm::dvec2 to{0.0};
+
+    [[nodiscard]] double distance(const glm::dvec2& p) const {
+        const glm::dvec2 along = to - from;
+        const double t = std::clamp(glm::dot(p - from, along) / std::max(1e-12, glm::dot(along, along)), 0.0, 1.0);
+        return glm::distance(p, from + t * along);
+    }
 };
 
-// A feature seen twice in one view makes its whole chain doubtful; such chains are left out.
-std::vector<Track> chained(const std::vector<ViewFeatures>& views, const std::vector<PairOfViews>& pairs,
-                           const std::vector<std::vector<Match>>& matches) {
-    std::vector<std::size_t> first_of_view{0};
-    for (const ViewFeatures& view : views) first_of_view.push_back(first_of_view.back() + view.positions.size());
-    Unions unions(first_of_view.back());
-    for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
-        for (const Match& match : matches[pair]) {
-            unions.join(
-                first_of_view[static_cast<std::size_t>(pairs[pair].first)] + static_cast<std::size_t>(match.first),
-                first_of_view[static_cast<std::size_t>(pairs[pair].second)] + static_cast<std::size_t>(match.second));
-        }
+std::optional<RayPiece> ray_piece(const TurntableModel& model, int first, int second, const glm::dvec2& p,
+                                  double radius) {
+    const auto ray = table_ray(model.lens, model.pose, p);
+    if (!ray) return std::nullopt;
+    // (0, 0, 1) + s * ray meets the cylinder where (s ray.x)^2 + (1 + s ray.z)^2 = radius^2.
+    const double a = ray->x * ray->x + ray->z * ray->z;
+    const double under = ray->z * ray->z - a * (1 - radius * radius);
+    if (!(under > 0) || !(a > 0)) return std::nullopt;
+    const double turn =
+        model.angles_rad[static_cast<std::size_t>(second)] - model.angles_rad[static_cast<std::size_t>(first)];
+    RayPiece piece;
+    for (const double sign : {-1.0, 1.0}) {
+        const double s = (-ray->z + sign * std::sqrt(under)) / a;
+        const auto end = project(model.lens, model.pose, turned(glm::dvec3(0, 0, 1) + s * *ray, turn));
+        if (!end) return std::nullopt;
+        (sign < 0 ? piece.from : piece.to) = *end;
     }
-    std::vector<Track> by_root(first_of_view.back());
-    std::vector<bool> doubtful(first_of_view.back(), false);
-    for (std::size_t view = 0; view < views.size(); ++view) {
-        for (std::size_t i = 0; i < views[view].positions.size(); ++i) {
-            const std::size_t root = unions.root(first_of_view[view] + i);
-            const cv::Point2f p = views[view].positions[i];
-            const glm::dvec2 here(static_cast<double>(p.x) + 0.5, static_cast<double>(p.y) + 0.5);
-            auto& seen = by_root[root].seen;
-            if (!seen.empty() && seen.back().view == static_cast<int>(view)) {
-                // Two features at one corner are one observation.
-                if (glm::distance(seen.back().p, here) > 1.0) doubtful[root] = true;
-                continue;
-            }
-            seen.push_back({static_cast<int>(view), here});
-        }
-    }
-    std::vector<Track> tracks;
-    for (std::size_t root = 0; root < by_root.size(); ++root) {
-        if (!doubtful[root] && by_root[root].seen.size() >= 3) tracks.push_back(std::move(by_root[root]));
-    }
-    return tracks;
+    return piece;
+}
+
+// In px of the photographs.
+ViewFeatures enlarged(ViewFeatures view, int reduction) {
+    for (glm::dvec2& p : view.positions) p *= static_cast<double>(reduction);
+    return view;
 }
 
 }  // namespace
@@ -194,54 +141,78 @@ CalibrationPicture calibration_picture(ConstImageView<Rgba8> picture, int reduct
     return result;
 }
 
-Result<FollowedPoints> follow_points(std::span<const CalibrationPicture> turn, const FollowOptions& options,
-                                     Progress* progress) {
-    const int count = static_cast<int>(turn.size());
-    FollowedPoints found;
-    if (count < 2) return found;
-    const double longer = std::max(turn.front().grey.width(), turn.front().grey.height());
-    const double band_px = kEpipolarBand_px * std::max(1.0, longer / 1000);
-    try {
-        std::vector<ViewFeatures> views(turn.size());
-        tbb::parallel_for(std::size_t{0}, turn.size(), [&](std::size_t i) {
-            views[i] = features_of(turn[i], options);
-            if (progress != nullptr) progress->advance();
-        });
-        for (const ViewFeatures& view : views) found.features.push_back(static_cast<int>(view.positions.size()));
+struct PointFollower::State {
+    std::vector<ViewFeatures> views;  // in px of the photographs
+    std::vector<PairOfViews> pairs;
+    double band_px = 0;
+};
 
-        std::set<std::pair<int, int>> wanted;
-        for (int i = 0; i < count; ++i) {
-            for (int step = 1; step <= options.farthest_neighbour && step < count; ++step) {
-                const int other = (i + step) % count;
-                if (!wanted.contains({other, i})) wanted.insert({i, other});
-            }
+PointFollower::PointFollower(std::unique_ptr<State> state) : state_(std::move(state)) {}
+PointFollower::PointFollower(PointFollower&&) noexcept = default;
+PointFollower::~PointFollower() = default;
+
+Result<PointFollower> PointFollower::look_at(std::span<const CalibrationPicture> turn, int reduction,
+                                             const FollowOptions& options, Progress* progress) {
+    auto state = std::make_unique<State>();
+    if (turn.empty()) return PointFollower(std::move(state));
+    const double longer = reduction * std::max(turn.front().grey.width(), turn.front().grey.height());
+    state->band_px = kEpipolarBand_px * std::max(1.0, longer / 1000);
+    state->pairs = near_pairs(static_cast<int>(turn.size()), options.farthest_neighbour);
+    try {
+        for (ViewFeatures& view : find_features(turn, options, progress)) {
+            state->views.push_back(enlarged(std::move(view), reduction));
         }
-        for (const auto& [first, second] : wanted) found.pairs.push_back({.first = first, .second = second});
-        std::vector<std::vector<Match>> matches(found.pairs.size());
+    } catch (const cv::Exception& escaped) {
+        return Error{std::string("the pictures' features cannot be found (OpenCV: ") + escaped.what() + ")"};
+    }
+    return PointFollower(std::move(state));
+}
+
+Result<FollowedPoints> PointFollower::follow(Progress* progress) const {
+    FollowedPoints found;
+    found.pairs = state_->pairs;
+    for (const ViewFeatures& view : state_->views) found.features.push_back(static_cast<int>(view.positions.size()));
+    std::vector<std::vector<FeatureMatch>> matches(found.pairs.size());
+    try {
         tbb::parallel_for(std::size_t{0}, found.pairs.size(), [&](std::size_t i) {
             PairOfViews& pair = found.pairs[i];
-            const ViewFeatures& a = views[static_cast<std::size_t>(pair.first)];
-            const ViewFeatures& b = views[static_cast<std::size_t>(pair.second)];
-            matches[i] = consistent(alike(a, b), a, b, band_px);
-            pair.matches = static_cast<int>(matches[i].size());
-            std::vector<double> dx, dy;
-            for (const Match& match : matches[i]) {
-                const cv::Point2f motion = b.positions[static_cast<std::size_t>(match.second)] -
-                                           a.positions[static_cast<std::size_t>(match.first)];
-                dx.push_back(static_cast<double>(motion.x));
-                dy.push_back(static_cast<double>(motion.y));
-                pair.spread_x_px += std::abs(dx.back()) / static_cast<double>(matches[i].size());
-                pair.spread_y_px += std::abs(dy.back()) / static_cast<double>(matches[i].size());
-            }
-            pair.motion_x_px = median(dx);
-            pair.motion_y_px = median(dy);
+            const ViewFeatures& a = state_->views[static_cast<std::size_t>(pair.first)];
+            const ViewFeatures& b = state_->views[static_cast<std::size_t>(pair.second)];
+            matches[i] = consistent(alike(a, b, kRatio), a, b, state_->band_px);
+            measure_motion(a, b, matches[i], pair);
+            const auto count = static_cast<int>(state_->views.size());
             if (progress != nullptr && pair.second == (pair.first + 1) % count) progress->advance();
         });
-        found.tracks = chained(views, found.pairs, matches);
+        found.tracks = chained(state_->views, found.pairs, matches);
     } catch (const cv::Exception& escaped) {
         return Error{std::string("the pictures' features cannot be followed (OpenCV: ") + escaped.what() + ")"};
     }
     return found;
+}
+
+Result<std::vector<Track>> PointFollower::follow_guided(const TurntableModel& model, double radius,
+                                                        double band_px) const {
+    std::vector<std::vector<FeatureMatch>> matches(state_->pairs.size());
+    try {
+        tbb::parallel_for(std::size_t{0}, state_->pairs.size(), [&](std::size_t i) {
+            const PairOfViews& pair = state_->pairs[i];
+            const ViewFeatures& a = state_->views[static_cast<std::size_t>(pair.first)];
+            const ViewFeatures& b = state_->views[static_cast<std::size_t>(pair.second)];
+            // The features of the first view come one after another.
+            std::optional<glm::dvec2> at;
+            std::optional<RayPiece> piece;
+            matches[i] = alike(a, b, kGuidedRatio, [&](const glm::dvec2& p, const glm::dvec2& q) {
+                if (!at || *at != p) {
+                    at = p;
+                    piece = ray_piece(model, pair.first, pair.second, p, radius);
+                }
+                return piece && piece->distance(q) <= band_px;
+            });
+        });
+        return chained(state_->views, state_->pairs, matches);
+    } catch (const cv::Exception& escaped) {
+        return Error{std::string("the pictures' features cannot be followed (OpenCV: ") + escaped.what() + ")"};
+    }
 }
 
 }  // namespace rs::capture

@@ -4,6 +4,7 @@
 // Stands before the bundle. Nothing here knows the rig; wrong matches that agree with some epipolar geometry of their
 // pair are left for the bundle to find.
 
+#include "capture/calibration/turntable_model.hpp"
 #include "rayspace/image.hpp"
 #include "rayspace/progress.hpp"
 #include "rayspace/result.hpp"
@@ -11,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,8 +39,8 @@ CalibrationPicture calibration_picture(ConstImageView<Rgba8> picture, int reduct
 
 struct Observation {
     int view = 0;
-    glm::dvec2 p{0.0};  // px, pixel centres at +0.5
-    double weight = 1;  // of its residual in the adjustment; residuals themselves are always in px
+    glm::dvec2 p{0.0};       // px, pixel centres at +0.5
+    glm::dmat2 weight{1.0};  // the adjustment takes weight * residual; residuals themselves are always in px
 };
 struct Track {
     std::vector<Observation> seen;  // by ascending view, one per view, at least two
@@ -66,9 +68,30 @@ struct FollowOptions {
     int rim_px = 4;              // nearer to the object's outline nothing is looked for: backdrop shines in there
 };
 
-// Works side by side; the result does not depend on the number of threads. Advances `progress` by two steps a view.
-// Fails only where OpenCV does.
-Result<FollowedPoints> follow_points(std::span<const CalibrationPicture> turn, const FollowOptions& options,
-                                     Progress* progress);
+// Holds the features of all views. Works side by side; results do not depend on the number of threads.
+class PointFollower {
+public:
+    // `turn` reduced by `reduction`; everything below is in px of the photographs. One step of `progress` per view.
+    // Fails only where OpenCV does.
+    static Result<PointFollower> look_at(std::span<const CalibrationPicture> turn, int reduction,
+                                         const FollowOptions& options, Progress* progress);
+    PointFollower(PointFollower&& other) noexcept;
+    ~PointFollower();
+
+    // Knowing nothing: matches that pass Lowe's test and agree with some epipolar geometry of their two views. One step
+    // of `progress` per view.
+    [[nodiscard]] Result<FollowedPoints> follow(Progress* progress) const;
+
+    // Knowing roughly how the object turns and that it stays within `radius` of the axis (units of the model): of the
+    // features that lie within band_px of where a point can appear, the most alike. More and longer tracks, also on
+    // patterns that repeat.
+    [[nodiscard]] Result<std::vector<Track>> follow_guided(const TurntableModel& model, double radius,
+                                                           double band_px) const;
+
+private:
+    struct State;
+    explicit PointFollower(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
 
 }  // namespace rs::capture

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 namespace rs::capture {
 namespace {
@@ -12,6 +13,8 @@ namespace {
 constexpr double kFewestAgreeing = 0.2;        // of all candidates
 constexpr double kFewestAgreeingOfView = 0.4;  // of the median over all views
 constexpr double kMostViewsApart = 0.15;
+constexpr double kLeastExplained = 0.6;  // of the shares' scatter, by one change
+constexpr double kLeastChange = 0.25;
 constexpr double kLargestRms = 0.004;        // of the picture's longer side: 4 px of 1000
 constexpr double kMostUncertainLens = 0.25;  // deviation of f over f
 constexpr double kStepWarning_deg = 0.5;
@@ -31,13 +34,20 @@ std::string number(double value, int digits) {
     return text;
 }
 
-// Views whose candidates mostly disagree with the rig.
-std::vector<std::size_t> views_apart(const Bundle& bundle, std::span<const int> candidates) {
+// [view], of its candidates: those that agree with the rig.
+std::vector<double> agreeing_shares(const Bundle& bundle, std::span<const int> candidates) {
     const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
     std::vector<double> shares;
     for (std::size_t view = 0; view < kept.size(); ++view) {
         shares.push_back(static_cast<double>(kept[view]) / std::max(1, candidates[view]));
     }
+    return shares;
+}
+
+// Views whose candidates mostly disagree with the rig.
+std::vector<std::size_t> views_apart(const Bundle& bundle, std::span<const int> candidates) {
+    const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
+    const std::vector<double> shares = agreeing_shares(bundle, candidates);
     const double least = kFewestAgreeingOfView * median(shares);
     std::vector<std::size_t> apart;
     for (std::size_t view = 0; view < kept.size(); ++view) {
@@ -55,9 +65,26 @@ std::string listed(const std::vector<std::size_t>& views, std::span<const std::s
     return text;
 }
 
-// The views run on from the first of them to the last: the mark of something that changed at one moment.
-bool is_one_run(const std::vector<std::size_t>& views) {
-    return views.size() > 1 && views.back() - views.front() + 1 == views.size();
+// The first view after something changed at one moment: the shares before it and after it are two different levels that
+// explain most of how shares differ. Nothing where they differ otherwise, as where two cameras take turns.
+std::optional<std::size_t> moment_of_change(std::span<const double> shares) {
+    const auto count = static_cast<double>(shares.size());
+    double mean = 0, scatter = 0;
+    for (const double share : shares) mean += share / count;
+    for (const double share : shares) scatter += (share - mean) * (share - mean);
+    std::optional<std::size_t> moment;
+    double most = kLeastExplained * scatter;
+    double before = 0;  // sum
+    for (std::size_t view = 1; view < shares.size(); ++view) {
+        before += shares[view - 1];
+        const auto first = static_cast<double>(view);
+        const double change = (count * mean - before) / (count - first) - before / first;
+        const double explained = first * (count - first) / count * change * change;
+        if (std::abs(change) < kLeastChange || explained < most) continue;
+        most = explained;
+        moment = view;
+    }
+    return moment;
 }
 
 }  // namespace
@@ -71,8 +98,16 @@ double median_step(std::span<const double> angles_rad) {
 std::vector<int> repeated_views(std::span<const double> angles_rad) {
     const double usual = std::abs(median_step(angles_rad));
     std::vector<int> repeated;
-    for (std::size_t i = 1; i < angles_rad.size(); ++i) {
-        if (std::abs(angles_rad[i] - angles_rad[i - 1]) < kRepeat * usual) repeated.push_back(static_cast<int>(i));
+    std::vector<double> taken;
+    for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+        const bool repeats = std::any_of(taken.begin(), taken.end(), [&](double other) {
+            return std::abs(std::remainder(angles_rad[i] - other, 2 * kPi)) < kRepeat * usual;
+        });
+        if (repeats) {
+            repeated.push_back(static_cast<int>(i));
+        } else {
+            taken.push_back(angles_rad[i]);
+        }
     }
     return repeated;
 }
@@ -89,8 +124,8 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
         std::string text = "the pictures do not show one turn before a still camera: " + number(100 * share, 0) +
                            " % of the observations agree with the best one";
         if (!apart.empty()) text += ", and not those of " + listed(apart, names);
-        if (is_one_run(apart)) {
-            text += "; was the camera or the tripod moved before " + names[apart.front()] + "?";
+        if (const auto moment = moment_of_change(agreeing_shares(bundle, candidates))) {
+            text += "; was the camera or the tripod moved at about " + names[*moment] + "? Take the turn again";
         } else {
             text += "; are they of one camera, one zoom and one object that stood still on the plate?";
         }

@@ -30,7 +30,8 @@ std::vector<std::string> warnings_about(const Bundle& bundle, const ModelDeviati
                                         std::span<const int> candidates, std::span<const int> features,
                                         std::span<const std::string> names);
 
-// Views that repeat the one before them (the turntable had not turned): less than a tenth of the median step.
+// Views that stand where an earlier one does, within a tenth of the median step: the turntable had not turned, or the
+// turn goes on past its beginning.
 std::vector<int> repeated_views(std::span<const double> angles_rad);
 
 }  // namespace rs::capture

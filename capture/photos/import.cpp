@@ -134,6 +134,12 @@ Result<CalibrationRequest> calibration_request(const ImportOptions& options, con
 Status finish_nominal(const ImportOptions& options, const CutTurn& turn, const fs::path& cut, const fs::path& staged,
                       ImportReport& report) {
     report.notes.insert(report.notes.end(), report.nominal.notes.begin(), report.nominal.notes.end());
+    const KnownInputs& known = options.known.known;
+    if (known.f_px || known.pose || known.angles_rad) {
+        report.notes.emplace_back(
+            "a nominal rig takes nothing of what was given as known; --fov, --degrees-per-view and --axis-x set its "
+            "numbers");
+    }
     report.method = CalibrationMethod::kNominal;
     report.views = static_cast<int>(report.source_names.size());
     report.step_deg = report.nominal.step_deg;

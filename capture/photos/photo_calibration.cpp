@@ -1,6 +1,7 @@
 #include "capture/photos/photo_calibration.hpp"
 
 #include "capture/calibration/silhouettes.hpp"
+#include "capture/calibration/turn_diagnosis.hpp"
 #include "capture/photos/bounded_work.hpp"
 #include "rayspace/picture_io.hpp"
 
@@ -44,26 +45,46 @@ Result<BoardCalibration> from_board(const PhotoFolder& folder, const Calibration
     return calibrate_with_board(*views, *request.board, folder.width, folder.height, request.known, names);
 }
 
-// Outlines need no more than kSilhouetteSide_px for the longer side.
-std::vector<Image<std::uint8_t>> silhouettes(const TurnPictures& turn) {
+// The outlines, at most kSilhouetteSide_px for the longer side.
+struct Silhouettes {
+    std::vector<Image<std::uint8_t>> masks;
+    int reduction = 1;  // of the photographs' sides; what is left over at the right and below is cut off
+};
+
+Silhouettes silhouettes(const TurnPictures& turn) {
     const Image<std::uint8_t>& first = turn.pictures.front().alpha;
     const int longer = std::max(first.width(), first.height());
     const int factor = (longer + kSilhouetteSide_px - 1) / kSilhouetteSide_px;
-    std::vector<Image<std::uint8_t>> masks;
+    Silhouettes result{{}, turn.reduction * factor};
     for (const CalibrationPicture& picture : turn.pictures) {
-        Image<std::uint8_t> mask(first.width() / factor, first.height() / factor);
+        Image<std::uint8_t> mask(std::max(1, first.width() / factor), std::max(1, first.height() / factor));
         for (int y = 0; y < mask.height(); ++y) {
             for (int x = 0; x < mask.width(); ++x) {
-                int sum = 0;
-                for (int dy = 0; dy < factor; ++dy) {
-                    for (int dx = 0; dx < factor; ++dx) sum += picture.alpha(x * factor + dx, y * factor + dy);
+                int sum = 0, count = 0;
+                for (int dy = 0; dy < factor && y * factor + dy < first.height(); ++dy) {
+                    for (int dx = 0; dx < factor && x * factor + dx < first.width(); ++dx, ++count) {
+                        sum += picture.alpha(x * factor + dx, y * factor + dy);
+                    }
                 }
-                mask(x, y) = static_cast<std::uint8_t>(sum / (factor * factor));
+                mask(x, y) = static_cast<std::uint8_t>(sum / count);
             }
         }
-        masks.push_back(std::move(mask));
+        result.masks.push_back(std::move(mask));
     }
-    return masks;
+    return result;
+}
+
+Result<Calibration> from_silhouettes(const TurnPictures& turn, const CalibrationRequest& request) {
+    const Silhouettes outlines = silhouettes(turn);
+    // The part of the photographs that the outlines show, for their sides must be the outlines' times a whole number.
+    TurntableModel start = request.nominal;
+    start.lens.width = outlines.reduction * outlines.masks.front().width();
+    start.lens.height = outlines.reduction * outlines.masks.front().height();
+    Result<Calibration> found = calibrate_with_silhouettes(outlines.masks, start, request.known);
+    if (!found) return found;
+    found->model.lens.width = turn.width;
+    found->model.lens.height = turn.height;
+    return found;
 }
 
 // Everything is known: nothing is estimated, so there are no deviations either.
@@ -76,8 +97,7 @@ std::optional<Calibration> given(const CalibrationRequest& request, std::size_t 
     calibration.model.lens.f_px = *known.f_px;
     calibration.model.pose = *known.pose;
     if (known.angles_rad) calibration.model.angles_rad = *known.angles_rad;
-    const std::size_t last = calibration.model.angles_rad.size() - 1;
-    calibration.step_rad = last > 0 ? calibration.model.angles_rad.back() / static_cast<double>(last) : 0;
+    calibration.step_rad = median_step(calibration.model.angles_rad);
     calibration.views.resize(views);
     ModelDeviations& held = calibration.deviations;
     held.f_px = held.cx = held.cy = held.k1 = held.k2 = held.axis_direction_rad = held.tilt_rad = held.roll_rad =
@@ -100,12 +120,6 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const fs::p
     }
     Result<TurnPictures> turn = read_turn(folder, cut_folder, progress);
     if (!turn) return turn.error();
-    if (choice == CalibrationChoice::kAuto) {
-        if (auto calibration = given(request, views)) {
-            result.calibration = std::move(*calibration);
-            return result;
-        }
-    }
     if (choice == CalibrationChoice::kBoard && !request.board) {
         return Error{
             "calibration by a board was asked for, but the board is not described; say --board default for "
@@ -121,6 +135,12 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const fs::p
         if (choice == CalibrationChoice::kBoard) return board.error();
         result.notes.push_back("no calibration from the board: " + board.error().message);
     }
+    if (choice == CalibrationChoice::kAuto) {
+        if (auto calibration = given(request, views)) {
+            result.calibration = std::move(*calibration);
+            return result;
+        }
+    }
     if (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kTracks) {
         Result<TrackCalibration> tracks = calibrate_with_tracks(*turn, request.known, progress);
         if (tracks) {
@@ -133,8 +153,7 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const fs::p
     }
     if (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kSilhouettes) {
         if (progress != nullptr) progress->start("fitting the silhouettes", 1);
-        const std::vector<Image<std::uint8_t>> masks = silhouettes(*turn);
-        Result<Calibration> outlines = calibrate_with_silhouettes(masks, request.nominal, request.known);
+        Result<Calibration> outlines = from_silhouettes(*turn, request);
         if (progress != nullptr) progress->advance();
         if (outlines) {
             result.calibration = std::move(*outlines);

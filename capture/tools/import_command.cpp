@@ -2,6 +2,7 @@
 
 #include "capture/photos/import.hpp"
 #include "capture/photos/import_page.hpp"
+#include "capture/photos/photo_folder.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/progress.hpp"
@@ -147,7 +148,9 @@ Status run_import(const CommandLine& given) {
         options.board = *board;
     }
     if (!given.known.empty()) {
-        Result<KnownFile> known = read_known_file(given.known);
+        const Result<PhotoFolder> folder = open_photo_folder(options.photos);
+        if (!folder) return folder.error();
+        Result<KnownFile> known = read_known_file(given.known, {folder->width, folder->height});
         if (!known) return known.error();
         options.known = std::move(*known);
     }

@@ -21,11 +21,12 @@ struct Imported {
     std::vector<Image<Rgba8>> cuts;
 };
 
-Imported import(const std::filesystem::path& photos) {
+Imported import(const std::filesystem::path& photos, CalibrationChoice calibration) {
     const test::TemporaryFolder folder;
     ImportOptions options;
     options.photos = photos;
     options.output = folder / "set";
+    options.calibration = calibration;
     const Result<ImportReport> report = import_photos(options, nullptr);
     EXPECT_TRUE(report.ok()) << (report.ok() ? "" : report.error().message);
     if (!report.ok()) return {};
@@ -90,14 +91,14 @@ void expect_one_object_in_every_view(const Imported& imported) {
 
 TEST(RealPhotos, DinosaurOnABlueDisc) {
     const auto photos = RS_REAL_DATA_OR_SKIP("turntable/oxford-dino");
-    const Imported imported = import(photos);
+    const Imported imported = import(photos, CalibrationChoice::kTracks);
     ASSERT_EQ(imported.cuts.size(), 36U);
     EXPECT_EQ(imported.report.dropped_repeat, "viff.036.png");
     EXPECT_EQ(imported.report.backdrop, BackdropKind::kColour);
     EXPECT_GT(imported.report.backdrop_colour.b, imported.report.backdrop_colour.r + 40);
-    EXPECT_EQ(imported.report.turning_from, "pictures");
+    EXPECT_EQ(imported.report.nominal.turning_from, "pictures");
     EXPECT_EQ(imported.report.turning, Turning::kClockwise);
-    EXPECT_LT(imported.report.axis_spread_px, 5);
+    EXPECT_LT(imported.report.nominal.axis_spread_px, 5);
     EXPECT_GT(imported.report.min_coverage, 0.09);
     EXPECT_LT(imported.report.max_coverage, 0.18);
     expect_one_object_in_every_view(imported);
@@ -117,12 +118,12 @@ TEST(RealPhotos, DinosaurOnABlueDisc) {
 
 TEST(RealPhotos, ShoeOnWhiteWithASoftShadow) {
     const auto photos = RS_REAL_DATA_OR_SKIP("turntable/shoe36");
-    const Imported imported = import(photos);
+    const Imported imported = import(photos, CalibrationChoice::kNominal);
     ASSERT_EQ(imported.cuts.size(), 36U);
     EXPECT_EQ(imported.report.dropped_repeat, "");
     EXPECT_EQ(imported.report.backdrop, BackdropKind::kWhite);
     EXPECT_EQ(imported.report.turning, Turning::kClockwise);
-    EXPECT_NEAR(imported.report.axis_x_px, 400, 8);
+    EXPECT_NEAR(imported.report.nominal.axis_x_px, 400, 8);
     EXPECT_GT(imported.report.min_coverage, 0.12);
     EXPECT_LT(imported.report.max_coverage, 0.42);
     expect_one_object_in_every_view(imported);
@@ -134,12 +135,12 @@ TEST(RealPhotos, ShoeOnWhiteWithASoftShadow) {
 
 TEST(RealPhotos, CarWithItsOwnAlpha) {
     const auto photos = RS_REAL_DATA_OR_SKIP("turntable/car52");
-    const Imported imported = import(photos);
+    const Imported imported = import(photos, CalibrationChoice::kNominal);
     ASSERT_EQ(imported.cuts.size(), 51U);
     EXPECT_EQ(imported.report.dropped_repeat, "52.png");
     EXPECT_EQ(imported.report.backdrop, BackdropKind::kAlpha);
     EXPECT_EQ(imported.report.turning, Turning::kCounterClockwise);
-    EXPECT_NEAR(imported.report.axis_x_px, 500, 10);
+    EXPECT_NEAR(imported.report.nominal.axis_x_px, 500, 10);
     EXPECT_EQ(imported.rig.views[9].extras["source_file"], "10.png");
     expect_one_object_in_every_view(imported);
     for (std::size_t i = 0; i < imported.cuts.size(); i += 10) {

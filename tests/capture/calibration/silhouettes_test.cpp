@@ -11,6 +11,8 @@
 namespace rs::capture {
 namespace {
 
+constexpr int kViews = 24;
+
 struct Ellipsoid {  // in the object frame, units of the camera's distance
     glm::dvec3 centre{0};
     glm::dvec3 radii{0};
@@ -89,12 +91,12 @@ double axis_error_px(const TurntableModel& found, const TurntableModel& truth) {
 }
 
 const std::vector<Image<std::uint8_t>>& figure_masks() {
-    static const auto kMasks = drawn(figure(), true_model(36));
+    static const auto kMasks = drawn(figure(), true_model(kViews));
     return kMasks;
 }
 
 TEST(Silhouettes, FindAxisTiltAndRollOfABodyWithoutSymmetry) {
-    const TurntableModel truth = true_model(36);
+    const TurntableModel truth = true_model(kViews);
     const auto found = calibrate_with_silhouettes(figure_masks(), level_start(truth), {});
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->method, CalibrationMethod::kSilhouettes);
@@ -103,9 +105,9 @@ TEST(Silhouettes, FindAxisTiltAndRollOfABodyWithoutSymmetry) {
     EXPECT_NEAR(degrees(found->model.pose.roll_rad), 1, 0.1);
     EXPECT_NEAR(found->model.lens.f_px, truth.lens.f_px, 0.02 * truth.lens.f_px);
     EXPECT_LT(found->rms_px, 0.2);
-    EXPECT_EQ(found->views.size(), 36U);
+    EXPECT_EQ(found->views.size(), static_cast<std::size_t>(kViews));
     EXPECT_EQ(found->model.angles_rad, truth.angles_rad);
-    EXPECT_NEAR(found->step_rad, radians(10), 1e-12);
+    EXPECT_NEAR(found->step_rad, radians(360.0 / kViews), 1e-12);
     EXPECT_TRUE(found->warnings.empty()) << found->warnings[0];
     // The deviations own up to the errors and are of use.
     const ModelDeviations& d = found->deviations;
@@ -119,14 +121,14 @@ TEST(Silhouettes, FindAxisTiltAndRollOfABodyWithoutSymmetry) {
 
 // With masks that are smaller than the photographs.
 TEST(Silhouettes, HoldWhatIsKnown) {
-    const TurntableModel truth = true_model(36);
+    const TurntableModel truth = true_model(kViews);
     TurntableModel start = level_start(truth);
     for (double* number : {&start.lens.f_px, &start.lens.cx, &start.lens.cy}) *number *= 4;
     start.lens.width *= 4;
     start.lens.height *= 4;
     KnownInputs known;
     known.f_px = 4 * truth.lens.f_px;
-    known.step_rad = radians(10);
+    known.step_rad = radians(360.0 / kViews);
     known.distortion = glm::dvec2(0);
     const auto found = calibrate_with_silhouettes(figure_masks(), start, known);
     ASSERT_TRUE(found.ok()) << found.error().message;
@@ -162,16 +164,16 @@ TEST(Silhouettes, DoNotPretendToKnowWhatABodyOfRevolutionHides) {
 }
 
 TEST(Silhouettes, RefuseOutlinesThatAreOfNoTurn) {
-    const TurntableModel truth = true_model(36);
+    const TurntableModel truth = true_model(kViews);
     auto shuffled = figure_masks();
-    for (std::size_t i = 0; i < shuffled.size(); ++i) std::swap(shuffled[i], shuffled[i * 7 % 36]);
+    for (std::size_t i = 0; i < shuffled.size(); ++i) std::swap(shuffled[i], shuffled[(i * 11 + 5) % kViews]);
     const auto found = calibrate_with_silhouettes(shuffled, level_start(truth), {});
     ASSERT_FALSE(found.ok());
     EXPECT_NE(found.error().message.find("check the steps"), std::string::npos);
 }
 
 TEST(Silhouettes, RefuseInputsThatDoNotFitTogether) {
-    const TurntableModel truth = true_model(36);
+    const TurntableModel truth = true_model(kViews);
     const auto message = [&](std::vector<Image<std::uint8_t>> masks, const TurntableModel& start) {
         const auto found = calibrate_with_silhouettes(masks, start, {});
         return found.ok() ? std::string("accepted") : found.error().message;
@@ -187,14 +189,14 @@ TEST(Silhouettes, RefuseInputsThatDoNotFitTogether) {
     EXPECT_NE(message(masks, truth).find("3 views say too little"), std::string::npos);
     TurntableModel other = truth;
     other.angles_rad.pop_back();
-    EXPECT_NE(message(figure_masks(), other).find("35 angles"), std::string::npos);
+    EXPECT_NE(message(figure_masks(), other).find("23 angles"), std::string::npos);
     other = truth;
     other.lens.width = 400;
     EXPECT_NE(message(figure_masks(), other).find("no reduced pictures"), std::string::npos);
 }
 
 TEST(Silhouettes, TheOtherSenseOfTurningIsNoticed) {
-    const TurntableModel truth = true_model(36);
+    const TurntableModel truth = true_model(kViews);
     TurntableModel start = level_start(truth);
     for (double& angle : start.angles_rad) angle = -angle;
     const auto found = calibrate_with_silhouettes(figure_masks(), start, {});

@@ -22,7 +22,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// photos/1.png .. N.png, drawn over white; the disc turns as `sense` says.
+// photos/1.png .. N.png, drawn over white; no rig is looked for: a disc that always looks the same has none.
 class ImportTest : public testing::Test {
 protected:
     void SetUp() override {
@@ -31,6 +31,7 @@ protected:
         options_.photos = folder_ / "photos";
         options_.output = folder_ / "set";
         options_.turning = Turning::kClockwise;
+        options_.calibration = CalibrationChoice::kNominal;
     }
     void write(int number, const Image<Rgba8>& picture) const {
         const Status status = write_png(photo(number), picture);
@@ -55,9 +56,10 @@ TEST_F(ImportTest, MakesACaptureSet) {
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_TRUE(report.ok()) << report.error().message;
     EXPECT_EQ(report->views, 12);
+    EXPECT_EQ(report->method, CalibrationMethod::kNominal);
     EXPECT_EQ(report->backdrop, BackdropKind::kWhite);
-    EXPECT_EQ(report->axis_from, "silhouettes");
-    EXPECT_NEAR(report->axis_x_px, turn_.axis_x_px, 0.6);
+    EXPECT_EQ(report->nominal.axis_from, "silhouettes");
+    EXPECT_NEAR(report->nominal.axis_x_px, turn_.axis_x_px, 0.6);
     EXPECT_EQ(report->step_deg, 30);
 
     const Result<Rig> rig = read_rig(options_.output);
@@ -68,7 +70,7 @@ TEST_F(ImportTest, MakesACaptureSet) {
     EXPECT_EQ(rig->views[10].extras["source_file"], "11.png") << "natural order";
     for (int i = 0; i < 12; ++i) {
         const RigView& view = rig->views[static_cast<std::size_t>(i)];
-        EXPECT_NEAR(view.camera.cx, report->axis_x_px, 1e-9);
+        EXPECT_NEAR(view.camera.cx, report->nominal.axis_x_px, 1e-9);
         const Result<Image<Rgba8>> cut = read_picture(picture_path(options_.output, view));
         ASSERT_TRUE(cut.ok()) << cut.error().message;
         const test::DrawnView truth = test::draw_view(turn_, i);
@@ -107,7 +109,7 @@ TEST_F(ImportTest, SaysSoWhereThereIsNoFullTurn) {
     options_.degrees_per_view = 5;
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_TRUE(report.ok()) << report.error().message;
-    EXPECT_EQ(report->axis_from, "picture middle");
+    EXPECT_EQ(report->nominal.axis_from, "picture middle");
     EXPECT_THAT(report->notes, testing::Contains(HasSubstr("--axis-x")));
 }
 
