@@ -16,7 +16,7 @@ constexpr double kLeastContrast = 3;        // of a levelled patch's grey values
 constexpr double kSharpDeviation_px = 0.1;  // an alignment surer than this in all directions has full weight
 constexpr double kTypicalNoise = 4;         // grey values squared
 constexpr double kWindowDeviation_px = 3;
-constexpr int kMostIterations = 12;
+constexpr int kMostIterations = 10;
 
 constexpr std::size_t kFewestSamples = 40;
 
@@ -227,7 +227,8 @@ std::optional<Alignment> align(const Image<float>& picture, const Image<std::uin
             warp.bent[static_cast<std::size_t>(n)] += warp.deeper * round->curvature_step[n];
         }
         if (glm::distance(warp.centre, start.centre) > 2 * kFarthestMove_px) return std::nullopt;
-        if (step.head<2>().norm() < 0.003 && step.tail<4>().norm() * kHalf < 0.01) break;
+        const double enough = curvature_is_known ? 0.003 : 0.02;  // px
+        if (step.head<2>().norm() < enough && step.tail<4>().norm() * kHalf < 3 * enough) break;
     }
     if (round->correlation < kLeastCorrelation || !centre_is_inside(warp, alpha)) return std::nullopt;
     if (glm::distance(warp.centre, start.centre) > kFarthestMove_px) return std::nullopt;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 namespace rs::capture {
 namespace {
@@ -21,7 +22,8 @@ constexpr double kOutlierDeviations = 4;
 constexpr double kSharedError_px = 0.1;  // what the true errors on photographs with known truth ask for
 constexpr std::size_t kEnoughWideTracks = 80;
 constexpr double kWideArc_rad = 0.35;
-constexpr double kRoom = 1.15;  // around the points known, for those not known yet
+constexpr std::size_t kEnoughTracks = 2000;  // more would only take time
+constexpr double kRoom = 1.15;               // around the points known, for those not known yet
 constexpr double kLeastOutlierLimit_px = 0.8;
 constexpr double kAlignedLimit_px = 1;  // alignment that went to another place
 
@@ -125,18 +127,11 @@ double arc_rad(const TurntableModel& model, const Track& track) {
     return high - low;
 }
 
-// What is seen only for a short way may be the crossing of two contours or the edge of a shadow, which glide over the
-// object and still look like a point for that long. Where enough others are there it is left out.
-void keep_wide_tracks(Bundle& bundle) {
-    std::vector<double> arcs;
-    for (const Track& track : bundle.tracks) arcs.push_back(arc_rad(bundle.model, track));
-    std::vector<double> sorted = arcs;
-    std::sort(sorted.begin(), sorted.end(), std::greater<>());
-    if (sorted.size() <= kEnoughWideTracks) return;
-    const double least = std::min(kWideArc_rad, sorted[kEnoughWideTracks]);
+template <class Condition>
+void keep(Bundle& bundle, Condition condition) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
-        if (arcs[i] < least) continue;
+        if (!condition(i)) continue;
         if (kept != i) {
             bundle.tracks[kept] = std::move(bundle.tracks[i]);
             bundle.points[kept] = bundle.points[i];
@@ -145,6 +140,31 @@ void keep_wide_tracks(Bundle& bundle) {
     }
     bundle.tracks.resize(kept);
     bundle.points.resize(kept);
+}
+
+// What is seen only for a short way may be the crossing of two contours or the edge of a shadow, which glide over the
+// object and still look like a point for that long. Where enough others are there it is left out.
+void keep_wide_tracks(Bundle& bundle) {
+    std::vector<double> arcs;
+    for (const Track& track : bundle.tracks) arcs.push_back(arc_rad(bundle.model, track));
+    std::vector<double> sorted = arcs;
+    std::sort(sorted.begin(), sorted.end(), std::greater<>());
+    if (sorted.size() <= kEnoughWideTracks) return;
+    keep(bundle,
+         [&, least = std::min(kWideArc_rad, sorted[kEnoughWideTracks])](std::size_t i) { return arcs[i] >= least; });
+}
+
+// Those seen in most views, where there are more than enough.
+void keep_long_tracks(Bundle& bundle) {
+    if (bundle.tracks.size() <= kEnoughTracks) return;
+    std::vector<std::size_t> longest(bundle.tracks.size());
+    std::iota(longest.begin(), longest.end(), std::size_t{0});
+    std::stable_sort(longest.begin(), longest.end(), [&](std::size_t a, std::size_t b) {
+        return bundle.tracks[a].seen.size() > bundle.tracks[b].seen.size();
+    });
+    std::vector<bool> kept(longest.size(), false);
+    for (std::size_t k = 0; k < kEnoughTracks; ++k) kept[longest[k]] = true;
+    keep(bundle, [&](std::size_t i) { return kept[i]; });
 }
 
 // The same points observed anew, by alignment of their patches.
@@ -214,6 +234,7 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     bundle = make_agreeing_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
     if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
     Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
+    keep_long_tracks(bundle);
     if (refine(bundle, turn, options)) {
         unseen.model = bundle.model;
         unseen = make_agreeing_bundle(bundle.model, aligned_tracks(turn.pictures, turn.reduction, unseen),

@@ -2,12 +2,15 @@
 
 #include "capture/photos/colour_difference.hpp"
 #include "capture/photos/plate.hpp"
+#include "capture/photos/turn_plate.hpp"
 
+#include <tbb/parallel_for.h>
 #include <opencv2/core.hpp>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 
 namespace rs::capture {
@@ -19,6 +22,7 @@ constexpr int kWhite_code = 225;               // every channel at least
 constexpr int kBlack_code = 40;                // every channel at most
 constexpr double kBorderMajority = 0.6;
 constexpr int kBorderColours = 4;
+constexpr double kStillBorder = 0.5;
 constexpr float kStillShare = 0.6F;  // of the samples agree: never or seldom hidden
 constexpr float kNeverHidden = 0.95F;
 constexpr float kSeenShare = 0.3F;  // of the samples agree: the backdrop, if its colour is right
@@ -86,24 +90,6 @@ bool resembles(const Rgba8& pixel, const std::vector<Rgba8>& colours) {
     });
 }
 
-float median_noise(const Survey& survey, const StillPicture& still) {
-    constexpr int kStep_px = 7;
-    std::vector<float> differences;
-    for (const Image<Rgba8>& sample : survey.samples) {
-        for (int y = 0; y < sample.height(); y += kStep_px) {
-            for (int x = 0; x < sample.width(); x += kStep_px) {
-                if (still.agreement(x, y) < kNeverHidden) continue;
-                differences.push_back(delta_e(lab_from_linear(linear_rgb(sample(x, y))),
-                                              lab_from_linear(linear_rgb(still.colour(x, y)))));
-            }
-        }
-    }
-    if (differences.empty()) return 0;
-    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-    std::nth_element(differences.begin(), middle, differences.end());
-    return *middle;
-}
-
 constexpr const char* kNoColour =
     ": the pictures' borders are neither even nor still; give --backdrop R,G,B, or cut the object out beforehand and "
     "give pictures with alpha";
@@ -134,6 +120,36 @@ BorderShares border_shares(const StillPicture& still) {
     shares.black /= count;
     shares.still /= count;
     return shares;
+}
+
+template <class Condition>
+Image<std::uint8_t> mask_of(const StillPicture& still, Condition condition) {
+    Image<std::uint8_t> mask(still.agreement.width(), still.agreement.height());
+    std::transform(still.agreement.pixels().begin(), still.agreement.pixels().end(), mask.pixels().begin(),
+                   [&](float agreement) { return condition(agreement) ? std::uint8_t{255} : std::uint8_t{0}; });
+    return mask;
+}
+
+// Where the plate is known because it is of the border's colours and seen often enough.
+Image<std::uint8_t> alike(const StillPicture& still, const std::vector<Rgba8>& colours, bool turn) {
+    Image<std::uint8_t> known(still.colour.width(), still.colour.height());
+    for (int y = 0; y < known.height(); ++y) {
+        for (int x = 0; x < known.width(); ++x) {
+            const bool seen = !turn || still.agreement(x, y) >= kSeenShare;
+            known(x, y) = seen && resembles(still.colour(x, y), colours) ? 255 : 0;
+        }
+    }
+    return known;
+}
+
+// Those of the border's colours that are strong, as objects hardly have them.
+std::vector<Rgba8> screen_colours(std::vector<Rgba8> colours) {
+    constexpr float kScreenChroma = 30;
+    std::erase_if(colours, [](const Rgba8& colour) {
+        const Lab lab = lab_from_linear(linear_rgb(colour));
+        return std::hypot(lab.a, lab.b) < kScreenChroma;
+    });
+    return colours;
 }
 
 }  // namespace
@@ -181,10 +197,11 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
         return Error{where + ": the pictures have no transparent pixels; leave --backdrop alpha away"};
     }
     if (request.kind == BackdropKind::kAlpha || (!request.kind && alpha)) {
-        return Backdrop{BackdropKind::kAlpha, {0, 0, 0, 0}, {}};
+        return Backdrop{};
     }
 
-    StillPicture still = agree_over_time(survey.samples);
+    EvenedSamples samples(survey.samples);
+    StillPicture still = agree_over_time(samples);
     const bool turn = survey.samples.size() >= kMinSamplesForStillness;
     const BorderShares shares = border_shares(still);
     Backdrop found;
@@ -195,7 +212,7 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
         found.kind = BackdropKind::kWhite;
     } else if (shares.black >= kBorderMajority) {
         found.kind = BackdropKind::kBlack;
-    } else if (colours.empty() || (turn && shares.still < 0.5)) {
+    } else if (colours.empty() || (turn && shares.still < kStillBorder)) {
         return Error{where + kNoColour};
     } else {
         found.kind = BackdropKind::kColour;
@@ -206,20 +223,32 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     if (named && (request.kind || colours.empty())) colours.insert(colours.begin(), *named);
     if (colours.empty()) return Error{where + kNoColour};
     found.colour = colours.front();
+    if (found.kind == BackdropKind::kColour) found.screen = screen_colours(colours);
 
-    Image<std::uint8_t> known(still.colour.width(), still.colour.height());
-    for (int y = 0; y < known.height(); ++y) {
-        for (int x = 0; x < known.width(); ++x) {
-            const bool seen = !turn || still.agreement(x, y) >= kSeenShare;
-            known(x, y) = seen && resembles(still.colour(x, y), colours) ? 1 : 0;
-        }
+    if (turn) {
+        samples.even_out(still.colour, mask_of(still, [](float agreement) { return agreement >= kNeverHidden; }));
+        still = agree_over_time(samples);
+        found.untouched = mask_of(still, [](float agreement) { return agreement >= kNeverHidden; });
     }
-    if (std::count(known.pixels().begin(), known.pixels().end(), 1) == 0) {
+    Image<std::uint8_t> known;
+    if (turn && shares.still >= kStillBorder) {
+        TurnPlate plate = plate_of_turn(samples, still.colour, found.untouched);
+        still.colour = std::move(plate.colour);
+        known = std::move(plate.known);
+        found.untouched = std::move(plate.untouched);
+        // Through the loops of an object a white or black backdrop looks the same all the time, too.
+        if (found.kind == BackdropKind::kColour) found.hidden = std::move(plate.hidden);
+    } else {
+        known = alike(still, colours, turn);
+    }
+    if (std::count(known.pixels().begin(), known.pixels().end(), 0) == std::ssize(known.pixels())) {
         still.colour = Image<Rgba8>(known.width(), known.height(), found.colour);
     }
-    if (turn) found.noise_delta_e = median_noise(survey, still);
+    found.known = known;
+    if (turn) bridge_rows(still.colour, known);
     fill_unknown(still.colour, known);
     found.plate = std::move(still.colour);
+    if (turn) found.noise_delta_e = plate_noise(samples, found.plate, found.known);
     return found;
 }
 

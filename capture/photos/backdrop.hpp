@@ -30,9 +30,16 @@ Result<BackdropRequest> parse_backdrop(const std::string& text);
 
 struct Backdrop {
     BackdropKind kind = BackdropKind::kAlpha;
-    Rgba8 colour;             // the commonest colour along the border (kAlpha: transparent black)
-    Image<Rgba8> plate;       // sRGB, opaque, in the samples' size; empty for kAlpha
-    float noise_delta_e = 0;  // median difference between the samples and the plate where the object never is
+    Rgba8 colour;                 // the commonest colour along the border (kAlpha: transparent black)
+    std::vector<Rgba8> screen{};  // strong colours of the border, as of a chroma key: backdrop wherever they are seen
+    Image<Rgba8> plate;           // sRGB, opaque, in the samples' size; empty for kAlpha
+    Image<std::uint8_t> known{};  // 255 where the pictures show it, 0 where it is filled in; empty for kAlpha
+    // 255 where nothing ever covers it; and where the object always does although it stands still there, as the white
+    // ground of a painted vase. Empty where there are too few pictures to tell.
+    Image<std::uint8_t> untouched{};
+    Image<std::uint8_t> hidden{};
+    // Mean difference near by between the samples that show the plate and the plate; as empty.
+    Image<float> noise_delta_e{};
 };
 
 // Automatic: the pictures' own alpha where at least 1 % of the pixels are transparent in most of the samples; otherwise

@@ -19,9 +19,13 @@ public:
     [[nodiscard]] Image<Rgba8> cut(ConstImageView<Rgba8> photo) const;
 
 private:
+    // The plate as bright as it is in this photograph.
+    [[nodiscard]] PlateView exposed_as(ConstImageView<Rgba8> photo) const;
+
     BackdropKind kind_;
     MaskOptions options_;
-    Image<LinearRgb> plate_;
+    PlateView plate_;
+    Image<std::uint8_t> untouched_;  // of the plate; empty where nobody can tell
     int band_px_;
 };
 

@@ -16,17 +16,22 @@ namespace {
 // A backdrop with less colour than this looks like the shaded grey parts of an object.
 constexpr float kColourful = 15;
 
-// What the colour alone says where a shadow explains it: next to nothing, so that the contrast decides. Slightly in
-// favour of the object, or a closed border around a grey patch would have nothing to hold.
-constexpr float kShadowOrGrey = 0.08F;
+// What the colour says where it is almost the plate's, and on a small island of it.
 constexpr float kAlmostPlain = -0.4F;
 constexpr float kIsland = -0.1F;
 
+// For a plate that is known from a turn and neither white nor black.
+constexpr double kChance = 0.00002;
+constexpr float kShadowRather = -0.1F;
+
+// Where the object is known to hide the backdrop always, whatever the colour: the plate is a guess there.
+constexpr float kHidden = 0.5F;
+
+// Light left in a shadow that is no crevice.
+constexpr float kLikelyShade = 0.3F;
+
 // A part of which no pixel is clearer than this is a shadow, not an object.
 constexpr float kStrong = 1;
-
-// Plain pixels lie within so many times the median difference between the pictures and the plate.
-constexpr float kNoiseMargin = 3;
 
 // A camera shakes and a border of the backdrop blurs: where a pixel seems to be the object, the plate a little beside
 // it may explain it.
@@ -42,25 +47,27 @@ bool is_colourful(const LinearRgb& colour) {
     return std::hypot(lab.a, lab.b) > kColourful;
 }
 
-float preference_against(const LinearRgb& pixel, const LinearRgb& behind, const MaskOptions& options) {
+float preference_against(const LinearRgb& pixel, const LinearRgb& behind, float noise_delta_e,
+                         const MaskOptions& options) {
     const bool colourful = is_colourful(behind);
     const Explanation e = explain_by_backdrop(
         pixel, behind, colourful ? options.min_shade_colourful : options.min_shade, options.max_shade);
-    const float plain_delta_e = colourful ? options.plain_colourful_delta_e : options.plain_delta_e;
+    const float plain_delta_e = std::max(colourful ? options.plain_colourful_delta_e : options.plain_delta_e,
+                                         options.noise_margin * noise_delta_e);
+    const float possible_delta_e = std::max(options.possible_delta_e, 1.5F * plain_delta_e);
+    const float certain_delta_e = std::max(options.certain_delta_e, 2 * possible_delta_e);
     if (e.plain <= plain_delta_e) return -kDecided;
     const float tolerance = 1 + options.shadow_tolerance * std::max(0.0F, 1 - e.shade);
-    const float object = ramp(e.shaded, options.possible_delta_e * tolerance, options.certain_delta_e * tolerance);
-    if (object > 0) return std::max(kShadowOrGrey, object * kDecided);
+    const float object = ramp(e.shaded, possible_delta_e * tolerance, certain_delta_e * tolerance);
+    if (object > 0) return std::max(std::abs(options.shadow_or_grey), object * kDecided);
     const float plain = 1 - ramp(e.plain, plain_delta_e, 2 * plain_delta_e);
-    return plain > 0 ? plain * kAlmostPlain : kShadowOrGrey;
+    if (plain > 0) return plain * kAlmostPlain;
+    const bool likely = e.shade >= kLikelyShade && e.shaded <= 0.5F * possible_delta_e;
+    return likely ? options.shadow_or_grey : std::abs(options.shadow_or_grey);
 }
 
 constexpr int kHoleRim_px = 2;
 constexpr double kTinyHole_px = 8;  // closed in pictures of any size
-// Of a true hole's inner part at least so much looks plain; measured on a shoe: loops of its straps 0.94 to 1.00, white
-// insoles 0.74 to 0.85.
-constexpr double kHoleShare = 0.9;
-
 // Connected parts of a binary picture; label 0 is what is outside all parts.
 class Parts {
 public:
@@ -135,7 +142,7 @@ void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, double 
 // inner part is asked where there is one: a true hole shows the plain backdrop all over, while a white inside of the
 // object is plain only here and there. A shadow counts as the backdrop where the backdrop has a colour to know it by.
 void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstImageView<LinearRgb> plate,
-                       double min_hole) {
+                       const MaskOptions& options) {
     cv::Mat1b outside;
     cv::bitwise_not(mask, outside);
     cv::Mat1b inner;
@@ -162,9 +169,9 @@ void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstI
             const int label = holes.label(x, y);
             if (label == 0 || holes.touches_border(label)) continue;
             const Tally& tally = tallies[static_cast<std::size_t>(label)];
-            const bool shines_through =
-                tally.inner_area > 0 ? tally.inner_seen >= kHoleShare * tally.inner_area : 2 * tally.seen >= tally.area;
-            const bool tiny = tally.area < std::max(kTinyHole_px, min_hole * static_cast<double>(mask.total()));
+            const bool shines_through = tally.inner_area > 0 ? tally.inner_seen >= options.hole_share * tally.inner_area
+                                                             : 2 * tally.seen >= tally.area;
+            const bool tiny = tally.area < std::max(kTinyHole_px, options.min_hole * static_cast<double>(mask.total()));
             if (!shines_through || tiny) mask(y, x) = 255;
         }
     }
@@ -175,30 +182,43 @@ void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstI
 MaskOptions mask_options_for(const Backdrop& backdrop) {
     MaskOptions options;
     if (backdrop.kind == BackdropKind::kBlack) options.min_shade = options.min_shade_colourful = options.max_shade = 1;
-    options.plain_delta_e = std::max(options.plain_delta_e, kNoiseMargin * backdrop.noise_delta_e);
-    options.plain_colourful_delta_e = std::max(options.plain_colourful_delta_e, kNoiseMargin * backdrop.noise_delta_e);
-    options.possible_delta_e = std::max(options.possible_delta_e, 1.5F * options.plain_delta_e);
-    options.certain_delta_e = std::max(options.certain_delta_e, 2 * options.possible_delta_e);
+    // A plate that is known exactly, texture and all, is hardly met by chance.
+    if (backdrop.kind == BackdropKind::kColour && !backdrop.untouched.empty()) {
+        options.max_island = kChance;
+        options.shadow_or_grey = kShadowRather;
+        options.possible_delta_e = 6;
+        options.certain_delta_e = 14;
+        options.shadow_tolerance = 0.5F;
+        options.hole_share = 0.5;
+    }
     return options;
 }
 
-Image<float> object_preference(ConstImageView<Rgba8> photo, ConstImageView<LinearRgb> plate,
-                               const MaskOptions& options) {
-    RS_CHECK(photo.width() == plate.width() && photo.height() == plate.height());
+Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options) {
+    RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
     Image<float> preference(photo.width(), photo.height());
     for (int y = 0; y < photo.height(); ++y) {
         for (int x = 0; x < photo.width(); ++x) {
             const LinearRgb pixel = linear_rgb(photo(x, y));
-            const LinearRgb& behind = plate(x, y);
-            float best = preference_against(pixel, behind, options);
+            const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
+            const LinearRgb& behind = plate.light(x, y);
+            float best = preference_against(pixel, behind, noise, options);
+            if (!plate.hidden.empty() && plate.hidden(x, y) != 0) {
+                preference(x, y) = std::max(best, kHidden);
+                continue;
+            }
             if (best > 0) {
                 for (const auto& [dx, dy] :
                      {std::pair{-kShake_px, 0}, {kShake_px, 0}, {0, -kShake_px}, {0, kShake_px}}) {
-                    const LinearRgb& beside =
-                        plate(std::clamp(x + dx, 0, plate.width() - 1), std::clamp(y + dy, 0, plate.height() - 1));
+                    const LinearRgb& beside = plate.light(std::clamp(x + dx, 0, plate.light.width() - 1),
+                                                          std::clamp(y + dy, 0, plate.light.height() - 1));
                     if (delta_e(lab_from_linear(beside), lab_from_linear(behind)) < options.plain_delta_e) continue;
-                    best = std::min(best, preference_against(pixel, beside, options));
+                    best = std::min(best, preference_against(pixel, beside, noise, options));
                 }
+            }
+            for (const LinearRgb& colour : plate.screen) {
+                if (best <= 0) break;
+                best = std::min(best, preference_against(pixel, colour, noise, options));
             }
             preference(x, y) = best;
         }
@@ -206,17 +226,16 @@ Image<float> object_preference(ConstImageView<Rgba8> photo, ConstImageView<Linea
     return preference;
 }
 
-Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, ConstImageView<LinearRgb> plate,
-                                const MaskOptions& options) {
-    RS_CHECK(photo.width() == plate.width() && photo.height() == plate.height());
+Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options) {
+    RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
     Image<std::uint8_t> result(photo.width(), photo.height());
     if (result.empty()) return result;
     Image<float> preference = object_preference(photo, plate, options);
-    doubt_small_islands(preference, plate, options.max_island);
+    doubt_small_islands(preference, plate.light, options.max_island);
     result = cut_by_contrast(photo, preference, {});
     cv::Mat1b mask(result.height(), result.width(), result.data());
     keep_solid_parts(mask, preference, options.min_part);
-    close_false_holes(mask, preference, plate, options.min_hole);
+    close_false_holes(mask, preference, plate.light, options);
     return result;
 }
 

@@ -11,6 +11,8 @@
 #include "capture/photos/colour_difference.hpp"
 #include "rayspace/image.hpp"
 
+#include <vector>
+
 namespace rs::capture {
 
 // Differences are delta E, shades factors of linear light.
@@ -20,24 +22,37 @@ struct MaskOptions {
     float possible_delta_e = 10;        // from here on a pixel leans to the object, in full light ...
     float certain_delta_e = 22;         // ... and from here on it is surely object
     float shadow_tolerance = 1;         // both grow by this share of what the shadow takes away: objects tint shadows
+    float noise_margin = 2;             // what is plain lies within so many times the noise
+    // What the colour says where nothing but a shadow on a grey backdrop explains it: next to nothing, so that the
+    // contrast decides. Above 0 a closed border around a grey patch of the object can hold it.
+    float shadow_or_grey = 0.08F;
     float min_shade = 0.25F;  // light left in the deepest shadow on a grey backdrop (or black were a shadow) ...
     float min_shade_colourful = 0.08F;  // ... and on one that has a colour
     float max_shade = 1.15F;
     double max_island = 0.003;  // plain grey patches smaller than this share of the picture may be the object's
     double min_part = 0.01;     // parts smaller than this share of the largest are specks
+    // Of a true hole's inner part at least so much looks plain; measured on a shoe before white: loops of its straps
+    // 0.94 to 1.00, white insoles 0.74 to 0.85.
+    double hole_share = 0.9;
     double min_hole = 0.00004;  // holes smaller than this share of the picture are closed
 };
 
-// Options for a backdrop and its noise. A shadow on black cannot be seen, so it is not looked for.
+// What is behind the object in one photograph, in its size.
+struct PlateView {
+    Image<LinearRgb> light;         // exposed like the photograph
+    Image<std::uint8_t> hidden;     // 255 where the object always is before it; empty: nobody can tell
+    std::vector<LinearRgb> screen;  // colours that are backdrop wherever they are seen, lit or in shadow
+    Image<float> noise_delta_e;     // how far the photograph is from it where it shows it; empty: next to nothing
+};
+
+// A shadow on black cannot be seen, so it is not looked for.
 MaskOptions mask_options_for(const Backdrop& backdrop);
 
 // The preference, -kDecided..kDecided; the ends are certain.
 inline constexpr float kDecided = 4;
-Image<float> object_preference(ConstImageView<Rgba8> photo, ConstImageView<LinearRgb> plate,
-                               const MaskOptions& options);
+Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options);
 
-// 255 = object, 0 = backdrop. `plate` is linear light, in the photograph's size.
-Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, ConstImageView<LinearRgb> plate,
-                                const MaskOptions& options);
+// 255 = object, 0 = backdrop.
+Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options);
 
 }  // namespace rs::capture

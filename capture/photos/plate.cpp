@@ -8,16 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <span>
+#include <vector>
 
 namespace rs::capture {
 namespace {
-
-constexpr int kAgreement_codes = 14;
-
-bool agree(const Rgba8& a, const Rgba8& b) {
-    return std::abs(a.r - b.r) <= kAgreement_codes && std::abs(a.g - b.g) <= kAgreement_codes &&
-           std::abs(a.b - b.b) <= kAgreement_codes;
-}
 
 struct Group {
     Rgba8 mean;
@@ -29,7 +24,7 @@ Group largest_group(std::span<const Rgba8> values) {
     std::size_t best_size = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
         std::size_t size = 0;
-        for (const Rgba8& other : values) size += agree(values[i], other) ? 1 : 0;
+        for (const Rgba8& other : values) size += samples_agree(values[i], other) ? 1 : 0;
         if (size > best_size) {
             best_size = size;
             best = i;
@@ -38,7 +33,7 @@ Group largest_group(std::span<const Rgba8> values) {
     }
     std::array<std::size_t, 3> sum{};
     for (const Rgba8& value : values) {
-        if (!agree(values[best], value)) continue;
+        if (!samples_agree(values[best], value)) continue;
         sum[0] += value.r;
         sum[1] += value.g;
         sum[2] += value.b;
@@ -49,21 +44,84 @@ Group largest_group(std::span<const Rgba8> values) {
 
 }  // namespace
 
-StillPicture agree_over_time(std::span<const Image<Rgba8>> samples) {
-    RS_CHECK(!samples.empty());
-    const int width = samples[0].width();
-    const int height = samples[0].height();
+bool samples_agree(const Rgba8& a, const Rgba8& b, int codes) {
+    return std::abs(a.r - b.r) <= codes && std::abs(a.g - b.g) <= codes && std::abs(a.b - b.b) <= codes;
+}
+
+StillPicture agree_over_time(const EvenedSamples& samples) {
+    const int width = samples.width();
+    const int height = samples.height();
     StillPicture still{Image<Rgba8>(width, height), Image<float>(width, height)};
     tbb::parallel_for(0, height, [&](int y) {
-        std::vector<Rgba8> values(samples.size());
+        std::vector<Rgba8> values(samples.count());
         for (int x = 0; x < width; ++x) {
-            for (std::size_t i = 0; i < samples.size(); ++i) values[i] = samples[i](x, y);
+            for (std::size_t i = 0; i < samples.count(); ++i) values[i] = samples.smooth(i, x, y);
             const Group group = largest_group(values);
             still.colour(x, y) = group.mean;
             still.agreement(x, y) = static_cast<float>(group.size) / static_cast<float>(values.size());
         }
     });
     return still;
+}
+
+namespace {
+
+// Ends of a gap are averaged over so many pixels along the row and so many rows up and down, and begin a little away
+// from the gap, for what is seen seldom is known badly.
+constexpr int kEndBegins_px = 3;
+constexpr int kEndLength_px = 8;
+constexpr int kEndRows_px = 1;
+constexpr int kSameSurface_codes = 40;
+
+struct End {
+    cv::Vec3f colour;
+    int count = 0;
+};
+
+// Mean of the known pixels of x in [from, to), about row y.
+End mean_end(const cv::Mat3f& linear, const Image<std::uint8_t>& known, int from, int to, int y) {
+    End end;
+    for (int v = std::max(0, y - kEndRows_px); v <= std::min(known.height() - 1, y + kEndRows_px); ++v) {
+        for (int u = std::max(0, from); u < std::min(known.width(), to); ++u) {
+            if (known(u, v) == 0) continue;
+            end.colour += linear(v, u);
+            ++end.count;
+        }
+    }
+    if (end.count > 0) end.colour *= 1.0F / static_cast<float>(end.count);
+    return end;
+}
+
+}  // namespace
+
+void bridge_rows(Image<Rgba8>& picture, Image<std::uint8_t>& known) {
+    RS_CHECK(picture.width() == known.width() && picture.height() == known.height());
+    const Image<std::uint8_t> seen = known;
+    const cv::Mat3f linear = linear_mat(picture);
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int begin = 0; begin < picture.width();) {
+            if (seen(begin, y) != 0) {
+                ++begin;
+                continue;
+            }
+            int end = begin;
+            while (end < picture.width() && seen(end, y) == 0) ++end;
+            if (begin > 0 && end < picture.width()) {
+                const End left =
+                    mean_end(linear, seen, begin - kEndBegins_px - kEndLength_px, begin - kEndBegins_px, y);
+                const End right = mean_end(linear, seen, end + kEndBegins_px, end + kEndBegins_px + kEndLength_px, y);
+                const bool one_surface = left.count > 0 && right.count > 0 &&
+                                         samples_agree(rgba8_from_linear(left.colour, 255),
+                                                       rgba8_from_linear(right.colour, 255), kSameSurface_codes);
+                for (int x = begin; one_surface && x < end; ++x) {
+                    const float t = (static_cast<float>(x - begin) + 0.5F) / static_cast<float>(end - begin);
+                    picture(x, y) = rgba8_from_linear(left.colour * (1 - t) + right.colour * t, 255);
+                    known(x, y) = 255;
+                }
+            }
+            begin = end;
+        }
+    }
 }
 
 void fill_unknown(Image<Rgba8>& picture, const Image<std::uint8_t>& known) {

@@ -13,22 +13,46 @@ namespace {
 // F and B are as good as equal below this distance in linear light: the projection then says nothing.
 constexpr float kIndistinct = 0.02F;
 
-// Mean of `colour` with `weight`, over a Gaussian neighbourhood; 0 where nothing weighs.
-cv::Mat3f local_mean(const cv::Mat3f& colour, const cv::Mat1f& weight, double sigma_px) {
-    cv::Mat3f sums(colour.size());
+// Neither side is of one colour: what lies within so many of its standard deviations is that side's, up to this share
+// of the way from B to F.
+constexpr float kScatter = 0.5F;
+constexpr float kMostScatter = 0.35F;
+
+// By distance alone: of an edge without blur, a pixel's own width mixes.
+constexpr float kAlphaPerPx = 0.75F;
+
+// The mask's border lies up to a pixel outside the object: a pixel with little of the object does not look like the
+// backdrop any more. The second pass begins from where alpha was half.
+constexpr int kPasses = 2;
+
+// What one side of the border looks like near by.
+struct Side {
+    cv::Mat3f mean;        // linear light; 0 where nothing weighs
+    cv::Mat1f scatter_sq;  // variance, all channels together
+};
+
+// Of `colour` with `weight`, over a Gaussian neighbourhood.
+Side side_of(const cv::Mat3f& colour, const cv::Mat1f& weight, double sigma_px) {
+    cv::Mat4f sums(colour.size());
     for (int y = 0; y < colour.rows; ++y) {
-        for (int x = 0; x < colour.cols; ++x) sums(y, x) = colour(y, x) * weight(y, x);
+        for (int x = 0; x < colour.cols; ++x) {
+            const cv::Vec3f& c = colour(y, x);
+            sums(y, x) = cv::Vec4f(c[0], c[1], c[2], c.dot(c)) * weight(y, x);
+        }
     }
     cv::Mat1f weights;
     cv::GaussianBlur(weight, weights, {0, 0}, sigma_px);
     cv::GaussianBlur(sums, sums, {0, 0}, sigma_px);
+    Side side{cv::Mat3f(colour.size()), cv::Mat1f(colour.size())};
     for (int y = 0; y < colour.rows; ++y) {
         for (int x = 0; x < colour.cols; ++x) {
             const float w = weights(y, x);
-            sums(y, x) = w > 1e-6F ? cv::Vec3f(sums(y, x) * (1 / w)) : cv::Vec3f();
+            const cv::Vec4f mean = w > 1e-6F ? cv::Vec4f(sums(y, x) * (1 / w)) : cv::Vec4f();
+            side.mean(y, x) = {mean[0], mean[1], mean[2]};
+            side.scatter_sq(y, x) = std::max(0.0F, mean[3] - side.mean(y, x).dot(side.mean(y, x)));
         }
     }
-    return sums;
+    return side;
 }
 
 // Distance in px to the nearest pixel of the other side; 0 on the other side itself.
@@ -57,29 +81,17 @@ LinearRgb rgb(const cv::Vec3f& v) {
     return {v[0], v[1], v[2]};
 }
 
-}  // namespace
-
-int expected_band_px(int width, int height) {
-    return std::clamp((std::max(width, height) + 225) / 450, 2, 8);
-}
-
-SoftEdge soften_edge(ConstImageView<Rgba8> photo, ConstImageView<std::uint8_t> mask, int band_px) {
-    RS_CHECK(photo.width() == mask.width() && photo.height() == mask.height() && band_px >= 1 && band_px <= 16);
-    const int width = photo.width();
-    const int height = photo.height();
+SoftEdge softened(const cv::Mat3f& light, const cv::Mat1b& inside, int band_px) {
+    const int width = light.cols;
+    const int height = light.rows;
     SoftEdge edge{Image<float>(width, height), Image<LinearRgb>(width, height), Image<LinearRgb>(width, height)};
-    if (edge.alpha.empty()) return edge;
-
-    cv::Mat1b inside(height, width);
-    for (int y = 0; y < height; ++y) std::copy_n(mask.row(y), width, inside[y]);
     cv::Mat1b outside;
     cv::bitwise_not(inside, outside);
     const cv::Mat1f depth_inside = depth_within(inside);
     const cv::Mat1f depth_outside = depth_within(outside);
-    const cv::Mat3f light = linear_mat(photo);
     const double sigma_px = band_px + 1.0;
-    const cv::Mat3f object = local_mean(light, trust(depth_inside, band_px), sigma_px);
-    const cv::Mat3f backdrop = local_mean(light, trust(depth_outside, band_px), sigma_px);
+    const Side object = side_of(light, trust(depth_inside, band_px), sigma_px);
+    const Side backdrop = side_of(light, trust(depth_outside, band_px), sigma_px);
 
     const auto band = static_cast<float>(band_px);
     for (int y = 0; y < height; ++y) {
@@ -91,13 +103,21 @@ SoftEdge soften_edge(ConstImageView<Rgba8> photo, ConstImageView<std::uint8_t> m
                 edge.alpha(x, y) = distance > 0 ? 1.0F : 0.0F;
                 continue;
             }
-            const cv::Vec3f& f = object(y, x);
-            const cv::Vec3f& b = backdrop(y, x);
+            const cv::Vec3f& f = object.mean(y, x);
+            const cv::Vec3f& b = backdrop.mean(y, x);
             const cv::Vec3f span = f - b;
-            const float span_sq = span.dot(span);
-            const float by_distance = 0.5F + 0.5F * distance;
-            const float by_colour = (light(y, x) - b).dot(span) / std::max(span_sq, 1e-9F);
-            const float confidence = span_sq / (span_sq + kIndistinct * kIndistinct);
+            const float span_sq = std::max(span.dot(span), 1e-9F);
+            // What lies within a side's scatter is that side's.
+            const float object_scatter =
+                std::min(kMostScatter, kScatter * std::sqrt(object.scatter_sq(y, x) / span_sq));
+            const float backdrop_scatter =
+                std::min(kMostScatter, kScatter * std::sqrt(backdrop.scatter_sq(y, x) / span_sq));
+            const float along = (light(y, x) - b).dot(span) / span_sq;
+            const float by_colour =
+                std::clamp((along - backdrop_scatter) / (1 - backdrop_scatter - object_scatter), 0.0F, 1.0F);
+            const float by_distance = std::clamp(0.5F + kAlphaPerPx * distance, 0.0F, 1.0F);
+            const float confidence =
+                span_sq / (span_sq + kIndistinct * kIndistinct + object.scatter_sq(y, x) + backdrop.scatter_sq(y, x));
             const float mixed = by_distance + confidence * (by_colour - by_distance);
             // The mask is right to a pixel or so: alpha nears its value towards the band's ends.
             const float low = std::max(0.0F, (distance - 0.5F) / (band - 0.5F));
@@ -106,6 +126,31 @@ SoftEdge soften_edge(ConstImageView<Rgba8> photo, ConstImageView<std::uint8_t> m
             edge.object(x, y) = rgb(f);
             edge.backdrop(x, y) = rgb(b);
         }
+    }
+    return edge;
+}
+
+}  // namespace
+
+int expected_band_px(int width, int height) {
+    return std::clamp((std::max(width, height) + 225) / 450, 2, 8);
+}
+
+SoftEdge soften_edge(ConstImageView<Rgba8> photo, ConstImageView<std::uint8_t> mask, int band_px) {
+    RS_CHECK(photo.width() == mask.width() && photo.height() == mask.height() && band_px >= 1 && band_px <= 16);
+    const int width = photo.width();
+    const int height = photo.height();
+    if (width == 0 || height == 0)
+        return {Image<float>(width, height), Image<LinearRgb>(width, height), Image<LinearRgb>(width, height)};
+    const cv::Mat3f light = linear_mat(photo);
+    cv::Mat1b inside(height, width);
+    for (int y = 0; y < height; ++y) std::copy_n(mask.row(y), width, inside[y]);
+    SoftEdge edge = softened(light, inside, band_px);
+    for (int pass = 1; pass < kPasses; ++pass) {
+        for (int y = 0; y < inside.rows; ++y) {
+            for (int x = 0; x < inside.cols; ++x) inside(y, x) = edge.alpha(x, y) >= 0.5F ? 255 : 0;
+        }
+        edge = softened(light, inside, band_px);
     }
     return edge;
 }

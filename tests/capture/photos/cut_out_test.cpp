@@ -128,6 +128,90 @@ TEST(CutOut, DropsSpecksOnTheBackdrop) {
     EXPECT_EQ(cutter.cut(photo)(static_cast<int>(turn.axis_x_px), turn.height / 2).a, 255);
 }
 
+// The lamp warms up: each picture is a little brighter than the one before.
+TEST(CutOut, FollowsTheExposure) {
+    test::DrawnTurn turn;
+    turn.backdrop = {110, 120, 150, 255};
+    Survey survey;
+    for (int i = 0; i < turn.views; ++i) {
+        Image<Rgba8> photo = test::draw_view(turn, i).photo;
+        for (Rgba8& p : photo.pixels()) p = test::mixed(p, {0, 0, 0, 255}, 0.7 + 0.3 * i / turn.views);
+        survey.samples.push_back(photo);
+    }
+    const Result<Backdrop> backdrop = find_backdrop(survey, {}, "drawn");
+    ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
+    const ObjectCutter cutter(*backdrop, turn.width, turn.height);
+    for (int i = 0; i < turn.views; ++i) {
+        const Image<float> truth = test::draw_view(turn, i).alpha;
+        const Image<Rgba8> cut = cutter.cut(survey.samples[static_cast<std::size_t>(i)]);
+        double wrong = 0;
+        for (int y = 0; y < turn.height; ++y) {
+            for (int x = 0; x < turn.width; ++x) wrong += std::abs(cut(x, y).a / 255.0 - truth(x, y));
+        }
+        EXPECT_LT(wrong / (turn.width * turn.height), 0.01) << "view " << i;
+    }
+}
+
+// A painted vase: its white ground looks the same all around, only its painted bands turn.
+TEST(CutOut, KeepsTheStillGroundOfAnObject) {
+    constexpr int kViews = 12;
+    const auto inside = [](int x, int y) { return x >= 60 && x < 96 && y >= 30 && y < 90; };
+    Survey survey;
+    for (int i = 0; i < kViews; ++i) {
+        Image<Rgba8> photo(160, 120, Rgba8{90, 100, 130, 255});
+        for (int y = 0; y < 120; ++y) {
+            for (int x = 0; x < 160; ++x) {
+                if (!inside(x, y)) continue;
+                const bool band = (y >= 38 && y < 54) || (y >= 66 && y < 86);
+                const bool painted = band && (x + 5 * i) % 12 < 6;
+                photo(x, y) = painted ? Rgba8{150, 40, 50, 255} : Rgba8{215, 215, 205, 255};
+            }
+        }
+        survey.samples.push_back(photo);
+    }
+    const Result<Backdrop> backdrop = find_backdrop(survey, {}, "drawn");
+    ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
+    EXPECT_EQ(backdrop->hidden(78, 60), 255) << "the ground between the bands";
+    EXPECT_EQ(backdrop->hidden(20, 60), 0);
+    EXPECT_EQ(backdrop->untouched(20, 60), 255);
+    const Image<Rgba8> cut = ObjectCutter(*backdrop, 160, 120).cut(survey.samples[0]);
+    for (int y = 40; y < 80; ++y) {
+        for (int x = 66; x < 90; ++x) ASSERT_EQ(cut(x, y).a, 255) << x << "," << y;
+    }
+    EXPECT_EQ(cut(40, 60).a, 0);
+}
+
+// The lamp stands still, so the core of a shadow on the disc never changes, only its outline does as the object turns.
+TEST(CutOut, LeavesAShadowOutThatNeverMoves) {
+    constexpr int kViews = 12;
+    const Rgba8 disc{180, 180, 185, 255};
+    const Rgba8 shaded = test::mixed(disc, {0, 0, 0, 255}, 0.6);
+    Survey survey;
+    for (int i = 0; i < kViews; ++i) {
+        Image<Rgba8> photo(160, 120, disc);
+        for (int y = 0; y < 120; ++y) {
+            for (int x = 0; x < 160; ++x) {
+                const bool object = x >= 70 && x < 106 && y >= 20 && y < 90;
+                const int fringe = (y / 3 + 5 * i) % 7;  // leaves and petals
+                if (object) {
+                    photo(x, y) = (x / 4 + y / 4 + i) % 2 == 0 ? Rgba8{170, 60, 40, 255} : Rgba8{60, 110, 40, 255};
+                } else if (x >= 38 - fringe && x < 70 && y >= 60 - fringe && y < 86 + fringe) {
+                    photo(x, y) = shaded;
+                }
+            }
+        }
+        survey.samples.push_back(photo);
+    }
+    const Result<Backdrop> backdrop = find_backdrop(survey, {}, "drawn");
+    ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
+    EXPECT_EQ(backdrop->hidden(55, 72), 0);
+    const Image<Rgba8> cut = ObjectCutter(*backdrop, 160, 120).cut(survey.samples[0]);
+    for (int y = 64; y < 82; ++y) {
+        for (int x = 42; x < 66; ++x) ASSERT_EQ(cut(x, y).a, 0) << x << "," << y;
+        for (int x = 74; x < 102; ++x) ASSERT_EQ(cut(x, y).a, 255) << x << "," << y;
+    }
+}
+
 TEST(CutOut, GivenAlphaComesOutExactly) {
     Image<Rgba8> photo(60, 40, Rgba8{9, 9, 9, 0});
     for (int y = 10; y < 30; ++y) {
