@@ -1,8 +1,8 @@
 #include "encode/tools/evaluate_command.hpp"
 
-#include "rayspace/page/page_pictures.hpp"
 #include "encode/tools/evaluation.hpp"
 #include "rayspace/file_output.hpp"
+#include "rayspace/page/page_pictures.hpp"
 #include "rayspace/picture_io.hpp"
 #include "rayspace/progress.hpp"
 #include "rayspace/view_output.hpp"

@@ -6,10 +6,10 @@
 // CSV: cell side in pixels, bytes in the file, share of the raw pictures, bytes in memory, dB.
 
 #include "encode/build.hpp"
-#include "rayspace/page/line_plot.hpp"
 #include "engine/core/compare.hpp"
 #include "engine/core/renderer.hpp"
 #include "rayspace/file_output.hpp"
+#include "rayspace/page/line_plot.hpp"
 #include "rayspace/shape_chunk.hpp"
 #include "rayspace/tool_main.hpp"
 
