@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -26,8 +28,9 @@ constexpr double kNeighbourhood = 3.2;
 constexpr double kMarkerLimit_px = 2.5;  // markers' corners are found to a pixel or so
 constexpr double kCornerLimit_px = 0.7;
 constexpr double kDisagreement_px =
-    1.0;                         // with the neighbours' homography; a lens bends that little over three squares
-constexpr int kMostRounds = 12;  // of growing from known corners to their neighbours
+    1.0;  // with the neighbours' homography; a lens bends that little over three squares
+constexpr double kBoardDisagreement_px = 4;  // with the whole board's, which a lens bends
+constexpr int kMostRounds = 12;              // of growing from known corners to their neighbours
 
 // Known points of the board: its frame in squares from the top left, and OpenCV's pixels.
 struct Match {
@@ -107,8 +110,7 @@ std::vector<Match> matches_of(const std::vector<FoundMarker>& markers, const std
 
 // From squares, counted from `centre`, to pixels: the homography of the matches nearest to it. Nothing where they are
 // too few or too far.
-// Matches farther than `limit_px` from what most of them say are wrong ones; 0: all
-// count.
+// Matches farther than `limit_px` from what most of them say are wrong ones; 0: all count.
 std::optional<cv::Matx33d> homography_around(const cv::Point2d& centre, std::vector<Match> matches, std::size_t count,
                                              double reach, double limit_px) {
     std::erase_if(matches, [&](const Match& m) { return cv::norm(m.square - centre) > reach; });
@@ -132,6 +134,15 @@ std::optional<cv::Matx33d> homography_around(const cv::Point2d& centre, std::vec
     }
     if (cv::determinant(spread) < 0.02 * spread(0, 0) * spread(1, 1) || cv::determinant(spread) < 1e-3) {
         return std::nullopt;
+    }
+    // So do all points of one line and a single one beside it.
+    for (const cv::Point2d& p : from) {
+        for (const cv::Point2d& q : from) {
+            if (p == q) continue;
+            const auto beside = std::count_if(
+                from.begin(), from.end(), [&](const cv::Point2d& r) { return std::abs((q - p).cross(r - p)) > 1e-6; });
+            if (beside < 2) return std::nullopt;
+        }
     }
     // OpenCV's RANSAC begins from a fixed seed: the same points give the same result.
     const cv::Mat h = cv::findHomography(from, to, limit_px > 0 && from.size() > 6 ? cv::RANSAC : 0, limit_px);
@@ -172,24 +183,49 @@ struct CornerSearch {
         return matches;
     }
 
-    // What does not agree with its neighbours goes; the rest is refined once more, with a homography of corners, which
-    // is better than the markers'.
+    // Of its neighbours, or where these lie on a line, as on one side of the object, of all the board.
+    static std::optional<cv::Matx33d> homography_near(const cv::Point2d& square, const std::vector<Match>& others,
+                                                      double limit_px, double& disagreement_px) {
+        disagreement_px = kDisagreement_px;
+        const auto near = homography_around(square, others, kNeighbours, kNeighbourhood, limit_px);
+        if (near) return near;
+        disagreement_px = kBoardDisagreement_px;
+        return homography_around(square, others, others.size(), std::numeric_limits<double>::infinity(),
+                                 limit_px > 0 ? kBoardDisagreement_px : 0);
+    }
+
+    // How far a match stands from where the others expect it, over what is allowed; 0 where they cannot tell.
+    static double disagreement(const Match& match, std::vector<Match> others) {
+        std::erase_if(others, [&](const Match& m) { return m.square == match.square; });
+        double allowed_px = 0;
+        const auto h = homography_near(match.square, others, kCornerLimit_px, allowed_px);
+        if (!h) return 0;
+        const cv::Point2d expected((*h)(0, 2) / (*h)(2, 2), (*h)(1, 2) / (*h)(2, 2));
+        return cv::norm(match.pixel - expected) / allowed_px;
+    }
+
+    // What does not agree with its neighbours goes, the worst first, for it may be what they disagree with; the rest is
+    // refined once more, with a homography of corners, which is better than the markers'.
     void refine_again() {
-        const std::vector<Match> matches = as_matches();
-        std::vector<Match> agreed;
-        for (const Match& match : matches) {
-            std::vector<Match> others = matches;
-            std::erase_if(others, [&](const Match& m) { return m.square == match.square; });
-            const auto h = homography_around(match.square, others, kNeighbours, kNeighbourhood, kCornerLimit_px);
-            if (!h) continue;
-            const cv::Point2d expected((*h)(0, 2) / (*h)(2, 2), (*h)(1, 2) / (*h)(2, 2));
-            if (cv::norm(match.pixel - expected) < kDisagreement_px) agreed.push_back(match);
+        std::vector<Match> agreed = as_matches();
+        while (!agreed.empty()) {
+            std::vector<double> off(agreed.size());
+            std::transform(agreed.begin(), agreed.end(), off.begin(),
+                           [&](const Match& match) { return disagreement(match, agreed); });
+            const auto worst = std::max_element(off.begin(), off.end());
+            if (*worst < 1) break;
+            agreed.erase(agreed.begin() + (worst - off.begin()));
         }
         std::map<int, glm::dvec2> kept;
         for (const Match& match : agreed) {
             const auto x = static_cast<int>(match.square.x) - 1, y = static_cast<int>(match.square.y) - 1;
             const int corner = y * (design.squares_x - 1) + x;
-            const auto h = homography_around(match.square, agreed, kNeighbours, kNeighbourhood, 0);
+            double disagreement_px = 0;
+            auto h = homography_near(match.square, agreed, 0, disagreement_px);
+            if (h) {  // begin from where the corner was found
+                const cv::Point2d at((*h)(0, 2) / (*h)(2, 2), (*h)(1, 2) / (*h)(2, 2));
+                *h = cv::Matx33d(1, 0, match.pixel.x - at.x, 0, 1, match.pixel.y - at.y, 0, 0, 1) * *h;
+            }
             const auto p = h ? refined(corner, *h) : std::nullopt;
             if (p) kept[corner] = *p;
         }

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 namespace rs::capture {
 namespace {
@@ -19,7 +18,7 @@ constexpr std::size_t kFewestTracks = 40;
 constexpr std::size_t kHeldOutEvery = 10;  // of the tracks
 constexpr double kLossDeviations = 2;
 constexpr double kOutlierDeviations = 4;
-constexpr double kSharedError_px = 0.1;  // what the true errors on photographs with known truth ask for
+constexpr double kSharedError_px = 0.2;  // what the true errors on photographs with known truth ask for
 constexpr std::size_t kEnoughWideTracks = 80;
 constexpr double kWideArc_rad = 0.35;
 constexpr std::size_t kEnoughTracks = 2000;  // more would only take time
@@ -154,17 +153,11 @@ void keep_wide_tracks(Bundle& bundle) {
          [&, least = std::min(kWideArc_rad, sorted[kEnoughWideTracks])](std::size_t i) { return arcs[i] >= least; });
 }
 
-// Those seen in most views, where there are more than enough.
-void keep_long_tracks(Bundle& bundle) {
-    if (bundle.tracks.size() <= kEnoughTracks) return;
-    std::vector<std::size_t> longest(bundle.tracks.size());
-    std::iota(longest.begin(), longest.end(), std::size_t{0});
-    std::stable_sort(longest.begin(), longest.end(), [&](std::size_t a, std::size_t b) {
-        return bundle.tracks[a].seen.size() > bundle.tracks[b].seen.size();
-    });
-    std::vector<bool> kept(longest.size(), false);
-    for (std::size_t k = 0; k < kEnoughTracks; ++k) kept[longest[k]] = true;
-    keep(bundle, [&](std::size_t i) { return kept[i]; });
+// Some of all kinds, where there are more than enough: the longest alone would be those seen most aslant.
+void keep_enough_tracks(Bundle& bundle) {
+    const std::size_t count = bundle.tracks.size();
+    if (count <= kEnoughTracks) return;
+    keep(bundle, [&](std::size_t i) { return i * kEnoughTracks / count != (i + 1) * kEnoughTracks / count; });
 }
 
 // The same points observed anew, by alignment of their patches.
@@ -234,7 +227,7 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     bundle = make_agreeing_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
     if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
     Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
-    keep_long_tracks(bundle);
+    keep_enough_tracks(bundle);
     if (refine(bundle, turn, options)) {
         unseen.model = bundle.model;
         unseen = make_agreeing_bundle(bundle.model, aligned_tracks(turn.pictures, turn.reduction, unseen),
