@@ -1,6 +1,6 @@
 #include "capture/calibration/board_bundle.hpp"
 
-#include "capture/calibration/bundle_deviations.hpp"
+#include "capture/calibration/model_covariance.hpp"
 #include "capture/calibration/projection.hpp"
 
 #include <ceres/ceres.h>
@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace rs::capture {
 namespace {
@@ -120,20 +121,6 @@ void pose_problem(ceres::Problem& problem, Unknowns& unknowns, const Lens& lens,
     hold(unknowns.pose.data(), pose_free);
 }
 
-double axis_position(const Lens& lens, const CameraPose& pose) {
-    return (lies_sideways(pose) ? axis_row(lens, pose, 0.5 * lens.width) : axis_column(lens, pose, 0.5 * lens.height))
-        .value_or(0);
-}
-
-// Where the unknowns of a block stand in the covariance; -1: held.
-struct Places {
-    std::vector<int> of_block;
-    int next = 0;
-    void add(std::span<const bool> is_free) {
-        for (const bool one : is_free) of_block.push_back(one ? next++ : -1);
-    }
-};
-
 }  // namespace
 
 std::optional<glm::dvec2> residual(const BoardTurn& turn, const BoardObservation& seen) {
@@ -171,7 +158,6 @@ std::optional<double> adjust(BoardTurn& turn, std::span<const BoardObservation> 
 ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObservation> seen,
                                  const BoardBundleOptions& options) {
     const std::size_t views = turn.model.angles_rad.size();
-    const bool common = options.free.angles == AngleFreedom::kCommonStep;
     ModelDeviations deviations;
     deviations.angles_rad.assign(views, std::numeric_limits<double>::infinity());
     if (seen.empty()) return deviations;
@@ -180,20 +166,20 @@ ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObs
     pose_problem(problem, unknowns, turn.model.lens, seen, options);
 
     ceres::Problem::EvaluateOptions order;
-    Places places;  // lens 0..4, pose 5..7, then the angles (or the step)
-    const BundleFreedom& free = options.free;
-    places.add(std::array<bool, 5>{free.f, free.principal_point, free.principal_point, free.k1, free.k2});
-    if (places.next > 0) order.parameter_blocks.push_back(unknowns.lens.data());
-    const int before_pose = places.next;
-    places.add(std::array<bool, 3>{free.pan, free.tilt, free.roll});
-    if (places.next > before_pose) order.parameter_blocks.push_back(unknowns.pose.data());
     std::vector<bool> is_seen(views, false);
     for (const BoardObservation& one : seen) is_seen[static_cast<std::size_t>(one.view)] = true;
-    for (std::size_t i = 0; i < unknowns.angles.size(); ++i) {
-        const bool is_free = common || (free.angles == AngleFreedom::kEach && i > 0 && is_seen[i]);
-        places.add(std::array<bool, 1>{is_free});
-        if (is_free) order.parameter_blocks.push_back(&unknowns.angles[i]);
+    const NumberPlaces places(options.free, is_seen);
+    const auto is_free = [](int place) { return place >= 0; };
+    if (std::any_of(places.camera.begin(), places.camera.begin() + 5, is_free)) {
+        order.parameter_blocks.push_back(unknowns.lens.data());
     }
+    if (std::any_of(places.camera.begin() + 5, places.camera.end(), is_free)) {
+        order.parameter_blocks.push_back(unknowns.pose.data());
+    }
+    for (std::size_t view = 0; view < views; ++view) {
+        if (is_free(places.angles[view])) order.parameter_blocks.push_back(&unknowns.angles[view]);
+    }
+    if (is_free(places.step)) order.parameter_blocks.push_back(unknowns.angles.data());
     order.parameter_blocks.push_back(unknowns.board.data());
     ceres::CRSMatrix jacobian;
     if (!problem.Evaluate(order, nullptr, nullptr, nullptr, &jacobian)) return deviations;
@@ -211,48 +197,9 @@ ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObs
     Eigen::MatrixXd covariance = solver.solve(identity);
     covariance = size.cwiseInverse().asDiagonal() * covariance * size.cwiseInverse().asDiagonal();
 
-    const auto of = [&](const Eigen::VectorXd& gradient) {
-        return std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
-    };
-    const auto one = [&](std::size_t number) {
-        const int place = places.of_block[number];
-        return place < 0 ? 0.0 : std::sqrt(std::max(0.0, covariance(place, place)));
-    };
-    deviations.f_px = one(0);
-    deviations.cx = one(1);
-    deviations.cy = one(2);
-    deviations.k1 = one(3);
-    deviations.k2 = one(4);
-    deviations.tilt_rad = one(6);
-    deviations.roll_rad = one(7);
-    deviations.axis_direction_rad =
-        std::hypot(deviations.tilt_rad, std::cos(turn.model.pose.tilt_rad) * deviations.roll_rad);
-    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(covariance.rows());
-    Eigen::VectorXd slopes = zero;
-    for (std::size_t k = 0; k < 8; ++k) {
-        if (places.of_block[k] < 0) continue;
-        const double step = k < 3 ? 1e-3 : 1e-6;
-        std::array<double, 2> value{};
-        for (std::size_t side = 0; side < 2; ++side) {
-            Unknowns moved = unknowns;
-            (k < 5 ? moved.lens[k] : moved.pose[k - 5]) += side == 0 ? -step : step;
-            BoardTurn there = turn;
-            moved.write_to(there, free.angles);
-            value[side] = axis_position(there.model.lens, there.model.pose);
-        }
-        slopes(places.of_block[k]) = (value[1] - value[0]) / (2 * step);
-    }
-    deviations.axis_position_px = of(slopes);
-    for (std::size_t view = 0; view < views; ++view) {  // from the mean: else the first view's error is in all others
-        Eigen::VectorXd from_mean = zero;
-        for (std::size_t other = 0; !common && other < views; ++other) {
-            const int place = places.of_block[8 + other];
-            if (place >= 0) from_mean(place) = (other == view ? 1.0 : 0.0) - 1.0 / static_cast<double>(views);
-        }
-        if (common) from_mean(places.of_block[8]) = static_cast<double>(view) - 0.5 * static_cast<double>(views - 1);
-        deviations.angles_rad[view] = of(from_mean);
-    }
-    return deviations;
+    const Lens& lens = turn.model.lens;
+    return deviations_of(turn.model, places, covariance,
+                         0.5 * (lies_sideways(turn.model.pose) ? lens.width : lens.height));
 }
 
 }  // namespace rs::capture

@@ -1,5 +1,6 @@
 #include "capture/calibration/bundle_deviations.hpp"
 
+#include "capture/calibration/model_covariance.hpp"
 #include "capture/calibration/projection.hpp"
 #include "rayspace/conventions.hpp"
 
@@ -16,50 +17,6 @@
 
 namespace rs::capture {
 namespace {
-
-constexpr int kCameraNumbers = 8;  // f, cx, cy, k1, k2, pan, tilt, roll; then angles of views 1, 2, ... or the step
-
-// Which of the numbers above are unknown, and where they stand among the unknowns (-1: held).
-struct Unknowns {
-    std::vector<int> place;
-    int count = 0;
-
-    Unknowns(const BundleFreedom& free, std::size_t views) {
-        const std::array<bool, kCameraNumbers> camera{
-            free.f, free.principal_point, free.principal_point, free.k1, free.k2, free.pan, free.tilt, free.roll};
-        for (const bool is_free : camera) place.push_back(is_free ? count++ : -1);
-        for (std::size_t view = 0; view < views; ++view) {
-            const bool is_free = free.angles == AngleFreedom::kEach && view > 0;
-            place.push_back(is_free ? count++ : -1);
-        }
-        if (free.angles == AngleFreedom::kCommonStep) step = count++;
-    }
-
-    int step = -1;
-};
-
-double axis_position(const Lens& lens, const CameraPose& pose, double at_px) {
-    return (lies_sideways(pose) ? axis_row(lens, pose, at_px) : axis_column(lens, pose, at_px)).value_or(0);
-}
-
-// Derivatives of the axis' position with respect to the camera's numbers, by differences.
-std::array<double, kCameraNumbers> axis_slopes(const TurntableModel& model, double at_px) {
-    std::array<double, kCameraNumbers> slopes{};
-    for (std::size_t k = 0; k < slopes.size(); ++k) {
-        const double step = k < 3 ? 1e-3 : 1e-6;
-        std::array<double, 2> value{};
-        for (std::size_t side = 0; side < 2; ++side) {
-            Lens lens = model.lens;
-            CameraPose pose = model.pose;
-            const std::array<double*, kCameraNumbers> numbers{
-                &lens.f_px, &lens.cx, &lens.cy, &lens.k1, &lens.k2, &pose.pan_rad, &pose.tilt_rad, &pose.roll_rad};
-            *numbers[k] += side == 0 ? -step : step;
-            value[side] = axis_position(lens, pose, at_px);
-        }
-        slopes[k] = (value[1] - value[0]) / (2 * step);
-    }
-    return slopes;
-}
 
 constexpr std::size_t kSharedErrors = 4;
 
@@ -106,18 +63,14 @@ std::vector<std::size_t> neighbourhoods(const std::vector<glm::dvec3>& points, s
 
 }  // namespace
 
-bool lies_sideways(const CameraPose& pose) {
-    return std::abs(std::sin(pose.roll_rad)) > std::abs(std::cos(pose.roll_rad));
-}
-
 ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& options, double at_px,
                                   double shared_error_px) {
     const TurntableModel& model = bundle.model;
-    const Unknowns unknowns(options.free, model.angles_rad.size());
+    const NumberPlaces places(options.free, std::vector<bool>(model.angles_rad.size(), true));
     const std::array<double, 5> lens{model.lens.f_px, model.lens.cx, model.lens.cy, model.lens.k1, model.lens.k2};
     const std::array<double, 3> pose{model.pose.pan_rad, model.pose.tilt_rad, model.pose.roll_rad};
     const bool common = options.free.angles == AngleFreedom::kCommonStep;
-    const int n = unknowns.count;
+    const int n = places.count;
 
     Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(n, n);
     Eigen::MatrixXd meat;
@@ -162,9 +115,9 @@ ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& opt
             const auto add = [&](int place, const Eigen::Vector2d& slope) {
                 if (place >= 0) columns[used++] = {place, slope};
             };
-            for (int k = 0; k < 5; ++k) add(unknowns.place[static_cast<std::size_t>(k)], by_lens.col(k));
-            for (int k = 0; k < 3; ++k) add(unknowns.place[static_cast<std::size_t>(5 + k)], by_pose.col(k));
-            add(common ? unknowns.step : unknowns.place[kCameraNumbers + view], by_angle);
+            for (int k = 0; k < 5; ++k) add(places.camera[static_cast<std::size_t>(k)], by_lens.col(k));
+            for (int k = 0; k < 3; ++k) add(places.camera[static_cast<std::size_t>(5 + k)], by_pose.col(k));
+            add(common ? places.step : places.angles[view], by_angle);
             for (std::size_t a = 0; a < used; ++a) {
                 const auto& [place, slope] = columns[a];
                 camera_score(place) += weight * slope.dot(r);
@@ -190,10 +143,10 @@ ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& opt
     const std::array<double, 5> priors{0, kPriorPrincipalPoint * model.lens.width,
                                        kPriorPrincipalPoint * model.lens.width, kPriorK1, kPriorK2};
     for (std::size_t k = 1; k < priors.size(); ++k) {
-        if (unknowns.place[k] < 0) continue;
+        if (places.camera[k] < 0) continue;
         const double information = std::pow(options.loss_px / priors[k], 2);
-        bread(unknowns.place[k], unknowns.place[k]) += information;
-        meat(unknowns.place[k], unknowns.place[k]) += information * options.loss_px * options.loss_px;
+        bread(places.camera[k], places.camera[k]) += information;
+        meat(places.camera[k], places.camera[k]) += information * options.loss_px * options.loss_px;
     }
 
     ModelDeviations deviations;
@@ -205,41 +158,7 @@ ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& opt
     const Eigen::MatrixXd half = solver.solve(meat);
     const Eigen::MatrixXd moved = shared_error_px * solver.solve(shared);
     const Eigen::MatrixXd covariance = few * solver.solve(half.transpose()) + moved * moved.transpose();
-    const auto deviation = [&](int number) {
-        const int place = unknowns.place[static_cast<std::size_t>(number)];
-        return place < 0 ? 0.0 : std::sqrt(std::max(0.0, covariance(place, place)));
-    };
-    deviations.f_px = deviation(0);
-    deviations.cx = deviation(1);
-    deviations.cy = deviation(2);
-    deviations.k1 = deviation(3);
-    deviations.k2 = deviation(4);
-    deviations.tilt_rad = deviation(6);
-    deviations.roll_rad = deviation(7);
-    deviations.axis_direction_rad =
-        std::hypot(deviations.tilt_rad, std::cos(model.pose.tilt_rad) * deviations.roll_rad);
-    const auto slopes = axis_slopes(model, at_px);
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);
-    for (std::size_t k = 0; k < slopes.size(); ++k) {
-        if (unknowns.place[k] >= 0) gradient(unknowns.place[k]) = slopes[k];
-    }
-    deviations.axis_position_px = std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
-    // Angles count from the mean of all views: the first view's own error would otherwise be in every other one.
-    const std::size_t views = model.angles_rad.size();
-    for (std::size_t view = 0; view < views; ++view) {
-        Eigen::VectorXd from_mean = Eigen::VectorXd::Zero(n);
-        const double share = 1.0 / static_cast<double>(views);
-        if (common) {
-            from_mean(unknowns.step) = static_cast<double>(view) - 0.5 * static_cast<double>(views - 1);
-        } else {
-            for (std::size_t other = 0; other < views; ++other) {
-                const int place = unknowns.place[kCameraNumbers + other];
-                if (place >= 0) from_mean(place) = (other == view ? 1.0 : 0.0) - share;
-            }
-        }
-        deviations.angles_rad[view] = std::sqrt(std::max(0.0, from_mean.dot(covariance * from_mean)));
-    }
-    return deviations;
+    return deviations_of(model, places, covariance, at_px);
 }
 
 }  // namespace rs::capture

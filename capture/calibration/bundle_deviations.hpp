@@ -24,7 +24,4 @@ namespace rs::capture {
 ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& options, double at_px,
                                   double shared_error_px = 0);
 
-// An axis nearer to sideways than to upright in the picture.
-bool lies_sideways(const CameraPose& pose);
-
 }  // namespace rs::capture

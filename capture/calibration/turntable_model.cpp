@@ -98,4 +98,8 @@ std::optional<double> axis_row(const Lens& lens, const CameraPose& pose, double 
     return axis_crossing(lens, pose, 0, x_px);
 }
 
+bool lies_sideways(const CameraPose& pose) {
+    return std::abs(std::sin(pose.roll_rad)) > std::abs(std::cos(pose.roll_rad));
+}
+
 }  // namespace rs::capture

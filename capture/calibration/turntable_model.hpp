@@ -72,4 +72,7 @@ Camera object_camera(const TurntableModel& model, std::size_t view, double scale
 std::optional<double> axis_column(const Lens& lens, const CameraPose& pose, double y_px);
 std::optional<double> axis_row(const Lens& lens, const CameraPose& pose, double x_px);
 
+// An axis nearer to sideways than to upright in the picture.
+bool lies_sideways(const CameraPose& pose);
+
 }  // namespace rs::capture
