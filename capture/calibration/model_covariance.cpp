@@ -6,10 +6,6 @@
 namespace rs::capture {
 namespace {
 
-double axis_position(const Lens& lens, const CameraPose& pose, double at_px) {
-    return (lies_sideways(pose) ? axis_row(lens, pose, at_px) : axis_column(lens, pose, at_px)).value_or(0);
-}
-
 // Derivatives of the axis' position with respect to the camera's numbers, by differences.
 std::array<double, kCameraNumbers> axis_slopes(const TurntableModel& model, double at_px) {
     std::array<double, kCameraNumbers> slopes{};
@@ -22,7 +18,7 @@ std::array<double, kCameraNumbers> axis_slopes(const TurntableModel& model, doub
             const std::array<double*, kCameraNumbers> numbers{
                 &lens.f_px, &lens.cx, &lens.cy, &lens.k1, &lens.k2, &pose.pan_rad, &pose.tilt_rad, &pose.roll_rad};
             *numbers[k] += side == 0 ? -step : step;
-            value[side] = axis_position(lens, pose, at_px);
+            value[side] = axis_position(lens, pose, at_px).value_or(0);
         }
         slopes[k] = (value[1] - value[0]) / (2 * step);
     }

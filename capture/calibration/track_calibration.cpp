@@ -1,6 +1,7 @@
 #include "capture/calibration/track_calibration.hpp"
 
 #include "capture/calibration/bundle_deviations.hpp"
+#include "capture/calibration/outline_symmetry.hpp"
 #include "capture/calibration/patch_alignment.hpp"
 #include "capture/calibration/start_search.hpp"
 #include "capture/calibration/turn_diagnosis.hpp"
@@ -9,6 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -177,6 +181,30 @@ bool refine(Bundle& bundle, const TurnPictures& turn, BundleOptions& options) {
     return true;
 }
 
+// Moves the axis to where tracks and outlines together see it, and the points with it. All else stays: texture that
+// glides alike around the whole object looks as if it turned about an axis beside the true one, and bending lens and
+// angles until it fits the true one only spreads the error. `deviations` are those of the bundle as it stands; the
+// position's is made that of both. A line for the photographer where they disagree.
+std::optional<std::string> settle_axis(Bundle& bundle, const TurnPictures& turn, const BundleOptions& options,
+                                       double at_px, ModelDeviations& deviations) {
+    if (!options.free.pan) return std::nullopt;
+    const auto of_outlines = axis_of_outlines(covered_together(turn.pictures), turn.reduction, bundle.model);
+    if (!of_outlines) return std::nullopt;
+    const auto position = axis_position(bundle.model.lens, bundle.model.pose, of_outlines->at_px);
+    if (!position) return std::nullopt;
+    const double deviation_px =
+        bundle_deviations(bundle, options, of_outlines->at_px, kSharedError_px * turn.reduction).axis_position_px;
+    const AxisPlace of_tracks{of_outlines->at_px, *position, deviation_px};
+    const AxisPlace agreed = agreed_axis(of_tracks, *of_outlines);
+    const auto model = with_axis_at(bundle.model, agreed);
+    if (!model) return std::nullopt;
+    Bundle moved = make_bundle(*model, bundle.tracks);
+    if (moved.tracks.size() < kFewestTracks / 2) return std::nullopt;
+    bundle = std::move(moved);
+    deviations.axis_position_px = std::hypot(agreed.deviation_px, deviations.roll_rad * (agreed.at_px - at_px));
+    return axis_warning(of_tracks, *of_outlines, turn.reduction);
+}
+
 }  // namespace
 
 Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
@@ -228,24 +256,27 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
     Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
     keep_enough_tracks(bundle);
-    if (refine(bundle, turn, options)) {
+    const bool refined = refine(bundle, turn, options);
+    if (!refined) bundle = settled;
+    ModelDeviations deviations = bundle_deviations(bundle, options, at_px, kSharedError_px * turn.reduction);
+    const auto axis_disagrees = settle_axis(bundle, turn, options, at_px, deviations);
+    if (refined) {
         unseen.model = bundle.model;
         unseen = make_agreeing_bundle(bundle.model, aligned_tracks(turn.pictures, turn.reduction, unseen),
                                       kAlignedLimit_px * turn.reduction);
-    } else {
-        bundle = settled;
     }
     if (progress != nullptr) progress->advance();
 
     Calibration& calibration = result.calibration;
     calibration.method = CalibrationMethod::kTracks;
     calibration.model = bundle.model;
-    calibration.deviations = bundle_deviations(bundle, options, at_px, kSharedError_px * turn.reduction);
+    calibration.deviations = std::move(deviations);
     calibration.step_rad = median_step(bundle.model.angles_rad);
     Bundle judged = settled;  // its observations, the better angles
     judged.model = bundle.model;
     calibration.warnings =
         warnings_about(judged, calibration.deviations, candidates, result.followed.features, turn.names);
+    if (axis_disagrees) calibration.warnings.push_back(*axis_disagrees);
     calibration.points = static_cast<int>(bundle.tracks.size());
     calibration.observations = observation_count(bundle);
     calibration.rms_px = rms_px(bundle);

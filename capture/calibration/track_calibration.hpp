@@ -1,5 +1,6 @@
 #pragma once
-// Calibration of a turn from points of the object alone: start search, bundle, outliers, hold-out, judgement.
+// Calibration of a turn from points of the object: start search, bundle, outliers, hold-out, judgement. The outlines of
+// a full turn have their say in where the axis is (outline_symmetry.hpp).
 
 #include "capture/calibration/bundle.hpp"
 #include "capture/calibration/calibration.hpp"
@@ -12,7 +13,7 @@ namespace rs::capture {
 struct TrackCalibration {
     Calibration calibration;
     FollowedPoints followed;  // positions in px of the photographs
-    Bundle bundle;            // the tracks that took part, at the optimum
+    Bundle bundle;            // the tracks that took part, at the optimum but for the axis' position
 };
 
 // Fails, with what a photographer can do about it, where the pictures do not determine a single-axis motion: too few

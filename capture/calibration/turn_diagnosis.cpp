@@ -20,6 +20,7 @@ constexpr double kMostUncertainLens = 0.25;  // deviation of f over f
 constexpr double kStepWarning_deg = 0.5;
 constexpr double kRepeat = 0.1;  // of the median step
 constexpr double kGap = 1.6;
+constexpr double kAxesApart_px = 0.5;
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0;
@@ -208,6 +209,16 @@ std::vector<std::string> warnings_about(const Bundle& bundle, const ModelDeviati
                         " observations agree); was the object or the camera moved? Take it again or leave it out");
     }
     return lines;
+}
+
+std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_outlines, int reduction) {
+    const double apart = std::abs(of_tracks.position_px - of_outlines.position_px);
+    const double believed = 3 * std::hypot(of_tracks.deviation_px, of_outlines.deviation_px);
+    if (!(apart > std::max(believed, kAxesApart_px * reduction))) return std::nullopt;
+    return "the object's texture turns about an axis " + number(apart, 1) +
+           " px beside that of its outlines, which is taken; stripes wound around the object mislead like this, but so "
+           "do cut-outs that lack the same side in all pictures: look at those, or put a printed board under the "
+           "object";
 }
 
 }  // namespace rs::capture

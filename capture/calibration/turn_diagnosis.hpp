@@ -3,9 +3,11 @@
 
 #include "capture/calibration/bundle.hpp"
 #include "capture/calibration/calibration.hpp"
+#include "capture/calibration/outline_symmetry.hpp"
 #include "capture/calibration/tracks.hpp"
 #include "rayspace/result.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +31,10 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
 std::vector<std::string> warnings_about(const Bundle& bundle, const ModelDeviations& deviations,
                                         std::span<const int> candidates, std::span<const int> features,
                                         std::span<const std::string> names);
+
+// Where the texture turns about another axis than the outlines do, and further from it than both can be off: what may
+// be the matter. Nothing where they agree to half a px of the pictures that were looked at.
+std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_outlines, int reduction);
 
 // Views that stand where an earlier one does, within a tenth of the median step: the turntable had not turned, or the
 // turn goes on past its beginning.

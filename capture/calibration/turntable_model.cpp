@@ -102,4 +102,8 @@ bool lies_sideways(const CameraPose& pose) {
     return std::abs(std::sin(pose.roll_rad)) > std::abs(std::cos(pose.roll_rad));
 }
 
+std::optional<double> axis_position(const Lens& lens, const CameraPose& pose, double at_px) {
+    return lies_sideways(pose) ? axis_row(lens, pose, at_px) : axis_column(lens, pose, at_px);
+}
+
 }  // namespace rs::capture

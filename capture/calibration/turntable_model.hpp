@@ -75,4 +75,7 @@ std::optional<double> axis_row(const Lens& lens, const CameraPose& pose, double 
 // An axis nearer to sideways than to upright in the picture.
 bool lies_sideways(const CameraPose& pose);
 
+// axis_column at row at_px; axis_row at column at_px for an axis that lies sideways.
+std::optional<double> axis_position(const Lens& lens, const CameraPose& pose, double at_px);
+
 }  // namespace rs::capture

@@ -179,5 +179,14 @@ TEST(TurnDiagnosis, MedianStepIsSigned) {
     EXPECT_EQ(median_step(std::vector<double>{0}), 0);
 }
 
+TEST(TurnDiagnosis, SaysWhereTextureAndOutlinesDisagreeAboutTheAxis) {
+    const auto warning = axis_warning({300, 102.1, 0.2}, {300, 100, 0.2}, 1);
+    ASSERT_TRUE(warning);
+    EXPECT_NE(warning->find("2.1 px"), std::string::npos) << *warning;
+    EXPECT_FALSE(axis_warning({300, 102.1, 0.2}, {300, 100, 1}, 1));
+    EXPECT_FALSE(axis_warning({300, 100.4, 0.05}, {300, 100, 0.05}, 1));
+    EXPECT_FALSE(axis_warning({300, 100.8, 0.05}, {300, 100, 0.05}, 2));
+}
+
 }  // namespace
 }  // namespace rs::capture
