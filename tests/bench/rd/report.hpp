@@ -1,0 +1,34 @@
+#pragma once
+// What the bench says: all measured points and the rates relative to ASTC, as CSV and in words.
+
+#include "best_variant.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rs::bench {
+
+struct SetResult {
+    std::string set;
+    std::string about;  // one line: sizes and counts
+    std::vector<ChosenCurve> curves;
+};
+
+// Where curves are read off. Photographs are noisier than traced pictures, and nobody pays for their noise.
+std::vector<double> target_dbs(const std::string& set);
+
+// set,codec,setting,bytes,bpp,psnr_db,alpha_mae. The variant stands in the setting; curves of rejected variants are
+// named CODEC/VARIANT. alpha_mae: 0..255, empty for codecs without alpha.
+std::string points_csv(const std::vector<SetResult>& results);
+
+// set,codec,psnr_db,bpp,ratio_to_astc; the last two are empty where a curve does not reach that dB.
+std::string ratios_csv(const std::vector<SetResult>& results);
+
+// The same as tables for people, with which variants were chosen.
+std::string summary_text(const std::vector<SetResult>& results);
+
+// points.csv -> points_ratios.csv
+std::filesystem::path ratios_path(const std::filesystem::path& points_path);
+
+}  // namespace rs::bench

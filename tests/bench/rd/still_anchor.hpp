@@ -1,0 +1,20 @@
+#pragma once
+// JPEG and WebP: every picture a file of its own. All bytes of the files count; alpha is not stored.
+
+#include "coded.hpp"
+
+#include <string>
+#include <vector>
+
+namespace rs::bench {
+
+enum class StillCodec {
+    kJpeg,  // libjpeg(-turbo), 4:2:0, optimised Huffman tables
+    kWebp,  // libwebp, lossy
+};
+
+// `shown` are the opaque pictures to code, view by view. quality 1..100.
+Result<Coded> code_stills(const ReferencePictures& pictures, const std::vector<Image<Rgba8>>& shown, StillCodec codec,
+                          int quality);
+
+}  // namespace rs::bench
