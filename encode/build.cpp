@@ -33,7 +33,6 @@ Rig in_object_radii(Rig rig) {
 }
 
 Status read_all_pictures(const CaptureSet& set, RaySpaceObject& object, Progress* progress) {
-    object.pictures.resize(set.upright.views.size());
     const int count = static_cast<int>(set.upright.views.size());
     return for_each_in_parallel(count, "pictures", progress, [&](int i) -> Status {
         const Result<Image<Rgba8>> picture = read_upright_picture(set, i);
@@ -99,7 +98,10 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
         built.warnings.push_back("the cameras form " + std::to_string(rings.size()) +
                                  " rings of different elevation; the nearest ring answers a view");
     }
-    if (const Status status = read_all_pictures(set, object, progress); !status) return status.error();
+    object.pictures.resize(object.views.size());
+    if (options.raw_pictures) {
+        if (const Status status = read_all_pictures(set, object, progress); !status) return status.error();
+    }
     if (options.raymap == MapKind::kShape) {
         Result<FoundShapes> shapes = add_shape_maps(set, rig, rings, options.shape, object, progress);
         if (!shapes) return shapes.error();

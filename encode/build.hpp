@@ -32,6 +32,7 @@ struct BuildOptions {
     std::string name;  // of the object; the set's folder name where empty
     MapKind raymap = MapKind::kShape;
     ShapeOptions shape = {};
+    bool raw_pictures = true;  // else the object's pictures stay empty: encode/codec makes coded ones
 };
 
 struct BuiltObject {

@@ -281,8 +281,13 @@ Status parse_picture(std::span<const std::byte> payload, int width, int height, 
 
 // --------------------------------------------------------------------------------------------------------------- order
 
+int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n) {
+    return object.coded ? object.coded->levels[ring.views[n]] : progressive_level(static_cast<int>(n));
+}
+
 std::vector<ChunkKey> chunk_order(const RaySpaceObject& object) {
     std::vector<ChunkKey> order = {{kHead, 0}, {kRig, 0}, {kViews, 0}};
+    if (object.coded) order.push_back({kCode, 0});
     for (std::uint32_t r = 0; r < object.rings.size(); ++r) {
         order.push_back({kRing, r});
         order.push_back({kMap, r});
@@ -291,7 +296,7 @@ std::vector<ChunkKey> chunk_order(const RaySpaceObject& object) {
     for (int level = 0; level < kProgressiveLevels; ++level) {
         for (const Ring& ring : object.rings) {
             for (std::size_t n = 0; n < ring.views.size(); ++n) {
-                if (progressive_level(static_cast<int>(n)) == level) order.push_back({kPicture, ring.views[n]});
+                if (level_of(object, ring, n) == level) order.push_back({kPicture, ring.views[n]});
             }
         }
     }

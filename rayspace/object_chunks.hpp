@@ -20,6 +20,7 @@ inline constexpr ChunkName kViews = {'V', 'I', 'E', 'W'};
 inline constexpr ChunkName kRing = {'R', 'I', 'N', 'G'};
 inline constexpr ChunkName kMap = {'R', 'M', 'A', 'P'};
 inline constexpr ChunkName kShape = {'s', 'h', 'a', 'p'};  // rayspace/shape_chunk.hpp
+inline constexpr ChunkName kCode = {'C', 'O', 'D', 'E'};   // rayspace/codec/coded_chunks.hpp
 inline constexpr ChunkName kPicture = {'P', 'I', 'C', 'T'};
 
 inline constexpr std::size_t kMaxName_bytes = 255;
@@ -53,12 +54,16 @@ Payload picture_payload(const PlanarPicture& picture);
 Status parse_picture(std::span<const std::byte> payload, int width, int height, PlanarPicture& picture);
 std::uint64_t raw_picture_bytes(int width, int height);
 
-// The chunks of an object in the order of the file. Needs the rings' view lists, and which rings have a shape map.
+// The chunks of an object in the order of the file. Needs the rings' view lists, which rings have a shape map, and the
+// levels of coded pictures.
 struct ChunkKey {
     ChunkName name{};
     std::uint32_t index = 0;
     bool operator==(const ChunkKey&) const = default;
 };
 std::vector<ChunkKey> chunk_order(const RaySpaceObject& object);
+
+// The level at which the n-th view of a ring is loaded: a coded picture says it itself.
+int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n);
 
 }  // namespace rs::object_chunks

@@ -1,5 +1,7 @@
 #include "rayspace/object_file.hpp"
 
+#include "rayspace/codec/coded_chunks.hpp"
+#include "rayspace/codec/decode_picture.hpp"
 #include "rayspace/container_layout.hpp"
 #include "rayspace/object_chunks.hpp"
 #include "rayspace/shape_chunk.hpp"
@@ -24,7 +26,9 @@ Payload payload_of(const RaySpaceObject& object, ChunkKey key) {
     if (key.name == kRing) return ring_payload(object, key.index);
     if (key.name == kMap) return map_payload(object.rings[key.index]);
     if (key.name == kShape) return shape_payload(object.rings[key.index]);
+    if (key.name == kCode) return codec::code_payload(*object.coded);
     RS_CHECK(key.name == kPicture);
+    if (object.coded) return codec::coded_picture_payload(*object.coded, key.index);
     return picture_payload(object.pictures[key.index]);
 }
 
@@ -41,6 +45,7 @@ public:
         if (const Status status = read_maps(); !status) return status.error();
         if (const Status status = read_pictures(); !status) return status.error();
         if (const Status status = validate_object(object_, container_.where()); !status) return status.error();
+        if (coded_ && options_.decode) codec::decode_pictures(object_);
         return std::move(object_);
     }
 
@@ -68,6 +73,14 @@ private:
         if (Status s = read_chunk({kHead, 0}, [&](Bytes b) { return parse_head(b, object_); }); !s) return s;
         if (Status s = read_chunk({kRig, 0}, [&](Bytes b) { return parse_rig_text(b, object_); }); !s) return s;
         if (Status s = read_chunk({kViews, 0}, [&](Bytes b) { return parse_views(b, object_); }); !s) return s;
+        if (container_.find(kCode, 0) != nullptr) {
+            coded_ = std::make_shared<codec::CodedPictures>();
+            object_.coded = coded_;
+            const auto parse = [&](Bytes b) {
+                return codec::parse_code(b, object_.views.size(), object_.width, object_.height, *coded_);
+            };
+            if (Status s = read_chunk({kCode, 0}, parse); !s) return s;
+        }
         for (std::uint32_t r = 0; r < object_.rings.size(); ++r) {
             if (Status s = read_chunk({kRing, r}, [&](Bytes b) { return parse_ring(b, object_, r); }); !s) return s;
         }
@@ -106,9 +119,9 @@ private:
         for (const Ring& ring : object_.rings) {
             needed_bytes_ += sizeof(std::uint16_t) * static_cast<std::uint64_t>(ring.planes) *
                              static_cast<std::uint64_t>(ring.x_cells) * static_cast<std::uint64_t>(ring.u_cells);
-            for (std::size_t n = 0; n < ring.views.size(); ++n) pictures += is_wanted(n) ? 1 : 0;
+            for (std::size_t n = 0; n < ring.views.size(); ++n) pictures += is_wanted(ring, n) ? 1 : 0;
         }
-        needed_bytes_ += pictures * raw_picture_bytes(object_.width, object_.height);
+        needed_bytes_ += pictures * picture_bytes();
         return needed_bytes_ <= options_.memory_cap_bytes ? Status{} : Status{too_large(needed_bytes_)};
     }
 
@@ -140,19 +153,32 @@ private:
     Status read_pictures() {
         for (const Ring& ring : object_.rings) {
             for (std::size_t n = 0; n < ring.views.size(); ++n) {
-                if (!is_wanted(n)) continue;
+                if (!is_wanted(ring, n)) continue;
                 const std::uint16_t view = ring.views[n];
                 const auto parse = [&](std::span<const std::byte> b) {
+                    if (coded_) return codec::parse_coded_picture(b, view, *coded_);
                     return parse_picture(b, object_.width, object_.height, object_.pictures[view]);
                 };
                 if (Status status = read_chunk({kPicture, view}, parse); !status) return status;
+                if (!coded_) continue;
+                needed_bytes_ += coded_->pictures[view].bytes.size();
+                if (needed_bytes_ > options_.memory_cap_bytes) return too_large(needed_bytes_);
             }
         }
         return {};
     }
 
-    [[nodiscard]] bool is_wanted(std::size_t n) const {
-        return progressive_level(static_cast<int>(n)) <= options_.max_level;
+    [[nodiscard]] bool is_wanted(const Ring& ring, std::size_t n) const {
+        return level_of(object_, ring, n) <= options_.max_level;
+    }
+
+    // What a picture will take: a coded one is unpacked at full size, from planes that are a little larger.
+    [[nodiscard]] std::uint64_t picture_bytes() const {
+        if (!coded_) return raw_picture_bytes(object_.width, object_.height);
+        constexpr std::uint64_t kCodedPlanes = 4;
+        const std::uint64_t samples =
+            static_cast<std::uint64_t>(coded_->coded_width()) * static_cast<std::uint64_t>(coded_->coded_height());
+        return codec::tile_table_bytes(*coded_) + (options_.decode ? 2 * kCodedPlanes * samples : 0);
     }
 
     [[nodiscard]] Error too_large(std::uint64_t needed_bytes) const {
@@ -166,7 +192,8 @@ private:
     const ContainerReader& container_;
     const ReadObjectOptions& options_;
     RaySpaceObject object_;
-    std::uint64_t needed_bytes_ = 0;  // of the memory cap
+    std::shared_ptr<codec::CodedPictures> coded_;  // object_.coded, while it is filled
+    std::uint64_t needed_bytes_ = 0;               // of the memory cap
 };
 
 }  // namespace
@@ -174,7 +201,7 @@ private:
 Status write_object(const std::filesystem::path& path, const RaySpaceObject& object, Progress* progress) {
     if (Status status = validate_object(object, path.string()); !status) return status;
     for (std::size_t i = 0; i < object.pictures.size(); ++i) {
-        if (object.pictures[i].empty()) {
+        if (object.coded ? !object.coded->pictures[i].loaded() : object.pictures[i].empty()) {
             return Error{path.string() + ": picture " + std::to_string(i) +
                          " is not loaded; an object is written whole"};
         }

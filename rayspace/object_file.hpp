@@ -23,6 +23,7 @@ Status write_object(const std::filesystem::path& path, const RaySpaceObject& obj
 struct ReadObjectOptions {
     int max_level = kProgressiveLevels - 1;                   // pictures of higher progressive levels stay empty
     std::uint64_t memory_cap_bytes = std::uint64_t{8} << 30;  // refuse objects that would need more
+    bool decode = true;  // unpack coded pictures into `pictures`; else they are left empty, and `coded` alone has them
 };
 // The result has passed validate_object(); shape maps are read at every level. Chunks of pictures that are not wanted
 // are not touched, and so not checked.

@@ -136,10 +136,11 @@ bool has_size(const Image<std::uint8_t>& plane, int width, int height) {
 
 Status check_picture(const PlanarPicture& picture, int width, int height) {
     const bool none = picture.y.empty() && picture.u.empty() && picture.v.empty() && picture.a.empty();
-    const int half_width = half_size(width);
-    const int half_height = half_size(height);
+    const int chroma_width = picture.chroma_shift == 0 ? width : half_size(width);
+    const int chroma_height = picture.chroma_shift == 0 ? height : half_size(height);
     const bool whole = has_size(picture.y, width, height) && has_size(picture.a, width, height) &&
-                       has_size(picture.u, half_width, half_height) && has_size(picture.v, half_width, half_height);
+                       has_size(picture.u, chroma_width, chroma_height) &&
+                       has_size(picture.v, chroma_width, chroma_height);
     if (none || whole) return {};
     return Error{"its planes do not have the object's picture size"};
 }
@@ -157,6 +158,11 @@ Status check_head(const RaySpaceObject& object) {
         return Error{std::to_string(object.rings.size()) + " rings; 1.." + std::to_string(kMaxRings) + " are possible"};
     }
     if (object.pictures.size() != object.views.size()) return Error{"not as many pictures as views"};
+    if (object.coded &&
+        (object.coded->width != object.width || object.coded->height != object.height ||
+         object.coded->pictures.size() != object.views.size() || object.coded->levels.size() != object.views.size())) {
+        return Error{"its coded pictures do not have the object's size and number"};
+    }
     if (object.name.size() > object_chunks::kMaxName_bytes || !is_printable_utf8(object.name)) {
         return Error{"its name is longer than " + std::to_string(object_chunks::kMaxName_bytes) +
                      " bytes or no printable UTF-8"};

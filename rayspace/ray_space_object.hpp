@@ -9,10 +9,12 @@
 // RS map of a plane needs to say only *which picture* answers a cell (x, u); the CapturedLine of (picture, plane) then
 // gives column and vertical scale of the ray through x exactly, without the rounding of a column stored per cell.
 
+#include "rayspace/codec/coded_pictures.hpp"
 #include "rayspace/image.hpp"
 #include "rayspace/shape_map.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -68,9 +70,11 @@ struct Ring {
     }
 };
 
-// One stored picture: Y and alpha at full size, U and V at half width and height (rounded up), 8 bits each.
+// One stored picture: Y and alpha at full size, U and V at half width and height (rounded up) or, if chroma_shift is 0,
+// at full size too; 8 bits each.
 struct PlanarPicture {
     Image<std::uint8_t> y, u, v, a;
+    int chroma_shift = 1;  // of a pixel's column and row, to its place in U and V
     [[nodiscard]] bool empty() const { return y.empty(); }
     bool operator==(const PlanarPicture&) const = default;
 };
@@ -84,6 +88,9 @@ struct RaySpaceObject {
     std::vector<CapturedView> views;
     std::vector<Ring> rings;
     std::vector<PlanarPicture> pictures;  // [view]; empty ones were not loaded (progressive reading)
+    // The pictures as the file holds them, where it holds them compressed; then `pictures` may all be empty until
+    // codec::decode_pictures() unpacks them.
+    std::shared_ptr<const codec::CodedPictures> coded;
 };
 
 // Chroma planes are half as large, rounded up.

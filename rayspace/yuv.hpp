@@ -20,8 +20,9 @@ constexpr Rgba8 rgba_from_yuva(int y, int u, int v, int alpha) {
 
 // Pixel (column, row) of a stored picture.
 inline Rgba8 rgba_at(const PlanarPicture& picture, int column, int row) {
-    return rgba_from_yuva(picture.y(column, row), picture.u(column >> 1, row >> 1), picture.v(column >> 1, row >> 1),
-                          picture.a(column, row));
+    const int shift = picture.chroma_shift;
+    return rgba_from_yuva(picture.y(column, row), picture.u(column >> shift, row >> shift),
+                          picture.v(column >> shift, row >> shift), picture.a(column, row));
 }
 
 // Chroma is the alpha-weighted mean of its 2x2 pixels (128 where all are transparent), so that what lies outside a

@@ -4,6 +4,7 @@
 #include "encode/capture_set.hpp"
 #include "encode/report/build_report.hpp"
 #include "encode/report/stage_clock.hpp"
+#include "encode/tools/profile_options.hpp"
 #include "encode/tools/report_of_build.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/object_file.hpp"
@@ -31,6 +32,7 @@ struct BuildArguments {
     std::string raymap = to_string(MapKind::kShape);
     std::string cells;  // empty: as usual for the kind of map
     std::string report;
+    ProfileArguments profile;
     int planes = PlaneMapOptions{}.planes;
     std::string name;
     bool quiet = false;
@@ -42,6 +44,7 @@ struct BuildSummary {
     std::uint64_t bytes = 0;
     double seconds = 0;
     long long peak_memory_bytes = 0;
+    std::optional<double> psnr_db;  // of compressed pictures
 };
 
 // The most memory that this process has held, as the system counts it.
@@ -71,6 +74,12 @@ Result<BuildOptions> options_of(const BuildArguments& arguments) {
     return options;
 }
 
+std::string text_of(const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
 void print_summary(const BuildArguments& arguments, const BuildOptions& options, const RaySpaceObject& object,
                    const BuildSummary& summary) {
     if (arguments.json) {
@@ -83,20 +92,19 @@ void print_summary(const BuildArguments& arguments, const BuildOptions& options,
                             {"bytes", summary.bytes},
                             {"seconds", summary.seconds},
                             {"peak_memory_bytes", summary.peak_memory_bytes}};
+        json["profile"] = arguments.profile.profile;
+        if (summary.psnr_db) json["pictures_psnr_db"] = *summary.psnr_db;
         if (!arguments.report.empty()) json["report"] = arguments.report;
         std::cout << json.dump(2) << '\n';
     } else {
-        std::printf("%s: %zu views of %dx%d, %s map, %d planes, %.1f MB, %.1f s, peak memory %.0f MB\n",
+        const std::string pictures =
+            summary.psnr_db ? "dense pictures of " + text_of("%.2f dB", *summary.psnr_db) : "raw pictures";
+        std::printf("%s: %zu views of %dx%d, %s map, %d planes, %s, %.2f MB, %.1f s, peak memory %.0f MB\n",
                     arguments.output.c_str(), object.views.size(), object.width, object.height,
-                    to_string(options.raymap).c_str(), options.map.planes, static_cast<double>(summary.bytes) / 1e6,
-                    summary.seconds, static_cast<double>(summary.peak_memory_bytes) / 1e6);
+                    to_string(options.raymap).c_str(), options.map.planes, pictures.c_str(),
+                    static_cast<double>(summary.bytes) / 1e6, summary.seconds,
+                    static_cast<double>(summary.peak_memory_bytes) / 1e6);
     }
-}
-
-std::string text_of(const char* format, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
 }
 
 std::vector<ReportFact> facts_of(const BuildArguments& arguments, const BuildOptions& options, const CaptureSet& set,
@@ -111,6 +119,7 @@ std::vector<ReportFact> facts_of(const BuildArguments& arguments, const BuildOpt
                          std::to_string(object.height) + (set.resampled ? ", made upright" : "")},
         {"rings of views", std::to_string(object.rings.size())},
         {"RS map", to_string(options.raymap) + "; " + map},
+        {"stored as", summary.psnr_db ? text_of("dense, %.2f dB over the object's pixels", *summary.psnr_db) : "raw"},
         {"object radius", text_of("%g units of the set", object.units_per_radius)},
         {"file", text_of("%.2f MB", static_cast<double>(summary.bytes) / 1e6)},
         {"time", text_of("%.1f s", summary.seconds)},
@@ -144,13 +153,23 @@ Status run_build(const BuildArguments& arguments) {
     }
     if (options->name.empty())
         options->name = std::filesystem::weakly_canonical(std::filesystem::absolute(set->folder)).filename().string();
+    const Result<std::optional<PictureGoal>> goal = goal_of(arguments.profile);
+    if (!goal) return goal.error();
+    options->raw_pictures = !goal->has_value();
     if (set->resampled) std::cerr << "rs-encode: the cameras look up or down; their pictures are made upright\n";
     Result<BuiltObject> built = build_object(*set, *options, &progress);
     if (!built) return built.error();
+    BuildSummary summary;
+    if (*goal) {
+        Result<EncodedPictures> encoded =
+            encode_pictures(*set, built->object, **goal, arguments.profile.alpha_bits, &progress);
+        if (!encoded) return encoded.error();
+        summary.psnr_db = encoded->psnr_db;
+        built->object.coded = std::make_shared<codec::CodedPictures>(std::move(encoded->coded));
+    }
     if (Status status = write_object(arguments.output, built->object, &progress); !status) return status;
     for (const std::string& warning : built->warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
 
-    BuildSummary summary;
     summary.bytes = std::filesystem::file_size(arguments.output);
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     summary.peak_memory_bytes = peak_memory_bytes();
@@ -190,6 +209,7 @@ void add_build_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("--cells", arguments->cells,
                         "cells of the RS map of a plane, X x U; 512x512 for plane and 128x128 for shape if not given");
     command->add_option("--planes", arguments->planes, "reference planes about the axis, 3..64")->capture_default_str();
+    add_profile_options(*command, arguments->profile);
     command->add_option("--name", arguments->name, "name of the object; the set's folder where not given");
     command->add_option("--report", arguments->report,
                         "also write a page about the build, PAGE.html; takes as long again, for it scores objects "
@@ -198,7 +218,8 @@ void add_build_command(CLI::App& app, std::function<Status()>& run) {
     command->add_flag("--json", arguments->json, "the summary as JSON");
     command->footer(
         "Examples:\n  rs-encode build vase-set -o vase.rso --report vase.html\n"
-        "  rs-encode build vase-set -o vase.rso --raymap plane --planes 12 --cells 512x512");
+        "  rs-encode build vase-set -o vase.rso --psnr 36\n"
+        "  rs-encode build vase-set -o vase.rso --profile raw --raymap plane --planes 12 --cells 512x512");
     command->callback([arguments, &run] { run = [arguments] { return run_build(*arguments); }; });
 }
 

@@ -1,11 +1,13 @@
 #include "encode/tools/object_commands.hpp"
 
 #include "encode/build.hpp"
+#include "rayspace/codec/byte_account.hpp"
 #include "rayspace/object_file.hpp"
 #include "rayspace/progress.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -24,8 +26,14 @@ struct ObjectArguments {
 Status run_info(const ObjectArguments& arguments) {
     const Result<ContainerReader> container = ContainerReader::open(arguments.object);
     if (!container) return container.error();
-    const Result<RaySpaceObject> object = read_object(*container, {.max_level = -1});
+    Result<RaySpaceObject> object = read_object(*container, {.max_level = -1});
     if (!object) return object.error();
+    std::vector<codec::AccountEntry> account;
+    if (object->coded) {
+        object = read_object(*container, {.decode = false});
+        if (!object) return object.error();
+        account = codec::account_bytes(*object->coded);
+    }
     const std::vector<ChunkSummary> chunks = summarise_chunks(*container);
     if (arguments.json) {
         nlohmann::json json{{"name", object->name},
@@ -44,12 +52,16 @@ Status run_info(const ObjectArguments& arguments) {
         for (const ChunkSummary& chunk : chunks) {
             json["chunks"].push_back({{"name", chunk.name}, {"count", chunk.count}, {"bytes", chunk.size_bytes}});
         }
+        json["pictures"] = object->coded ? "dense" : "raw";
+        for (const codec::AccountEntry& entry : account) {
+            json["pictures_bytes"].push_back({{"name", entry.name}, {"bytes", std::llround(entry.bytes)}});
+        }
         std::cout << json.dump(2) << '\n';
         return {};
     }
     std::printf("%s: \"%s\"\n", arguments.object.c_str(), object->name.c_str());
-    std::printf("  pictures   %zu of %dx%d, Y U V at 4:2:0 and alpha, uncompressed\n", object->views.size(),
-                object->width, object->height);
+    std::printf("  pictures   %zu of %dx%d, %s\n", object->views.size(), object->width, object->height,
+                object->coded ? "Y U V and alpha, dense" : "Y U V at 4:2:0 and alpha, uncompressed");
     for (const Ring& ring : object->rings) {
         std::printf("  ring       %zu views at elevation %.2f degrees; %d planes, RS map %dx%d (x, u)\n",
                     ring.views.size(), ring.elevation_udeg * 1e-6, ring.planes, ring.x_cells, ring.u_cells);
@@ -60,6 +72,11 @@ Status run_info(const ObjectArguments& arguments) {
         std::printf("    %s  x %-5llu %12llu bytes  %5.1f %%\n", chunk.name.c_str(),
                     static_cast<unsigned long long>(chunk.count), static_cast<unsigned long long>(chunk.size_bytes),
                     100.0 * static_cast<double>(chunk.size_bytes) / static_cast<double>(container->size_bytes()));
+    }
+    if (!account.empty()) std::printf("  in the pictures:\n");
+    for (const codec::AccountEntry& entry : account) {
+        std::printf("    %-34s %12.0f bytes  %5.1f %%\n", entry.name.c_str(), entry.bytes,
+                    100.0 * entry.bytes / static_cast<double>(container->size_bytes()));
     }
     return {};
 }

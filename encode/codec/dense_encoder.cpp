@@ -1,0 +1,287 @@
+#include "encode/codec/dense_encoder.hpp"
+
+#include "encode/codec/bool_encoder.hpp"
+#include "encode/codec/coders.hpp"
+#include "encode/codec/source_picture.hpp"
+#include "encode/codec/tile_encoder.hpp"
+#include "rayspace/codec/decode_picture.hpp"
+#include "rayspace/yuv.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rs::encode {
+namespace {
+
+using codec::CodedPicture;
+using codec::CodedPictures;
+using codec::MotionVector;
+
+struct WorkPicture {
+    std::array<Image<std::uint8_t>, 4> shown;
+    std::vector<std::vector<Decision>> decisions;  // [tile]
+    std::array<int, 2> reach = {0, 0};
+    std::array<std::vector<std::vector<MotionVector>>, 2> motions;  // [reference][tile]
+};
+
+codec::PlaneViews views_of(std::array<Image<std::uint8_t>, 4>& planes) {
+    return {planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
+}
+
+codec::ConstPlaneViews const_views_of(const std::array<Image<std::uint8_t>, 4>& planes) {
+    return {planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
+}
+
+std::int16_t median(std::vector<std::int16_t> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+class Encoder {
+public:
+    Encoder(const RaySpaceObject& object, const std::vector<SourcePicture>& sources, const DenseSettings& settings,
+            Progress* progress)
+        : object_(object), sources_(sources), settings_(settings), progress_(progress), work_(object.views.size()) {
+        coded_.width = object.width;
+        coded_.height = object.height;
+        coded_.dense.alpha_bits = settings.alpha_bits;
+        coded_.tile_width_log2 = settings.tile_width_log2;
+        coded_.tile_height_log2 = settings.tile_height_log2;
+        coded_.dense.chroma_step_offset = settings.chroma_offset;
+        coded_.dense.probabilities.fill(2048);
+        start_probabilities();
+        coded_.levels.assign(object.views.size(), 0);
+        coded_.pictures.resize(object.views.size());
+        plan();
+        tbb::parallel_for(std::size_t{0}, work_.size(), [&](std::size_t v) {
+            for (auto& plane : work_[v].shown) {
+                plane = Image<std::uint8_t>(coded_.coded_width(), coded_.coded_height());
+            }
+            find_tiles(static_cast<int>(v));
+        });
+    }
+
+    EncodedPictures encode() {
+        if (progress_ != nullptr) {
+            progress_->start("encoding", static_cast<std::int64_t>(work_.size()) * settings_.passes);
+        }
+        for (int pass = 0; pass < settings_.passes; ++pass) {
+            const CostTable costs(coded_.dense.probabilities);
+            for (int level = 0; level < kProgressiveLevels; ++level) encode_level(level, costs);
+            train();
+            for (std::size_t v = 0; v < work_.size(); ++v) set_usual_motion(v, pass);
+        }
+        write_tiles();
+        if (progress_ != nullptr) progress_->finish();
+        const double psnr_db = measure();
+        return {std::move(coded_), psnr_db};
+    }
+
+private:
+    // Rough prices for the first pass: zeros are likelier the higher the coefficient.
+    void start_probabilities() {
+        namespace context = codec::context;
+        auto& p = coded_.dense.probabilities;
+        for (int kind = 0; kind < context::kBlockKinds; ++kind) {
+            for (int band = 0; band < context::kBands; ++band) {
+                for (int near = 0; near < context::kNearSums; ++near) {
+                    const int zero = std::clamp(3600 - 500 * near - (band == 0 ? 1200 : 0) + 100 * band, 600, 3900);
+                    p[static_cast<std::size_t>(context::kNonZero +
+                                               (kind * context::kBands + band) * context::kNearSums + near)] =
+                        static_cast<std::uint16_t>(zero);
+                }
+            }
+            for (int i = 0; i < 2 * context::kNearSums; ++i) {
+                p[static_cast<std::size_t>(context::kAboveOne + 2 * context::kNearSums * kind + i)] = 2900;
+                p[static_cast<std::size_t>(context::kAboveTwo + 2 * context::kNearSums * kind + i)] = 2600;
+            }
+        }
+    }
+
+    // Levels, references and steps.
+    void plan() {
+        const double base = std::log2(std::max(settings_.step, 1.0)) * 8;
+        for (const Ring& ring : object_.rings) {
+            const int count = static_cast<int>(ring.views.size());
+            for (int n = 0; n < count; ++n) {
+                const std::size_t view = ring.views[static_cast<std::size_t>(n)];
+                const int level = progressive_level(n);
+                coded_.levels[view] = static_cast<std::uint8_t>(level);
+                codec::PictureHead& head = coded_.pictures[view].head;
+                head.step = std::clamp(
+                    static_cast<int>(std::lround(base)) + settings_.level_offset[static_cast<std::size_t>(level)], 0,
+                    codec::kMaxStep);
+                if (level == 0) continue;
+                std::size_t found = 0;
+                for (const int direction : {-1, 1}) {
+                    int steps = 1;
+                    int other = (n + direction + count) % count;
+                    while (progressive_level(other) >= level) {
+                        other = (other + direction + count) % count;
+                        ++steps;
+                    }
+                    const std::uint16_t reference = ring.views[static_cast<std::size_t>(other)];
+                    if (found == 1 && head.reference[0] == reference) continue;
+                    const double angle = 6.2832 * steps / count;
+                    work_[view].reach[found] = std::clamp(static_cast<int>(0.35 * angle * object_.width) + 6, 8, 96);
+                    head.reference[found++] = reference;
+                }
+            }
+        }
+    }
+
+    void find_tiles(int view) {
+        WorkPicture& work = work_[static_cast<std::size_t>(view)];
+        CodedPicture& coded = coded_.pictures[static_cast<std::size_t>(view)];
+        const auto tiles = static_cast<std::size_t>(coded_.tile_columns() * coded_.tile_rows());
+        coded.tiles.resize(tiles);
+        work.decisions.resize(tiles);
+        for (auto& motions : work.motions) motions.resize(tiles);
+        for (std::size_t t = 0; t < tiles; ++t) {
+            const codec::TilePlace place = codec::place_of_tile(coded_, t);
+            for (int y = place.top; y < place.top + place.height && !coded.tiles[t].present; ++y) {
+                const std::uint8_t* const row = sources_[static_cast<std::size_t>(view)].matters.row(y) + place.left;
+                coded.tiles[t].present = std::any_of(row, row + place.width, [](std::uint8_t m) { return m != 0; });
+            }
+        }
+    }
+
+    void encode_level(int level, const CostTable& costs) {
+        std::vector<std::pair<std::size_t, std::size_t>> jobs;  // view, tile
+        std::vector<PictureTask> tasks(work_.size());
+        for (std::size_t v = 0; v < work_.size(); ++v) {
+            if (coded_.levels[v] != level) continue;
+            PictureTask& task = tasks[v];
+            task.code = &coded_.dense;
+            task.head = coded_.pictures[v].head;
+            task.source = &sources_[v];
+            task.reach = work_[v].reach;
+            const float step = static_cast<float>(codec::step_q4(task.head.step)) / 16.0F;
+            task.lambda = settings_.lambda_factor * kPlaneWeights[0] * step * step;
+            task.out = views_of(work_[v].shown);
+            for (std::size_t r = 0; r < static_cast<std::size_t>(task.head.references()); ++r) {
+                task.references[r] = const_views_of(work_[task.head.reference[r]].shown);
+            }
+            for (std::size_t t = 0; t < coded_.pictures[v].tiles.size(); ++t) jobs.emplace_back(v, t);
+        }
+        tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
+            const auto [v, t] = jobs[j];
+            const codec::TilePlace place = codec::place_of_tile(coded_, t);
+            if (!coded_.pictures[v].tiles[t].present) {
+                codec::clear_tile(place, tasks[v].out);
+            } else {
+                work_[v].decisions[t].clear();
+                std::array<std::vector<MotionVector>, 2> motions;
+                encode_tile(tasks[v], costs, place, work_[v].decisions[t], &motions);
+                for (std::size_t r = 0; r < 2; ++r) work_[v].motions[r][t] = std::move(motions[r]);
+            }
+            if (progress_ != nullptr && t + 1 == coded_.pictures[v].tiles.size()) progress_->advance();
+        });
+    }
+
+    // The usual vector goes with the pass that it was used in: after the last one it must stay.
+    void set_usual_motion(std::size_t v, int pass) {
+        if (pass + 1 >= settings_.passes) return;
+        for (std::size_t r = 0; r < 2; ++r) {
+            std::vector<std::int16_t> x;
+            std::vector<std::int16_t> y;
+            for (const auto& tile : work_[v].motions[r]) {
+                for (const MotionVector m : tile) {
+                    x.push_back(m.x);
+                    y.push_back(m.y);
+                }
+            }
+            coded_.pictures[v].head.usual_motion[r] = {median(std::move(x)), median(std::move(y))};
+        }
+    }
+
+    void train() {
+        std::vector<std::array<std::uint64_t, 2>> counts(codec::context::kCount + 1);
+        for (const WorkPicture& work : work_) {
+            for (const auto& tile : work.decisions) {
+                for (const Decision d : tile) ++counts[d >> 1U][d & 1U];
+            }
+        }
+        for (std::size_t c = 0; c < coded_.dense.probabilities.size(); ++c) {
+            const auto zeros = static_cast<double>(counts[c][0]);
+            const auto all = zeros + static_cast<double>(counts[c][1]);
+            const double zero = (zeros + 0.4) / (all + 0.8);
+            coded_.dense.probabilities[c] =
+                static_cast<std::uint16_t>(16 * std::clamp(std::lround(zero * 256), 1L, 255L));
+        }
+    }
+
+    // Integer sums: the same on any number of threads.
+    [[nodiscard]] double measure() const {
+        std::vector<std::array<std::int64_t, 2>> sums(work_.size());  // squared error, samples
+        tbb::parallel_for(std::size_t{0}, work_.size(), [&](std::size_t v) {
+            const SourcePicture& source = sources_[v];
+            const auto& shown = work_[v].shown;
+            for (int y = 0; y < object_.height; ++y) {
+                for (int x = 0; x < object_.width; ++x) {
+                    if (shown[3](x, y) < 128) continue;
+                    const Rgba8 a =
+                        rgba_from_yuva(source.planes[0](x, y), source.planes[1](x, y), source.planes[2](x, y), 255);
+                    const Rgba8 b = rgba_from_yuva(shown[0](x, y), shown[1](x, y), shown[2](x, y), 255);
+                    const auto square = [](int off) { return off * off; };
+                    sums[v][0] += square(a.r - b.r) + square(a.g - b.g) + square(a.b - b.b);
+                    sums[v][1] += 3;
+                }
+            }
+        });
+        double error = 0;
+        double samples = 0;
+        for (const auto& sum : sums) {
+            error += static_cast<double>(sum[0]);
+            samples += static_cast<double>(sum[1]);
+        }
+        return 10 * std::log10(255.0 * 255.0 * std::max(samples, 1.0) / std::max(error, 1e-3));
+    }
+
+    void write_tiles() {
+        tbb::parallel_for(std::size_t{0}, work_.size(), [&](std::size_t v) {
+            CodedPicture& picture = coded_.pictures[v];
+            for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
+                if (!picture.tiles[t].present) continue;
+                BoolEncoder encoder;
+                for (const Decision d : work_[v].decisions[t]) {
+                    const auto context = static_cast<std::size_t>(d >> 1U);
+                    encoder.bit(d & 1, context == codec::context::kCount ? 2048 : coded_.dense.probabilities[context]);
+                }
+                const std::vector<std::byte> bytes = encoder.finish();
+                picture.tiles[t].begin = static_cast<std::uint32_t>(picture.bytes.size());
+                picture.tiles[t].size = static_cast<std::uint32_t>(bytes.size());
+                picture.bytes.insert(picture.bytes.end(), bytes.begin(), bytes.end());
+            }
+        });
+    }
+
+    const RaySpaceObject& object_;
+    const std::vector<SourcePicture>& sources_;
+    const DenseSettings& settings_;
+    Progress* progress_;
+    CodedPictures coded_;
+    std::vector<WorkPicture> work_;
+};
+
+}  // namespace
+
+EncodedPictures encode_dense(const RaySpaceObject& object, const std::vector<SourcePicture>& sources,
+                             const DenseSettings& settings, Progress* progress) {
+    return Encoder(object, sources, settings, progress).encode();
+}
+
+codec::CodedPictures encode_dense(const RaySpaceObject& object, const std::function<Image<Rgba8>(int)>& picture,
+                                  const DenseSettings& settings, Progress* progress) {
+    std::vector<SourcePicture> sources(object.views.size());
+    tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t v) {
+        sources[v] = source_picture(picture(static_cast<int>(v)), settings.alpha_bits);
+    });
+    return encode_dense(object, sources, settings, progress).coded;
+}
+
+}  // namespace rs::encode

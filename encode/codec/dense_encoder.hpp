@@ -1,0 +1,44 @@
+#pragma once
+// The encoder of the `dense` profile: pictures of a ring are coded level by level, each predicted from its nearest
+// coded neighbours on the ring; every tile chooses by rate and distortion, and the probabilities are those of the
+// object.
+
+#include "encode/codec/source_picture.hpp"
+#include "rayspace/codec/coded_pictures.hpp"
+#include "rayspace/image.hpp"
+#include "rayspace/progress.hpp"
+#include "rayspace/ray_space_object.hpp"
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace rs::encode {
+
+struct DenseSettings {
+    double step = 12;  // of the quantiser, in units of an orthonormal coefficient of Y; 1 .. 200
+    int alpha_bits = 2;
+    int tile_width_log2 = 5;
+    int tile_height_log2 = 5;
+    int passes = 2;  // of choosing; the probabilities of one are the prices of the next
+    std::array<int, 4> level_offset = {-4, 0, 2, 4};  // of the step index, by progressive level
+    float lambda_factor = 0.16F;
+    std::array<int, 2> chroma_offset = {0, 1};
+};
+
+struct EncodedPictures {
+    codec::CodedPictures coded;
+    double psnr_db = 0;  // R, G, B of all samples whose alpha is 128 or more, against the sources
+};
+
+// `sources`: one per view, of settings.alpha_bits. The object gives rings and sizes. The same input gives the same
+// bytes on any number of threads. Memory: 4 bytes a sample of the coded size, and some two bytes for each bit of the
+// result.
+EncodedPictures encode_dense(const RaySpaceObject& object, const std::vector<SourcePicture>& sources,
+                             const DenseSettings& settings, Progress* progress = nullptr);
+
+// The same of RGBA pictures; `picture(view)` is called once per view, from several threads.
+codec::CodedPictures encode_dense(const RaySpaceObject& object, const std::function<Image<Rgba8>(int)>& picture,
+                                  const DenseSettings& settings, Progress* progress = nullptr);
+
+}  // namespace rs::encode

@@ -1,0 +1,125 @@
+#include "encode/codec/motion_search.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+
+namespace rs::encode {
+namespace {
+
+using codec::MotionVector;
+
+constexpr int kLargest = 16;
+
+template <int kSize>
+int differences(const std::uint8_t* target, const std::uint8_t* mask, const std::uint8_t* samples,
+                std::ptrdiff_t stride) {
+    int sum = 0;
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) {
+            const int sample = samples[y * stride + x] & mask[y * kSize + x];
+            sum += std::abs(target[y * kSize + x] - sample);
+        }
+    }
+    return sum;
+}
+
+class Searcher {
+public:
+    Searcher(const MotionSearch& search, MotionVector from, const std::uint8_t* other)
+        : search_(search), from_(from), other_(other) {
+        const int size = search.size;
+        for (int y = 0; y < size; ++y) {
+            for (int x = 0; x < size; ++x) {
+                const std::uint8_t mask = search.source->matters(search.x + x, search.y + y);
+                mask_[y * size + x] = mask;
+                target_[y * size + x] = search.source->planes[0](search.x + x, search.y + y) & mask;
+            }
+        }
+    }
+
+    void try_whole(int x, int y) {
+        const int left = search_.x + x;
+        const int top = search_.y + y;
+        if (left < 0 || top < 0 || left + search_.size > search_.reference.width() ||
+            top + search_.size > search_.reference.height() || std::abs(4 * x) > codec::kMaxMotion_q2 ||
+            std::abs(4 * y) > codec::kMaxMotion_q2) {
+            return;
+        }
+        take({static_cast<std::int16_t>(4 * x), static_cast<std::int16_t>(4 * y)}, search_.reference.row(top) + left,
+             search_.reference.stride());
+    }
+
+    void try_exact(MotionVector vector) {
+        if (std::abs(vector.x) > codec::kMaxMotion_q2 || std::abs(vector.y) > codec::kMaxMotion_q2) return;
+        std::uint8_t samples[kLargest * kLargest];
+        codec::predict_from_picture(search_.reference, search_.x, search_.y, vector, search_.size, samples,
+                                    search_.size);
+        take(vector, samples, search_.size);
+    }
+
+    [[nodiscard]] const FoundMotion& best() const { return best_; }
+
+private:
+    void take(MotionVector vector, const std::uint8_t* samples, std::ptrdiff_t stride) {
+        const auto bits_of = [](int off) {
+            return off == 0 ? 1 : 2 * static_cast<int>(std::bit_width(static_cast<unsigned>(std::abs(off)))) + 1;
+        };
+        float cost = search_.bit_cost * static_cast<float>(bits_of(vector.x - from_.x) + bits_of(vector.y - from_.y));
+        if (any_ && cost >= best_.cost) return;
+        std::uint8_t mixed[kLargest * kLargest];
+        if (other_ != nullptr) {
+            for (int y = 0; y < search_.size; ++y) {
+                for (int x = 0; x < search_.size; ++x) {
+                    mixed[y * search_.size + x] =
+                        static_cast<std::uint8_t>((samples[y * stride + x] + other_[y * search_.size + x] + 1) >> 1);
+                }
+            }
+            samples = mixed;
+            stride = search_.size;
+        }
+        cost += static_cast<float>(search_.size == 8 ? differences<8>(target_, mask_, samples, stride)
+                                                     : differences<16>(target_, mask_, samples, stride));
+        if (any_ && cost >= best_.cost) return;
+        best_ = {vector, cost};
+        any_ = true;
+    }
+
+    const MotionSearch& search_;
+    MotionVector from_;
+    const std::uint8_t* other_;
+    std::uint8_t target_[kLargest * kLargest] = {};
+    std::uint8_t mask_[kLargest * kLargest] = {};
+    FoundMotion best_;
+    bool any_ = false;
+};
+
+}  // namespace
+
+FoundMotion find_motion(const MotionSearch& search, std::span<const MotionVector> starts, MotionVector from,
+                        const std::uint8_t* other) {
+    Searcher searcher(search, from, other);
+    for (const MotionVector start : starts) searcher.try_exact(start);
+    searcher.try_exact(from);
+    for (const MotionVector start : starts) {
+        const int x = (start.x + 2) >> 2;
+        const int y = (start.y + 2) >> 2;
+        for (int dy = -search.reach_y; dy <= search.reach_y; ++dy) {
+            for (int dx = -search.reach_x; dx <= search.reach_x; ++dx) searcher.try_whole(x + dx, y + dy);
+        }
+    }
+    for (const int step : {2, 1}) {
+        const MotionVector centre = searcher.best().vector;
+        for (int dy = -step; dy <= step; dy += step) {
+            for (int dx = -step; dx <= step; dx += step) {
+                if (dx == 0 && dy == 0) continue;
+                searcher.try_exact(
+                    {static_cast<std::int16_t>(centre.x + dx), static_cast<std::int16_t>(centre.y + dy)});
+            }
+        }
+    }
+    return searcher.best();
+}
+
+}  // namespace rs::encode

@@ -1,0 +1,32 @@
+#pragma once
+// Where in another picture a part is best predicted from.
+
+#include "encode/codec/source_picture.hpp"
+#include "rayspace/codec/prediction.hpp"
+
+#include <span>
+
+namespace rs::encode {
+
+struct MotionSearch {
+    const SourcePicture* source = nullptr;
+    ConstImageView<std::uint8_t> reference;  // its Y
+    int x = 0;                               // the part
+    int y = 0;
+    int size = 16;
+    int reach_x = 16;  // whole samples around each start
+    int reach_y = 2;
+    float bit_cost = 0;  // sum of absolute differences that a bit of a vector is worth
+};
+
+struct FoundMotion {
+    codec::MotionVector vector;
+    float cost = 0;  // sum of absolute differences of Y over the samples that matter, and the vector's bits
+};
+
+// The best vector around any of `starts`, first in whole samples, then in halves and quarters; `from` is what the
+// vector is coded against. If `other` is not null, the mean of it (size x size samples, Y) and the prediction counts.
+FoundMotion find_motion(const MotionSearch& search, std::span<const codec::MotionVector> starts,
+                        codec::MotionVector from, const std::uint8_t* other = nullptr);
+
+}  // namespace rs::encode

@@ -1,0 +1,150 @@
+#include "encode/codec/tile_encoder.hpp"
+
+#include "encode/codec/part_search.hpp"
+#include "rayspace/codec/part_syntax.hpp"
+#include "rayspace/codec/reconstruct_part.hpp"
+
+#include <algorithm>
+#include <memory>
+
+namespace rs::encode {
+namespace {
+
+using codec::AlphaClass;
+using codec::kBlock;
+using codec::kMacroblock;
+using codec::Part;
+using codec::PartChoice;
+
+class TileEncoder {
+public:
+    TileEncoder(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
+                std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>* motions)
+        : task_(task),
+          costs_(costs),
+          place_(place),
+          left_(place.left),
+          top_(place.top),
+          recorder_(decisions),
+          motions_(motions) {}
+
+    void encode() {
+        classify(place_.width, place_.height);
+        for (int y = 0; y < place_.height; y += kMacroblock) {
+            for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
+        }
+    }
+
+private:
+    // Alpha levels of the whole tile, and the classes of its blocks (kept apart: the grid may not know what comes
+    // later).
+    void classify(int width, int height) {
+        const int full = (1 << task_.code->alpha_bits) - 1;
+        for (int by = 0; by < height / kBlock; ++by) {
+            for (int bx = 0; bx < width / kBlock; ++bx) {
+                int lowest = full;
+                int highest = 0;
+                for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
+                    for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
+                        const int level = task_.source->alpha(left_ + x, top_ + y);
+                        lowest = std::min(lowest, level);
+                        highest = std::max(highest, level);
+                        state_.alpha.at(x, y) = static_cast<std::uint8_t>(level);
+                    }
+                }
+                classes_[static_cast<std::size_t>(by)][static_cast<std::size_t>(bx)] = highest == 0 ? AlphaClass::kEmpty
+                                                                                       : lowest == full
+                                                                                           ? AlphaClass::kOpaque
+                                                                                           : AlphaClass::kMixed;
+            }
+        }
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                task_.out[3](left_ + x, top_ + y) =
+                    static_cast<std::uint8_t>(codec::alpha_of_level(state_.alpha.at(x, y), task_.code->alpha_bits));
+            }
+        }
+    }
+
+    void macroblock(int bx, int by) {
+        for (int i = 0; i < 4; ++i) {
+            state_.grid.at(bx + (i & 1), by + (i >> 1)).alpha =
+                classes_[static_cast<std::size_t>(by + (i >> 1))][static_cast<std::size_t>(bx + (i & 1))];
+        }
+        if (!codec::code_macroblock_alpha(recorder_, state_.grid, bx, by)) {
+            codec::clear_tile({left_ + bx * kBlock, top_ + by * kBlock, kMacroblock, kMacroblock}, task_.out);
+            return;
+        }
+        const PartSearch search(task_, costs_, state_, left_, top_);
+
+        Estimator whole_bits(costs_);
+        codec::syntax::split(whole_bits, state_.grid, bx, by, false);
+        Estimator split_bits(costs_);
+        codec::syntax::split(split_bits, state_.grid, bx, by, true);
+
+        const Part whole{bx, by, kMacroblock};
+        const float whole_cost = search.choose(whole, *choices_[4]) + task_.lambda * whole_bits.bits();
+        float split_cost = task_.lambda * split_bits.bits();
+        for (int i = 0; i < 4 && split_cost < whole_cost; ++i) {
+            const Part quarter{bx + (i & 1), by + (i >> 1), kBlock};
+            if (state_.grid.at(quarter.bx, quarter.by).alpha == AlphaClass::kEmpty) {
+                codec::clear_tile({left_ + quarter.bx * kBlock, top_ + quarter.by * kBlock, kBlock, kBlock}, task_.out);
+                continue;
+            }
+            split_cost += search.choose(quarter, *choices_[static_cast<std::size_t>(i)], choices_[4].get());
+            search.commit(quarter, *choices_[static_cast<std::size_t>(i)]);
+        }
+        const bool is_split = split_cost < whole_cost;
+        for (int i = 0; i < 4; ++i) {
+            codec::BlockInfo& info = state_.grid.at(bx + (i & 1), by + (i >> 1));
+            info.source = codec::Source::kNone;
+            info.split = false;
+        }
+        codec::syntax::split(recorder_, state_.grid, bx, by, is_split);
+        for (int i = 0; i < 4; ++i) state_.grid.at(bx + (i & 1), by + (i >> 1)).split = is_split;
+        if (!is_split) {
+            put(search, whole, *choices_[4]);
+            return;
+        }
+        for (int i = 0; i < 4; ++i) {
+            const Part quarter{bx + (i & 1), by + (i >> 1), kBlock};
+            if (state_.grid.at(quarter.bx, quarter.by).alpha == AlphaClass::kEmpty) {
+                codec::clear_tile({left_ + quarter.bx * kBlock, top_ + quarter.by * kBlock, kBlock, kBlock}, task_.out);
+            } else {
+                put(search, quarter, *choices_[static_cast<std::size_t>(i)]);
+            }
+        }
+    }
+
+    void put(const PartSearch& search, const Part& part, PartChoice& choice) {
+        search.write(part, choice, recorder_);
+        search.commit(part, choice);
+        if (motions_ == nullptr) return;
+        for (std::size_t r = 0; r < 2; ++r) {
+            if (uses(choice.source, static_cast<int>(r))) (*motions_)[r].push_back(choice.motion[r]);
+        }
+    }
+
+    const PictureTask& task_;
+    const CostTable& costs_;
+    codec::TilePlace place_;
+    int left_;
+    int top_;
+    Recorder recorder_;
+    std::array<std::vector<codec::MotionVector>, 2>* motions_;
+    TileState state_;
+    std::array<std::array<AlphaClass, 8>, 8> classes_{};
+    // Of the four quarters, and of the whole.
+    std::array<std::unique_ptr<PartChoice>, 5> choices_ = {
+        std::make_unique<PartChoice>(), std::make_unique<PartChoice>(), std::make_unique<PartChoice>(),
+        std::make_unique<PartChoice>(), std::make_unique<PartChoice>()};
+};
+
+}  // namespace
+
+void encode_tile(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
+                 std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>* motions) {
+    TileEncoder(task, costs, place, decisions, motions).encode();
+}
+
+}  // namespace rs::encode

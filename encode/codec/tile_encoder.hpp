@@ -1,0 +1,29 @@
+#pragma once
+// Chooses what each part of a tile says, by weighted squared error and bits, and reconstructs it as the decoder will.
+
+#include "encode/codec/coders.hpp"
+#include "encode/codec/source_picture.hpp"
+#include "rayspace/codec/dense_code.hpp"
+#include "rayspace/codec/dense_tile.hpp"
+
+#include <array>
+#include <vector>
+
+namespace rs::encode {
+
+struct PictureTask {
+    const codec::DenseCode* code = nullptr;
+    codec::PictureHead head;
+    const SourcePicture* source = nullptr;
+    std::array<codec::ConstPlaneViews, 2> references;
+    std::array<int, 2> reach = {0, 0};  // of the motion search, samples, per reference
+    float lambda = 0;
+    codec::PlaneViews out;  // the reconstruction
+};
+
+// Encodes the tile at `place`, which must have a sample that matters; appends its decisions. Appends the vectors
+// used, per reference, to `motions` where that is not null.
+void encode_tile(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
+                 std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>* motions);
+
+}  // namespace rs::encode

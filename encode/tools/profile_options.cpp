@@ -1,0 +1,78 @@
+#include "encode/tools/profile_options.hpp"
+
+#include <cmath>
+
+namespace rs::encode {
+namespace {
+
+// "800k" -> 800000. Nothing for text that is no size above 0.
+std::optional<std::uint64_t> bytes_of(const std::string& text) {
+    std::size_t read = 0;
+    double number = 0;
+    try {
+        number = std::stod(text, &read);
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
+    const std::string unit = text.substr(read);
+    double factor = 1;
+    if (unit == "k") {
+        factor = 1e3;
+    } else if (unit == "M") {
+        factor = 1e6;
+    } else if (unit == "G") {
+        factor = 1e9;
+    } else if (!unit.empty()) {
+        return std::nullopt;
+    }
+    const double bytes = number * factor;
+    if (!(bytes >= 1 && bytes <= 1e12)) return std::nullopt;
+    return static_cast<std::uint64_t>(bytes);
+}
+
+}  // namespace
+
+void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
+    command
+        .add_option("--profile", arguments.profile,
+                    "how pictures are stored. dense: compressed, any tile of them reachable; raw: uncompressed, with "
+                    "colour at half width and height")
+        ->capture_default_str();
+    CLI::Option* quality =
+        command
+            .add_option("--quality", arguments.quality, "of a dense object's pictures, 1..100; 14 more halve the error")
+            ->capture_default_str();
+    CLI::Option* psnr = command.add_option("--psnr", arguments.psnr_db,
+                                           "or: the smallest pictures of at least so many dB over the object's pixels");
+    CLI::Option* size = command.add_option(
+        "--size", arguments.size, "or: the best pictures that take at most so many bytes together, such as 800k or 2M");
+    quality->excludes(psnr)->excludes(size);
+    psnr->excludes(size);
+    command.add_option("--alpha-bits", arguments.alpha_bits, "bits of a dense object's alpha, 1..4")
+        ->capture_default_str();
+}
+
+Result<std::optional<PictureGoal>> goal_of(const ProfileArguments& arguments) {
+    if (arguments.profile == "raw") return std::optional<PictureGoal>();
+    if (arguments.profile != "dense") {
+        return Error{"--profile " + arguments.profile + ": there is no such profile; give dense or raw"};
+    }
+    if (arguments.alpha_bits < 1 || arguments.alpha_bits > codec::kMaxAlphaBits) {
+        return Error{"--alpha-bits " + std::to_string(arguments.alpha_bits) + ": must be 1.." +
+                     std::to_string(codec::kMaxAlphaBits)};
+    }
+    PictureGoal goal;
+    goal.quality = arguments.quality;
+    goal.psnr_db = arguments.psnr_db;
+    if (!(goal.quality >= kMinQuality && goal.quality <= kMaxQuality)) {
+        return Error{"--quality: must be 1..100"};
+    }
+    if (goal.psnr_db && !(*goal.psnr_db >= 10 && *goal.psnr_db <= 60)) return Error{"--psnr: must be 10..60 dB"};
+    if (!arguments.size.empty()) {
+        goal.pictures_bytes = bytes_of(arguments.size);
+        if (!goal.pictures_bytes) return Error{"--size " + arguments.size + ": give bytes, such as 750000, 800k or 2M"};
+    }
+    return std::optional<PictureGoal>(goal);
+}
+
+}  // namespace rs::encode

@@ -1,0 +1,136 @@
+#include "rayspace/codec/byte_account.hpp"
+
+#include "rayspace/codec/bool_decoder.hpp"
+#include "rayspace/codec/coded_chunks.hpp"
+#include "rayspace/codec/decode_picture.hpp"
+#include "rayspace/codec/dense_tile_decoder.hpp"
+#include "rayspace/ray_space_object.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <mutex>
+
+namespace rs::codec {
+namespace {
+
+enum Purpose : std::size_t { kAlpha, kPrediction, kMotion, kFlags, kLuma, kChroma, kRawBits, kPurposes };
+constexpr const char* kNames[kPurposes] = {"alpha",
+                                           "choice of prediction",
+                                           "motion",
+                                           "what is coded",
+                                           "coefficients of Y",
+                                           "coefficients of U and V",
+                                           "signs and low bits"};
+
+Purpose purpose_of(int context) {
+    namespace c = context;
+    if (context < c::kSplit || context >= c::kAlphaZero) return kAlpha;
+    if (context < c::kMotionZero) return kPrediction;
+    if (context < c::kSmallTransforms) return kMotion;
+    if (context < c::kLastClass) return kFlags;
+    // The four kinds of luma come first in each group.
+    const auto kind = [&](int begin, int per_kind) { return (context - begin) / per_kind; };
+    int of = 0;
+    if (context < c::kLastTop) {
+        of = kind(c::kLastClass, 8);
+    } else if (context < c::kNonZero) {
+        of = kind(c::kLastTop, 9);
+    } else if (context < c::kAboveOne) {
+        of = kind(c::kNonZero, c::kBands * c::kNearSums);
+    } else if (context < c::kAboveTwo) {
+        of = kind(c::kAboveOne, 2 * c::kNearSums);
+    } else if (context < c::kRestClass) {
+        of = kind(c::kAboveTwo, 2 * c::kNearSums);
+    } else {
+        of = kind(c::kRestClass, 14);
+    }
+    return of < c::kBlockKinds / 2 ? kLuma : kChroma;
+}
+
+using Bits = std::array<double, kPurposes>;
+
+class CountingReader {
+public:
+    CountingReader(std::span<const std::byte> bytes, const DenseCode& code, Bits& bits)
+        : decoder_(bytes), code_(code), bits_(bits) {}
+    int bit(int context, int /*value*/) {
+        const std::uint16_t zero = code_.probabilities[static_cast<std::size_t>(context)];
+        const int read = decoder_.bit(zero);
+        bits_[purpose_of(context)] -= std::log2((read == 0 ? zero : 4096 - zero) / 4096.0);
+        return read;
+    }
+    int raw(int /*value*/) {
+        bits_[kRawBits] += 1;
+        return decoder_.bit(1U << (kProbabilityBits - 1));
+    }
+
+private:
+    BoolDecoder decoder_;
+    const DenseCode& code_;
+    Bits& bits_;
+};
+
+}  // namespace
+
+std::vector<AccountEntry> account_bytes(const CodedPictures& coded) {
+    // The pictures themselves, for what is read depends on them.
+    RaySpaceObject object;
+    object.width = coded.width;
+    object.height = coded.height;
+    object.pictures.resize(coded.pictures.size());
+    using Planes = std::array<Image<std::uint8_t>, 4>;
+    std::vector<Planes> decoded(coded.pictures.size());
+    for (Planes& planes : decoded) {
+        for (auto& plane : planes) plane = Image<std::uint8_t>(coded.coded_width(), coded.coded_height());
+    }
+    Bits sum{};
+    std::mutex mutex;
+    for (int level = 0; level < kProgressiveLevels; ++level) {
+        tbb::parallel_for(std::size_t{0}, decoded.size(), [&](std::size_t v) {
+            const CodedPicture& picture = coded.pictures[v];
+            if (coded.levels[v] != level) return;
+            Bits bits{};
+            const PlaneViews out = {decoded[v][0].view(), decoded[v][1].view(), decoded[v][2].view(),
+                                    decoded[v][3].view()};
+            std::array<ConstPlaneViews, 2> references;
+            for (std::size_t r = 0; r < static_cast<std::size_t>(picture.head.references()); ++r) {
+                const Planes& from = decoded[picture.head.reference[r]];
+                references[r] = {from[0].view(), from[1].view(), from[2].view(), from[3].view()};
+            }
+            for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
+                const TilePlace place = place_of_tile(coded, t);
+                if (!picture.tiles[t].present) {
+                    clear_tile(place, out);
+                    continue;
+                }
+                CountingReader reader(picture.tile_bytes(t), coded.dense, bits);
+                DenseTileDecoder(reader, coded.dense, picture.head, place, references, nullptr, out).decode();
+            }
+            const std::lock_guard lock(mutex);
+            for (std::size_t p = 0; p < kPurposes; ++p) sum[p] += bits[p];
+        });
+    }
+    std::vector<AccountEntry> entries;
+    double accounted = 0;
+    double tiles = 0;
+    double whole = 0;
+    double of_references = 0;
+    for (std::size_t v = 0; v < coded.pictures.size(); ++v) {
+        const auto size = static_cast<double>(coded_picture_payload(coded, v).size());
+        whole += size;
+        tiles += static_cast<double>(coded.pictures[v].bytes.size());
+        if (coded.levels[v] == 0) of_references += size;
+    }
+    for (std::size_t p = 0; p < kPurposes; ++p) {
+        entries.push_back({kNames[p], sum[p] / 8});
+        accounted += sum[p] / 8;
+    }
+    entries.push_back({"tiles' rounding", tiles - accounted});
+    entries.push_back({"offsets and heads", whole - tiles});
+    entries.push_back({"(of all these, pictures of level 0)", of_references});
+    return entries;
+}
+
+}  // namespace rs::codec

@@ -1,0 +1,241 @@
+#include "rayspace/codec/coded_chunks.hpp"
+
+#include "rayspace/byte_stream.hpp"
+#include "rayspace/ray_space_object.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+namespace rs::codec {
+namespace {
+
+constexpr std::uint16_t kEven = 2048;  // the probability of contexts that are not listed
+constexpr int kProbabilityUnit = 16;   // of those that are
+
+Error out_of_range(const std::string& what, long long found, long long lowest, long long highest) {
+    return Error{what + " is " + std::to_string(found) + "; it must be " + std::to_string(lowest) + ".." +
+                 std::to_string(highest)};
+}
+
+std::vector<std::byte> payload_of(const ByteWriter& writer) {
+    return {writer.bytes().begin(), writer.bytes().end()};
+}
+
+// Bits, the lowest of each byte first.
+void put_bits(ByteWriter& out, const std::vector<bool>& bits) {
+    for (std::size_t begin = 0; begin < bits.size(); begin += 8) {
+        unsigned byte = 0;
+        for (std::size_t i = begin; i < std::min(begin + 8, bits.size()); ++i)
+            byte |= (bits[i] ? 1U : 0U) << (i - begin);
+        out.put(static_cast<std::uint8_t>(byte));
+    }
+}
+
+// False where there are too few bytes, or bits behind the last one that are not zero.
+bool take_bits(ByteReader& in, std::vector<bool>& bits) {
+    const auto bytes = in.take((bits.size() + 7) / 8);
+    if (!in.ok()) return false;
+    for (std::size_t i = 0; i < 8 * bytes.size(); ++i) {
+        const bool bit = ((static_cast<unsigned>(bytes[i / 8]) >> (i % 8)) & 1U) != 0;
+        if (i < bits.size()) {
+            bits[i] = bit;
+        } else if (bit) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void put_size(ByteWriter& out, std::uint32_t size) {
+    while (size >= 128) {
+        out.put(static_cast<std::uint8_t>(128 + (size & 127U)));
+        size >>= 7U;
+    }
+    out.put(static_cast<std::uint8_t>(size));
+}
+
+// Above kMaxTile_bytes where it is no size, or not the shortest form of one.
+std::uint32_t take_size(ByteReader& in) {
+    constexpr std::uint32_t kWrong = kMaxTile_bytes + 1;
+    std::uint32_t size = 0;
+    for (int i = 0; i < 3; ++i) {
+        const auto byte = in.get<std::uint8_t>();
+        size |= static_cast<std::uint32_t>(byte & 127U) << (7 * i);
+        if (byte < 128) return i > 0 && byte == 0 ? kWrong : std::min(size, kWrong);
+    }
+    return kWrong;
+}
+
+Status check_references(const CodedPictures& coded, std::size_t view, const PictureHead& head) {
+    if (head.reference[0] == kNoReference && head.reference[1] != kNoReference) {
+        return Error{"has a second reference without a first"};
+    }
+    if (head.references() == 2 && head.reference[0] == head.reference[1]) {
+        return Error{"names the same reference twice"};
+    }
+    for (std::size_t r = 0; r < static_cast<std::size_t>(head.references()); ++r) {
+        const std::size_t reference = head.reference[r];
+        if (reference >= coded.pictures.size()) {
+            return out_of_range("a reference", static_cast<long long>(reference), 0,
+                                static_cast<long long>(coded.pictures.size()) - 1);
+        }
+        if (coded.levels[reference] >= coded.levels[view]) {
+            return Error{"is predicted from picture " + std::to_string(reference) + ", whose level is not lower"};
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+std::vector<std::byte> code_payload(const CodedPictures& coded) {
+    ByteWriter out;
+    out.put(static_cast<std::uint8_t>(coded.profile));
+    out.put(static_cast<std::uint8_t>(coded.tile_width_log2));
+    out.put(static_cast<std::uint8_t>(coded.tile_height_log2));
+    out.put(static_cast<std::uint8_t>(coded.dense.alpha_bits));
+    for (const int offset : coded.dense.chroma_step_offset) out.put(static_cast<std::int8_t>(offset));
+    out.put_zeros(2);
+    out.put(std::span<const std::uint8_t>(coded.levels));
+    std::vector<bool> listed(coded.dense.probabilities.size());
+    for (std::size_t c = 0; c < listed.size(); ++c) listed[c] = coded.dense.probabilities[c] != kEven;
+    put_bits(out, listed);
+    for (const std::uint16_t probability : coded.dense.probabilities) {
+        if (probability != kEven) out.put(static_cast<std::uint8_t>(probability / kProbabilityUnit));
+    }
+    return payload_of(out);
+}
+
+Status parse_code(std::span<const std::byte> payload, std::size_t views, int width, int height, CodedPictures& coded) {
+    ByteReader in(payload);
+    const auto profile = in.get<std::uint8_t>();
+    const auto tile_width_log2 = in.get<std::uint8_t>();
+    const auto tile_height_log2 = in.get<std::uint8_t>();
+    const auto alpha_bits = in.get<std::uint8_t>();
+    for (int& offset : coded.dense.chroma_step_offset) offset = in.get<std::int8_t>();
+    const bool reserved_is_zero = in.take_zeros(2);
+    const auto levels = in.take(views);
+    if (!in.ok()) return Error{"is too short"};
+    if (profile != static_cast<std::uint8_t>(Profile::kDense)) {
+        return Error{"has profile " + std::to_string(profile) + ", which is not known here; update these tools"};
+    }
+    for (const int log2 : {tile_width_log2, tile_height_log2}) {
+        if (log2 < kMinTileLog2 || log2 > kMaxTileLog2) {
+            return out_of_range("the logarithm of a tile's side", log2, kMinTileLog2, kMaxTileLog2);
+        }
+    }
+    if (alpha_bits < 1 || alpha_bits > kMaxAlphaBits) {
+        return out_of_range("the number of alpha bits", alpha_bits, 1, kMaxAlphaBits);
+    }
+    for (const int offset : coded.dense.chroma_step_offset) {
+        if (std::abs(offset) > kMaxChromaOffset) {
+            return out_of_range("a chroma step's offset", offset, -kMaxChromaOffset, kMaxChromaOffset);
+        }
+    }
+    if (!reserved_is_zero) return Error{"has reserved bytes that are not zero"};
+    coded.profile = static_cast<Profile>(profile);
+    coded.width = width;
+    coded.height = height;
+    coded.tile_width_log2 = tile_width_log2;
+    coded.tile_height_log2 = tile_height_log2;
+    coded.dense.alpha_bits = alpha_bits;
+    coded.levels.resize(views);
+    for (std::size_t v = 0; v < views; ++v) {
+        coded.levels[v] = static_cast<std::uint8_t>(levels[v]);
+        if (coded.levels[v] >= kProgressiveLevels) {
+            return out_of_range("the level of picture " + std::to_string(v), coded.levels[v], 0,
+                                kProgressiveLevels - 1);
+        }
+    }
+    std::vector<bool> listed(coded.dense.probabilities.size());
+    if (!take_bits(in, listed)) return Error{"ends within its list of contexts, or lists some that do not exist"};
+    for (std::size_t c = 0; c < listed.size(); ++c) {
+        const int listed_as = listed[c] ? in.get<std::uint8_t>() : kEven / kProbabilityUnit;
+        if (listed_as == 0)
+            return Error{"gives context " + std::to_string(c) + " a probability of zero, or is too short"};
+        coded.dense.probabilities[c] = static_cast<std::uint16_t>(kProbabilityUnit * listed_as);
+    }
+    if (!in.at_end()) return Error{"goes on behind its last probability"};
+    coded.pictures.assign(views, {});
+    return {};
+}
+
+std::vector<std::byte> coded_picture_payload(const CodedPictures& coded, std::size_t view) {
+    const CodedPicture& picture = coded.pictures[view];
+    ByteWriter out;
+    out.put(kCodedPicture);
+    out.put(static_cast<std::uint8_t>(picture.head.step));
+    for (const std::uint16_t reference : picture.head.reference) out.put(reference);
+    for (const MotionVector motion : picture.head.usual_motion) {
+        out.put(motion.x);
+        out.put(motion.y);
+    }
+    out.put_zeros(2);
+    std::vector<bool> present;
+    for (const TileSpan& tile : picture.tiles) present.push_back(tile.present);
+    put_bits(out, present);
+    for (const TileSpan& tile : picture.tiles) {
+        if (tile.present) put_size(out, tile.size);
+    }
+    out.put(std::span<const std::byte>(picture.bytes));
+    return payload_of(out);
+}
+
+Status parse_coded_picture(std::span<const std::byte> payload, std::size_t view, CodedPictures& coded) {
+    ByteReader in(payload);
+    CodedPicture picture;
+    const auto coding = in.get<std::uint8_t>();
+    picture.head.step = in.get<std::uint8_t>();
+    for (std::uint16_t& reference : picture.head.reference) reference = in.get<std::uint16_t>();
+    for (MotionVector& motion : picture.head.usual_motion) {
+        motion.x = in.get<std::int16_t>();
+        motion.y = in.get<std::int16_t>();
+    }
+    const bool reserved_is_zero = in.take_zeros(2);
+    if (!in.ok()) return Error{"is too short"};
+    if (coding != kCodedPicture) {
+        return Error{"has picture coding " + std::to_string(coding) +
+                     ", which is not that of an object with a chunk CODE; encode the object anew"};
+    }
+    if (picture.head.step > kMaxStep) return out_of_range("its quantiser step", picture.head.step, 0, kMaxStep);
+    if (Status status = check_references(coded, view, picture.head); !status) return status;
+    for (const MotionVector motion : picture.head.usual_motion) {
+        for (const int component : {int{motion.x}, int{motion.y}}) {
+            if (std::abs(component) > kMaxMotion_q2) {
+                return out_of_range("a usual vector", component, -kMaxMotion_q2, kMaxMotion_q2);
+            }
+        }
+    }
+    if (!reserved_is_zero) return Error{"has reserved bytes that are not zero"};
+
+    std::vector<bool> present(static_cast<std::size_t>(coded.tile_columns()) *
+                              static_cast<std::size_t>(coded.tile_rows()));
+    if (!take_bits(in, present)) return Error{"ends within its list of tiles, or lists some that do not exist"};
+    picture.tiles.resize(present.size());
+    std::uint32_t begin = 0;
+    for (std::size_t t = 0; t < present.size(); ++t) {
+        if (!present[t]) continue;
+        const std::uint32_t size = take_size(in);
+        if (!in.ok() || size > kMaxTile_bytes) {
+            return Error{"gives tile " + std::to_string(t) + " no size of 0.." + std::to_string(kMaxTile_bytes) +
+                         " in its shortest form"};
+        }
+        picture.tiles[t] = {begin, size, true};
+        begin += size;  // below 2^32: at most 2^18 tiles
+    }
+    if (in.left() != begin) {
+        return Error{"has " + std::to_string(in.left()) + " bytes of tiles instead of " + std::to_string(begin)};
+    }
+    const auto bytes = in.take(begin);
+    picture.bytes.assign(bytes.begin(), bytes.end());
+    coded.pictures[view] = std::move(picture);
+    return {};
+}
+
+std::uint64_t tile_table_bytes(const CodedPictures& coded) {
+    return sizeof(TileSpan) * static_cast<std::uint64_t>(coded.tile_columns()) *
+           static_cast<std::uint64_t>(coded.tile_rows());
+}
+
+}  // namespace rs::codec

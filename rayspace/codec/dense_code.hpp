@@ -1,0 +1,41 @@
+#pragma once
+// What all dense pictures of an object share (chunk CODE), and what each says of itself before its tiles (chunk PICT):
+// encode/FORMAT.md, sections "CODE" and "PICT".
+
+#include "rayspace/codec/contexts.hpp"
+#include "rayspace/codec/prediction.hpp"
+#include "rayspace/codec/tile_grid.hpp"
+#include "rayspace/codec/transform.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace rs::codec {
+
+struct DenseCode {
+    int alpha_bits = 2;                              // 1 .. kMaxAlphaBits
+    std::array<int, 2> chroma_step_offset = {0, 0};  // of U and V, added to the step index of Y; +-kMaxChromaOffset
+    std::array<std::uint16_t, context::kCount> probabilities = {};  // of 0, in 4096ths; 8 .. 4088
+
+    // Of plane 0 .. 2.
+    [[nodiscard]] int plane_step(int step, int plane) const {
+        if (plane == 0) return step;
+        return std::clamp(step + chroma_step_offset[static_cast<std::size_t>(plane - 1)], 0, kMaxStep);
+    }
+};
+inline constexpr int kMaxAlphaBits = 4;
+inline constexpr int kMaxChromaOffset = 31;
+
+inline constexpr std::uint16_t kNoReference = 0xFFFF;
+
+struct PictureHead {
+    int step = 0;                                                           // quantiser step of Y, 0 .. kMaxStep
+    std::array<std::uint16_t, 2> reference = {kNoReference, kNoReference};  // views; the second only with the first
+    std::array<MotionVector, 2> usual_motion;
+    [[nodiscard]] int references() const {
+        return (reference[0] != kNoReference ? 1 : 0) + (reference[1] != kNoReference ? 1 : 0);
+    }
+};
+
+}  // namespace rs::codec

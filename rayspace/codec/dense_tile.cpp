@@ -1,0 +1,41 @@
+#include "rayspace/codec/dense_tile.hpp"
+
+#include "rayspace/codec/bool_decoder.hpp"
+#include "rayspace/codec/dense_tile_decoder.hpp"
+
+#include <cstring>
+
+namespace rs::codec {
+namespace {
+
+class Reader {
+public:
+    Reader(std::span<const std::byte> bytes, const std::uint16_t* probabilities)
+        : bits_(bytes), probabilities_(probabilities) {}
+    int bit(int context, int /*value*/) { return bits_.bit(probabilities_[context]); }
+    int raw(int /*value*/) { return bits_.bit(1U << (kProbabilityBits - 1)); }
+
+private:
+    BoolDecoder bits_;
+    const std::uint16_t* probabilities_;
+};
+
+}  // namespace
+
+void decode_dense_tile(const DenseCode& code, const PictureHead& head, std::span<const std::byte> bytes,
+                       const TilePlace& place, const std::array<ConstPlaneViews, 2>& references,
+                       ReferenceListener* listener, const PlaneViews& out) {
+    Reader reader(bytes, code.probabilities.data());
+    DenseTileDecoder(reader, code, head, place, references, listener, out).decode();
+}
+
+void clear_tile(const TilePlace& place, const PlaneViews& out) {
+    for (std::size_t plane = 0; plane < out.size(); ++plane) {
+        for (int y = place.top; y < place.top + place.height; ++y) {
+            std::memset(out[plane].row(y) + place.left, plane == 3 ? 0 : kEmptySample,
+                        static_cast<std::size_t>(place.width));
+        }
+    }
+}
+
+}  // namespace rs::codec

@@ -1,0 +1,141 @@
+#pragma once
+// The steps by which a tile of a dense picture is decoded, for any Coder (syntax.hpp): one that reads, or one that also
+// looks at what is read.
+
+#include "rayspace/codec/dense_tile.hpp"
+#include "rayspace/codec/part_syntax.hpp"
+#include "rayspace/codec/reconstruct_part.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace rs::codec {
+
+template <class Coder>
+class DenseTileDecoder {
+public:
+    DenseTileDecoder(Coder& reader, const DenseCode& code, const PictureHead& head, const TilePlace& place,
+                     const std::array<ConstPlaneViews, 2>& references, ReferenceListener* listener,
+                     const PlaneViews& out)
+        : code_(code),
+          head_(head),
+          reader_(reader),
+          place_(place),
+          left_(place.left),
+          top_(place.top),
+          references_(references),
+          listener_(listener),
+          out_(out),
+          around_{head.references(), code.alpha_bits, head.usual_motion} {}
+
+    void decode() {
+        for (int y = 0; y < place_.height; y += kMacroblock) {
+            for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
+        }
+    }
+
+private:
+    void macroblock(int bx, int by) {
+        if (!code_macroblock_alpha(reader_, grid_, bx, by)) {
+            clear_tile({left_ + bx * kBlock, top_ + by * kBlock, kMacroblock, kMacroblock}, out_);
+            return;
+        }
+        if (!syntax::split(reader_, grid_, bx, by, false)) {
+            part({bx, by, kMacroblock});
+            return;
+        }
+        for (int i = 0; i < 4; ++i) grid_.at(bx + (i & 1), by + (i >> 1)).split = true;
+        for (int i = 0; i < 4; ++i) {
+            const Part quarter{bx + (i & 1), by + (i >> 1), kBlock};
+            if (grid_.at(quarter.bx, quarter.by).alpha != AlphaClass::kEmpty) {
+                part(quarter);
+            } else {
+                clear_tile({left_ + quarter.bx * kBlock, top_ + quarter.by * kBlock, kBlock, kBlock}, out_);
+            }
+        }
+    }
+
+    void part(const Part& part) {
+        PartChoice& choice = choice_;
+        choice.coded = false;
+        code_prediction(reader_, grid_, part, around_, choice);
+        if (listener_ != nullptr) announce(part, choice);
+        alpha(part, choice);
+        code_coefficients(reader_, grid_, part, choice);
+        const PartPlace place{left_ + part.bx * kBlock, top_ + part.by * kBlock, part.size,
+                              grid_.at(part.bx - 1, part.by).source != Source::kNone,
+                              grid_.at(part.bx, part.by - 1).source != Source::kNone};
+        reconstruct_part(choice, place, head_.step, code_, references_, out_);
+        if (choice.coded) forget_levels(part, choice);
+        for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
+            BlockInfo& info = grid_.at(part.bx + (i & (part.blocks() - 1)), part.by + i / part.blocks());
+            info.source = choice.source;
+            info.coded = choice.coded;
+            info.motion = choice.motion;
+        }
+    }
+
+    void announce(const Part& part, const PartChoice& choice) {
+        for (int r = 0; r < 2; ++r) {
+            if (!uses(choice.source, r)) continue;
+            const MotionVector motion = choice.motion[static_cast<std::size_t>(r)];
+            const int x = left_ + part.bx * kBlock + (motion.x >> 2);
+            const int y = top_ + part.by * kBlock + (motion.y >> 2);
+            const int width = out_[0].width();
+            const int height = out_[0].height();
+            listener_->need(r, std::clamp(x - kTapsBefore, 0, width - 1), std::clamp(y - kTapsBefore, 0, height - 1),
+                            std::clamp(x + part.size + kTapsAfter, 1, width),
+                            std::clamp(y + part.size + kTapsAfter, 1, height));
+        }
+    }
+
+    void alpha(const Part& part, const PartChoice& choice) {
+        const auto& plane = out_[3];
+        for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
+            const int bx = part.bx + (i & (part.blocks() - 1));
+            const int by = part.by + i / part.blocks();
+            const AlphaClass kind = grid_.at(bx, by).alpha;
+            if (kind == AlphaClass::kMixed) {
+                const auto predicted = [&](int x, int y) {
+                    return predicted_alpha(choice, references_, left_ + x, top_ + y, code_.alpha_bits);
+                };
+                code_block_alpha(reader_, alpha_, code_.alpha_bits, bx, by, predicted);
+            } else {
+                alpha_.fill_block(bx, by, kind == AlphaClass::kOpaque ? (1 << code_.alpha_bits) - 1 : 0);
+            }
+            for (int y = 0; y < kBlock; ++y) {
+                std::uint8_t* const row = plane.row(top_ + by * kBlock + y) + left_ + bx * kBlock;
+                for (int x = 0; x < kBlock; ++x) {
+                    row[x] = static_cast<std::uint8_t>(
+                        alpha_of_level(alpha_.at(bx * kBlock + x, by * kBlock + y), code_.alpha_bits));
+                }
+            }
+        }
+    }
+
+    static void forget_levels(const Part& part, PartChoice& choice) {
+        for (std::size_t plane = 0; plane < kPlanes; ++plane) {
+            for (std::size_t t = 0; t < static_cast<std::size_t>(choice.transforms(part.size)); ++t) {
+                if (choice.plane_coded[plane][t]) choice.levels[plane][t] = Levels{};
+            }
+        }
+        choice.small_transforms = false;
+    }
+
+    const DenseCode& code_;
+    const PictureHead& head_;
+    Coder& reader_;
+    TilePlace place_;
+    int left_;
+    int top_;
+    const std::array<ConstPlaneViews, 2>& references_;
+    ReferenceListener* listener_;
+    const PlaneViews& out_;
+    PartSurroundings around_;
+    TileGrid grid_;
+    AlphaLevels alpha_;
+    PartChoice choice_;
+};
+
+}  // namespace rs::codec

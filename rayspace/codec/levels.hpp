@@ -1,0 +1,17 @@
+#pragma once
+// The quantised coefficients of one transform.
+
+#include "rayspace/codec/transform.hpp"
+
+#include <cstdint>
+
+namespace rs::codec {
+
+// Levels of one block, with a margin of two zero rows and columns so that neighbours need no bounds.
+struct Levels {
+    static constexpr int kStride = kLargestTransform + 2;
+    std::int16_t at[(kLargestTransform + 2) * kStride] = {};
+    int used = 0;  // all non-zero levels stand in the first `used` rows and columns
+};
+
+}  // namespace rs::codec

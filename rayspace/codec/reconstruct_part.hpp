@@ -1,0 +1,36 @@
+#pragma once
+// The samples of a part from what it says; the same for decoder and encoder. encode/FORMAT.md, section
+// "Reconstruction".
+
+#include "rayspace/codec/dense_code.hpp"
+#include "rayspace/codec/dense_tile.hpp"
+#include "rayspace/codec/part_syntax.hpp"
+
+#include <array>
+
+namespace rs::codec {
+
+struct PartPlace {
+    int x = 0;  // first sample in the picture
+    int y = 0;
+    int size = kMacroblock;
+    bool has_left = false;  // neighbours in the tile that are not empty
+    bool has_above = false;
+};
+
+// The alpha level that the predicting pictures show at sample (x, y); -1 where the part has none.
+int predicted_alpha(const PartChoice& choice, const std::array<ConstPlaneViews, 2>& references, int x, int y,
+                    int alpha_bits);
+
+// The prediction of one plane (0 .. 2) at `place`, written there.
+void predict_part(const PartChoice& choice, const PartPlace& place, int plane,
+                  const std::array<ConstPlaneViews, 2>& references, ImageView<std::uint8_t> out);
+
+// Prediction and coefficients of Y, U and V.
+void reconstruct_part(const PartChoice& choice, const PartPlace& place, int step, const DenseCode& code,
+                      const std::array<ConstPlaneViews, 2>& references, const PlaneViews& out);
+
+// Adds the residual of one transform to `size` x `size` samples.
+void add_residual(const Levels& levels, int step, int size, std::uint8_t* samples, std::ptrdiff_t stride);
+
+}  // namespace rs::codec

@@ -1,0 +1,205 @@
+#pragma once
+// The syntax of dense pictures, once for reading and writing: encode/FORMAT.md, section "Syntax".
+//
+// A Coder has   int bit(int context, int value)   and   int raw(int value):   a reader ignores `value` and returns what
+// stands in the stream; a writer writes `value` and returns it; an estimator adds up what it would cost. Every function
+// here takes the values to be written and returns, or fills in, those that are then known.
+
+#include "rayspace/codec/contexts.hpp"
+#include "rayspace/codec/levels.hpp"
+#include "rayspace/codec/tile_grid.hpp"
+#include "rayspace/codec/transform.hpp"
+
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
+
+namespace rs::codec::syntax {
+
+// `value` below 2^bits as `bits` decisions, the highest first, each in the context of those before it.
+template <class Coder>
+int tree(Coder& coder, int context, int bits, int value) {
+    int node = 1;
+    for (int i = bits - 1; i >= 0; --i) node = 2 * node + coder.bit(context + node - 1, (value >> i) & 1);
+    return node - (1 << bits);
+}
+
+// A number 0 .. 2^(places) - 1 as its bit length in unary (contexts class_context + 0 ..), its second highest bit
+// (top_context + length), and the bits below as they are.
+template <class Coder>
+int number(Coder& coder, int class_context, int places, int top_context, int value) {
+    const int wanted = std::bit_width(static_cast<unsigned>(value));
+    int length = 0;
+    while (length < places && coder.bit(class_context + length, wanted > length ? 1 : 0) != 0) ++length;
+    if (length < 2) return length;
+    int read = 2 + coder.bit(top_context + length, (value >> (length - 2)) & 1);
+    for (int i = length - 3; i >= 0; --i) read = 2 * read + coder.raw((value >> i) & 1);
+    return read;
+}
+
+// Of a macroblock (context::kMacroblockAlpha) or a block (kBlockAlpha).
+template <class Coder>
+AlphaClass alpha_class(Coder& coder, int context, AlphaClass left, AlphaClass above, AlphaClass value) {
+    const int at = context + 2 * (4 * static_cast<int>(left) + static_cast<int>(above));
+    if (coder.bit(at, value == AlphaClass::kEmpty ? 0 : 1) == 0) return AlphaClass::kEmpty;
+    return coder.bit(at + 1, value == AlphaClass::kMixed ? 1 : 0) != 0 ? AlphaClass::kMixed : AlphaClass::kOpaque;
+}
+
+template <class Coder>
+bool split(Coder& coder, const TileGrid& grid, int bx, int by, bool value) {
+    const int neighbours = (grid.at(bx - 1, by).split ? 1 : 0) + (grid.at(bx, by - 1).split ? 1 : 0);
+    return coder.bit(context::kSplit + neighbours, value ? 1 : 0) != 0;
+}
+
+// How many of the two neighbours fulfil the condition.
+template <class Condition>
+int count_neighbours(const TileGrid& grid, const Part& part, const Condition& condition) {
+    return (condition(grid.at(part.bx - 1, part.by)) ? 1 : 0) + (condition(grid.at(part.bx, part.by - 1)) ? 1 : 0);
+}
+
+constexpr int size_index(int size) {
+    return size == kMacroblock ? 1 : 0;
+}
+
+// `references`: how many pictures there are to predict from, 0 .. 2.
+template <class Coder>
+Source source(Coder& coder, const TileGrid& grid, const Part& part, int references, Source value) {
+    if (references == 0) return Source::kNeighbours;
+    const int size = size_index(part.size);
+    const int inter = count_neighbours(grid, part, [](const BlockInfo& b) { return is_inter(b.source); });
+    if (coder.bit(context::kInter + 3 * size + inter, is_inter(value) ? 1 : 0) == 0) return Source::kNeighbours;
+    if (references == 1) return Source::kFirst;
+    const int both = count_neighbours(grid, part, [](const BlockInfo& b) { return b.source == Source::kBoth; });
+    if (coder.bit(context::kBoth + 3 * size + both, value == Source::kBoth ? 1 : 0) != 0) return Source::kBoth;
+    const int second = count_neighbours(grid, part, [](const BlockInfo& b) { return b.source == Source::kSecond; });
+    return coder.bit(context::kSecond + 3 * size + second, value == Source::kSecond ? 1 : 0) != 0 ? Source::kSecond
+                                                                                                  : Source::kFirst;
+}
+
+template <class Coder>
+int intra_mode(Coder& coder, const Part& part, int value) {
+    return tree(coder, context::kIntraMode + 7 * size_index(part.size), 3, value);
+}
+
+// A vector less its prediction. What is read may lie outside of +-kMaxMotion_q2: the reader has to look.
+template <class Coder>
+std::array<int, 2> motion(Coder& coder, const Part& part, std::array<int, 2> value) {
+    constexpr int kPlaces = 10;
+    const int zero = context::kMotionZero + size_index(part.size);
+    if (coder.bit(zero, value[0] != 0 || value[1] != 0 ? 1 : 0) == 0) return {0, 0};
+    std::array<int, 2> read = {0, 0};
+    for (int c = 0; c < 2; ++c) {
+        const int wanted = value[static_cast<std::size_t>(c)];
+        // Not both are zero.
+        const bool must_be = c == 1 && read[0] == 0;
+        if (!must_be && coder.bit(context::kComponentZero + c, wanted != 0 ? 1 : 0) == 0) continue;
+        const int sign = coder.bit(context::kComponentSign + c, wanted < 0 ? 1 : 0);
+        const int size = 1 + number(coder, context::kComponentClass + 10 * c, kPlaces,
+                                    context::kComponentTop + 10 * c - 1, std::abs(wanted) - 1);
+        read[static_cast<std::size_t>(c)] = sign != 0 ? -size : size;
+    }
+    return read;
+}
+
+// Whether a part has any coefficients.
+template <class Coder>
+bool coded(Coder& coder, const TileGrid& grid, const Part& part, bool inter, bool value) {
+    const int neighbours = count_neighbours(grid, part, [](const BlockInfo& b) { return b.coded; });
+    return coder.bit(context::kCoded + 3 * (2 * size_index(part.size) + (inter ? 1 : 0)) + neighbours, value ? 1 : 0) !=
+           0;
+}
+
+// ------------------------------------------------------------------------------------------------------- coefficients
+
+// The places of a block in the order of diagonals, from the mean: [i] = v * size + u.
+const std::uint8_t* scan_order(int size);
+
+// min(magnitudes to the right and below of (u, v), 3 each), halved up to kNearSums - 1.
+inline int near_sum(const Levels& levels, int u, int v) {
+    const std::int16_t* const l = levels.at + v * Levels::kStride + u;
+    const auto size = [](int level) { return std::min(std::abs(level), 3); };
+    const int sum = size(l[1]) + size(l[2]) + size(l[Levels::kStride]) + size(l[2 * Levels::kStride]) +
+                    size(l[Levels::kStride + 1]);
+    return std::min((sum + 1) >> 1, context::kNearSums - 1);
+}
+
+constexpr int band_of(int diagonal, int size) {
+    if (diagonal == 0) return 0;
+    const int d = size == 8 ? diagonal : (diagonal + 1) / 2;
+    return d <= 2 ? 1 : d <= 5 ? 2 : 3;
+}
+
+// One level that is not known to be zero; `must_be`: known not to be zero.
+template <class Coder>
+int level(Coder& coder, int kind, int size, int u, int v, int near, bool must_be, int value) {
+    const int magnitude = std::abs(value);
+    const int band = band_of(u + v, size);
+    if (!must_be) {
+        const int at = context::kNonZero + (kind * context::kBands + band) * context::kNearSums + near;
+        if (coder.bit(at, magnitude != 0 ? 1 : 0) == 0) return 0;
+    }
+    const int more = (2 * kind + (band == 0 ? 1 : 0)) * context::kNearSums + near;
+    int read = 1;
+    if (coder.bit(context::kAboveOne + more, magnitude > 1 ? 1 : 0) != 0) {
+        read = 2;
+        if (coder.bit(context::kAboveTwo + more, magnitude > 2 ? 1 : 0) != 0) {
+            // Up to 2^14 + 1; the second highest bit has no context of its own.
+            const int wanted = magnitude - 3 + 1;
+            int length = 1;
+            while (length < 14 &&
+                   coder.bit(context::kRestClass + 14 * kind + length - 1, (wanted >> length) != 0 ? 1 : 0) != 0) {
+                ++length;
+            }
+            int rest = 1;
+            for (int i = length - 2; i >= 0; --i) rest = 2 * rest + coder.raw((wanted >> i) & 1);
+            read = 3 + rest - 1;
+        }
+    }
+    return coder.raw(value < 0 ? 1 : 0) != 0 ? -read : read;
+}
+
+// Of the last level that is not zero, in scan order.
+template <class Coder>
+int last_place(Coder& coder, int kind, int size, int value) {
+    return number(coder, context::kLastClass + 8 * kind, size == 8 ? 6 : 8, context::kLastTop + 9 * kind, value);
+}
+
+// A block with at least one level that is not zero. `levels` holds those to be written, or zeros, and is filled in;
+// `last`: the scan place of the last one, for a writer.
+template <class Coder>
+void block(Coder& coder, int kind, int size, Levels& levels, int last) {
+    const std::uint8_t* const scan = scan_order(size);
+    last = last_place(coder, kind, size, last);
+    for (int i = last; i >= 0; --i) {
+        const int u = scan[i] & (size - 1);
+        const int v = scan[i] / size;
+        std::int16_t& at = levels.at[v * Levels::kStride + u];
+        at = static_cast<std::int16_t>(level(coder, kind, size, u, v, near_sum(levels, u, v), i == last, at));
+        if (at != 0) levels.used = std::max(levels.used, std::max(u, v) + 1);
+    }
+}
+
+// -------------------------------------------------------------------------------------------------------------- alpha
+
+// 0: transparent, 2: covered, 1: between.
+constexpr int alpha_kind(int alpha, int full) {
+    return alpha == 0 ? 0 : alpha == full ? 2 : 1;
+}
+
+// One sample of a mixed block, 0 .. full (full = 2^bits - 1). The neighbours count as 0 outside of the tile;
+// `predicted` is the alpha of the predicting picture's sample, -1 where there is none.
+template <class Coder>
+int alpha_sample(Coder& coder, int bits, int west, int north, int north_west, int north_east, int predicted,
+                 int value) {
+    const int full = (1 << bits) - 1;
+    const auto kind = [&](int alpha) { return alpha_kind(alpha, full); };
+    const int from = predicted < 0 ? 0 : 1 + kind(predicted);
+    const int near = ((kind(west) * 3 + kind(north)) * 3 + kind(north_west)) * 3 + kind(north_east);
+    if (coder.bit(context::kAlphaZero + 81 * from + near, value != 0 ? 1 : 0) == 0) return 0;
+    if (bits == 1) return full;
+    if (coder.bit(context::kAlphaFull + 81 * from + near, value != full ? 1 : 0) == 0) return full;
+    const int mean = 3 * (west + north) / (2 * full + 1);
+    return tree(coder, context::kAlphaBetween + 16 * mean, bits, value);
+}
+
+}  // namespace rs::codec::syntax
