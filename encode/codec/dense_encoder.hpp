@@ -18,11 +18,11 @@ namespace rs::encode {
 struct DenseSettings {
     double step = 12;  // of the quantiser, in units of an orthonormal coefficient of Y; 1 .. 200
     int alpha_bits = 2;
-    int tile_width_log2 = 5;
-    int tile_height_log2 = 5;
+    int tile_width_log2 = 6;
+    int tile_height_log2 = 6;
     int passes = 2;  // of choosing; the probabilities of one are the prices of the next
-    std::array<int, 4> level_offset = {-4, 0, 2, 4};  // of the step index, by progressive level
-    float lambda_factor = 0.16F;
+    std::array<int, 4> level_offset = {-3, 0, 1, 2};  // of the step index, by progressive level
+    float lambda_factor = 0.12F;
     std::array<int, 2> chroma_offset = {0, 1};
 };
 

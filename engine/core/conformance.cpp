@@ -2,6 +2,7 @@
 
 #include "engine/core/reconstruct.hpp"
 #include "engine/core/renderer.hpp"
+#include "rayspace/codec/decode_picture.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/ray_space.hpp"
 
@@ -78,6 +79,10 @@ Result<ConformanceReport> check_conformance(RaySpaceObject object, int views, st
     if (const Status status = substitute_missing_pictures(object); !status) return status.error();
     const Result<Renderer> renderer = Renderer::create(object);
     if (!renderer) return renderer.error();
+    if (shows_coded_pictures(object)) {  // the definition reads them unpacked
+        object.pictures.resize(object.views.size());
+        codec::decode_pictures(object);
+    }
 
     ConformanceReport report;
     Random random(seed);

@@ -62,6 +62,7 @@ ColumnStrip set_up_strip(const RaySpaceObject& object, const TexelStore& texels,
         const RaySetup ray = set_up_ray(object, registers, first_column + lane, 0);
         ViewRows rows;
         if (ray.picture >= 0) {
+            texels.ensure(ray.picture, ray.column, ray.column);
             rows = rows_within(ray, texels.occupied(ray.picture, ray.column), registers.height);
             strip.start[lane] = texels.column_start(ray.picture, ray.column);
             // Modulo 2^32, see ColumnStrip.
@@ -99,9 +100,13 @@ void render_pixels(const Pixel& pixel, ImageView<Rgba8> out, ImageView<std::int3
 }  // namespace
 
 Status substitute_missing_pictures(RaySpaceObject& object) {
+    const bool coded = shows_coded_pictures(object);
+    const auto is_loaded = [&](std::uint16_t view) {
+        return coded ? object.coded->pictures[view].loaded() : !object.pictures[view].empty();
+    };
     for (Ring& ring : object.rings) {
         const int count = static_cast<int>(ring.views.size());
-        const auto loaded = [&](int n) { return !object.pictures[ring.views[static_cast<std::size_t>(n)]].empty(); };
+        const auto loaded = [&](int n) { return is_loaded(ring.views[static_cast<std::size_t>(n)]); };
         std::vector<std::uint16_t> stand_in(object.views.size(), kNoPicture);
         for (int n = 0; n < count; ++n) {
             for (int away = 0; away <= count / 2 && stand_in[ring.views[static_cast<std::size_t>(n)]] == kNoPicture;
@@ -116,7 +121,6 @@ Status substitute_missing_pictures(RaySpaceObject& object) {
                 return Error{object.name + ": a ring has no picture loaded; read the object at a higher level"};
             }
         }
-        const auto is_loaded = [&](std::uint16_t view) { return !object.pictures[view].empty(); };
         if (!std::all_of(ring.views.begin(), ring.views.end(), is_loaded)) ring.shape = {};
         for (std::uint16_t& cell : ring.cells) {
             if (cell != kNoPicture) cell = stand_in[cell];
@@ -127,9 +131,9 @@ Status substitute_missing_pictures(RaySpaceObject& object) {
 
 Renderer::Renderer(RaySpaceObject object, TexelStore texels) : object_(std::move(object)), texels_(std::move(texels)) {}
 
-Result<Renderer> Renderer::create(RaySpaceObject object) {
+Result<Renderer> Renderer::create(RaySpaceObject object, const RendererOptions& options) {
     if (const Status status = substitute_missing_pictures(object); !status) return status.error();
-    Result<TexelStore> texels = TexelStore::create(object);
+    Result<TexelStore> texels = TexelStore::create(object, options.decoded_budget_bytes);
     if (!texels) return texels.error();
     object.pictures.clear();
     object.pictures.shrink_to_fit();
@@ -139,6 +143,7 @@ Result<Renderer> Renderer::create(RaySpaceObject object) {
 void Renderer::render(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20) const {
     RS_CHECK(out.width() == registers.width && out.height() == registers.height);
     RS_CHECK(lambda_q20.empty() || (lambda_q20.width() == registers.width && lambda_q20.height() == registers.height));
+    const TexelStore::Reading reading = texels_.read();
     const bool has_shape = !object_.rings[static_cast<std::size_t>(registers.ring)].shape.empty();
     if (has_shape && registers.upright() && can_walk_shape()) {
         render_shape_upright(registers, out, lambda_q20);
@@ -155,7 +160,8 @@ void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> o
                               ImageView<std::int32_t> lambda) const {
     const int strips = strips_of(registers);
     std::vector<ColumnStrip> strip(static_cast<std::size_t>(strips));
-    tbb::parallel_for(tbb::blocked_range<int>(0, strips, 8), [&](const tbb::blocked_range<int>& range) {
+    const std::size_t grain = texels_.is_coded() ? 1 : 8;  // decoding is worth a task of its own
+    tbb::parallel_for(tbb::blocked_range<int>(0, strips, grain), [&](const tbb::blocked_range<int>& range) {
         for (int s = range.begin(); s < range.end(); ++s) {
             strip[static_cast<std::size_t>(s)] = set_up_strip(object_, texels_, registers, s * kStripColumns);
         }
@@ -187,6 +193,7 @@ void Renderer::render_tilted(const ViewRegisters& registers, ImageView<Rgba8> ou
         if (ray.picture < 0) return {};
         const std::int64_t row = ray.row(j);
         if (row < 0 || row >= object_.height) return {};
+        texels_.ensure(ray.picture, ray.column, ray.column);
         return {texels_.texels()[texels_.column_start(ray.picture, ray.column) + row], ray.lambda_q20};
     };
     render_pixels(pixel, out, lambda);
@@ -215,6 +222,7 @@ void Renderer::render_shape_upright(const ViewRegisters& registers, ImageView<Rg
 void Renderer::render_shape_pixels(const ViewRegisters& registers, ImageView<Rgba8> out,
                                    ImageView<std::int32_t> lambda) const {
     const auto texel = [&](int view, int column, int row) {
+        texels_.ensure(view, column, column);
         return texels_.texels()[texels_.column_start(view, column) + row];
     };
     const auto pixel = [&](int i, int j) -> ShapePixel {

@@ -21,13 +21,20 @@ namespace rs::engine {
 // Does nothing where all are loaded. Fails where a ring has no picture.
 Status substitute_missing_pictures(RaySpaceObject& object);
 
+struct RendererOptions {
+    // Of an object whose pictures are coded: how much of them stays decoded between views, 8 bytes a pixel. A view
+    // keeps what it needs, also beyond.
+    std::int64_t decoded_budget_bytes = std::int64_t{256} << 20;
+};
+
 class Renderer {
 public:
-    // Takes the object, which must have passed validate_object (as read_object's have); Y, U, V and alpha are released
-    // after conversion. Missing pictures are substituted.
-    static Result<Renderer> create(RaySpaceObject object);
+    // Takes the object, which must have passed validate_object (as read_object's have). Missing pictures are
+    // substituted. Where all of its pictures are only coded, they are decoded tile by tile as views need them; else
+    // they are converted now, and Y, U, V and alpha released.
+    static Result<Renderer> create(RaySpaceObject object, const RendererOptions& options = {});
 
-    // The object without its pictures.
+    // The object without its unpacked pictures.
     [[nodiscard]] const RaySpaceObject& object() const { return object_; }
 
     // `out` has the view's size; straight RGBA, every pixel is written. `lambda_q20`, where not empty, has that size

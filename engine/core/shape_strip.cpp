@@ -1,5 +1,6 @@
 // What shape_walk.cpp walks down: set-ups of neighbouring columns, side by side.
 
+#include "engine/core/shape_columns.hpp"
 #include "engine/core/shape_walk.hpp"
 
 #include <algorithm>
@@ -9,6 +10,10 @@ namespace {
 
 void set_picture(const RaySpaceObject& object, const TexelStore& texels, const ShapePicture& picture, int lane,
                  ShapePictureLanes& lanes) {
+    if (texels.is_coded()) {
+        const ColumnRange columns = columns_read(object, picture);
+        if (columns.first <= columns.last) texels.ensure(picture.view, columns.first, columns.last);
+    }
     const CapturedView& view = object.views[static_cast<std::size_t>(picture.view)];
     lanes.used[lane] = -1;
     lanes.start[lane] = texels.column_start(picture.view, 0);

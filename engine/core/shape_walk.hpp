@@ -70,7 +70,7 @@ struct ShapeWalk {
 
 ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers);
 
-// View columns first_column .. first_column + kStripColumns - 1, those that exist.
+// View columns first_column .. first_column + kStripColumns - 1, those that exist. Ensures the texels that they read.
 ShapeStrip set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
                               int first_column);
 

@@ -6,24 +6,32 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
+#include <utility>
 
 namespace rs::engine {
 
-Result<TexelStore> TexelStore::create(const RaySpaceObject& object) {
+bool shows_coded_pictures(const RaySpaceObject& object) {
+    return object.coded != nullptr && std::all_of(object.pictures.begin(), object.pictures.end(),
+                                                  [](const PlanarPicture& picture) { return picture.empty(); });
+}
+
+Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes) {
     TexelStore store;
-    store.width_ = object.width;
-    store.height_ = object.height;
+    if (shows_coded_pictures(object)) {
+        Result<std::unique_ptr<CodedTexels>> coded =
+            CodedTexels::create(object.coded, object.name, decoded_budget_bytes);
+        if (!coded) return coded.error();
+        store.coded_ = std::move(*coded);
+        store.layout_ = store.coded_->layout();
+        return store;
+    }
+    store.layout_ = {object.width, object.height, {}};
     const std::int64_t picture_size = (std::int64_t{object.width} + 2) * (std::int64_t{object.height} + 2);
     std::int64_t size = 1;
     for (const PlanarPicture& picture : object.pictures) {
-        store.picture_start_.push_back(static_cast<std::int32_t>(size));
+        store.layout_.picture_start.push_back(static_cast<std::int32_t>(size));
         if (!picture.empty()) size += picture_size;
-        if (size > std::numeric_limits<std::int32_t>::max()) {
-            return Error{object.name +
-                         ": its pictures have more than 2^31 pixels, which the renderer cannot address; "
-                         "encode the object with fewer or smaller pictures"};
-        }
+        if (size > std::numeric_limits<std::int32_t>::max()) return too_many_texels(object.name);
     }
     store.texels_.resize(static_cast<std::size_t>(size));
     store.spans_.resize(object.pictures.size() * static_cast<std::size_t>(object.width));
@@ -42,7 +50,7 @@ Result<TexelStore> TexelStore::create(const RaySpaceObject& object) {
             }
             texel[-1] = texel[0];
             texel[object.height] = texel[object.height - 1];
-            store.spans_[p * static_cast<std::size_t>(object.width) + static_cast<std::size_t>(column)] = span;
+            store.spans_[store.layout_.span_index(static_cast<int>(p), column)] = span;
         }
         const auto repeat = [&](int from, int to) {
             const Rgba8* source = store.texels_.data() + store.column_start(static_cast<int>(p), from) - 1;

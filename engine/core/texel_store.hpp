@@ -9,44 +9,69 @@
 // + 1) = column_start(p, column) + column_stride(). Every picture has a border one texel wide that repeats its rim
 // (column -1 and `width`, row -1 and `height`), so that bilinear reads need no clamps. texels()[0] is transparent and
 // belongs to no picture: the place that lanes without a ray read; the texels a bilinear read from there takes exist.
+//
+// Pictures that the object holds only coded are decoded as far as they are asked for, and given back when there are too
+// many (coded_texels.hpp).
 
+#include "engine/core/coded_texels.hpp"
+#include "engine/core/texel_layout.hpp"
 #include "rayspace/image.hpp"
 #include "rayspace/ray_space_object.hpp"
 #include "rayspace/result.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace rs::engine {
 
-// Rows [begin, end) of a column hold all of its texels with alpha above 0; begin == end for an empty column.
-struct RowSpan {
-    std::int32_t begin = 0;
-    std::int32_t end = 0;
-};
+// True where the object's pictures are to be taken from object.coded: no picture is unpacked.
+bool shows_coded_pictures(const RaySpaceObject& object);
 
 class TexelStore {
 public:
-    // Fails where the pictures and their borders have 2^31 pixels or more (the fast core's indices are 32 bits wide).
-    // Pictures that are not loaded take no room and must not be asked for.
-    static Result<TexelStore> create(const RaySpaceObject& object);
+    // Fails where the pictures and their borders have 2^31 pixels or more (the fast core's indices are 32 bits wide),
+    // or coded pictures cannot be decoded. Pictures that are not loaded take no room and must not be asked for.
+    static Result<TexelStore> create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes);
 
-    [[nodiscard]] const Rgba8* texels() const { return texels_.data(); }
-    [[nodiscard]] std::int32_t column_start(int picture, int column) const {
-        return picture_start_[static_cast<std::size_t>(picture)] + (column + 1) * column_stride() + 1;
+    // Texels are read while a Reading lives; several may, in any threads.
+    class Reading {
+    public:
+        explicit Reading(CodedTexels* coded) : coded_(coded) {
+            if (coded_ != nullptr) coded_->begin_view();
+        }
+        Reading(const Reading&) = delete;
+        Reading& operator=(const Reading&) = delete;
+        ~Reading() {
+            if (coded_ != nullptr) coded_->end_view();
+        }
+
+    private:
+        CodedTexels* coded_;
+    };
+    [[nodiscard]] Reading read() const { return Reading(coded_.get()); }
+
+    // Before columns [first, last] of a picture are read, or their spans.
+    void ensure(int picture, int first, int last) const {
+        if (coded_ != nullptr) coded_->ensure(picture, first, last);
     }
-    [[nodiscard]] std::int32_t column_stride() const { return height_ + 2; }
+    // True where ensure() may have to decode.
+    [[nodiscard]] bool is_coded() const { return coded_ != nullptr; }
+
+    [[nodiscard]] const Rgba8* texels() const { return coded_ != nullptr ? coded_->texels() : texels_.data(); }
+    [[nodiscard]] std::int32_t column_start(int picture, int column) const {
+        return layout_.column_start(picture, column);
+    }
+    [[nodiscard]] std::int32_t column_stride() const { return layout_.column_stride(); }
     [[nodiscard]] RowSpan occupied(int picture, int column) const {
-        return spans_[static_cast<std::size_t>(picture) * static_cast<std::size_t>(width_) +
-                      static_cast<std::size_t>(column)];
+        return coded_ != nullptr ? coded_->occupied(picture, column) : spans_[layout_.span_index(picture, column)];
     }
 
 private:
-    int width_ = 0;
-    int height_ = 0;
-    std::vector<std::int32_t> picture_start_;
+    TexelLayout layout_;
     std::vector<RowSpan> spans_;
     std::vector<Rgba8> texels_;
+    std::unique_ptr<CodedTexels> coded_;
 };
 
 }  // namespace rs::engine

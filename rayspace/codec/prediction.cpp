@@ -20,44 +20,55 @@ std::uint8_t sample_of(int value) {
     return static_cast<std::uint8_t>(std::clamp(value, 0, 255));
 }
 
-// The filter along rows of `in` (its first sample kTapsBefore left of the first result) and then along columns. `in`
-// has kTaps - 1 more rows than the result.
+// The filter along one line of positions that are `step` samples apart, `in` being its first tap: sums of 64ths. They
+// fit 16 bits: the magnitudes of a filter's taps add up to 112.
+template <int kSize>
+void sum_of_taps(const std::uint8_t* in, std::ptrdiff_t step, const std::int16_t* taps, std::int16_t* sums) {
+    for (int x = 0; x < kSize; ++x) {
+        int sum = 0;
+        for (int t = 0; t < kTaps; ++t) sum += taps[t] * in[x + t * step];
+        sums[x] = static_cast<std::int16_t>(sum);
+    }
+}
+
+// One pass only, along rows (step 1) or columns (step: the stride): rounding 64ths of 64ths gives the same.
+template <int kSize>
+void filter_once(const std::uint8_t* in, std::ptrdiff_t in_stride, std::ptrdiff_t step, const std::int16_t* taps,
+                 std::uint8_t* out, std::ptrdiff_t stride) {
+    for (int y = 0; y < kSize; ++y) {
+        std::int16_t sums[kSize];
+        sum_of_taps<kSize>(in + y * in_stride, step, taps, sums);
+        for (int x = 0; x < kSize; ++x) {
+            out[y * stride + x] = sample_of((static_cast<std::int16_t>(sums[x] + 32)) >> 6);
+        }
+    }
+}
+
+// The filter along rows of `in` (its first sample kTapsBefore left of and above the first result) and then along
+// columns. `in` has kTaps - 1 more rows and columns than the result.
 template <int kSize>
 void filter(const std::uint8_t* in, std::ptrdiff_t in_stride, int fx, int fy, std::uint8_t* out,
             std::ptrdiff_t stride) {
-    std::int16_t rows[(kLargest + kTaps - 1) * kSize];
-    const std::int16_t* const h = kFilter[fx];
-    const int first = fy == 0 ? kTapsBefore : 0;
-    const int last = fy == 0 ? kTapsBefore + kSize : kSize + kTaps - 1;
-    for (int y = first; y < last; ++y) {
-        const std::uint8_t* const line = in + y * in_stride;
-        std::int16_t* const row = rows + y * kSize;
-        if (fx == 0) {
-            for (int x = 0; x < kSize; ++x) row[x] = static_cast<std::int16_t>(64 * line[x + kTapsBefore]);
-            continue;
-        }
-        std::int16_t sums[kSize] = {};
-        for (int t = 0; t < kTaps; ++t) {
-            for (int x = 0; x < kSize; ++x) sums[x] = static_cast<std::int16_t>(sums[x] + h[t] * line[x + t]);
-        }
-        std::copy_n(sums, kSize, row);
-    }
-    if (fy == 0) {
+    if (fx == 0 && fy == 0) {
         for (int y = 0; y < kSize; ++y) {
-            const std::int16_t* const row = rows + (y + kTapsBefore) * kSize;
-            for (int x = 0; x < kSize; ++x) out[y * stride + x] = sample_of((row[x] + 32) >> 6);
+            std::memcpy(out + y * stride, in + (y + kTapsBefore) * in_stride + kTapsBefore, kSize);
         }
         return;
     }
+    if (fy == 0) return filter_once<kSize>(in + kTapsBefore * in_stride, in_stride, 1, kFilter[fx], out, stride);
+    if (fx == 0) return filter_once<kSize>(in + kTapsBefore, in_stride, in_stride, kFilter[fy], out, stride);
+    std::int16_t rows[(kSize + kTaps - 1) * kSize];
+    for (int y = 0; y < kSize + kTaps - 1; ++y) {
+        sum_of_taps<kSize>(in + y * in_stride, 1, kFilter[fx], rows + y * kSize);
+    }
     const std::int16_t* const v = kFilter[fy];
     for (int y = 0; y < kSize; ++y) {
-        std::int32_t sums[kSize];
-        std::fill_n(sums, kSize, 2048);
-        for (int t = 0; t < kTaps; ++t) {
-            const std::int16_t* const row = rows + (y + t) * kSize;
-            for (int x = 0; x < kSize; ++x) sums[x] += v[t] * row[x];
+        const std::int16_t* const row = rows + y * kSize;
+        for (int x = 0; x < kSize; ++x) {
+            std::int32_t sum = 2048;
+            for (int t = 0; t < kTaps; ++t) sum += v[t] * row[x + t * kSize];
+            out[y * stride + x] = sample_of(sum >> 12);
         }
-        for (int x = 0; x < kSize; ++x) out[y * stride + x] = sample_of(sums[x] >> 12);
     }
 }
 

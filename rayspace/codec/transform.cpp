@@ -32,36 +32,47 @@ std::int16_t clamped(int value) {
     return static_cast<std::int16_t>(std::clamp(value, -32768, 32767));
 }
 
-// One pass: out[i][x] = sum over k < used of matrix[k][i] * in[k][x], for `columns` columns; rows of `in` and `out` are
-// kSize apart. The sums stay below 2^31: 16 * 90 * 2^15.
-template <int kSize>
-void pass(const std::int16_t* in, int used, int columns, int shift, std::int16_t* out) {
+// The pass along columns: out[i][x] = sum over k < used of matrix[k][i] * in[k][x], for the first kWidth columns; rows
+// of `in` and `out` are kSize apart. Even rows of the matrix are symmetric and odd ones antisymmetric, so that results
+// i and kSize - 1 - i share their products. The sums stay below 2^31: 16 * 90 * 2^15.
+template <int kSize, int kWidth>
+void pass(const std::int16_t* in, int used, int shift, std::int16_t* out) {
     constexpr int kRowStep = kLargestTransform / kSize;
-    for (int i = 0; i < kSize; ++i) {
-        std::int32_t sums[kSize] = {};
-        for (int k = 0; k < used; ++k) {
+    for (int i = 0; i < kSize / 2; ++i) {
+        std::int32_t even[kWidth];
+        std::int32_t odd[kWidth] = {};
+        std::fill_n(even, kWidth, 1 << (shift - 1));
+        for (int k = 0; k < used; k += 2) {
             const std::int32_t factor = kTransform16[k * kRowStep][i];
-            for (int x = 0; x < kSize; ++x) sums[x] += factor * in[k * kSize + x];
+            for (int x = 0; x < kWidth; ++x) even[x] += factor * in[k * kSize + x];
         }
-        for (int x = 0; x < columns; ++x) out[i * kSize + x] = clamped((sums[x] + (1 << (shift - 1))) >> shift);
+        for (int k = 1; k < used; k += 2) {
+            const std::int32_t factor = kTransform16[k * kRowStep][i];
+            for (int x = 0; x < kWidth; ++x) odd[x] += factor * in[k * kSize + x];
+        }
+        for (int x = 0; x < kWidth; ++x) {
+            out[i * kSize + x] = clamped((even[x] + odd[x]) >> shift);
+            out[(kSize - 1 - i) * kSize + x] = clamped((even[x] - odd[x]) >> shift);
+        }
     }
 }
 
-template <int kSize>
-void transpose(const std::int16_t* in, std::int16_t* out) {
-    for (int y = 0; y < kSize; ++y) {
-        for (int x = 0; x < kSize; ++x) out[x * kSize + y] = in[y * kSize + x];
-    }
-}
-
-template <int kSize>
+// kWidth: `used` or more.
+template <int kSize, int kWidth>
 void inverse(const std::int16_t* coefficients, int used, std::int16_t* residual) {
     std::int16_t columns[kSize * kSize];
-    std::int16_t turned[kSize * kSize];
-    pass<kSize>(coefficients, used, kSize, kFirstShift, columns);
-    transpose<kSize>(columns, turned);
-    pass<kSize>(turned, used, kSize, kSecondShift, columns);
-    transpose<kSize>(columns, residual);
+    pass<kSize, kWidth>(coefficients, used, kFirstShift, columns);
+    // The pass along rows adds up whole rows of the matrix, so that nothing need be turned.
+    for (int y = 0; y < kSize; ++y) {
+        std::int32_t sums[kSize];
+        std::fill_n(sums, kSize, 1 << (kSecondShift - 1));
+        for (int k = 0; k < used; ++k) {
+            const std::int16_t factor = columns[y * kSize + k];
+            const std::int8_t* const row = kTransform16[k * (kLargestTransform / kSize)];
+            for (int x = 0; x < kSize; ++x) sums[x] += factor * row[x];
+        }
+        for (int x = 0; x < kSize; ++x) residual[y * kSize + x] = clamped(sums[x] >> kSecondShift);
+    }
 }
 
 }  // namespace
@@ -73,9 +84,11 @@ void inverse_transform(const std::int16_t* coefficients, int size, int used, std
         const std::int16_t mean = clamped((64 * first + (1 << (kSecondShift - 1))) >> kSecondShift);
         std::fill_n(residual, size * size, mean);
     } else if (size == 8) {
-        inverse<8>(coefficients, used, residual);
+        inverse<8, 8>(coefficients, used, residual);
+    } else if (used <= 8) {
+        inverse<16, 8>(coefficients, used, residual);
     } else {
-        inverse<16>(coefficients, used, residual);
+        inverse<16, 16>(coefficients, used, residual);
     }
 }
 

@@ -7,18 +7,29 @@
 // so that every frame reads other pictures; cv::remap reads one picture through a fixed-point map of the same scale,
 // its fastest form. core_shape orbits at the captured distance, between the captured views; core_shape_near goes
 // nearer, where every ray passes many bands of the map. Compare items_per_second (pixels).
+//
+// dense_*: the same from a `dense`-coded object (a textured ball on the same ring), decoded as views need it. Orbits go
+// in steps of 1 degree, so that neighbouring frames share tiles: `warm` holds everything, `evicting` ten pictures, so
+// that there is always something to decode; `cold_frame` decodes all that one frame needs. dense_random_pixel decodes
+// one tile with what it is predicted from, by one thread, nothing being there: items are pixels, `bytes` those read for
+// a pixel.
 
+#include "encode/codec/dense_encoder.hpp"
 #include "engine/core/reconstruct.hpp"
 #include "engine/core/renderer.hpp"
+#include "engine/core/sample_store.hpp"
 #include "rayspace/conventions.hpp"
 #include "tests/support/ring_object.hpp"
 #include "tests/support/small_shape.hpp"
+#include "tests/support/sphere_object.hpp"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <random>
 #include <vector>
 
 namespace rs {
@@ -53,10 +64,14 @@ const RaySpaceObject& object_with_shape() {
     return kObject;
 }
 
-std::vector<engine::ViewRegisters> orbit(double distance = 3.5) {
+std::vector<engine::ViewRegisters> orbit(double distance = 3.5, int count = 61) {
     std::vector<engine::ViewRegisters> views;
-    const Rig rig = make_ring(
-        {.count = 61, .distance = distance, .fl_px = 1.4 * kSide, .width = kSide, .height = kSide, .first_rad = 0.01});
+    const Rig rig = make_ring({.count = count,
+                               .distance = distance,
+                               .fl_px = 1.4 * kSide,
+                               .width = kSide,
+                               .height = kSide,
+                               .first_rad = 0.01});
     for (const RigView& view : rig.views) views.push_back(*engine::prepare_view(object(), view.camera));
     return views;
 }
@@ -88,6 +103,130 @@ void core_shape_near(benchmark::State& state) {
     render_orbit(state, object_with_shape(), 3);
 }
 BENCHMARK(core_shape_near)->UseRealTime()->MinTime(1);
+
+// A ball with fine and coarse texture, lit from a side, that fills most of the picture.
+Image<Rgba8> ball_picture(const Camera& camera) {
+    const test::Sphere ball{{0, 0, 0}, 0.85};
+    Image<Rgba8> picture(camera.width, camera.height);
+    for (int y = 0; y < camera.height; ++y) {
+        for (int x = 0; x < camera.width; ++x) {
+            const glm::dvec3 ray = camera.ray(x + 0.5, y + 0.5);
+            const auto met = test::hit(ball, camera.centre(), ray);
+            if (!met) continue;
+            const glm::dvec3 p = camera.centre() + met->enters * ray;
+            const double fine = 18 * std::sin(61 * p.x + 9 * std::sin(23 * p.y)) * std::sin(53 * p.z + 31 * p.y);
+            const double light = 0.7 + 0.3 * glm::dot(glm::normalize(p), glm::normalize(camera.centre()));
+            const auto byte = [](double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0)); };
+            const double grey = test::grey_at(p) + fine;
+            picture(x, y) = {byte(grey * light), byte((0.8 * grey + 40 * std::sin(7 * p.z)) * light),
+                             byte((200 - 0.6 * grey) * light), 255};
+        }
+    }
+    return picture;
+}
+
+const RaySpaceObject& dense_object() {
+    static const RaySpaceObject kObject = [] {
+        RaySpaceObject coded = object();
+        const Rig rig = test::ring_rig(kRing);
+        const auto picture = [&](int view) { return ball_picture(rig.views[static_cast<std::size_t>(view)].camera); };
+        coded.coded = std::make_shared<const codec::CodedPictures>(encode::encode_dense(coded, picture, {}));
+        for (PlanarPicture& unpacked : coded.pictures) unpacked = {};
+        return coded;
+    }();
+    return kObject;
+}
+
+constexpr std::int64_t kDecodedPicture = std::int64_t{8} * 512 * 512;
+
+void dense_orbit(benchmark::State& state, const RaySpaceObject& shown, std::int64_t budget_bytes, bool warm) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
+    const engine::Renderer renderer = *engine::Renderer::create(shown, {.decoded_budget_bytes = budget_bytes});
+    const std::vector<engine::ViewRegisters> views = orbit(3.5, 360);
+    Image<Rgba8> out(kSide, kSide);
+    for (std::size_t v = 0; warm && v < views.size(); ++v) renderer.render(views[v], out);
+    std::size_t next = 0;
+    for (auto _ : state) {
+        renderer.render(views[next++ % views.size()], out);
+        benchmark::DoNotOptimize(out.data());
+    }
+    state.SetItemsProcessed(state.iterations() * kSide * kSide);
+}
+
+void dense_warm(benchmark::State& state) {
+    dense_orbit(state, dense_object(), 100 * kDecodedPicture, true);
+}
+BENCHMARK(dense_warm)->UseRealTime()->MinTime(1);
+
+void dense_evicting(benchmark::State& state) {
+    dense_orbit(state, dense_object(), 10 * kDecodedPicture, false);
+}
+BENCHMARK(dense_evicting)->UseRealTime()->MinTime(1);
+
+void dense_shape(benchmark::State& state, std::int64_t pictures, bool warm) {
+    RaySpaceObject shown = dense_object();
+    shown.rings[0].shape = object_with_shape().rings[0].shape;
+    dense_orbit(state, shown, pictures * kDecodedPicture, warm);
+}
+
+void dense_shape_warm(benchmark::State& state) {
+    dense_shape(state, 100, true);
+}
+BENCHMARK(dense_shape_warm)->UseRealTime()->MinTime(1);
+
+void dense_shape_evicting(benchmark::State& state) {
+    dense_shape(state, 10, false);
+}
+BENCHMARK(dense_shape_evicting)->UseRealTime()->MinTime(1);
+
+void dense_cold_frame(benchmark::State& state) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
+    const std::vector<engine::ViewRegisters> views = orbit(3.5, 360);
+    // With nothing allowed to stay, every frame is the first one.
+    const engine::Renderer renderer = *engine::Renderer::create(dense_object(), {.decoded_budget_bytes = 0});
+    Image<Rgba8> out(kSide, kSide);
+    std::size_t next = 0;
+    for (auto _ : state) renderer.render(views[(next += 37) % views.size()], out);
+    state.SetItemsProcessed(state.iterations() * kSide * kSide);
+}
+BENCHMARK(dense_cold_frame)->UseRealTime()->MinTime(1);
+
+void dense_random_pixel(benchmark::State& state) {
+    const codec::CodedPictures& coded = *dense_object().coded;
+    const std::unique_ptr<engine::SampleStore> samples =
+        std::move(*engine::SampleStore::create(dense_object().coded, "bench"));
+    const auto views = static_cast<int>(coded.pictures.size());
+    const int tiles = coded.tile_columns() * coded.tile_rows();
+    std::mt19937 random(1);
+    double bytes_read = 0;
+    double worst = 0;
+    for (auto _ : state) {
+        int view = 0;
+        int tile = 0;
+        do {
+            view = static_cast<int>(random() % static_cast<unsigned>(views));
+            tile = static_cast<int>(random() % static_cast<unsigned>(tiles));
+        } while (!coded.pictures[static_cast<std::size_t>(view)].tiles[static_cast<std::size_t>(tile)].present);
+        const auto begin = std::chrono::steady_clock::now();
+        samples->need_tile(view, tile);
+        state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        double bytes = 0;
+        for (int v = 0; v < views; ++v) {
+            if (samples->decoded_bytes(v) == 0) continue;
+            for (int t = 0; t < tiles; ++t) {
+                if (!samples->decoded(v, t)) continue;
+                bytes += coded.pictures[static_cast<std::size_t>(v)].tiles[static_cast<std::size_t>(t)].size;
+            }
+            samples->forget(v);
+        }
+        bytes_read += bytes;
+        worst = std::max(worst, bytes);
+    }
+    state.SetItemsProcessed(state.iterations());
+    state.counters["bytes"] = bytes_read / static_cast<double>(state.iterations());
+    state.counters["worst_bytes"] = worst;
+}
+BENCHMARK(dense_random_pixel)->UseManualTime()->MinTime(0.5);
 
 void scalar_definition(benchmark::State& state) {
     const std::vector<engine::ViewRegisters> views = orbit();

@@ -1,0 +1,38 @@
+#pragma once
+// Work that is done once whoever asks first, and can be taken back: std::call_once with a way to forget.
+
+#include <atomic>
+#include <cstdint>
+
+namespace rs::engine {
+
+class DoneFlag {
+public:
+    [[nodiscard]] bool done() const { return state_.load(std::memory_order_acquire) == kDone; }
+
+    // Returns after work() was done, here or in another thread, which is waited for. What work() wrote is seen then.
+    // Work may ensure other flags, in an order without cycles.
+    template <class Work>
+    void ensure(const Work& work) {
+        std::uint8_t seen = state_.load(std::memory_order_acquire);
+        if (seen == kDone) return;
+        if (seen == kNotDone && state_.compare_exchange_strong(seen, kBusy, std::memory_order_acquire)) {
+            work();
+            state_.store(kDone, std::memory_order_release);
+            state_.notify_all();
+            return;
+        }
+        state_.wait(kBusy, std::memory_order_acquire);
+    }
+
+    // While no other thread uses the flag.
+    void reset() { state_.store(kNotDone, std::memory_order_relaxed); }
+
+private:
+    static constexpr std::uint8_t kNotDone = 0;
+    static constexpr std::uint8_t kBusy = 1;
+    static constexpr std::uint8_t kDone = 2;
+    std::atomic<std::uint8_t> state_ = kNotDone;
+};
+
+}  // namespace rs::engine
