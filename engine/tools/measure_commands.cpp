@@ -50,7 +50,7 @@ Status run_conformance(const ConformanceArguments& arguments) {
 }
 
 Result<Renderer> open_renderer(const std::string& path) {
-    Result<RaySpaceObject> object = read_object(path);
+    Result<RaySpaceObject> object = read_object(path, {.decode = false});
     if (!object) return object.error();
     return Renderer::create(std::move(*object));
 }

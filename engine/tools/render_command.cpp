@@ -38,7 +38,7 @@ struct RenderArguments {
 };
 
 Result<Renderer> open_renderer(const std::string& path, int level) {
-    Result<RaySpaceObject> object = read_object(path, {.max_level = level});
+    Result<RaySpaceObject> object = read_object(path, {.max_level = level, .decode = false});
     if (!object) return object.error();
     return Renderer::create(std::move(*object));
 }

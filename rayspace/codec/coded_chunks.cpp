@@ -213,7 +213,7 @@ Status parse_coded_picture(std::span<const std::byte> payload, std::size_t view,
                               static_cast<std::size_t>(coded.tile_rows()));
     if (!take_bits(in, present)) return Error{"ends within its list of tiles, or lists some that do not exist"};
     picture.tiles.resize(present.size());
-    std::uint32_t begin = 0;
+    std::uint64_t begin = 0;  // may pass 2^32: 2^18 tiles are possible
     for (std::size_t t = 0; t < present.size(); ++t) {
         if (!present[t]) continue;
         const std::uint32_t size = take_size(in);
@@ -221,13 +221,13 @@ Status parse_coded_picture(std::span<const std::byte> payload, std::size_t view,
             return Error{"gives tile " + std::to_string(t) + " no size of 0.." + std::to_string(kMaxTile_bytes) +
                          " in its shortest form"};
         }
-        picture.tiles[t] = {begin, size, true};
-        begin += size;  // below 2^32: at most 2^18 tiles
+        picture.tiles[t] = {static_cast<std::uint32_t>(begin), size, true};
+        begin += size;
     }
     if (in.left() != begin) {
         return Error{"has " + std::to_string(in.left()) + " bytes of tiles instead of " + std::to_string(begin)};
     }
-    const auto bytes = in.take(begin);
+    const auto bytes = in.take(static_cast<std::size_t>(begin));  // at most 2^30: the size of a chunk
     picture.bytes.assign(bytes.begin(), bytes.end());
     coded.pictures[view] = std::move(picture);
     return {};

@@ -201,7 +201,7 @@ TEST_F(FullDisk, IsSaidAndLeavesNothingBehind) {
                                    work_ / "photos" / (std::to_string(i) + ".png"));
     }
     write_text("ball.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
-    expect_disk_full("rs-encode", {"build", in("set"), "-o", in("small/o.rso"), "-q"});
+    expect_disk_full("rs-encode", {"build", in("set"), "-o", in("small/o.rso"), "--profile", "raw", "-q"});
     expect_disk_full("rs-encode", {"extract", in("large.rso"), "-o", in("small/pictures"), "-q"});
     expect_disk_full("rs-engine", {"render", in("large.rso"), "--orbit", "40", "-o", in("small/views"), "-q"});
     expect_disk_full("rs-engine", {"render", in("large.rso"), "--orbit", "120", "--size", "1200x1200", "-o",

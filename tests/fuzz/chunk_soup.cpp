@@ -12,15 +12,16 @@
 namespace rs::fuzz {
 namespace {
 
-constexpr std::array<ChunkName, 9> kNames = {{{'H', 'E', 'A', 'D'},
-                                              {'R', 'I', 'G', 'J'},
-                                              {'V', 'I', 'E', 'W'},
-                                              {'R', 'I', 'N', 'G'},
-                                              {'R', 'M', 'A', 'P'},
-                                              {'P', 'I', 'C', 'T'},
-                                              {'n', 'o', 't', 'e'},
-                                              {'N', 'O', 'T', 'E'},
-                                              {'s', 'h', 'a', 'p'}}};
+constexpr std::array<ChunkName, 10> kNames = {{{'H', 'E', 'A', 'D'},
+                                               {'R', 'I', 'G', 'J'},
+                                               {'V', 'I', 'E', 'W'},
+                                               {'R', 'I', 'N', 'G'},
+                                               {'R', 'M', 'A', 'P'},
+                                               {'P', 'I', 'C', 'T'},
+                                               {'n', 'o', 't', 'e'},
+                                               {'N', 'O', 'T', 'E'},
+                                               {'s', 'h', 'a', 'p'},
+                                               {'C', 'O', 'D', 'E'}}};
 constexpr std::size_t kHeader_bytes = 48;
 constexpr std::size_t kEntry_bytes = 32;
 

@@ -2,6 +2,7 @@
 #include "rayspace/file_output.hpp"
 #include "rayspace/object_file.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
+#include "tests/support/coded_object.hpp"
 #include "tests/support/small_shape.hpp"
 
 #include <cstdio>
@@ -34,9 +35,13 @@ Status write_seeds(const fs::path& corpus) {
     const test::SmallShapeOptions shape{.p_cells = 5, .bands = 4, .lines = {2, 0, 1}};
     RaySpaceObject with_shape = test::small_object(two_rings);
     with_shape.rings[1].shape = test::small_shape(with_shape, 1, shape);
+    test::SmallObjectOptions larger = one_ring;
+    larger.width = 36;
+    larger.height = 20;
     const std::pair<const char*, RaySpaceObject> objects[] = {{"one-ring", test::small_object(one_ring)},
                                                               {"two-rings", test::small_object(two_rings)},
-                                                              {"shape", std::move(with_shape)}};
+                                                              {"shape", std::move(with_shape)},
+                                                              {"coded", test::coded_object(larger, {})}};
     for (const auto& [name, object] : objects) {
         const fs::path file = corpus / "container" / (std::string("seed-") + name + ".rso");
         if (Status status = write_object(file, object); !status) return status;

@@ -1,4 +1,5 @@
 #include "engine/core/reconstruct.hpp"
+#include "rayspace/codec/coded_chunks.hpp"
 #include "rayspace/object_chunks.hpp"
 #include "rayspace/object_file.hpp"
 #include "rayspace/ray_space.hpp"
@@ -23,7 +24,11 @@ void check_rewriting(const RaySpaceObject& object) {
         if (key.name == kRing) chunk.payload = ring_payload(object, key.index);
         if (key.name == kMap) chunk.payload = map_payload(object.rings[key.index]);
         if (key.name == kShape) chunk.payload = shape_payload(object.rings[key.index]);
-        if (key.name == kPicture) chunk.payload = picture_payload(object.pictures[key.index]);
+        if (key.name == kCode) chunk.payload = codec::code_payload(*object.coded);
+        if (key.name == kPicture) {
+            chunk.payload = object.coded ? codec::coded_picture_payload(*object.coded, key.index)
+                                         : picture_payload(object.pictures[key.index]);
+        }
         chunks.push_back(std::move(chunk));
     }
     const auto container = ContainerReader::over(container_of(chunks), "rewritten");

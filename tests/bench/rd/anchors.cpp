@@ -1,12 +1,12 @@
-#include "anchors.hpp"
+#include "tests/bench/rd/anchors.hpp"
 
-#include "astc_anchor.hpp"
-#include "background.hpp"
-#include "best_variant.hpp"
 #include "rayspace/parallel.hpp"
-#include "still_anchor.hpp"
-#include "tool_process.hpp"
-#include "x265_anchor.hpp"
+#include "tests/bench/rd/astc_anchor.hpp"
+#include "tests/bench/rd/background.hpp"
+#include "tests/bench/rd/best_variant.hpp"
+#include "tests/bench/rd/still_anchor.hpp"
+#include "tests/bench/rd/tool_process.hpp"
+#include "tests/bench/rd/x265_anchor.hpp"
 
 #include <opencv2/core/version.hpp>
 

@@ -1,10 +1,10 @@
 #pragma once
 // What people would use today, each codec in all the ways that might be the best for it.
 
-#include "coded.hpp"
-#include "curve.hpp"
 #include "rayspace/progress.hpp"
-#include "work_folder.hpp"
+#include "tests/bench/rd/coded.hpp"
+#include "tests/bench/rd/curve.hpp"
+#include "tests/bench/rd/work_folder.hpp"
 
 #include <set>
 #include <string>

@@ -1,8 +1,8 @@
-#include "astc_anchor.hpp"
+#include "tests/bench/rd/astc_anchor.hpp"
 
-#include "background.hpp"
 #include "rayspace/picture_io.hpp"
-#include "tool_process.hpp"
+#include "tests/bench/rd/background.hpp"
+#include "tests/bench/rd/tool_process.hpp"
 
 #include <algorithm>
 #include <cmath>

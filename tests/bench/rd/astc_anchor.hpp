@@ -4,7 +4,7 @@
 // those are billed, 16 bytes each. So ASTC is not charged for the empty part of a touched 8x8 block, nor for blocks
 // larger than 8x8 that reach into one but show nothing.
 
-#include "coded.hpp"
+#include "tests/bench/rd/coded.hpp"
 
 #include <filesystem>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "background.hpp"
+#include "tests/bench/rd/background.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,12 +7,12 @@
 // so that nobody is paid for empty background. Quality: PSNR over object pixels (alpha >= 128) of straight sRGB, the
 // squared error pooled over all views. rd_ratios.csv gets the rates relative to ASTC at equal PSNR.
 
-#include "anchors.hpp"
-#include "ours.hpp"
-#include "rate_plot.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/tool_main.hpp"
-#include "report.hpp"
+#include "tests/bench/rd/anchors.hpp"
+#include "tests/bench/rd/ours.hpp"
+#include "tests/bench/rd/rate_plot.hpp"
+#include "tests/bench/rd/report.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -42,13 +42,13 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
 
 Result<Wanted> wanted_of(const std::vector<std::string>& only) {
     // Without a choice: everything but raw pictures, which nobody would compare with.
-    const std::vector<std::string> words = only.empty() ? std::vector<std::string>{"anchors", "dense", "board"} : only;
+    const std::vector<std::string> words = only.empty() ? std::vector<std::string>{"anchors", "dense"} : only;
     Wanted wanted;
     for (const std::string& word : words) {
         if (word == "anchors") {
             wanted.anchors.insert(anchor_names().begin(), anchor_names().end());
         } else if (word == "ours") {
-            wanted.profiles.insert({"dense", "board"});
+            wanted.profiles.insert("dense");
         } else if (contains(anchor_names(), word)) {
             wanted.anchors.insert(word);
         } else if (contains(profile_names(), word)) {

@@ -1,4 +1,4 @@
-#include "best_variant.hpp"
+#include "tests/bench/rd/best_variant.hpp"
 
 #include <algorithm>
 #include <cstddef>

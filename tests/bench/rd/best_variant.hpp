@@ -1,7 +1,7 @@
 #pragma once
 // Of the ways in which a codec was tried on a set, the one that is best for it: the hardest to beat.
 
-#include "curve.hpp"
+#include "tests/bench/rd/curve.hpp"
 
 #include <string>
 #include <vector>

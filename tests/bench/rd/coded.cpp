@@ -1,4 +1,4 @@
-#include "coded.hpp"
+#include "tests/bench/rd/coded.hpp"
 
 #include "rayspace/file_output.hpp"
 

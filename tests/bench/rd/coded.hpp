@@ -1,8 +1,8 @@
 #pragma once
 // What a codec made of a set at one setting, and how such answers of external encoders are kept between runs.
 
-#include "object_error.hpp"
 #include "rayspace/result.hpp"
+#include "tests/bench/rd/object_error.hpp"
 
 #include <cstdint>
 #include <filesystem>

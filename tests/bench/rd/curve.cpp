@@ -1,4 +1,4 @@
-#include "curve.hpp"
+#include "tests/bench/rd/curve.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 // Rate over quality of one codec on one set, and how two of them compare.
 
-#include "coded.hpp"
+#include "tests/bench/rd/coded.hpp"
 
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-#include "object_error.hpp"
+#include "tests/bench/rd/object_error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 // to leave anything where nobody looks. (rayspace/picture_metrics.hpp compares what is *shown*, premultiplied, which
 // would mix colour and silhouette in one number; here alpha is scored apart.)
 
-#include "reference_pictures.hpp"
+#include "tests/bench/rd/reference_pictures.hpp"
 
 namespace rs::bench {
 

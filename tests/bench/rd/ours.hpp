@@ -1,10 +1,10 @@
 #pragma once
 // Rayspace's own picture coding: the set is built into an object by the command `rs-encode`, and read back.
 
-#include "coded.hpp"
-#include "curve.hpp"
 #include "rayspace/progress.hpp"
-#include "work_folder.hpp"
+#include "tests/bench/rd/coded.hpp"
+#include "tests/bench/rd/curve.hpp"
+#include "tests/bench/rd/work_folder.hpp"
 
 #include <filesystem>
 #include <set>
@@ -13,7 +13,7 @@
 
 namespace rs::bench {
 
-// Curve names: raw (pictures stored as they are, one point), and the coding profiles dense and board.
+// Curve names: raw (pictures stored as they are, one point), and the coding profile dense.
 const std::vector<std::string>& profile_names();
 
 // Whether `encoder` has the options that the profiles in `names` need.

@@ -1,4 +1,4 @@
-#include "rate_plot.hpp"
+#include "tests/bench/rd/rate_plot.hpp"
 
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
@@ -30,7 +30,6 @@ struct CodecStyle {
 
 constexpr std::array<CodecStyle, 8> kStyles = {{
     {"dense", "Rayspace dense", "#d1261f", 2.6},
-    {"board", "Rayspace board", "#e08a00", 2.6},
     {"raw", "Rayspace, pictures stored raw", "#b0641a", 2.6},
     {"astc", "ASTC medium, 4x4 to 12x12", "#1c1e21", 1.6},
     {"jpeg", "JPEG", "#8a94a3", 1.6},

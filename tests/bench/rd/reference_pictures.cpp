@@ -1,4 +1,4 @@
-#include "reference_pictures.hpp"
+#include "tests/bench/rd/reference_pictures.hpp"
 
 #include "encode/capture_set.hpp"
 #include "rayspace/parallel.hpp"

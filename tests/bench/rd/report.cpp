@@ -1,4 +1,4 @@
-#include "report.hpp"
+#include "tests/bench/rd/report.hpp"
 
 #include <array>
 #include <cstdio>

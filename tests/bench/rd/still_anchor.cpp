@@ -1,4 +1,4 @@
-#include "still_anchor.hpp"
+#include "tests/bench/rd/still_anchor.hpp"
 
 #include "rayspace/parallel.hpp"
 

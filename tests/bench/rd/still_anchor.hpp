@@ -1,7 +1,7 @@
 #pragma once
 // JPEG and WebP: every picture a file of its own. All bytes of the files count; alpha is not stored.
 
-#include "coded.hpp"
+#include "tests/bench/rd/coded.hpp"
 
 #include <string>
 #include <vector>

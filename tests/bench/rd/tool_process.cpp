@@ -1,4 +1,4 @@
-#include "tool_process.hpp"
+#include "tests/bench/rd/tool_process.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>

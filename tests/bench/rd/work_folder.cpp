@@ -1,4 +1,4 @@
-#include "work_folder.hpp"
+#include "tests/bench/rd/work_folder.hpp"
 
 #include <unistd.h>
 

@@ -1,8 +1,8 @@
-#include "x265_anchor.hpp"
+#include "tests/bench/rd/x265_anchor.hpp"
 
 #include "rayspace/file_output.hpp"
 #include "rayspace/parallel.hpp"
-#include "tool_process.hpp"
+#include "tests/bench/rd/tool_process.hpp"
 
 #include <system_error>
 

@@ -2,8 +2,8 @@
 // HEVC by the command `x265` (preset medium, constant rate factor): the views as a film, in ring order. All bytes of
 // the stream count; alpha is not stored. One frame at a time (-F 1), so that the result does not depend on the machine.
 
-#include "coded.hpp"
-#include "yuv_frames.hpp"
+#include "tests/bench/rd/coded.hpp"
+#include "tests/bench/rd/yuv_frames.hpp"
 
 #include <filesystem>
 #include <vector>

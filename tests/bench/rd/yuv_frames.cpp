@@ -1,4 +1,4 @@
-#include "yuv_frames.hpp"
+#include "tests/bench/rd/yuv_frames.hpp"
 
 #include "rayspace/yuv.hpp"
 

@@ -1,0 +1,271 @@
+// Pictures through the dense encoder and the decoder.
+
+#include "encode/codec/dense_encoder.hpp"
+#include "encode/codec/bool_encoder.hpp"
+#include "encode/codec/encode_pictures.hpp"
+#include "encode/codec/quantise.hpp"
+#include "rayspace/codec/byte_account.hpp"
+#include "rayspace/codec/coded_chunks.hpp"
+#include "rayspace/codec/decode_picture.hpp"
+#include "rayspace/codec/part_syntax.hpp"
+#include "rayspace/yuv.hpp"
+#include "tests/support/coded_object.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <random>
+
+namespace rs::encode {
+namespace {
+
+const test::SmallObjectOptions kSmall{.views_per_ring = 11, .width = 150, .height = 90};
+
+std::vector<std::byte> bytes_of(const codec::CodedPictures& coded) {
+    std::vector<std::byte> bytes = codec::code_payload(coded);
+    for (std::size_t v = 0; v < coded.pictures.size(); ++v) {
+        const auto payload = codec::coded_picture_payload(coded, v);
+        bytes.insert(bytes.end(), payload.begin(), payload.end());
+    }
+    return bytes;
+}
+
+double psnr_over_object(const std::vector<Image<Rgba8>>& truth, const RaySpaceObject& decoded) {
+    double error = 0;
+    double samples = 0;
+    for (std::size_t v = 0; v < truth.size(); ++v) {
+        const Image<Rgba8> shown = rgba_from_planar(decoded.pictures[v]);
+        for (int y = 0; y < shown.height(); ++y) {
+            for (int x = 0; x < shown.width(); ++x) {
+                const Rgba8 a = truth[v](x, y);
+                if (a.a < 128) continue;
+                const Rgba8 b = shown(x, y);
+                for (const int off : {a.r - b.r, a.g - b.g, a.b - b.b}) error += off * off;
+                samples += 3;
+            }
+        }
+    }
+    return 10 * std::log10(255.0 * 255.0 * samples / error);
+}
+
+TEST(BoolCoder, ReadsBackWhatWasWritten) {
+    std::mt19937 random(11);
+    for (int round = 0; round < 300; ++round) {
+        std::vector<std::pair<int, std::uint32_t>> bits;
+        BoolEncoder encoder;
+        const int count = static_cast<int>(random() % 400);
+        for (int i = 0; i < count; ++i) {
+            const auto probability = static_cast<std::uint32_t>(round % 3 == 0 ? 4095 : 1 + random() % 4095);
+            // Likely bits mostly, so that long runs of carries happen.
+            const int bit = random() % 4096 >= probability || random() % 50 == 0 ? 1 : 0;
+            bits.emplace_back(bit, probability);
+            encoder.bit(bit, probability);
+        }
+        const std::vector<std::byte> bytes = encoder.finish();
+        codec::BoolDecoder decoder(bytes);
+        for (std::size_t i = 0; i < bits.size(); ++i) {
+            ASSERT_EQ(decoder.bit(bits[i].second), bits[i].first) << "round " << round << ", bit " << i;
+        }
+    }
+}
+
+TEST(BoolCoder, LikelyBitsCostLittle) {
+    BoolEncoder encoder;
+    for (int i = 0; i < 8000; ++i) encoder.bit(0, 4080);
+    EXPECT_LE(encoder.finish().size(), 8000 * 0.0057 / 8 + 2);
+}
+
+// But for rounding, and for rows that are orthonormal to 0.1 % only.
+TEST(Transform, TheInverseUndoesTheForward) {
+    std::mt19937 random(5);
+    for (const int size : {8, 16}) {
+        for (int round = 0; round < 50; ++round) {
+            std::vector<std::int16_t> residual(static_cast<std::size_t>(size * size));
+            for (auto& r : residual) r = static_cast<std::int16_t>(static_cast<int>(random() % 161) - 80);
+            std::vector<std::int32_t> coefficients(residual.size());
+            forward_transform(residual.data(), size, coefficients.data());
+            std::vector<std::int16_t> rounded(coefficients.begin(), coefficients.end());
+            std::vector<std::int16_t> back(residual.size());
+            codec::inverse_transform(rounded.data(), size, size, back.data());
+            for (std::size_t i = 0; i < back.size(); ++i) ASSERT_NEAR(back[i], residual[i], 2);
+        }
+    }
+}
+
+TEST(Transform, FewerRowsAndColumnsGiveTheSame) {
+    std::mt19937 random(6);
+    for (const int size : {8, 16}) {
+        for (int used = 1; used <= size; ++used) {
+            std::vector<std::int16_t> coefficients(static_cast<std::size_t>(size * size));
+            for (int v = 0; v < used; ++v) {
+                for (int u = 0; u < used; ++u) {
+                    coefficients[static_cast<std::size_t>(v * size + u)] =
+                        static_cast<std::int16_t>(static_cast<int>(random() % 65536) - 32768);
+                }
+            }
+            std::vector<std::int16_t> a(coefficients.size());
+            std::vector<std::int16_t> b(coefficients.size());
+            codec::inverse_transform(coefficients.data(), size, used, a.data());
+            codec::inverse_transform(coefficients.data(), size, size, b.data());
+            EXPECT_EQ(a, b) << size << ", " << used;
+        }
+    }
+}
+
+TEST(DenseEncoder, TheDecoderShowsWhatTheEncoderMeasured) {
+    for (const double step : {3.0, 12.0, 60.0}) {
+        RaySpaceObject object = test::small_object(kSmall);
+        const std::vector<Image<Rgba8>> pictures = test::drawn_pictures(object);
+        DenseSettings settings;
+        settings.step = step;
+        settings.alpha_bits = 4;
+        std::vector<SourcePicture> sources;
+        for (const auto& picture : pictures) sources.push_back(source_picture(picture, 4));
+        EncodedPictures encoded = encode_dense(object, sources, settings);
+        object.coded = std::make_shared<codec::CodedPictures>(std::move(encoded.coded));
+        codec::decode_pictures(object);
+        // The encoder measures against its own Y, U, V, rounded once, and where its own alpha is 128 or more.
+        EXPECT_NEAR(psnr_over_object(pictures, object), encoded.psnr_db, 0.5) << step;
+        for (std::size_t v = 0; v < pictures.size(); ++v) {
+            for (int y = 0; y < object.height; ++y) {
+                for (int x = 0; x < object.width; ++x) {
+                    const int level = codec::level_of_alpha(pictures[v](x, y).a, 4);
+                    ASSERT_EQ(object.pictures[v].a(x, y), codec::alpha_of_level(level, 4));
+                }
+            }
+        }
+    }
+}
+
+TEST(DenseEncoder, FinerStepsAreBetterAndLarger) {
+    const RaySpaceObject object = test::small_object(kSmall);
+    const std::vector<Image<Rgba8>> pictures = test::drawn_pictures(object);
+    double last_db = 0;
+    std::size_t last_bytes = 0;
+    for (const double step : {64.0, 16.0, 4.0}) {
+        DenseSettings settings;
+        settings.step = step;
+        RaySpaceObject coded = object;
+        coded.coded = std::make_shared<codec::CodedPictures>(test::code_pictures(object, pictures, settings));
+        codec::decode_pictures(coded);
+        const double db = psnr_over_object(pictures, coded);
+        const std::size_t bytes = bytes_of(*coded.coded).size();
+        EXPECT_GT(db, last_db + 3) << step;
+        EXPECT_GT(bytes, last_bytes) << step;
+        last_db = db;
+        last_bytes = bytes;
+    }
+    EXPECT_GT(last_db, 40);
+}
+
+TEST(DenseEncoder, PredictionFromOtherPicturesPays) {
+    // The same picture in every view: all but the references cost next to nothing.
+    const RaySpaceObject object = test::small_object(kSmall);
+    const std::vector<Image<Rgba8>> still(object.views.size(), test::drawn_pictures(object)[0]);
+    const codec::CodedPictures coded = test::code_pictures(object, still, {});
+    ASSERT_EQ(coded.levels[0], 0);
+    ASSERT_EQ(coded.levels[1], 3);
+    EXPECT_LT(10 * coded.pictures[1].bytes.size(), coded.pictures[0].bytes.size());
+}
+
+TEST(DenseEncoder, AnyNumberOfThreadsGivesTheSameBytes) {
+    const RaySpaceObject object = test::small_object(kSmall);
+    const std::vector<Image<Rgba8>> pictures = test::drawn_pictures(object);
+    std::vector<std::vector<std::byte>> results;
+    for (const std::size_t threads : {1, 2, 4}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        results.push_back(bytes_of(test::code_pictures(object, pictures, {})));
+    }
+    EXPECT_EQ(results[0], results[1]);
+    EXPECT_EQ(results[0], results[2]);
+}
+
+TEST(DenseEncoder, OddSizesOneViewAndNothingToSee) {
+    for (const auto& [width, height, views] : {std::array{1, 1, 1}, {17, 33, 2}, {63, 65, 3}, {70, 16, 9}}) {
+        test::SmallObjectOptions options{.views_per_ring = views, .width = width, .height = height};
+        RaySpaceObject object = test::coded_object(options, {});
+        codec::decode_pictures(object);
+        EXPECT_EQ(object.pictures[0].y.width(), width);
+    }
+    RaySpaceObject empty = test::small_object({.views_per_ring = 3, .width = 40, .height = 40});
+    const std::vector<Image<Rgba8>> nothing(3, Image<Rgba8>(40, 40));
+    empty.coded = std::make_shared<codec::CodedPictures>(test::code_pictures(empty, nothing, {}));
+    codec::decode_pictures(empty);
+    EXPECT_EQ(rgba_from_planar(empty.pictures[1]), nothing[1]);
+}
+
+TEST(ByteAccount, AddsUpToTheChunks) {
+    const RaySpaceObject object = test::coded_object(kSmall, {});
+    const auto entries = codec::account_bytes(*object.coded);
+    double sum = 0;
+    double rounding = 1e9;
+    for (const codec::AccountEntry& entry : entries) {
+        if (entry.name[0] != '(') sum += entry.bytes;
+        if (entry.name == "tiles' rounding") rounding = entry.bytes;
+    }
+    double chunks = 0;
+    double tiles = 0;
+    for (std::size_t v = 0; v < object.coded->pictures.size(); ++v) {
+        chunks += static_cast<double>(codec::coded_picture_payload(*object.coded, v).size());
+        for (const auto& tile : object.coded->pictures[v].tiles) tiles += tile.present ? 1 : 0;
+    }
+    EXPECT_NEAR(sum, chunks, 1e-6);
+    // Information content and bytes agree to about a byte a tile.
+    EXPECT_LT(std::abs(rounding), 1.5 * tiles);
+}
+
+class Goals : public testing::Test {
+protected:
+    void SetUp() override {
+        Rig rig = make_ring({.count = 9, .fl_px = 120, .width = 96, .height = 80});
+        rig.object_radius = 0.9;
+        test::write_drawn_set(work_ / "set", rig);
+        Result<CaptureSet> set = open_capture_set(work_ / "set");
+        ASSERT_TRUE(set.ok()) << set.error().message;
+        set_ = std::move(*set);
+        object_ = test::small_object({.views_per_ring = 9, .width = 96, .height = 80});
+    }
+    Result<EncodedPictures> encode(const PictureGoal& goal) const { return encode_pictures(set_, object_, goal, 2); }
+
+    test::TemporaryFolder work_;
+    CaptureSet set_;
+    RaySpaceObject object_;
+};
+
+TEST_F(Goals, FidelityIsReachedAndNotFarExceeded) {
+    for (const double wanted : {28.0, 35.0}) {
+        PictureGoal goal;
+        goal.psnr_db = wanted;
+        const auto encoded = encode(goal);
+        ASSERT_TRUE(encoded.ok()) << encoded.error().message;
+        EXPECT_GE(encoded->psnr_db, wanted);
+        EXPECT_LE(encoded->psnr_db, wanted + 1.5);
+    }
+}
+
+TEST_F(Goals, SizeIsKeptAndUsed) {
+    PictureGoal goal;
+    goal.pictures_bytes = 4000;
+    const auto encoded = encode(goal);
+    ASSERT_TRUE(encoded.ok()) << encoded.error().message;
+    EXPECT_LE(coded_bytes(encoded->coded), 4000U);
+    EXPECT_GE(coded_bytes(encoded->coded), 3000U);
+}
+
+TEST_F(Goals, WhatCannotBeReachedIsSaid) {
+    PictureGoal goal;
+    goal.pictures_bytes = 100;
+    const auto small = encode(goal);
+    ASSERT_FALSE(small.ok());
+    EXPECT_NE(small.error().message.find("--size"), std::string::npos);
+    goal = {};
+    goal.psnr_db = 59.9;
+    const auto fine = encode(goal);
+    ASSERT_FALSE(fine.ok());
+    EXPECT_NE(fine.error().message.find("--psnr"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rs::encode

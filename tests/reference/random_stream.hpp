@@ -1,0 +1,31 @@
+#pragma once
+// Payloads of CODE and PICT that break no rule but say random things: any bytes of a tile decode to some samples.
+
+#include "rayspace/codec/coded_pictures.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rs::reference {
+
+struct Stream {
+    int width = 0;  // px
+    int height = 0;
+    std::vector<std::uint8_t> code;
+    std::vector<std::vector<std::uint8_t>> picts;  // [view]
+};
+
+// The same seed gives the same stream. 2 .. 5 views of at most 96 x 96, or 420 x 32 or 32 x 420.
+[[nodiscard]] Stream random_stream(std::uint64_t seed);
+
+// The library's parsers on the stream; "" or their message. All pictures are loaded then.
+[[nodiscard]] std::string parse_stream(const Stream& stream, codec::CodedPictures& coded);
+
+inline std::span<const std::byte> as_payload(const std::vector<std::uint8_t>& bytes) {
+    return std::as_bytes(std::span(bytes));
+}
+
+}  // namespace rs::reference

@@ -1,0 +1,47 @@
+#pragma once
+// FORMAT.md, "CODE" and "PICT, Coding 1": the fields of the two chunks and everything that must be rejected.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rs::reference {
+
+using Bytes = std::span<const std::uint8_t>;
+
+inline constexpr int kContexts = 1447;
+inline constexpr int kNoView = 65535;
+
+struct Vector {
+    int x = 0, y = 0;  // quarters of a sample
+};
+
+struct Code {
+    int tile_width = 0;  // px
+    int tile_height = 0;
+    int alpha_bits = 0;
+    int u_offset = 0;
+    int v_offset = 0;
+    std::vector<int> level;                  // per view
+    std::array<int, kContexts> probability;  // in 256ths, of a 0
+};
+
+struct Pict {
+    int step = 0;
+    std::array<int, 2> reference = {kNoView, kNoView};  // a, b
+    std::array<Vector, 2> usual;
+    std::vector<std::optional<Bytes>> tiles;  // nothing: not present; points into the payload
+};
+
+inline int ceil_div(int a, int b) {
+    return (a + b - 1) / b;
+}
+
+// Both return the rule that the payload breaks; "" where it breaks none.
+[[nodiscard]] std::string read_code(Bytes payload, int views, Code& code);
+[[nodiscard]] std::string read_pict(Bytes payload, int width, int height, int view, const Code& code, Pict& pict);
+
+}  // namespace rs::reference
