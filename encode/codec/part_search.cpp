@@ -103,7 +103,7 @@ void PartSearch::code_alpha(Coder& coder, const Part& part, const PartChoice& ch
 }
 
 void PartSearch::write(const Part& part, PartChoice& choice, Recorder& recorder) const {
-    const codec::PartSurroundings around{task_.head.references(), task_.code->alpha_bits, task_.head.usual_motion};
+    const codec::PartSurroundings around{task_.head.references(), task_.head.usual_motion};
     codec::code_prediction(recorder, state_.grid, part, around, choice);
     code_alpha(recorder, part, choice);
     codec::code_coefficients(recorder, state_.grid, part, choice);
@@ -119,10 +119,10 @@ void PartSearch::commit(const Part& part, const PartChoice& choice) const {
     }
 }
 
-// `choice` has its prediction; finds coefficients. The result is kNever-like as soon as it cannot be below `best`.
+// `choice` has its prediction; finds coefficients. kNever as soon as it cannot be below `best`.
 float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) const {
     const PartPlace place = place_of(part);
-    const codec::PartSurroundings around{task_.head.references(), task_.code->alpha_bits, task_.head.usual_motion};
+    const codec::PartSurroundings around{task_.head.references(), task_.head.usual_motion};
     Estimator head_bits(costs_);
     codec::code_prediction(head_bits, state_.grid, part, around, choice);
     code_alpha(head_bits, part, choice);

@@ -2,7 +2,6 @@
 // The pictures of an object as its file holds them: a part that all share, and per picture a head and tiles. A tile can
 // be decoded without the others of its picture; encode/FORMAT.md, section "Coded pictures".
 
-#include "rayspace/codec/board_code.hpp"
 #include "rayspace/codec/dense_code.hpp"
 
 #include <cstddef>
@@ -14,7 +13,6 @@ namespace rs::codec {
 
 enum class Profile : std::uint8_t {
     kDense = 1,  // best rate; entropy-coded tiles
-    kBoard = 2,  // fixed-length records, table look-ups only
 };
 
 // Where a tile's bytes stand among its picture's. A tile that is not present shows nothing.
@@ -41,8 +39,7 @@ struct CodedPictures {
     int height = 0;
     int tile_width_log2 = 5;   // kMinTileLog2 .. kMaxTileLog2
     int tile_height_log2 = 5;  // the same
-    DenseCode dense;           // of the profile that it is
-    BoardCode board;
+    DenseCode dense;
     std::vector<std::uint8_t> levels;    // [view]: progressive level, 0 .. 3; a picture is predicted from lower ones
     std::vector<CodedPicture> pictures;  // [view]
 

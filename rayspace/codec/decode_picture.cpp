@@ -1,7 +1,5 @@
 #include "rayspace/codec/decode_picture.hpp"
 
-#include "rayspace/check.hpp"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -26,7 +24,6 @@ void decode_tile(const CodedPictures& coded, std::size_t view, std::size_t tile,
     if (!picture.tiles[tile].present) {
         clear_tile(place, out);
     } else {
-        RS_CHECK(coded.profile == Profile::kDense);
         decode_dense_tile(coded.dense, picture.head, picture.tile_bytes(tile), place, references, listener, out);
     }
 }

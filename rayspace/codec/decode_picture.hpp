@@ -1,5 +1,5 @@
 #pragma once
-// Tiles and whole pictures of either profile.
+// Tiles and whole pictures.
 
 #include "rayspace/codec/coded_pictures.hpp"
 #include "rayspace/codec/dense_tile.hpp"

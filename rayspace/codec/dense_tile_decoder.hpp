@@ -27,7 +27,7 @@ public:
           references_(references),
           listener_(listener),
           out_(out),
-          around_{head.references(), code.alpha_bits, head.usual_motion} {}
+          around_{head.references(), head.usual_motion} {}
 
     void decode() {
         for (int y = 0; y < place_.height; y += kMacroblock) {

@@ -52,7 +52,8 @@ struct PartChoice {
     [[nodiscard]] int transforms(int part_size) const { return part_size == kMacroblock && small_transforms ? 4 : 1; }
 };
 
-// The samples of the tile's predictors: predicted alpha level of sample (x, y) of the tile, -1 where there is none.
+// A mixed block's alpha. predicted(x, y): the level that the references show for sample (x, y) of the tile, -1 where
+// there are none.
 template <class Coder, class Predicted>
 void code_block_alpha(Coder& coder, AlphaLevels& alpha, int bits, int bx, int by, const Predicted& predicted) {
     for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
@@ -93,7 +94,6 @@ bool code_macroblock_alpha(Coder& coder, TileGrid& grid, int bx, int by) {
 
 struct PartSurroundings {
     int references = 0;
-    int alpha_bits = 1;
     std::array<MotionVector, 2> usual_motion;
 };
 
