@@ -20,19 +20,11 @@ using codec::CodedPictures;
 using codec::MotionVector;
 
 struct WorkPicture {
-    std::array<Image<std::uint8_t>, 4> shown;
+    codec::Planes shown;
     std::vector<std::vector<Decision>> decisions;  // [tile]
     std::array<int, 2> reach = {0, 0};
     std::array<std::vector<std::vector<MotionVector>>, 2> motions;  // [reference][tile]
 };
-
-codec::PlaneViews views_of(std::array<Image<std::uint8_t>, 4>& planes) {
-    return {planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
-}
-
-codec::ConstPlaneViews const_views_of(const std::array<Image<std::uint8_t>, 4>& planes) {
-    return {planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
-}
 
 std::int16_t median(std::vector<std::int16_t> values) {
     if (values.empty()) return 0;
@@ -73,7 +65,9 @@ public:
             const CostTable costs(coded_.dense.probabilities);
             for (int level = 0; level < kProgressiveLevels; ++level) encode_level(level, costs);
             train();
-            for (std::size_t v = 0; v < work_.size(); ++v) set_usual_motion(v, pass);
+            // The usual vectors go with the pass that they were used in: after the last one they must stay.
+            if (pass + 1 == settings_.passes) break;
+            for (std::size_t v = 0; v < work_.size(); ++v) set_usual_motion(v);
         }
         write_tiles();
         if (progress_ != nullptr) progress_->finish();
@@ -162,9 +156,9 @@ private:
             task.reach = work_[v].reach;
             const float step = static_cast<float>(codec::step_q4(task.head.step)) / 16.0F;
             task.lambda = settings_.lambda_factor * kPlaneWeights[0] * step * step;
-            task.out = views_of(work_[v].shown);
+            task.out = codec::views_of(work_[v].shown);
             for (std::size_t r = 0; r < static_cast<std::size_t>(task.head.references()); ++r) {
-                task.references[r] = const_views_of(work_[task.head.reference[r]].shown);
+                task.references[r] = codec::views_of(std::as_const(work_[task.head.reference[r]].shown));
             }
             for (std::size_t t = 0; t < coded_.pictures[v].tiles.size(); ++t) jobs.emplace_back(v, t);
         }
@@ -176,16 +170,14 @@ private:
             } else {
                 work_[v].decisions[t].clear();
                 std::array<std::vector<MotionVector>, 2> motions;
-                encode_tile(tasks[v], costs, place, work_[v].decisions[t], &motions);
+                encode_tile(tasks[v], costs, place, work_[v].decisions[t], motions);
                 for (std::size_t r = 0; r < 2; ++r) work_[v].motions[r][t] = std::move(motions[r]);
             }
             if (progress_ != nullptr && t + 1 == coded_.pictures[v].tiles.size()) progress_->advance();
         });
     }
 
-    // The usual vector goes with the pass that it was used in: after the last one it must stay.
-    void set_usual_motion(std::size_t v, int pass) {
-        if (pass + 1 >= settings_.passes) return;
+    void set_usual_motion(std::size_t v) {
         for (std::size_t r = 0; r < 2; ++r) {
             std::vector<std::int16_t> x;
             std::vector<std::int16_t> y;

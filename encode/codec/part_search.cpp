@@ -84,9 +84,7 @@ bool code_transform(const TransformTarget& target, const QuantiserSettings& sett
 }  // namespace
 
 PartPlace PartSearch::place_of(const Part& part) const {
-    return {left_ + part.bx * kBlock, top_ + part.by * kBlock, part.size,
-            state_.grid.at(part.bx - 1, part.by).source != Source::kNone,
-            state_.grid.at(part.bx, part.by - 1).source != Source::kNone};
+    return codec::place_of_part(state_.grid, part, left_, top_);
 }
 
 template <class Coder>
@@ -111,12 +109,7 @@ void PartSearch::write(const Part& part, PartChoice& choice, Recorder& recorder)
 
 void PartSearch::commit(const Part& part, const PartChoice& choice) const {
     codec::reconstruct_part(choice, place_of(part), task_.head.step, *task_.code, task_.references, task_.out);
-    for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
-        codec::BlockInfo& info = state_.grid.at(part.bx + (i & (part.blocks() - 1)), part.by + i / part.blocks());
-        info.source = choice.source;
-        info.coded = choice.coded;
-        info.motion = choice.motion;
-    }
+    codec::enter_part(state_.grid, part, choice);
 }
 
 // `choice` has its prediction; finds coefficients. kNever as soon as it cannot be below `best`.
@@ -173,7 +166,7 @@ float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) con
         float error = 0;
         for (int plane = 0; plane < codec::kPlanes; ++plane) {
             const auto p = static_cast<std::size_t>(plane);
-            const int kind = (plane == 0 ? 0 : 4) + (size == kMacroblock ? 2 : 0) + (inter ? 1 : 0);
+            const int kind = codec::syntax::block_kind(plane, size, inter);
             const QuantiserSettings settings{size, kind, task_.code->plane_step(task_.head.step, plane),
                                              kPlaneWeights[p], task_.lambda};
             for (std::size_t t = 0; t < static_cast<std::size_t>(trial.transforms(part.size)); ++t) {

@@ -19,7 +19,7 @@ using codec::PartChoice;
 class TileEncoder {
 public:
     TileEncoder(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
-                std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>* motions)
+                std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions)
         : task_(task),
           costs_(costs),
           place_(place),
@@ -119,9 +119,8 @@ private:
     void put(const PartSearch& search, const Part& part, PartChoice& choice) {
         search.write(part, choice, recorder_);
         search.commit(part, choice);
-        if (motions_ == nullptr) return;
         for (std::size_t r = 0; r < 2; ++r) {
-            if (uses(choice.source, static_cast<int>(r))) (*motions_)[r].push_back(choice.motion[r]);
+            if (uses(choice.source, static_cast<int>(r))) motions_[r].push_back(choice.motion[r]);
         }
     }
 
@@ -131,7 +130,7 @@ private:
     int left_;
     int top_;
     Recorder recorder_;
-    std::array<std::vector<codec::MotionVector>, 2>* motions_;
+    std::array<std::vector<codec::MotionVector>, 2>& motions_;
     TileState state_;
     std::array<std::array<AlphaClass, 8>, 8> classes_{};
     // Of the four quarters, and of the whole.
@@ -143,7 +142,7 @@ private:
 }  // namespace
 
 void encode_tile(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
-                 std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>* motions) {
+                 std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions) {
     TileEncoder(task, costs, place, decisions, motions).encode();
 }
 

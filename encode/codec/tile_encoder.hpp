@@ -22,8 +22,8 @@ struct PictureTask {
 };
 
 // Encodes the tile at `place`, which must have a sample that matters; appends its decisions. Appends the vectors
-// used, per reference, to `motions` where that is not null.
+// used, per reference, to `motions`.
 void encode_tile(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
-                 std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>* motions);
+                 std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions);
 
 }  // namespace rs::encode

@@ -4,9 +4,6 @@
 #include "rayspace/codec/coded_chunks.hpp"
 #include "rayspace/codec/decode_picture.hpp"
 #include "rayspace/codec/dense_tile_decoder.hpp"
-#include "rayspace/ray_space_object.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <array>
 #include <cmath>
@@ -75,43 +72,18 @@ private:
 }  // namespace
 
 std::vector<AccountEntry> account_bytes(const CodedPictures& coded) {
-    // The pictures themselves, for what is read depends on them.
-    RaySpaceObject object;
-    object.width = coded.width;
-    object.height = coded.height;
-    object.pictures.resize(coded.pictures.size());
-    using Planes = std::array<Image<std::uint8_t>, 4>;
-    std::vector<Planes> decoded(coded.pictures.size());
-    for (Planes& planes : decoded) {
-        for (auto& plane : planes) plane = Image<std::uint8_t>(coded.coded_width(), coded.coded_height());
-    }
     Bits sum{};
     std::mutex mutex;
-    for (int level = 0; level < kProgressiveLevels; ++level) {
-        tbb::parallel_for(std::size_t{0}, decoded.size(), [&](std::size_t v) {
-            const CodedPicture& picture = coded.pictures[v];
-            if (coded.levels[v] != level) return;
-            Bits bits{};
-            const PlaneViews out = {decoded[v][0].view(), decoded[v][1].view(), decoded[v][2].view(),
-                                    decoded[v][3].view()};
-            std::array<ConstPlaneViews, 2> references;
-            for (std::size_t r = 0; r < static_cast<std::size_t>(picture.head.references()); ++r) {
-                const Planes& from = decoded[picture.head.reference[r]];
-                references[r] = {from[0].view(), from[1].view(), from[2].view(), from[3].view()};
-            }
-            for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
-                const TilePlace place = place_of_tile(coded, t);
-                if (!picture.tiles[t].present) {
-                    clear_tile(place, out);
-                    continue;
-                }
-                CountingReader reader(picture.tile_bytes(t), coded.dense, bits);
-                DenseTileDecoder(reader, coded.dense, picture.head, place, references, nullptr, out).decode();
-            }
-            const std::lock_guard lock(mutex);
-            for (std::size_t p = 0; p < kPurposes; ++p) sum[p] += bits[p];
-        });
-    }
+    decode_planes(coded, [&](std::size_t view, std::size_t tile, const auto& references, const PlaneViews& out) {
+        const CodedPicture& picture = coded.pictures[view];
+        if (!picture.tiles[tile].present) return decode_tile(coded, view, tile, references, nullptr, out);
+        Bits bits{};
+        CountingReader reader(picture.tile_bytes(tile), coded.dense, bits);
+        DenseTileDecoder(reader, coded.dense, picture.head, place_of_tile(coded, tile), references, nullptr, out)
+            .decode();
+        const std::lock_guard lock(mutex);
+        for (std::size_t p = 0; p < kPurposes; ++p) sum[p] += bits[p];
+    });
     std::vector<AccountEntry> entries;
     double accounted = 0;
     double tiles = 0;

@@ -28,25 +28,29 @@ void decode_tile(const CodedPictures& coded, std::size_t view, std::size_t tile,
     }
 }
 
-void decode_pictures(RaySpaceObject& object) {
-    const CodedPictures& coded = *object.coded;
-    using Planes = std::array<Image<std::uint8_t>, 4>;
+std::vector<Planes> decode_planes(const CodedPictures& coded, const DecodeTile& decode) {
     std::vector<Planes> decoded(coded.pictures.size());
     for (int level = 0; level < kProgressiveLevels; ++level) {
         tbb::parallel_for(std::size_t{0}, decoded.size(), [&](std::size_t v) {
             const CodedPicture& picture = coded.pictures[v];
             if (coded.levels[v] != level || !picture.loaded()) return;
-            Planes& planes = decoded[v];
-            for (auto& plane : planes) plane = Image<std::uint8_t>(coded.coded_width(), coded.coded_height());
-            const PlaneViews out = {planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
+            for (auto& plane : decoded[v]) plane = Image<std::uint8_t>(coded.coded_width(), coded.coded_height());
             std::array<ConstPlaneViews, 2> references;
             for (std::size_t r = 0; r < static_cast<std::size_t>(picture.head.references()); ++r) {
-                const Planes& from = decoded[picture.head.reference[r]];
-                references[r] = {from[0].view(), from[1].view(), from[2].view(), from[3].view()};
+                references[r] = views_of(std::as_const(decoded[picture.head.reference[r]]));
             }
-            for (std::size_t t = 0; t < picture.tiles.size(); ++t) decode_tile(coded, v, t, references, nullptr, out);
+            for (std::size_t t = 0; t < picture.tiles.size(); ++t) decode(v, t, references, views_of(decoded[v]));
         });
     }
+    return decoded;
+}
+
+void decode_pictures(RaySpaceObject& object) {
+    const CodedPictures& coded = *object.coded;
+    std::vector<Planes> decoded =
+        decode_planes(coded, [&](std::size_t view, std::size_t tile, const auto& references, const PlaneViews& out) {
+            decode_tile(coded, view, tile, references, nullptr, out);
+        });
     tbb::parallel_for(std::size_t{0}, decoded.size(), [&](std::size_t v) {
         if (decoded[v][0].empty()) return;
         PlanarPicture& picture = object.pictures[v];

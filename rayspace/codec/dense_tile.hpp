@@ -16,6 +16,14 @@ namespace rs::codec {
 // to a multiple of 16).
 using PlaneViews = std::array<ImageView<std::uint8_t>, 4>;
 using ConstPlaneViews = std::array<ConstImageView<std::uint8_t>, 4>;
+using Planes = std::array<Image<std::uint8_t>, 4>;
+
+inline PlaneViews views_of(Planes& planes) {
+    return {planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
+}
+inline ConstPlaneViews views_of(const Planes& planes) {
+    return {planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
+}
 
 // Told before samples of a picture that predicts are read: the rectangle [left, right) x [top, bottom), clamped to the
 // coded size.

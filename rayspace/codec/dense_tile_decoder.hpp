@@ -63,17 +63,10 @@ private:
         if (listener_ != nullptr) announce(part, choice);
         alpha(part, choice);
         code_coefficients(reader_, grid_, part, choice);
-        const PartPlace place{left_ + part.bx * kBlock, top_ + part.by * kBlock, part.size,
-                              grid_.at(part.bx - 1, part.by).source != Source::kNone,
-                              grid_.at(part.bx, part.by - 1).source != Source::kNone};
+        const PartPlace place = place_of_part(grid_, part, left_, top_);
         reconstruct_part(choice, place, head_.step, code_, references_, out_);
         if (choice.coded) forget_levels(part, choice);
-        for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
-            BlockInfo& info = grid_.at(part.bx + (i & (part.blocks() - 1)), part.by + i / part.blocks());
-            info.source = choice.source;
-            info.coded = choice.coded;
-            info.motion = choice.motion;
-        }
+        enter_part(grid_, part, choice);
     }
 
     void announce(const Part& part, const PartChoice& choice) {

@@ -131,7 +131,7 @@ void code_coefficients(Coder& coder, const TileGrid& grid, const Part& part, Par
     const int large = size == kMacroblock ? 1 : 0;
     int before = 0;
     for (std::size_t plane = 0; plane < kPlanes; ++plane) {
-        const int kind = (plane == 0 ? 0 : 4) + 2 * large + inter;
+        const int kind = syntax::block_kind(static_cast<int>(plane), size, inter != 0);
         const int at = context::kPlaneCoded + 2 * (4 * static_cast<int>(plane) + 2 * large + inter);
         for (std::size_t t = 0; t < static_cast<std::size_t>(choice.transforms(part.size)); ++t) {
             bool& has = choice.plane_coded[plane][t];

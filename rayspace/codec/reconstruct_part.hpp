@@ -18,6 +18,22 @@ struct PartPlace {
     bool has_above = false;
 };
 
+inline PartPlace place_of_part(const TileGrid& grid, const Part& part, int tile_left, int tile_top) {
+    return {tile_left + part.bx * kBlock, tile_top + part.by * kBlock, part.size,
+            grid.at(part.bx - 1, part.by).source != Source::kNone,
+            grid.at(part.bx, part.by - 1).source != Source::kNone};
+}
+
+// What the blocks of a part that is done tell those that come after.
+inline void enter_part(TileGrid& grid, const Part& part, const PartChoice& choice) {
+    for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
+        BlockInfo& info = grid.at(part.bx + (i & (part.blocks() - 1)), part.by + i / part.blocks());
+        info.source = choice.source;
+        info.coded = choice.coded;
+        info.motion = choice.motion;
+    }
+}
+
 // The alpha level that the predicting pictures show at sample (x, y); -1 where the part has none.
 int predicted_alpha(const PartChoice& choice, const std::array<ConstPlaneViews, 2>& references, int x, int y,
                     int alpha_bits);

@@ -123,6 +123,11 @@ inline int near_sum(const Levels& levels, int u, int v) {
     return std::min((sum + 1) >> 1, context::kNearSums - 1);
 }
 
+// The kind of coefficient block, as in contexts.hpp.
+constexpr int block_kind(int plane, int transform_size, bool inter) {
+    return (plane == 0 ? 0 : 4) + 2 * size_index(transform_size) + (inter ? 1 : 0);
+}
+
 constexpr int band_of(int diagonal, int size) {
     if (diagonal == 0) return 0;
     const int d = size == 8 ? diagonal : (diagonal + 1) / 2;
