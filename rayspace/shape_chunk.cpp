@@ -3,8 +3,7 @@
 #include "rayspace/byte_stream.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/shape_coding.hpp"
-
-#include <zstd.h>
+#include "rayspace/zstd_frame.hpp"
 
 #include <numeric>
 #include <string>
@@ -21,48 +20,6 @@ constexpr std::uint8_t kZstdCoding = 0;
 constexpr std::size_t kReserved_bytes = 3;
 constexpr std::size_t kFixed_bytes = 64;
 constexpr std::size_t kNormalLine_bytes = 16;
-constexpr int kCompressionLevel = 19;  // above it libzstd asks decoders for larger windows
-
-// A plane of no bytes is no frame either.
-Payload compressed(const Plane& plane) {
-    if (plane.empty()) return {};
-    Payload frame(ZSTD_compressBound(plane.size()));
-    const std::size_t size = ZSTD_compress(frame.data(), frame.size(), plane.data(), plane.size(), kCompressionLevel);
-    RS_CHECK(!ZSTD_isError(size));  // it cannot lack room
-    frame.resize(size);
-    return frame;
-}
-
-// `frame` must be one whole Zstandard frame that states `size_bytes`. libzstd would also take several frames, skippable
-// ones and those of versions before the format was settled.
-Status check_frame(std::span<const std::byte> frame, std::uint64_t size_bytes, const char* what) {
-    if (size_bytes == 0 && frame.empty()) return {};
-    ByteReader start(frame);
-    if (start.get<std::uint32_t>() != ZSTD_MAGICNUMBER || size_bytes == 0) {
-        return Error{std::string(what) + " are no Zstandard frame"};
-    }
-    const unsigned long long stated_bytes = ZSTD_getFrameContentSize(frame.data(), frame.size());
-    if (stated_bytes != size_bytes) {
-        return Error{std::string(what) + " do not state the " + std::to_string(size_bytes) +
-                     " bytes that they must expand to"};
-    }
-    if (ZSTD_findFrameCompressedSize(frame.data(), frame.size()) != frame.size()) {
-        return Error{std::string(what) + " are not one whole Zstandard frame"};
-    }
-    return {};
-}
-
-// The frame has passed check_frame(): no more than size_bytes are written or allocated.
-Status decompress(std::span<const std::byte> frame, std::uint64_t size_bytes, const char* what, Plane& plane) {
-    plane.resize(static_cast<std::size_t>(size_bytes));
-    if (plane.empty()) return {};
-    const std::size_t written = ZSTD_decompress(plane.data(), plane.size(), frame.data(), frame.size());
-    if (ZSTD_isError(written)) {
-        return Error{std::string(what) + " cannot be decompressed: " + ZSTD_getErrorName(written)};
-    }
-    if (written != plane.size()) return Error{std::string(what) + " expand to too few bytes"};
-    return {};
-}
 
 constexpr const char* kRaysName = "its rays";
 constexpr std::array<const char*, kDepths.size()> kDepthNames = {"its depths of layer 0", "its depths of layer 1",
@@ -127,10 +84,10 @@ Status check_counts(const CodedShapeCells& coded) {
 Payload shape_payload(const Ring& ring) {
     const ShapeMap& shape = ring.shape;
     RS_CHECK(!shape.empty());
-    const Payload rays = compressed(shape_coding::rays_plane(shape));
+    const Payload rays = zstd_frame(shape_coding::rays_plane(shape));
     std::array<Payload, kDepths.size()> depths;
     for (std::size_t i = 0; i < kDepths.size(); ++i) {
-        depths[i] = compressed(shape_coding::residual_plane(shape, kDepths[i]));
+        depths[i] = zstd_frame(shape_coding::residual_plane(shape, kDepths[i]));
     }
     ByteWriter out;
     out.put(kZstdCoding);
@@ -200,10 +157,10 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
     if (Status status = check_counts(coded); !status) return status.error();
     coded.rays = in.take(rays_bytes);
     const std::uint64_t rays_plane_bytes = shape_coding::rays_plane_bytes(coded.cells);
-    if (Status status = check_frame(coded.rays, rays_plane_bytes, kRaysName); !status) return status.error();
+    if (Status status = check_zstd_frame(coded.rays, rays_plane_bytes, kRaysName); !status) return status.error();
     for (std::size_t i = 0; i < kDepths.size(); ++i) {
         coded.depths[i] = in.take(depths_bytes[i]);
-        const Status status = check_frame(coded.depths[i], coded.cells_with[i], kDepthNames[i]);
+        const Status status = check_zstd_frame(coded.depths[i], coded.cells_with[i], kDepthNames[i]);
         if (!status) return status.error();
     }
     return coded;
@@ -213,7 +170,7 @@ Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
     shape.cells.assign(static_cast<std::size_t>(coded.cells), ShapeCell{});
     Plane plane;  // one at a time
     const std::uint64_t rays_plane_bytes = shape_coding::rays_plane_bytes(shape.cells.size());
-    if (Status status = decompress(coded.rays, rays_plane_bytes, kRaysName, plane); !status) return status;
+    if (Status status = expand_zstd_frame(coded.rays, rays_plane_bytes, kRaysName, plane); !status) return status;
     if (Status status = shape_coding::put_rays(plane, shape); !status) return status;
     for (std::size_t i = 0; i < kDepths.size(); ++i) {
         const std::uint64_t cells = coded.cells_with[i];
@@ -222,7 +179,7 @@ Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
             return Error{"claims " + std::to_string(cells) + " cells with layer " + std::to_string(i) +
                          ", but its rays show " + std::to_string(found)};
         }
-        if (Status status = decompress(coded.depths[i], cells, kDepthNames[i], plane); !status) return status;
+        if (Status status = expand_zstd_frame(coded.depths[i], cells, kDepthNames[i], plane); !status) return status;
         shape_coding::put_residuals(plane, kDepths[i], shape);
     }
     return {};

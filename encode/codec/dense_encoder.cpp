@@ -2,15 +2,16 @@
 
 #include "encode/codec/bool_encoder.hpp"
 #include "encode/codec/coders.hpp"
+#include "encode/codec/fidelity.hpp"
 #include "encode/codec/source_picture.hpp"
 #include "encode/codec/tile_encoder.hpp"
 #include "rayspace/codec/decode_picture.hpp"
-#include "rayspace/yuv.hpp"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rs::encode {
 namespace {
@@ -71,7 +72,9 @@ public:
         }
         write_tiles();
         if (progress_ != nullptr) progress_->finish();
-        const double psnr_db = measure();
+        const double psnr_db =
+            coded_psnr(sources_, object_.width, object_.height, settings_.alpha_bits,
+                       [&](std::size_t v) { return codec::views_of(std::as_const(work_[v].shown)); });
         return {std::move(coded_), psnr_db};
     }
 
@@ -205,33 +208,6 @@ private:
             coded_.dense.probabilities[c] =
                 static_cast<std::uint16_t>(16 * std::clamp(std::lround(zero * 256), 1L, 255L));
         }
-    }
-
-    // Integer sums: the same on any number of threads.
-    [[nodiscard]] double measure() const {
-        std::vector<std::array<std::int64_t, 2>> sums(work_.size());  // squared error, samples
-        tbb::parallel_for(std::size_t{0}, work_.size(), [&](std::size_t v) {
-            const SourcePicture& source = sources_[v];
-            const auto& shown = work_[v].shown;
-            for (int y = 0; y < object_.height; ++y) {
-                for (int x = 0; x < object_.width; ++x) {
-                    if (shown[3](x, y) < 128) continue;
-                    const Rgba8 a =
-                        rgba_from_yuva(source.planes[0](x, y), source.planes[1](x, y), source.planes[2](x, y), 255);
-                    const Rgba8 b = rgba_from_yuva(shown[0](x, y), shown[1](x, y), shown[2](x, y), 255);
-                    const auto square = [](int off) { return off * off; };
-                    sums[v][0] += square(a.r - b.r) + square(a.g - b.g) + square(a.b - b.b);
-                    sums[v][1] += 3;
-                }
-            }
-        });
-        double error = 0;
-        double samples = 0;
-        for (const auto& sum : sums) {
-            error += static_cast<double>(sum[0]);
-            samples += static_cast<double>(sum[1]);
-        }
-        return 10 * std::log10(255.0 * 255.0 * std::max(samples, 1.0) / std::max(error, 1e-3));
     }
 
     void write_tiles() {

@@ -3,6 +3,7 @@
 // coded neighbours on the ring; every tile chooses by rate and distortion, and the probabilities are those of the
 // object.
 
+#include "encode/codec/encoded_pictures.hpp"
 #include "encode/codec/source_picture.hpp"
 #include "rayspace/codec/coded_pictures.hpp"
 #include "rayspace/image.hpp"
@@ -24,11 +25,6 @@ struct DenseSettings {
     std::array<int, 4> level_offset = {-3, 0, 1, 2};  // of the step index, by progressive level
     float lambda_factor = 0.12F;
     std::array<int, 2> chroma_offset = {0, 1};
-};
-
-struct EncodedPictures {
-    codec::CodedPictures coded;
-    double psnr_db = 0;  // R, G, B of all samples whose alpha is 128 or more, against the sources
 };
 
 // `sources`: one per view, of settings.alpha_bits. The object gives rings and sizes. The same input gives the same

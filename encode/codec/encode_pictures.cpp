@@ -28,15 +28,21 @@ std::string text_of(double value) {
 // Finds the coarsest step that reaches a fidelity, or the finest one that keeps to a size.
 class GoalSearch {
 public:
-    GoalSearch(const RaySpaceObject& object, const std::vector<SourcePicture>& sources, int alpha_bits,
-               Progress* progress)
-        : object_(object), sources_(sources), progress_(progress) {
-        settings_.alpha_bits = alpha_bits;
-    }
+    GoalSearch(const RaySpaceObject& object, const std::vector<SourcePicture>& sources, codec::Profile profile,
+               int alpha_bits, Progress* progress)
+        : object_(object), sources_(sources), profile_(profile), alpha_bits_(alpha_bits), progress_(progress) {}
 
     EncodedPictures at_step(double step) {
-        settings_.step = step;
-        return encode_dense(object_, sources_, settings_, progress_);
+        if (profile_ == codec::Profile::kBoard) {
+            BoardSettings settings;
+            settings.step = step;
+            settings.alpha_bits = alpha_bits_;
+            return encode_board(object_, sources_, settings, progress_);
+        }
+        DenseSettings settings;
+        settings.step = step;
+        settings.alpha_bits = alpha_bits_;
+        return encode_dense(object_, sources_, settings, progress_);
     }
 
     Result<EncodedPictures> for_psnr(double psnr_db) {
@@ -46,7 +52,8 @@ public:
         Result<EncodedPictures> best = search(reached, off);
         if (best) return best;
         return Error{"--psnr " + text_of(psnr_db) + ": the finest quantiser reaches " + text_of(reached_db_) +
-                     " dB; ask for that or less, or give --profile raw"};
+                     " dB; ask for that or less, or give --profile " +
+                     (profile_ == codec::Profile::kBoard ? "dense" : "raw")};
     }
 
     Result<EncodedPictures> for_size(std::uint64_t bytes) {
@@ -104,8 +111,9 @@ private:
 
     const RaySpaceObject& object_;
     const std::vector<SourcePicture>& sources_;
+    codec::Profile profile_;
+    int alpha_bits_;
     Progress* progress_;
-    DenseSettings settings_;
     std::map<int, EncodedPictures> tried_;
     double reached_db_ = 0;
     int found_ = 0;
@@ -134,7 +142,7 @@ Result<EncodedPictures> encode_pictures(const CaptureSet& set, const RaySpaceObj
             return {};
         });
     if (!read) return read.error();
-    GoalSearch search(object, sources, alpha_bits, progress);
+    GoalSearch search(object, sources, goal.profile, alpha_bits, progress);
     if (goal.pictures_bytes) return search.for_size(*goal.pictures_bytes);
     if (goal.psnr_db) return search.for_psnr(*goal.psnr_db);
     return search.at_step(step_of_quality(goal.quality));

@@ -2,6 +2,7 @@
 // From a capture set's pictures to coded pictures of a wanted quality, fidelity or size.
 
 #include "encode/capture_set.hpp"
+#include "encode/codec/board_encoder.hpp"
 #include "encode/codec/dense_encoder.hpp"
 #include "rayspace/progress.hpp"
 #include "rayspace/ray_space_object.hpp"
@@ -12,8 +13,9 @@
 
 namespace rs::encode {
 
-// One of the three is followed, the first that is given.
+// Of bytes, fidelity and quality one is followed, the first that is given.
 struct PictureGoal {
+    codec::Profile profile = codec::Profile::kDense;
     std::optional<std::uint64_t> pictures_bytes;  // at most: chunks CODE and PICT together
     std::optional<double> psnr_db;                // at least, of EncodedPictures::psnr_db
     double quality = 75;                          // kMinQuality .. kMaxQuality
@@ -21,7 +23,7 @@ struct PictureGoal {
 inline constexpr double kMinQuality = 1;
 inline constexpr double kMaxQuality = 100;
 
-// 100: a step of 2; twice that for every 14 less.
+// 100: a step of 2; twice that for every 14 less. What it means to a board object: board_encoder.hpp.
 double step_of_quality(double quality);
 
 // Encodes the pictures of `set`, of which `object` (views, rings, size) was built; alpha in `alpha_bits` bits. For a

@@ -100,8 +100,10 @@ private:
 FoundMotion find_motion(const MotionSearch& search, std::span<const MotionVector> starts, MotionVector from,
                         const std::uint8_t* other) {
     Searcher searcher(search, from, other);
-    for (const MotionVector start : starts) searcher.try_exact(start);
-    searcher.try_exact(from);
+    if (search.fractions) {
+        for (const MotionVector start : starts) searcher.try_exact(start);
+        searcher.try_exact(from);
+    }
     for (const MotionVector start : starts) {
         const int x = (start.x + 2) >> 2;
         const int y = (start.y + 2) >> 2;
@@ -109,6 +111,7 @@ FoundMotion find_motion(const MotionSearch& search, std::span<const MotionVector
             for (int dx = -search.reach_x; dx <= search.reach_x; ++dx) searcher.try_whole(x + dx, y + dy);
         }
     }
+    if (!search.fractions) return searcher.best();
     for (const int step : {2, 1}) {
         const MotionVector centre = searcher.best().vector;
         for (int dy = -step; dy <= step; dy += step) {

@@ -16,7 +16,8 @@ struct MotionSearch {
     int size = 16;
     int reach_x = 16;  // whole samples around each start
     int reach_y = 2;
-    float bit_cost = 0;  // sum of absolute differences that a bit of a vector is worth
+    bool fractions = true;  // halves and quarters too, and what lies partly outside of the picture
+    float bit_cost = 0;     // sum of absolute differences that a bit of a vector is worth
 };
 
 struct FoundMotion {
@@ -24,8 +25,9 @@ struct FoundMotion {
     float cost = 0;  // sum of absolute differences of Y over the samples that matter, and the vector's bits
 };
 
-// The best vector around any of `starts`, first in whole samples, then in halves and quarters; `from` is what the
-// vector is coded against. If `other` is not null, the mean of it (size x size samples, Y) and the prediction counts.
+// The best vector around any of `starts`, first in whole samples, then in halves and quarters (if wanted); `from` is
+// what the vector is coded against. If `other` is not null, the mean of it (size x size samples, Y) and the prediction
+// counts.
 FoundMotion find_motion(const MotionSearch& search, std::span<const codec::MotionVector> starts,
                         codec::MotionVector from, const std::uint8_t* other = nullptr);
 

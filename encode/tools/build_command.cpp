@@ -98,7 +98,7 @@ void print_summary(const BuildArguments& arguments, const BuildOptions& options,
         std::cout << json.dump(2) << '\n';
     } else {
         const std::string pictures =
-            summary.psnr_db ? "dense pictures of " + text_of("%.2f dB", *summary.psnr_db) : "raw pictures";
+            arguments.profile.profile + " pictures" + (summary.psnr_db ? text_of(" of %.2f dB", *summary.psnr_db) : "");
         std::printf("%s: %zu views of %dx%d, %s map, %d planes, %s, %.2f MB, %.1f s, peak memory %.0f MB\n",
                     arguments.output.c_str(), object.views.size(), object.width, object.height,
                     to_string(options.raymap).c_str(), options.map.planes, pictures.c_str(),
@@ -119,7 +119,8 @@ std::vector<ReportFact> facts_of(const BuildArguments& arguments, const BuildOpt
                          std::to_string(object.height) + (set.resampled ? ", made upright" : "")},
         {"rings of views", std::to_string(object.rings.size())},
         {"RS map", to_string(options.raymap) + "; " + map},
-        {"stored as", summary.psnr_db ? text_of("dense, %.2f dB over the object's pixels", *summary.psnr_db) : "raw"},
+        {"stored as", arguments.profile.profile +
+                          (summary.psnr_db ? text_of(", %.2f dB over the object's pixels", *summary.psnr_db) : "")},
         {"object radius", text_of("%g units of the set", object.units_per_radius)},
         {"file", text_of("%.2f MB", static_cast<double>(summary.bytes) / 1e6)},
         {"time", text_of("%.1f s", summary.seconds)},
@@ -219,6 +220,7 @@ void add_build_command(CLI::App& app, std::function<Status()>& run) {
     command->footer(
         "Examples:\n  rs-encode build vase-set -o vase.rso --report vase.html\n"
         "  rs-encode build vase-set -o vase.rso --psnr 36\n"
+        "  rs-encode build vase-set -o vase.rso --profile board --raymap plane --size 2M\n"
         "  rs-encode build vase-set -o vase.rso --profile raw --raymap plane --planes 12 --cells 512x512");
     command->callback([arguments, &run] { run = [arguments] { return run_build(*arguments); }; });
 }

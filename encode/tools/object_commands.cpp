@@ -23,6 +23,10 @@ struct ObjectArguments {
     bool json = false;
 };
 
+std::string stored_as(const RaySpaceObject& object) {
+    return object.coded ? codec::name_of(object.coded->profile) : "raw";
+}
+
 Status run_info(const ObjectArguments& arguments) {
     const Result<ContainerReader> container = ContainerReader::open(arguments.object);
     if (!container) return container.error();
@@ -52,7 +56,7 @@ Status run_info(const ObjectArguments& arguments) {
         for (const ChunkSummary& chunk : chunks) {
             json["chunks"].push_back({{"name", chunk.name}, {"count", chunk.count}, {"bytes", chunk.size_bytes}});
         }
-        json["pictures"] = object->coded ? "dense" : "raw";
+        json["pictures"] = stored_as(*object);
         for (const codec::AccountEntry& entry : account) {
             json["pictures_bytes"].push_back({{"name", entry.name}, {"bytes", std::llround(entry.bytes)}});
         }
@@ -60,8 +64,8 @@ Status run_info(const ObjectArguments& arguments) {
         return {};
     }
     std::printf("%s: \"%s\"\n", arguments.object.c_str(), object->name.c_str());
-    std::printf("  pictures   %zu of %dx%d, %s\n", object->views.size(), object->width, object->height,
-                object->coded ? "Y U V and alpha, dense" : "Y U V at 4:2:0 and alpha, uncompressed");
+    std::printf("  pictures   %zu of %dx%d, Y U V %sand alpha, %s\n", object->views.size(), object->width,
+                object->height, object->coded ? "" : "at 4:2:0 ", stored_as(*object).c_str());
     for (const Ring& ring : object->rings) {
         std::printf("  ring       %zu views at elevation %.2f degrees; %d planes, RS map %dx%d (x, u)\n",
                     ring.views.size(), ring.elevation_udeg * 1e-6, ring.planes, ring.x_cells, ring.u_cells);

@@ -34,34 +34,37 @@ std::optional<std::uint64_t> bytes_of(const std::string& text) {
 
 void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
     command
-        .add_option("--profile", arguments.profile,
-                    "how pictures are stored. dense: compressed, any tile of them reachable; raw: uncompressed, with "
-                    "colour at half width and height")
+        .add_option(
+            "--profile", arguments.profile,
+            "how pictures are stored. dense: compressed, any tile of them reachable; board: in records of fixed "
+            "sizes that hardware unpacks by look-ups, larger for the same quality; raw: uncompressed, with "
+            "colour at half width and height")
         ->capture_default_str();
-    CLI::Option* quality =
-        command
-            .add_option("--quality", arguments.quality, "of a dense object's pictures, 1..100; 14 more halve the error")
-            ->capture_default_str();
+    CLI::Option* quality = command
+                               .add_option("--quality", arguments.quality,
+                                           "of compressed pictures, 1..100; 14 more halve a dense object's error")
+                               ->capture_default_str();
     CLI::Option* psnr = command.add_option("--psnr", arguments.psnr_db,
                                            "or: the smallest pictures of at least so many dB over the object's pixels");
     CLI::Option* size = command.add_option(
         "--size", arguments.size, "or: the best pictures that take at most so many bytes together, such as 800k or 2M");
     quality->excludes(psnr)->excludes(size);
     psnr->excludes(size);
-    command.add_option("--alpha-bits", arguments.alpha_bits, "bits of a dense object's alpha, 1..4")
+    command.add_option("--alpha-bits", arguments.alpha_bits, "bits of compressed pictures' alpha, 1..4")
         ->capture_default_str();
 }
 
 Result<std::optional<PictureGoal>> goal_of(const ProfileArguments& arguments) {
     if (arguments.profile == "raw") return std::optional<PictureGoal>();
-    if (arguments.profile != "dense") {
-        return Error{"--profile " + arguments.profile + ": there is no such profile; give dense or raw"};
+    if (arguments.profile != "dense" && arguments.profile != "board") {
+        return Error{"--profile " + arguments.profile + ": there is no such profile; give dense, board or raw"};
     }
     if (arguments.alpha_bits < 1 || arguments.alpha_bits > codec::kMaxAlphaBits) {
         return Error{"--alpha-bits " + std::to_string(arguments.alpha_bits) + ": must be 1.." +
                      std::to_string(codec::kMaxAlphaBits)};
     }
     PictureGoal goal;
+    goal.profile = arguments.profile == "board" ? codec::Profile::kBoard : codec::Profile::kDense;
     goal.quality = arguments.quality;
     goal.psnr_db = arguments.psnr_db;
     if (!(goal.quality >= kMinQuality && goal.quality <= kMaxQuality)) {

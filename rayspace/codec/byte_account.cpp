@@ -1,5 +1,6 @@
 #include "rayspace/codec/byte_account.hpp"
 
+#include "rayspace/codec/board_tile.hpp"
 #include "rayspace/codec/bool_decoder.hpp"
 #include "rayspace/codec/coded_chunks.hpp"
 #include "rayspace/codec/decode_picture.hpp"
@@ -69,9 +70,7 @@ private:
     Bits& bits_;
 };
 
-}  // namespace
-
-std::vector<AccountEntry> account_bytes(const CodedPictures& coded) {
+std::vector<AccountEntry> account_of_tiles(const CodedPictures& coded) {
     Bits sum{};
     std::mutex mutex;
     decode_planes(coded, [&](std::size_t view, std::size_t tile, const auto& references, const PlaneViews& out) {
@@ -85,7 +84,48 @@ std::vector<AccountEntry> account_bytes(const CodedPictures& coded) {
         for (std::size_t p = 0; p < kPurposes; ++p) sum[p] += bits[p];
     });
     std::vector<AccountEntry> entries;
-    double accounted = 0;
+    for (std::size_t p = 0; p < kPurposes; ++p) {
+        entries.push_back({kNames[p], sum[p] / 8});
+    }
+    return entries;
+}
+
+std::vector<AccountEntry> account_of_records(const CodedPictures& coded) {
+    double motion = 0;
+    double colours = 0;
+    double blocks = 0;
+    double quarters = 0;
+    double alpha = 0;
+    double heads = 0;
+    for (const CodedPicture& picture : coded.pictures) {
+        const auto& classes = coded.board.classes[picture.head.references() > 0 ? 1 : 0];
+        for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
+            if (!picture.tiles[t].present) continue;
+            heads += kBoardTileHeadBytes;
+            const std::uint64_t tile_classes = board_tile_classes(picture.tile_bytes(t));
+            for (int b = 0; b < kBoardTileBlocks; ++b) {
+                const auto number = static_cast<std::size_t>((tile_classes >> (3 * b)) & 7U);
+                if (number == 0) continue;
+                (classes[number].predicted ? motion : colours) += classes[number].predicted ? 2 : 3;
+                blocks += classes[number].block_stages;
+                quarters += 4.0 * classes[number].quarter_stages;
+                alpha += classes[number].alpha ? 4 : 0;
+            }
+        }
+    }
+    return {{"motion", motion},
+            {"flat colours", colours},
+            {"indices of whole blocks", blocks},
+            {"indices of quarters", quarters},
+            {"alpha", alpha},
+            {"classes of records", heads}};
+}
+
+}  // namespace
+
+std::vector<AccountEntry> account_bytes(const CodedPictures& coded) {
+    std::vector<AccountEntry> entries =
+        coded.profile == Profile::kBoard ? account_of_records(coded) : account_of_tiles(coded);
     double tiles = 0;
     double whole = 0;
     double of_references = 0;
@@ -95,11 +135,9 @@ std::vector<AccountEntry> account_bytes(const CodedPictures& coded) {
         tiles += static_cast<double>(coded.pictures[v].bytes.size());
         if (coded.levels[v] == 0) of_references += size;
     }
-    for (std::size_t p = 0; p < kPurposes; ++p) {
-        entries.push_back({kNames[p], sum[p] / 8});
-        accounted += sum[p] / 8;
-    }
-    entries.push_back({"tiles' rounding", tiles - accounted});
+    double accounted = 0;
+    for (const AccountEntry& entry : entries) accounted += entry.bytes;
+    entries.push_back({coded.profile == Profile::kBoard ? "padding of records" : "tiles' rounding", tiles - accounted});
     entries.push_back({"offsets and heads", whole - tiles});
     entries.push_back({"(of all these, pictures of level 0)", of_references});
     return entries;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the bytes of dense pictures went: every decision is charged with its information content.
+// Where the bytes of coded pictures went: in dense ones every decision is charged with its information content.
 
 #include "rayspace/codec/coded_pictures.hpp"
 
@@ -14,7 +14,7 @@ struct AccountEntry {
 };
 
 // All pictures of `coded` must be loaded. The entries add up to the pictures' chunks but for their rounding to whole
-// bytes, which is an entry too. Decodes everything once, on the threads of the calling tbb arena.
+// bytes, which is an entry too. Decodes dense pictures once, on the threads of the calling tbb arena.
 std::vector<AccountEntry> account_bytes(const CodedPictures& coded);
 
 }  // namespace rs::codec

@@ -1,6 +1,7 @@
 #include "rayspace/codec/coded_chunks.hpp"
 
 #include "rayspace/byte_stream.hpp"
+#include "rayspace/codec/board_chunk.hpp"
 #include "rayspace/ray_space_object.hpp"
 
 #include <algorithm>
@@ -87,6 +88,20 @@ Status check_references(const CodedPictures& coded, std::size_t view, const Pict
     return {};
 }
 
+// What follows in the chunk CODE of dense pictures, to its end.
+Status take_probabilities(ByteReader& in, DenseCode& dense) {
+    std::vector<bool> listed(dense.probabilities.size());
+    if (!take_bits(in, listed)) return Error{"ends within its list of contexts, or lists some that do not exist"};
+    for (std::size_t c = 0; c < listed.size(); ++c) {
+        const int listed_as = listed[c] ? in.get<std::uint8_t>() : kEven / kProbabilityUnit;
+        if (listed_as == 0)
+            return Error{"gives context " + std::to_string(c) + " a probability of zero, or is too short"};
+        dense.probabilities[c] = static_cast<std::uint16_t>(kProbabilityUnit * listed_as);
+    }
+    if (!in.at_end()) return Error{"goes on behind its last probability"};
+    return {};
+}
+
 }  // namespace
 
 std::vector<std::byte> code_payload(const CodedPictures& coded) {
@@ -94,10 +109,15 @@ std::vector<std::byte> code_payload(const CodedPictures& coded) {
     out.put(static_cast<std::uint8_t>(coded.profile));
     out.put(static_cast<std::uint8_t>(coded.tile_width_log2));
     out.put(static_cast<std::uint8_t>(coded.tile_height_log2));
-    out.put(static_cast<std::uint8_t>(coded.dense.alpha_bits));
-    for (const int offset : coded.dense.chroma_step_offset) out.put(static_cast<std::int8_t>(offset));
+    const bool board = coded.profile == Profile::kBoard;
+    out.put(static_cast<std::uint8_t>(board ? 0 : coded.dense.alpha_bits));
+    for (const int offset : coded.dense.chroma_step_offset) out.put(static_cast<std::int8_t>(board ? 0 : offset));
     out.put_zeros(2);
     out.put(std::span<const std::uint8_t>(coded.levels));
+    if (board) {
+        put_board_code(coded.board, out);
+        return payload_of(out);
+    }
     std::vector<bool> listed(coded.dense.probabilities.size());
     for (std::size_t c = 0; c < listed.size(); ++c) listed[c] = coded.dense.probabilities[c] != kEven;
     put_bits(out, listed);
@@ -117,20 +137,27 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     const bool reserved_is_zero = in.take_zeros(2);
     const auto levels = in.take(views);
     if (!in.ok()) return Error{"is too short"};
-    if (profile != static_cast<std::uint8_t>(Profile::kDense)) {
+    if (profile != static_cast<std::uint8_t>(Profile::kDense) &&
+        profile != static_cast<std::uint8_t>(Profile::kBoard)) {
         return Error{"has profile " + std::to_string(profile) + ", which is not known here; update these tools"};
     }
+    const bool board = profile == static_cast<std::uint8_t>(Profile::kBoard);
     for (const int log2 : {tile_width_log2, tile_height_log2}) {
-        if (log2 < kMinTileLog2 || log2 > kMaxTileLog2) {
-            return out_of_range("the logarithm of a tile's side", log2, kMinTileLog2, kMaxTileLog2);
+        const int lowest = board ? kBoardTileLog2 : kMinTileLog2;
+        const int highest = board ? kBoardTileLog2 : kMaxTileLog2;
+        if (log2 < lowest || log2 > highest) {
+            return out_of_range("the logarithm of a tile's side", log2, lowest, highest);
         }
     }
-    if (alpha_bits < 1 || alpha_bits > kMaxAlphaBits) {
-        return out_of_range("the number of alpha bits", alpha_bits, 1, kMaxAlphaBits);
+    const int fewest_bits = board ? 0 : 1;
+    const int most_bits = board ? 0 : kMaxAlphaBits;
+    if (alpha_bits < fewest_bits || alpha_bits > most_bits) {
+        return out_of_range("the number of alpha bits", alpha_bits, fewest_bits, most_bits);
     }
+    const int largest_offset = board ? 0 : kMaxChromaOffset;
     for (const int offset : coded.dense.chroma_step_offset) {
-        if (std::abs(offset) > kMaxChromaOffset) {
-            return out_of_range("a chroma step's offset", offset, -kMaxChromaOffset, kMaxChromaOffset);
+        if (std::abs(offset) > largest_offset) {
+            return out_of_range("a chroma step's offset", offset, -largest_offset, largest_offset);
         }
     }
     if (!reserved_is_zero) return Error{"has reserved bytes that are not zero"};
@@ -148,15 +175,8 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
                                 kProgressiveLevels - 1);
         }
     }
-    std::vector<bool> listed(coded.dense.probabilities.size());
-    if (!take_bits(in, listed)) return Error{"ends within its list of contexts, or lists some that do not exist"};
-    for (std::size_t c = 0; c < listed.size(); ++c) {
-        const int listed_as = listed[c] ? in.get<std::uint8_t>() : kEven / kProbabilityUnit;
-        if (listed_as == 0)
-            return Error{"gives context " + std::to_string(c) + " a probability of zero, or is too short"};
-        coded.dense.probabilities[c] = static_cast<std::uint16_t>(kProbabilityUnit * listed_as);
-    }
-    if (!in.at_end()) return Error{"goes on behind its last probability"};
+    Status rest = board ? take_board_code(in, coded.board) : take_probabilities(in, coded.dense);
+    if (!rest) return rest;
     coded.pictures.assign(views, {});
     return {};
 }
@@ -198,12 +218,15 @@ Status parse_coded_picture(std::span<const std::byte> payload, std::size_t view,
         return Error{"has picture coding " + std::to_string(coding) +
                      ", which is not that of an object with a chunk CODE; encode the object anew"};
     }
-    if (picture.head.step > kMaxStep) return out_of_range("its quantiser step", picture.head.step, 0, kMaxStep);
+    const bool board = coded.profile == Profile::kBoard;
+    const int largest_step = board ? 0 : kMaxStep;
+    if (picture.head.step > largest_step) return out_of_range("its quantiser step", picture.head.step, 0, largest_step);
     if (Status status = check_references(coded, view, picture.head); !status) return status;
     for (const MotionVector motion : picture.head.usual_motion) {
         for (const int component : {int{motion.x}, int{motion.y}}) {
-            if (std::abs(component) > kMaxMotion_q2) {
-                return out_of_range("a usual vector", component, -kMaxMotion_q2, kMaxMotion_q2);
+            const int largest = board ? 0 : kMaxMotion_q2;
+            if (std::abs(component) > largest) {
+                return out_of_range("a usual vector", component, -largest, largest);
             }
         }
     }

@@ -2,6 +2,7 @@
 // The pictures of an object as its file holds them: a part that all share, and per picture a head and tiles. A tile can
 // be decoded without the others of its picture; encode/FORMAT.md, section "Coded pictures".
 
+#include "rayspace/codec/board_code.hpp"
 #include "rayspace/codec/dense_code.hpp"
 
 #include <cstddef>
@@ -13,7 +14,11 @@ namespace rs::codec {
 
 enum class Profile : std::uint8_t {
     kDense = 1,  // best rate; entropy-coded tiles
+    kBoard = 2,  // records of fixed sizes and look-ups, for hardware
 };
+constexpr const char* name_of(Profile profile) {
+    return profile == Profile::kBoard ? "board" : "dense";
+}
 
 // Where a tile's bytes stand among its picture's. A tile that is not present shows nothing.
 struct TileSpan {
@@ -39,7 +44,8 @@ struct CodedPictures {
     int height = 0;
     int tile_width_log2 = 5;   // kMinTileLog2 .. kMaxTileLog2
     int tile_height_log2 = 5;  // the same
-    DenseCode dense;
+    DenseCode dense;           // one of the two, as `profile` says
+    BoardCode board;
     std::vector<std::uint8_t> levels;    // [view]: progressive level, 0 .. 3; a picture is predicted from lower ones
     std::vector<CodedPicture> pictures;  // [view]
 

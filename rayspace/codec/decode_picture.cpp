@@ -1,5 +1,7 @@
 #include "rayspace/codec/decode_picture.hpp"
 
+#include "rayspace/codec/board_tile.hpp"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -23,6 +25,8 @@ void decode_tile(const CodedPictures& coded, std::size_t view, std::size_t tile,
     const TilePlace place = place_of_tile(coded, tile);
     if (!picture.tiles[tile].present) {
         clear_tile(place, out);
+    } else if (coded.profile == Profile::kBoard) {
+        decode_board_tile(coded.board, picture.head, picture.tile_bytes(tile), place, references, listener, out);
     } else {
         decode_dense_tile(coded.dense, picture.head, picture.tile_bytes(tile), place, references, listener, out);
     }

@@ -8,12 +8,13 @@
 // its fastest form. core_shape orbits at the captured distance, between the captured views; core_shape_near goes
 // nearer, where every ray passes many bands of the map. Compare items_per_second (pixels).
 //
-// dense_*: the same from a `dense`-coded object (a textured ball on the same ring), decoded as views need it. Orbits go
+// coded_*/PROFILE: the same from a coded object (a textured ball on the same ring), decoded as views need it. Orbits go
 // in steps of 1 degree, so that neighbouring frames share tiles: `warm` holds everything, `evicting` ten pictures, so
-// that there is always something to decode; `cold_frame` decodes all that one frame needs. dense_random_pixel decodes
+// that there is always something to decode; `cold_frame` decodes all that one frame needs. coded_random_pixel decodes
 // one tile with what it is predicted from, by one thread, nothing being there: items are pixels, `bytes` those read for
 // a pixel.
 
+#include "encode/codec/board_encoder.hpp"
 #include "encode/codec/dense_encoder.hpp"
 #include "engine/core/reconstruct.hpp"
 #include "engine/core/renderer.hpp"
@@ -29,6 +30,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <random>
 #include <vector>
 
@@ -125,21 +127,24 @@ Image<Rgba8> ball_picture(const Camera& camera) {
     return picture;
 }
 
-const RaySpaceObject& dense_object() {
-    static const RaySpaceObject kObject = [] {
-        RaySpaceObject coded = object();
-        const Rig rig = test::ring_rig(kRing);
-        const auto picture = [&](int view) { return ball_picture(rig.views[static_cast<std::size_t>(view)].camera); };
-        coded.coded = std::make_shared<const codec::CodedPictures>(encode::encode_dense(coded, picture, {}));
-        for (PlanarPicture& unpacked : coded.pictures) unpacked = {};
-        return coded;
-    }();
-    return kObject;
+const RaySpaceObject& coded_object(codec::Profile profile) {
+    static std::map<codec::Profile, RaySpaceObject> objects;
+    const auto found = objects.find(profile);
+    if (found != objects.end()) return found->second;
+    RaySpaceObject coded = object();
+    const Rig rig = test::ring_rig(kRing);
+    std::vector<encode::SourcePicture> sources;
+    for (const RigView& view : rig.views) sources.push_back(encode::source_picture(ball_picture(view.camera), 2));
+    coded.coded = std::make_shared<const codec::CodedPictures>(profile == codec::Profile::kBoard
+                                                                   ? encode::encode_board(coded, sources, {}).coded
+                                                                   : encode::encode_dense(coded, sources, {}).coded);
+    for (PlanarPicture& unpacked : coded.pictures) unpacked = {};
+    return objects.emplace(profile, std::move(coded)).first->second;
 }
 
 constexpr std::int64_t kDecodedPicture = std::int64_t{8} * 512 * 512;
 
-void dense_orbit(benchmark::State& state, const RaySpaceObject& shown, std::int64_t budget_bytes, bool warm) {
+void coded_orbit(benchmark::State& state, const RaySpaceObject& shown, std::int64_t budget_bytes, bool warm) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
     const engine::Renderer renderer = *engine::Renderer::create(shown, {.decoded_budget_bytes = budget_bytes});
     const std::vector<engine::ViewRegisters> views = orbit(3.5, 360);
@@ -153,48 +158,53 @@ void dense_orbit(benchmark::State& state, const RaySpaceObject& shown, std::int6
     state.SetItemsProcessed(state.iterations() * kSide * kSide);
 }
 
-void dense_warm(benchmark::State& state) {
-    dense_orbit(state, dense_object(), 100 * kDecodedPicture, true);
+void coded_warm(benchmark::State& state, codec::Profile profile) {
+    coded_orbit(state, coded_object(profile), 100 * kDecodedPicture, true);
 }
-BENCHMARK(dense_warm)->UseRealTime()->MinTime(1);
+BENCHMARK_CAPTURE(coded_warm, dense, codec::Profile::kDense)->UseRealTime()->MinTime(1);
+BENCHMARK_CAPTURE(coded_warm, board, codec::Profile::kBoard)->UseRealTime()->MinTime(1);
 
-void dense_evicting(benchmark::State& state) {
-    dense_orbit(state, dense_object(), 10 * kDecodedPicture, false);
+void coded_evicting(benchmark::State& state, codec::Profile profile) {
+    coded_orbit(state, coded_object(profile), 10 * kDecodedPicture, false);
 }
-BENCHMARK(dense_evicting)->UseRealTime()->MinTime(1);
+BENCHMARK_CAPTURE(coded_evicting, dense, codec::Profile::kDense)->UseRealTime()->MinTime(1);
+BENCHMARK_CAPTURE(coded_evicting, board, codec::Profile::kBoard)->UseRealTime()->MinTime(1);
 
-void dense_shape(benchmark::State& state, std::int64_t pictures, bool warm) {
-    RaySpaceObject shown = dense_object();
+void coded_shape(benchmark::State& state, codec::Profile profile, std::int64_t pictures, bool warm) {
+    RaySpaceObject shown = coded_object(profile);
     shown.rings[0].shape = object_with_shape().rings[0].shape;
-    dense_orbit(state, shown, pictures * kDecodedPicture, warm);
+    coded_orbit(state, shown, pictures * kDecodedPicture, warm);
 }
 
-void dense_shape_warm(benchmark::State& state) {
-    dense_shape(state, 100, true);
+void coded_shape_warm(benchmark::State& state, codec::Profile profile) {
+    coded_shape(state, profile, 100, true);
 }
-BENCHMARK(dense_shape_warm)->UseRealTime()->MinTime(1);
+BENCHMARK_CAPTURE(coded_shape_warm, dense, codec::Profile::kDense)->UseRealTime()->MinTime(1);
+BENCHMARK_CAPTURE(coded_shape_warm, board, codec::Profile::kBoard)->UseRealTime()->MinTime(1);
 
-void dense_shape_evicting(benchmark::State& state) {
-    dense_shape(state, 10, false);
+void coded_shape_evicting(benchmark::State& state, codec::Profile profile) {
+    coded_shape(state, profile, 10, false);
 }
-BENCHMARK(dense_shape_evicting)->UseRealTime()->MinTime(1);
+BENCHMARK_CAPTURE(coded_shape_evicting, dense, codec::Profile::kDense)->UseRealTime()->MinTime(1);
+BENCHMARK_CAPTURE(coded_shape_evicting, board, codec::Profile::kBoard)->UseRealTime()->MinTime(1);
 
-void dense_cold_frame(benchmark::State& state) {
+void coded_cold_frame(benchmark::State& state, codec::Profile profile) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
     const std::vector<engine::ViewRegisters> views = orbit(3.5, 360);
     // With nothing allowed to stay, every frame is the first one.
-    const engine::Renderer renderer = *engine::Renderer::create(dense_object(), {.decoded_budget_bytes = 0});
+    const engine::Renderer renderer = *engine::Renderer::create(coded_object(profile), {.decoded_budget_bytes = 0});
     Image<Rgba8> out(kSide, kSide);
     std::size_t next = 0;
     for (auto _ : state) renderer.render(views[(next += 37) % views.size()], out);
     state.SetItemsProcessed(state.iterations() * kSide * kSide);
 }
-BENCHMARK(dense_cold_frame)->UseRealTime()->MinTime(1);
+BENCHMARK_CAPTURE(coded_cold_frame, dense, codec::Profile::kDense)->UseRealTime()->MinTime(1);
+BENCHMARK_CAPTURE(coded_cold_frame, board, codec::Profile::kBoard)->UseRealTime()->MinTime(1);
 
-void dense_random_pixel(benchmark::State& state) {
-    const codec::CodedPictures& coded = *dense_object().coded;
+void coded_random_pixel(benchmark::State& state, codec::Profile profile) {
+    const codec::CodedPictures& coded = *coded_object(profile).coded;
     const std::unique_ptr<engine::SampleStore> samples =
-        std::move(*engine::SampleStore::create(dense_object().coded, "bench"));
+        std::move(*engine::SampleStore::create(coded_object(profile).coded, "bench"));
     const auto views = static_cast<int>(coded.pictures.size());
     const int tiles = coded.tile_columns() * coded.tile_rows();
     std::mt19937 random(1);
@@ -226,7 +236,8 @@ void dense_random_pixel(benchmark::State& state) {
     state.counters["bytes"] = bytes_read / static_cast<double>(state.iterations());
     state.counters["worst_bytes"] = worst;
 }
-BENCHMARK(dense_random_pixel)->UseManualTime()->MinTime(0.5);
+BENCHMARK_CAPTURE(coded_random_pixel, dense, codec::Profile::kDense)->UseManualTime()->MinTime(0.5);
+BENCHMARK_CAPTURE(coded_random_pixel, board, codec::Profile::kBoard)->UseManualTime()->MinTime(0.5);
 
 void scalar_definition(benchmark::State& state) {
     const std::vector<engine::ViewRegisters> views = orbit();

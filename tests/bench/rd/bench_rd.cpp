@@ -42,13 +42,13 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
 
 Result<Wanted> wanted_of(const std::vector<std::string>& only) {
     // Without a choice: everything but raw pictures, which nobody would compare with.
-    const std::vector<std::string> words = only.empty() ? std::vector<std::string>{"anchors", "dense"} : only;
+    const std::vector<std::string> words = only.empty() ? std::vector<std::string>{"anchors", "ours"} : only;
     Wanted wanted;
     for (const std::string& word : words) {
         if (word == "anchors") {
             wanted.anchors.insert(anchor_names().begin(), anchor_names().end());
         } else if (word == "ours") {
-            wanted.profiles.insert("dense");
+            wanted.profiles.insert({"dense", "board"});
         } else if (contains(anchor_names(), word)) {
             wanted.anchors.insert(word);
         } else if (contains(profile_names(), word)) {

@@ -18,6 +18,7 @@ const std::vector<Profile>& profiles() {
     static const std::vector<Profile> table = {
         {"raw", {}},
         {"dense", {20, 35, 50, 65, 80}},
+        {"board", {40, 60, 75, 90}},
     };
     return table;
 }

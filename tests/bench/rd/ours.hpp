@@ -13,7 +13,7 @@
 
 namespace rs::bench {
 
-// Curve names: raw (pictures stored as they are, one point), and the coding profile dense.
+// Curve names: raw (pictures stored as they are, one point), and the coding profiles dense and board.
 const std::vector<std::string>& profile_names();
 
 // Whether `encoder` has the options that the profiles in `names` need.

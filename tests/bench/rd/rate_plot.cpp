@@ -30,6 +30,7 @@ struct CodecStyle {
 
 constexpr std::array<CodecStyle, 8> kStyles = {{
     {"dense", "Rayspace dense", "#d1261f", 2.6},
+    {"board", "Rayspace board", "#e08a1e", 2.0},
     {"raw", "Rayspace, pictures stored raw", "#b0641a", 2.6},
     {"astc", "ASTC medium, 4x4 to 12x12", "#1c1e21", 1.6},
     {"jpeg", "JPEG", "#8a94a3", 1.6},
