@@ -62,6 +62,19 @@ std::optional<LinearForm> form_along(const Camera& camera, const glm::dvec3& axi
                       fixed(glm::dot(per_row, axis), 32)};
 }
 
+// The same bounds for numbers that are there already.
+bool in_range(const LinearForm& form, int width, int height) {
+    const auto largest = static_cast<std::int64_t>(std::ldexp(kLargestDirection, 32)) + (std::int64_t{1} << 14);
+    const auto fits = [&](std::int64_t value) { return value > -largest && value < largest; };
+    if (!fits(form.at_origin) || !fits(form.per_column) || !fits(form.per_row)) return false;
+    for (const int i : {0, width - 1}) {
+        for (const int j : {0, height - 1}) {
+            if (!fits(form.at(i, j))) return false;
+        }
+    }
+    return true;
+}
+
 int nearest_ring(const RaySpaceObject& object, const glm::dvec3& viewpoint) {
     const double elevation_udeg = degrees(std::atan2(viewpoint.y, std::hypot(viewpoint.x, viewpoint.z))) * 1e6;
     const auto distance = [&](const Ring& ring) { return std::abs(ring.elevation_udeg - elevation_udeg); };
@@ -81,6 +94,36 @@ bool ViewRegisters::upright() const {
 glm::dvec3 prepared_viewpoint(const RaySpaceObject& object, const Camera& camera) {
     const glm::dvec3 centre = camera.centre() / object.units_per_radius;
     return centre * std::min(1.0, kFarthest / glm::length(centre));
+}
+
+Status check_registers(const RaySpaceObject& object, const ViewRegisters& r) {
+    if (r.width < 1 || r.height < 1 || r.width > kMaxPictureSide_px || r.height > kMaxPictureSide_px) {
+        return view_error("its size of " + std::to_string(r.width) + "x" + std::to_string(r.height) +
+                          " is outside 1.." + std::to_string(kMaxPictureSide_px) + " pixels");
+    }
+    if (r.ring < 0 || static_cast<std::size_t>(r.ring) >= object.rings.size()) {
+        return view_error("it is of ring " + std::to_string(r.ring) + ", and the object has " +
+                          std::to_string(object.rings.size()));
+    }
+    const auto planes = static_cast<std::size_t>(object.rings[static_cast<std::size_t>(r.ring)].planes);
+    if (r.planes.size() != planes) {
+        return view_error("it has registers for " + std::to_string(r.planes.size()) + " planes, and the ring has " +
+                          std::to_string(planes));
+    }
+    const auto place_fits = [](std::int32_t q20) { return q20 > -(1 << 28) && q20 < (1 << 28); };
+    if (!place_fits(r.b_q20)) return view_error("register b is out of range");
+    if (!in_range(r.rise, r.width, r.height) ||
+        std::abs(r.rise.per_row) >= static_cast<std::int64_t>(std::ldexp(kLargestRowStep, 32))) {
+        return view_error("registers s0, sx, sy are out of range");
+    }
+    for (std::size_t k = 0; k < planes; ++k) {
+        const PlaneRegisters& plane = r.planes[k];
+        if (!place_fits(plane.a_q20) || !place_fits(plane.c_q20) || !in_range(plane.along_normal, r.width, r.height) ||
+            !in_range(plane.along_tangent, r.width, r.height)) {
+            return view_error("a register of plane " + std::to_string(k) + " is out of range");
+        }
+    }
+    return {};
 }
 
 Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera_in_rig) {

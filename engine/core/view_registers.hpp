@@ -47,6 +47,10 @@ struct ViewRegisters {
 // enough, finite numbers. Pure; thread-safe.
 Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera);
 
+// Whether registers from elsewhere are such as prepare_view makes for this object: sizes, ring, number of planes, and
+// the ranges of RECONSTRUCTION.md at every pixel. Renderers do not check again.
+Status check_registers(const RaySpaceObject& object, const ViewRegisters& registers);
+
 // The viewpoint that prepare_view takes, in object radii: the camera's centre, or where it was brought to.
 glm::dvec3 prepared_viewpoint(const RaySpaceObject& object, const Camera& camera);
 

@@ -3,10 +3,16 @@
 // loaded and evicted, views are asked for a cycle at a time, pictures are handed out when they are ready.
 //
 // A *rendering cycle* is a list of views that are rendered together. Cycles wait in a queue and are rendered in order
-// on a thread of the module, so submit() does not block while a picture is drawn. The executor is the software core.
+// on threads of the module, so submit() does not block while a picture is drawn.
+//
+// Two executors: the software core, which draws everything, and, if the module is given one, a board. The board's
+// memory holds the objects that were asked for last; the core draws what the board does not hold or cannot draw, shares
+// the load as `Sharing` says, and stands in for the board when it fails. Either gives the same bits: with a board,
+// objects that it takes are drawn as it holds them (BoardDevice::as_drawn).
 //
 // Thread-safety: every member function may be called from any thread.
 
+#include "engine/driver/board_thread.hpp"
 #include "rayspace/camera.hpp"
 #include "rayspace/image.hpp"
 #include "rayspace/ray_space_object.hpp"
@@ -39,9 +45,22 @@ struct DataModuleLimits {
     int cycles_in_flight = 2;  // queued, being rendered, or rendered and not yet retrieved: double buffering
 };
 
+enum class Sharing : std::uint8_t {
+    kBoardFirst,  // the board draws all that it can
+    kBalanced,    // as many views as let both be done at the same time, by the speeds seen so far
+};
+
+struct DataModuleStatistics {
+    std::int64_t cycles = 0;
+    std::int64_t views_by_board = 0;
+    std::int64_t views_by_core = 0;
+    BoardThreadCounts board;
+};
+
 class DataModule {
 public:
-    explicit DataModule(const DataModuleLimits& limits = {});
+    explicit DataModule(const DataModuleLimits& limits = {}, std::unique_ptr<BoardDevice> board = nullptr,
+                        Sharing sharing = Sharing::kBoardFirst);
     ~DataModule();  // waits for the cycle being rendered; drops queued ones
     DataModule(const DataModule&) = delete;
     DataModule& operator=(const DataModule&) = delete;
@@ -65,6 +84,8 @@ public:
 
     // Waits for a cycle and hands out its pictures, one per view in the order of submit(). Each cycle once.
     Result<std::vector<Image<Rgba8>>> retrieve(CycleHandle cycle);
+
+    [[nodiscard]] DataModuleStatistics statistics() const;
 
 private:
     struct State;

@@ -1,7 +1,6 @@
 #include "engine/tools/measure_commands.hpp"
 
 #include "engine/core/compare.hpp"
-#include "engine/core/conformance.hpp"
 #include "engine/model/board_limits.hpp"
 #include "rayspace/object_file.hpp"
 #include "rayspace/progress.hpp"
@@ -15,39 +14,12 @@
 namespace rs::engine {
 namespace {
 
-struct ConformanceArguments {
-    std::string object;
-    int views = 40;
-    std::uint64_t seed = 1;
-    bool quiet = false;
-};
-
 struct CompareArguments {
     std::string object;
     std::string set;
     bool quiet = false;
     bool json = false;
 };
-
-Status run_conformance(const ConformanceArguments& arguments) {
-    Result<RaySpaceObject> object = read_object(arguments.object);
-    if (!object) return object.error();
-    ProgressBar progress(arguments.quiet);
-    const Result<ConformanceReport> report =
-        check_conformance(std::move(*object), arguments.views, arguments.seed, &progress);
-    if (!report) return report.error();
-    std::printf(
-        "%s: %d views (%d upright, %d of them on a ring), %lld pixels, %lld of the object: %lld differ from the "
-        "definition\n",
-        arguments.object.c_str(), report->views, report->upright_views, report->on_ring_views,
-        static_cast<long long>(report->pixels), static_cast<long long>(report->object_pixels),
-        static_cast<long long>(report->different_pixels));
-    if (report->different_pixels != 0) {
-        return Error{arguments.object +
-                     ": the core's pictures are not those of the definition; this is a defect of the renderer"};
-    }
-    return {};
-}
 
 Result<Renderer> open_renderer(const std::string& path) {
     Result<RaySpaceObject> object = read_object(path, {.decode = false});
@@ -117,20 +89,6 @@ void add_compare_command(CLI::App& app, std::function<Status()>& run) {
     command->add_flag("--json", arguments->json, "as JSON");
     command->footer("Example:\n  rs-engine compare vase.rso vase-held-out --json");
     command->callback([arguments, &run] { run = [arguments] { return run_compare(*arguments); }; });
-}
-
-void add_conformance_command(CLI::App& app, std::function<Status()>& run) {
-    auto arguments = std::make_shared<ConformanceArguments>();
-    CLI::App* command = app.add_subcommand(
-        "conformance", "Render random views with the plain definition and with the core, and compare bit for bit");
-    command->add_option("OBJECT", arguments->object, "ray-space object, .rso")->required();
-    command->add_option("--views", arguments->views, "how many views")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
-    command->add_option("--seed", arguments->seed, "which views")->capture_default_str();
-    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
-    command->footer("Example:\n  rs-engine conformance vase.rso --views 100");
-    command->callback([arguments, &run] { run = [arguments] { return run_conformance(*arguments); }; });
 }
 
 void add_board_command(CLI::App& app, std::function<Status()>& run) {

@@ -1,5 +1,5 @@
 #pragma once
-// `rs-engine compare`, `conformance` and `board`: how good, how exact and how large an object is.
+// `rs-engine compare` and `board`: how good and how large an object is.
 
 #include "rayspace/result.hpp"
 
@@ -10,7 +10,6 @@
 namespace rs::engine {
 
 void add_compare_command(CLI::App& app, std::function<Status()>& run);
-void add_conformance_command(CLI::App& app, std::function<Status()>& run);
 void add_board_command(CLI::App& app, std::function<Status()>& run);
 
 }  // namespace rs::engine

@@ -2,8 +2,8 @@
 
 #include "engine/core/contact_sheet.hpp"
 #include "engine/core/depth_picture.hpp"
-#include "engine/core/orbit.hpp"
 #include "engine/core/renderer.hpp"
+#include "engine/tools/asked_views.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/object_file.hpp"
@@ -11,7 +11,6 @@
 #include "rayspace/picture_io.hpp"
 #include "rayspace/progress.hpp"
 #include "rayspace/rig.hpp"
-#include "rayspace/tool_main.hpp"
 #include "rayspace/view_output.hpp"
 
 #include <algorithm>
@@ -24,13 +23,8 @@ namespace {
 struct RenderArguments {
     std::string object;
     std::string output;
-    std::string poses;
-    std::string eye;
-    std::string at = "0,0,0";
-    std::string size;
-    int orbit = 0;
+    AskedViews views;
     int sheet_columns = 0;
-    double fov_deg = 0;
     double frames_per_second = 30;
     int level = kProgressiveLevels - 1;
     bool depth = false;
@@ -41,52 +35,6 @@ Result<Renderer> open_renderer(const std::string& path, int level) {
     Result<RaySpaceObject> object = read_object(path, {.max_level = level, .decode = false});
     if (!object) return object.error();
     return Renderer::create(std::move(*object));
-}
-
-Result<ViewShape> view_shape(const RenderArguments& arguments) {
-    ViewShape shape;
-    if (!arguments.size.empty()) {
-        const Result<PixelSize> size = parse_size(arguments.size);
-        if (!size) return size.error();
-        shape.width = size->width;
-        shape.height = size->height;
-    }
-    if (arguments.fov_deg != 0) shape.fov_x_rad = radians(arguments.fov_deg);
-    return shape;
-}
-
-Result<std::vector<Camera>> cameras_of_rig(const std::string& path, const ViewShape& shape) {
-    const Result<Rig> rig = read_rig(path);
-    if (!rig) return rig.error();
-    if (rig->views.empty()) return Error{path + ": holds no frames to render"};
-    std::vector<Camera> cameras;
-    for (const RigView& view : rig->views) {
-        Camera camera = view.camera;
-        if (shape.width > 0) {
-            camera.cx *= static_cast<double>(shape.width) / camera.width;
-            camera.fl_x *= static_cast<double>(shape.width) / camera.width;
-            camera.cy *= static_cast<double>(shape.height) / camera.height;
-            camera.fl_y *= static_cast<double>(shape.height) / camera.height;
-            camera.width = shape.width;
-            camera.height = shape.height;
-        }
-        cameras.push_back(camera);
-    }
-    return cameras;
-}
-
-Result<std::vector<Camera>> asked_cameras(const RaySpaceObject& object, const RenderArguments& arguments) {
-    const Result<ViewShape> shape = view_shape(arguments);
-    if (!shape) return shape.error();
-    if (!arguments.poses.empty()) return cameras_of_rig(arguments.poses, *shape);
-    if (arguments.orbit > 0) return orbit_cameras(object, arguments.orbit, *shape);
-    const Result<Triple> eye = parse_triple(arguments.eye, "--eye");
-    if (!eye) return eye.error();
-    const Result<Triple> at = parse_triple(arguments.at, "--at");
-    if (!at) return at.error();
-    const Result<Camera> camera = camera_from_eye(object, {eye->x, eye->y, eye->z}, {at->x, at->y, at->z}, *shape);
-    if (!camera) return camera.error();
-    return std::vector<Camera>{*camera};
 }
 
 Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camera) {
@@ -186,7 +134,7 @@ Status run_render(const RenderArguments& arguments) {
     }
     const Result<Renderer> renderer = open_renderer(arguments.object, arguments.level);
     if (!renderer) return renderer.error();
-    const Result<std::vector<Camera>> cameras = asked_cameras(renderer->object(), arguments);
+    const Result<std::vector<Camera>> cameras = asked_cameras(renderer->object(), arguments.views);
     if (!cameras) return cameras.error();
 
     ProgressBar progress(arguments.quiet);
@@ -211,17 +159,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     CLI::App* command = app.add_subcommand("render", "Render views of an object: PNG with straight alpha, or a video");
     command->add_option("OBJECT", arguments->object, "ray-space object, .rso")->required();
     command->add_option("-o,--output", arguments->output, "a folder, FILE.png or FILE.mp4")->required();
-    CLI::Option_group* views = command->add_option_group("views", "What to render");
-    views->add_option("--orbit", arguments->orbit, "N views once around, as captured")->check(CLI::Range(1, 100000));
-    CLI::Option* poses = views->add_option("--poses", arguments->poses, "the cameras of a transforms.json");
-    views->add_option("--eye", arguments->eye, "one view from X,Y,Z, in object radii; Y is the turntable's axis");
-    views->require_option(1);
-    command->add_option("--at", arguments->at, "with --eye: the point looked at, in object radii")
-        ->capture_default_str();
-    command->add_option("--size", arguments->size, "size of the views, WxH; as captured where not given");
-    command->add_option("--fov", arguments->fov_deg, "horizontal field of view in degrees; as captured where not given")
-        ->check(CLI::Range(0.01, 159.0))
-        ->excludes(poses);
+    add_view_options(*command, arguments->views);
     command->add_option("--fps", arguments->frames_per_second, "frames per second of an .mp4")
         ->check(CLI::Range(1.0, 240.0))
         ->capture_default_str();

@@ -1,7 +1,9 @@
 // rs-engine: ray-space object + viewpoint -> pictures.
 
+#include "engine/tools/conformance_command.hpp"
 #include "engine/tools/measure_commands.hpp"
 #include "engine/tools/render_command.hpp"
+#include "engine/tools/simulate_command.hpp"
 #include "rayspace/tool_main.hpp"
 
 int main(int argc, char** argv) {
@@ -15,5 +17,6 @@ int main(int argc, char** argv) {
     add_compare_command(app, run);
     add_conformance_command(app, run);
     add_board_command(app, run);
+    add_simulate_command(app, run);
     return rs::tool_main(app, argc, argv, run);
 }

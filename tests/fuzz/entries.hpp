@@ -20,4 +20,7 @@ int fuzz_rig(const std::uint8_t* data, std::size_t size);
 // The bytes as a Middlebury *_par.txt.
 int fuzz_middlebury(const std::uint8_t* data, std::size_t size);
 
+// The bytes as a VRML97 world.
+int fuzz_vrml(const std::uint8_t* data, std::size_t size);
+
 }  // namespace rs::fuzz

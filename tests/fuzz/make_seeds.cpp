@@ -41,7 +41,8 @@ Status write_seeds(const fs::path& corpus) {
     const std::pair<const char*, RaySpaceObject> objects[] = {{"one-ring", test::small_object(one_ring)},
                                                               {"two-rings", test::small_object(two_rings)},
                                                               {"shape", std::move(with_shape)},
-                                                              {"coded", test::coded_object(larger, {})}};
+                                                              {"coded", test::coded_object(larger, {})},
+                                                              {"board", test::board_object(larger, {})}};
     for (const auto& [name, object] : objects) {
         const fs::path file = corpus / "container" / (std::string("seed-") + name + ".rso");
         if (Status status = write_object(file, object); !status) return status;

@@ -1,9 +1,11 @@
 // Runs every file of the corpus through its fuzz entry: what a fuzzer found once must not come back.
 #include "capture/calibration/known_files.hpp"
+#include "compositor/scene/vrml_file.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/object_file.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 #include "tests/fuzz/entries.hpp"
+#include "tests/fuzz/mutated_world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -67,6 +69,31 @@ TEST(FuzzReplay, Middlebury) {
     replay("middlebury", fuzz::fuzz_middlebury);
 }
 
+TEST(FuzzReplay, Vrml) {
+    replay("vrml", fuzz::fuzz_vrml);
+}
+
+TEST(FuzzReplay, FaultyWorldsAreReadOrRefused) {
+    std::vector<std::string> worlds;
+    for (const fs::path& file : corpus("vrml")) {
+        const auto input = contents(file);
+        worlds.emplace_back(input.begin(), input.end());
+    }
+    constexpr std::uint64_t kSeed = 1;
+    SCOPED_TRACE(kSeed);
+    std::mt19937_64 random(kSeed);
+    int read = 0;
+    for (int i = 0; i < 600; ++i) {
+        const std::string world = fuzz::mutated_world(worlds, random);
+        SCOPED_TRACE(i);
+        EXPECT_EQ(fuzz::fuzz_vrml(reinterpret_cast<const std::uint8_t*>(world.data()), world.size()), 0);
+        read += compositor::scene_from_vrml(world, "input.wrl").ok();
+    }
+    // Both ways are taken.
+    EXPECT_GT(read, 50);
+    EXPECT_LT(read, 550);
+}
+
 // The seeds are of use only as long as they pass all checks.
 TEST(FuzzReplay, SeedsAreValid) {
     int seeds = 0;
@@ -90,7 +117,15 @@ TEST(FuzzReplay, SeedsAreValid) {
         EXPECT_TRUE(turn.ok()) << turn.error().message;
         ++seeds;
     }
-    EXPECT_GE(seeds, 5);
+    for (const fs::path& file : corpus("vrml")) {
+        if (file.filename().string().rfind("seed-", 0) != 0) continue;
+        const auto input = contents(file);
+        const auto scene =
+            compositor::scene_from_vrml({reinterpret_cast<const char*>(input.data()), input.size()}, file);
+        EXPECT_TRUE(scene.ok()) << scene.error().message;
+        ++seeds;
+    }
+    EXPECT_GE(seeds, 8);
 }
 
 }  // namespace

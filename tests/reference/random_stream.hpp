@@ -2,6 +2,7 @@
 // Payloads of CODE and PICT that break no rule but say random things: any bytes of a tile decode to some samples.
 
 #include "rayspace/codec/coded_pictures.hpp"
+#include "tests/reference/reference_chunks.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,8 +19,8 @@ struct Stream {
     std::vector<std::vector<std::uint8_t>> picts;  // [view]
 };
 
-// The same seed gives the same stream. 2 .. 5 views of at most 96 x 96, or 420 x 32 or 32 x 420.
-[[nodiscard]] Stream random_stream(std::uint64_t seed);
+// The same seed and profile give the same stream. 2 .. 5 views of at most 96 x 96, or 420 x 32 or 32 x 420.
+[[nodiscard]] Stream random_stream(std::uint64_t seed, Profile profile);
 
 // The library's parsers on the stream; "" or their message. All pictures are loaded then.
 [[nodiscard]] std::string parse_stream(const Stream& stream, codec::CodedPictures& coded);

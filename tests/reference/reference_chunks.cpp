@@ -36,31 +36,34 @@ std::string read_size(Bytes payload, std::size_t& at, std::size_t& size) {
     return "a size has more than 3 bytes";
 }
 
-}  // namespace
-
-// CODE
-std::string read_code(Bytes payload, int views, Code& code) {
-    const std::size_t v = static_cast<std::size_t>(views);
-    if (payload.size() < 189 + v) return "CODE is shorter than its fields";
-    if (payload[0] != 1) return "CODE has another profile";
-    if (payload[1] < 4 || payload[1] > 6) return "tile_width_log2 is out of range";
-    if (payload[2] < 4 || payload[2] > 6) return "tile_height_log2 is out of range";
-    if (payload[3] < 1 || payload[3] > 4) return "alpha_bits is out of range";
+// CODE: the column "dense" or "board" of its table.
+std::string read_fields(Bytes payload, Code& code) {
+    if (payload[0] != 1 && payload[0] != 2) return "CODE has another profile";
+    const bool is_board = payload[0] == 2;
+    code.profile = is_board ? Profile::kBoard : Profile::kDense;
+    for (std::size_t i = 1; i <= 2; ++i) {
+        if (payload[i] < (is_board ? 5 : 4) || payload[i] > (is_board ? 5 : 6)) return "a tile's size is out of range";
+    }
+    if (payload[3] < (is_board ? 0 : 1) || payload[3] > (is_board ? 0 : 4)) return "alpha_bits is out of range";
     code.tile_width = 1 << payload[1];
     code.tile_height = 1 << payload[2];
     code.alpha_bits = payload[3];
     code.u_offset = i8_at(payload, 4);
     code.v_offset = i8_at(payload, 5);
-    if (std::abs(code.u_offset) > 31) return "u_offset is out of range";
-    if (std::abs(code.v_offset) > 31) return "v_offset is out of range";
+    const int largest_offset = is_board ? 0 : 31;
+    if (std::abs(code.u_offset) > largest_offset) return "u_offset is out of range";
+    if (std::abs(code.v_offset) > largest_offset) return "v_offset is out of range";
     if (payload[6] != 0 || payload[7] != 0) return "reserved bytes of CODE are not 0";
-    for (std::size_t i = 0; i < v; ++i) {
-        if (payload[8 + i] > 3) return "a level is out of range";
-        code.level.push_back(payload[8 + i]);
-    }
-    std::size_t at = 189 + v;
+    return "";
+}
+
+// CODE: "Then, of dense pictures"
+std::string read_probabilities(Bytes payload, Code& code) {
+    constexpr std::size_t kListedBytes = 181;
+    if (payload.size() < kListedBytes) return "CODE is shorter than its fields";
+    std::size_t at = kListedBytes;
     for (int context = 0; context < 181 * 8; ++context) {
-        const bool is_listed = bit_at(payload, 8 + v, context);
+        const bool is_listed = bit_at(payload, 0, context);
         if (context >= kContexts) {
             if (is_listed) return "a listed context does not exist";
             continue;
@@ -75,6 +78,21 @@ std::string read_code(Bytes payload, int views, Code& code) {
     return at == payload.size() ? "" : "CODE is longer than its fields";
 }
 
+}  // namespace
+
+// CODE
+std::string read_code(Bytes payload, int views, Code& code) {
+    const std::size_t v = static_cast<std::size_t>(views);
+    if (payload.size() < 8 + v) return "CODE is shorter than its fields";
+    if (std::string error = read_fields(payload, code); !error.empty()) return error;
+    for (std::size_t i = 0; i < v; ++i) {
+        if (payload[8 + i] > 3) return "a level is out of range";
+        code.level.push_back(payload[8 + i]);
+    }
+    const Bytes rest = payload.subspan(8 + v);
+    return code.profile == Profile::kBoard ? read_board_code(rest, code.board) : read_probabilities(rest, code);
+}
+
 // PICT, Coding 1
 std::string read_pict(Bytes payload, int width, int height, int view, const Code& code, Pict& pict) {
     const int tiles = ceil_div(width, code.tile_width) * ceil_div(height, code.tile_height);
@@ -82,7 +100,8 @@ std::string read_pict(Bytes payload, int width, int height, int view, const Code
     if (payload.size() < sizes_at) return "PICT is shorter than its fields";
     if (payload[0] != 1) return "PICT has another coding";
     pict.step = payload[1];
-    if (pict.step > 63) return "the step is out of range";
+    const bool is_board = code.profile == Profile::kBoard;
+    if (pict.step > (is_board ? 0 : 63)) return "the step is out of range";
     pict.reference = {u16_at(payload, 2), u16_at(payload, 4)};
     if (pict.reference[1] != kNoView) {
         if (pict.reference[0] == kNoView) return "reference_b without reference_a";
@@ -97,7 +116,10 @@ std::string read_pict(Bytes payload, int width, int height, int view, const Code
     }
     for (std::size_t r = 0; r < 2; ++r) {
         pict.usual[r] = {i16_at(payload, 6 + 4 * r), i16_at(payload, 8 + 4 * r)};
-        if (std::abs(pict.usual[r].x) > 1023 || std::abs(pict.usual[r].y) > 1023) return "a vector is out of range";
+        const int farthest = is_board ? 0 : 1023;
+        if (std::abs(pict.usual[r].x) > farthest || std::abs(pict.usual[r].y) > farthest) {
+            return "a vector is out of range";
+        }
     }
     if (payload[14] != 0 || payload[15] != 0) return "reserved bytes of PICT are not 0";
     for (int t = tiles; t < 8 * ceil_div(tiles, 8); ++t) {
@@ -109,7 +131,7 @@ std::string read_pict(Bytes payload, int width, int height, int view, const Code
     for (int t = 0; t < tiles; ++t) {
         if (!bit_at(payload, 16, t)) continue;
         std::size_t size = 0;
-        const std::string error = read_size(payload, at, size);
+        std::string error = read_size(payload, at, size);
         if (!error.empty()) return error;
         sizes[static_cast<std::size_t>(t)] = size;
     }

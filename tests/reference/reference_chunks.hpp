@@ -1,6 +1,8 @@
 #pragma once
 // FORMAT.md, "CODE" and "PICT, Coding 1": the fields of the two chunks and everything that must be rejected.
 
+#include "tests/reference/reference_board_code.hpp"
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -15,18 +17,22 @@ using Bytes = std::span<const std::uint8_t>;
 inline constexpr int kContexts = 1447;
 inline constexpr int kNoView = 65535;
 
+enum class Profile { kDense = 1, kBoard = 2 };
+
 struct Vector {
     int x = 0, y = 0;  // quarters of a sample
 };
 
 struct Code {
+    Profile profile = Profile::kDense;
     int tile_width = 0;  // px
     int tile_height = 0;
     int alpha_bits = 0;
     int u_offset = 0;
     int v_offset = 0;
-    std::vector<int> level;                  // per view
-    std::array<int, kContexts> probability;  // in 256ths, of a 0
+    std::vector<int> level;                    // per view
+    std::array<int, kContexts> probability{};  // of dense pictures: in 256ths, of a 0
+    BoardCode board;                           // of board pictures
 };
 
 struct Pict {

@@ -1,5 +1,6 @@
 #include "tests/reference/reference_decoder.hpp"
 
+#include "tests/reference/reference_board_tile.hpp"
 #include "tests/reference/reference_chunks.hpp"
 #include "tests/reference/reference_tile.hpp"
 
@@ -38,7 +39,13 @@ Pictures decode_reference(int width, int height, std::span<const std::uint8_t> c
             }
             for (std::size_t t = 0; t < headers[v].tiles.size(); ++t) {
                 if (!headers[v].tiles[t]) continue;
-                TileDecoder(code, headers[v], references, static_cast<int>(t), *headers[v].tiles[t], picture).decode();
+                const int number = static_cast<int>(t);
+                const Bytes bytes = *headers[v].tiles[t];
+                if (code.profile == Profile::kBoard) {
+                    BoardTileDecoder(code, references, number, bytes, picture).decode();
+                } else {
+                    TileDecoder(code, headers[v], references, number, bytes, picture).decode();
+                }
             }
         }
     }

@@ -3,48 +3,24 @@
 
 #include "tests/reference/reference_decoder.hpp"
 
+#include "encode/codec/board_encoder.hpp"
 #include "encode/codec/dense_encoder.hpp"
 #include "rayspace/codec/coded_chunks.hpp"
 #include "rayspace/codec/decode_picture.hpp"
+#include "tests/reference/library_tiles.hpp"
 #include "tests/reference/random_stream.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <numeric>
 
 namespace rs::reference {
 namespace {
-
-using Planes = std::array<Image<std::uint8_t>, 4>;
-
-// Every tile by decode_tile(), into planes that hold something else before.
-std::vector<Planes> decode_by_tiles(const codec::CodedPictures& coded) {
-    std::vector<Planes> decoded(coded.pictures.size());
-    for (auto& planes : decoded) {
-        for (auto& plane : planes) plane = Image<std::uint8_t>(coded.coded_width(), coded.coded_height(), 77);
-    }
-    const auto views_of = [](auto& planes) {
-        return codec::PlaneViews{planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
-    };
-    for (int level = 0; level < kProgressiveLevels; ++level) {
-        for (std::size_t v = 0; v < decoded.size(); ++v) {
-            if (coded.levels[v] != level) continue;
-            const codec::CodedPicture& picture = coded.pictures[v];
-            std::array<codec::ConstPlaneViews, 2> references;
-            for (std::size_t r = 0; r < static_cast<std::size_t>(picture.head.references()); ++r) {
-                std::ranges::copy(views_of(decoded[picture.head.reference[r]]), references[r].begin());
-            }
-            for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
-                codec::decode_tile(coded, v, t, references, nullptr, views_of(decoded[v]));
-            }
-        }
-    }
-    return decoded;
-}
 
 // The first sample of width x height in which the planes differ; "" for none.
 std::string difference(const Picture& expected, std::size_t plane, const Image<std::uint8_t>& found, int width,
@@ -62,7 +38,7 @@ std::string difference(const Picture& expected, std::size_t plane, const Image<s
 }
 
 void expect_same(const Pictures& expected, const codec::CodedPictures& coded) {
-    const std::vector<Planes> found = decode_by_tiles(coded);
+    const std::vector<LibraryPlanes> found = decode_by_tiles(coded);
     ASSERT_EQ(expected.views.size(), found.size());
     for (std::size_t v = 0; v < found.size(); ++v) {
         const Picture& picture = expected.views[v];
@@ -110,7 +86,28 @@ Image<Rgba8> blobs(int width, int height, int view) {
 struct EncodedCase {
     int width, height, views, alpha_bits, tile_width_log2, tile_height_log2;
     double step;
+    Profile profile = Profile::kDense;
 };
+
+codec::CodedPictures encoded(const RaySpaceObject& object, const EncodedCase& c) {
+    if (c.profile == Profile::kBoard) {
+        encode::BoardSettings settings;
+        settings.step = c.step;
+        settings.alpha_bits = c.alpha_bits;
+        std::vector<encode::SourcePicture> sources;
+        for (int v = 0; v < c.views; ++v) {
+            sources.push_back(encode::source_picture(blobs(c.width, c.height, v).view(), c.alpha_bits));
+        }
+        return encode::encode_board(object, sources, settings).coded;
+    }
+    encode::DenseSettings settings;
+    settings.step = c.step;
+    settings.alpha_bits = c.alpha_bits;
+    settings.tile_width_log2 = c.tile_width_log2;
+    settings.tile_height_log2 = c.tile_height_log2;
+    return encode::encode_dense(
+        object, [&](int view) { return blobs(c.width, c.height, view); }, settings);
+}
 
 class EncodedObject : public testing::TestWithParam<EncodedCase> {};
 
@@ -124,13 +121,7 @@ TEST_P(EncodedObject, IsTheSameByBothDecoders) {
     object.rings.resize(1);
     object.rings[0].views.resize(object.views.size());
     std::iota(object.rings[0].views.begin(), object.rings[0].views.end(), std::uint16_t{0});
-    encode::DenseSettings settings;
-    settings.step = c.step;
-    settings.alpha_bits = c.alpha_bits;
-    settings.tile_width_log2 = c.tile_width_log2;
-    settings.tile_height_log2 = c.tile_height_log2;
-    const codec::CodedPictures written = encode::encode_dense(
-        object, [&](int view) { return blobs(c.width, c.height, view); }, settings);
+    const codec::CodedPictures written = encoded(object, c);
 
     const Stream stream = stream_of(written);
     const Pictures expected = decode_reference(stream.width, stream.height, stream.code, stream.picts);
@@ -152,31 +143,67 @@ TEST_P(EncodedObject, IsTheSameByBothDecoders) {
 
 INSTANTIATE_TEST_SUITE_P(Blobs, EncodedObject,
                          testing::Values(EncodedCase{70, 50, 9, 1, 4, 5, 2}, EncodedCase{128, 96, 12, 2, 6, 6, 12},
-                                         EncodedCase{97, 33, 10, 4, 5, 4, 60}, EncodedCase{64, 64, 9, 3, 6, 4, 20}));
+                                         EncodedCase{97, 33, 10, 4, 5, 4, 60}, EncodedCase{64, 64, 9, 3, 6, 4, 20},
+                                         EncodedCase{97, 70, 12, 2, 5, 5, 12, Profile::kBoard},
+                                         EncodedCase{33, 49, 5, 4, 5, 5, 40, Profile::kBoard}));
 
-TEST(RandomStreams, AreTheSameByBothDecoders) {
-    constexpr std::uint64_t kStreams = 1500;
+// How many references stand behind each other at most.
+int longest_chain(const Stream& stream, const codec::CodedPictures& coded) {
+    std::vector<int> chain(stream.picts.size(), 0);
+    for (int level = 0; level < kProgressiveLevels; ++level) {
+        for (std::size_t v = 0; v < chain.size(); ++v) {
+            if (coded.levels[v] != level) continue;
+            const codec::PictureHead& head = coded.pictures[v].head;
+            for (std::size_t r = 0; r < static_cast<std::size_t>(head.references()); ++r) {
+                chain[v] = std::max(chain[v], chain[head.reference[r]] + 1);
+            }
+        }
+    }
+    return *std::ranges::max_element(chain);
+}
+
+class RandomStreams : public testing::TestWithParam<Profile> {};
+
+// For a longer run: RAYSPACE_RANDOM_STREAMS=20000.
+TEST_P(RandomStreams, AreTheSameByBothDecoders) {
+    const char* const wanted = std::getenv("RAYSPACE_RANDOM_STREAMS");
+    const std::uint64_t streams = wanted != nullptr ? std::stoull(wanted) : 1500;
+    ASSERT_GE(streams, 100U);
     std::size_t samples = 0;
-    std::size_t telling = 0;  // neither an empty tile's nor at the end of the range
-    for (std::uint64_t seed = 1; seed <= kStreams; ++seed) {
+    std::size_t telling = 0;                           // neither an empty tile's nor at the end of the range
+    std::array<std::size_t, 3> pictures = {0, 0, 0};   // [references]
+    std::array<std::size_t, 4> chains = {0, 0, 0, 0};  // [longest chain of a stream]
+    for (std::uint64_t seed = 1; seed <= streams; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const Stream stream = random_stream(seed);
+        const Stream stream = random_stream(seed, GetParam());
         const Pictures expected = decode_reference(stream.width, stream.height, stream.code, stream.picts);
         ASSERT_EQ(expected.error, "");
         codec::CodedPictures coded;
         ASSERT_EQ(parse_stream(stream, coded), "");
-        expect_same(expected, coded);
-        if (HasFatalFailure()) return;
+        ASSERT_NO_FATAL_FAILURE(expect_same(expected, coded));
         for (const Picture& picture : expected.views) {
             samples += picture.planes[0].size();
             telling += static_cast<std::size_t>(std::ranges::count_if(
                 picture.planes[0], [](std::uint8_t s) { return s != 0 && s != 128 && s != 255; }));
         }
+        for (const codec::CodedPicture& picture : coded.pictures) {
+            ++pictures[static_cast<std::size_t>(picture.head.references())];
+        }
+        ++chains[static_cast<std::size_t>(longest_chain(stream, coded))];
     }
-    std::cout << kStreams << " random streams, " << samples << " samples of each plane, " << telling
-              << " of Y neither 0, 128 nor 255\n";
+    std::cout << streams << " random streams, " << samples << " samples of each plane, " << telling
+              << " of Y neither 0, 128 nor 255; pictures with 0, 1, 2 references: " << pictures[0] << ", "
+              << pictures[1] << ", " << pictures[2] << "; streams with chains of 0, 1, 2, 3: " << chains[0] << ", "
+              << chains[1] << ", " << chains[2] << ", " << chains[3] << "\n";
     EXPECT_GT(telling, samples / 4);
+    for (const std::size_t count : pictures) EXPECT_GT(count, streams / 8);
+    EXPECT_GT(chains[3], streams / 50);
 }
+
+INSTANTIATE_TEST_SUITE_P(Profiles, RandomStreams, testing::Values(Profile::kDense, Profile::kBoard),
+                         [](const testing::TestParamInfo<Profile>& tested) {
+                             return tested.param == Profile::kBoard ? "Board" : "Dense";
+                         });
 
 }  // namespace
 }  // namespace rs::reference

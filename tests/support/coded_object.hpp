@@ -1,6 +1,7 @@
 #pragma once
 // A small object whose pictures are coded: the drawn balls of drawn_set.hpp seen from a ring.
 
+#include "encode/codec/board_encoder.hpp"
 #include "encode/codec/dense_encoder.hpp"
 #include "rayspace/ray_space_object.hpp"
 #include "tests/support/drawn_set.hpp"
@@ -28,10 +29,27 @@ inline codec::CodedPictures code_pictures(const RaySpaceObject& object, const st
         object, [&](int view) { return pictures[static_cast<std::size_t>(view)]; }, settings);
 }
 
+inline codec::CodedPictures code_board_pictures(const RaySpaceObject& object, const std::vector<Image<Rgba8>>& pictures,
+                                                const encode::BoardSettings& settings) {
+    std::vector<encode::SourcePicture> sources;
+    for (const Image<Rgba8>& picture : pictures) {
+        sources.push_back(encode::source_picture(picture.view(), settings.alpha_bits));
+    }
+    return encode::encode_board(object, sources, settings).coded;
+}
+
 inline RaySpaceObject coded_object(const SmallObjectOptions& options, const encode::DenseSettings& settings) {
     RaySpaceObject object = small_object(options);
     for (PlanarPicture& picture : object.pictures) picture = {};
     object.coded = std::make_shared<codec::CodedPictures>(code_pictures(object, drawn_pictures(object), settings));
+    return object;
+}
+
+inline RaySpaceObject board_object(const SmallObjectOptions& options, const encode::BoardSettings& settings) {
+    RaySpaceObject object = small_object(options);
+    for (PlanarPicture& picture : object.pictures) picture = {};
+    object.coded =
+        std::make_shared<codec::CodedPictures>(code_board_pictures(object, drawn_pictures(object), settings));
     return object;
 }
 

@@ -1,0 +1,147 @@
+#include "engine/conformance/run_vectors.hpp"
+
+#include "engine/conformance/view_files.hpp"
+#include "engine/core/reconstruct.hpp"
+#include "engine/core/renderer.hpp"
+#include "rayspace/codec/decode_picture.hpp"
+#include "rayspace/object_file.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace rs::engine {
+namespace {
+
+// What differs from the expected view; "" for nothing.
+std::string difference(const ConformanceView& expected, const ExecutedView& found) {
+    const ViewRegisters& r = expected.registers;
+    if (found.picture.width() != r.width || found.picture.height() != r.height) {
+        return "the picture is " + std::to_string(found.picture.width()) + "x" +
+               std::to_string(found.picture.height()) + " instead of " + std::to_string(r.width) + "x" +
+               std::to_string(r.height);
+    }
+    if (const std::uint64_t hash = hash_of(found.picture.view()); hash != expected.rgba_hash) {
+        return "colours hash to " + hash_text(hash) + " instead of " + hash_text(expected.rgba_hash);
+    }
+    if (found.depth_q20.empty()) return "";
+    if (const std::uint64_t hash = hash_of(found.depth_q20.view()); hash != expected.depth_hash) {
+        return "depths hash to " + hash_text(hash) + " instead of " + hash_text(expected.depth_hash);
+    }
+    return "";
+}
+
+ExecutedView blank(const ViewRegisters& registers) {
+    return {Image<Rgba8>(registers.width, registers.height), Image<std::int32_t>(registers.width, registers.height)};
+}
+
+Status check_views(const ConformanceCase& of_case, const RaySpaceObject& object) {
+    for (std::size_t v = 0; v < of_case.views.size(); ++v) {
+        if (Status status = check_registers(object, of_case.views[v].registers); !status) {
+            return Error{"case '" + of_case.name + "', view " + std::to_string(v) + ": " + status.error().message};
+        }
+    }
+    return {};
+}
+
+CaseResult run_case(const ConformanceCase& of_case, const RaySpaceObject& object, const Executor& executor,
+                    const std::filesystem::path& write_folder) {
+    CaseResult result;
+    const Result<ExecuteView> render = executor.open(of_case, object);
+    if (!render) {
+        result.declined = render.error().message;
+        return result;
+    }
+    for (std::size_t v = 0; v < of_case.views.size(); ++v) {
+        const Result<ExecutedView> view = (*render)(v);
+        if (!view) {
+            result.declined = view.error().message;
+            result.failed = result.same + result.different > 0;
+            return result;
+        }
+        const std::string differs = difference(of_case.views[v], *view);
+        ++(differs.empty() ? result.same : result.different);
+        if (!differs.empty() && result.first.empty()) result.first = "view " + std::to_string(v) + ": " + differs;
+        if (write_folder.empty()) continue;
+        if (Status written = write_view_files(write_folder, of_case.name, v, *view); !written) {
+            result.declined = written.error().message;
+            result.failed = true;
+            return result;
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+Executor scalar_executor() {
+    return {"scalar", [](const ConformanceCase& of_case, RaySpaceObject object) -> Result<ExecuteView> {
+                if (object.coded) codec::decode_pictures(object);
+                const auto shared = std::make_shared<const RaySpaceObject>(std::move(object));
+                return ExecuteView([shared, &of_case](std::size_t v) -> Result<ExecutedView> {
+                    ExecutedView view = blank(of_case.views[v].registers);
+                    reconstruct_scalar(*shared, of_case.views[v].registers, view.picture.view(), view.depth_q20.view());
+                    return view;
+                });
+            }};
+}
+
+Executor core_executor() {
+    return {"core", [](const ConformanceCase& of_case, RaySpaceObject object) -> Result<ExecuteView> {
+                Result<Renderer> renderer = Renderer::create(std::move(object));
+                if (!renderer) return renderer.error();
+                const auto shared = std::make_shared<const Renderer>(std::move(*renderer));
+                return ExecuteView([shared, &of_case](std::size_t v) -> Result<ExecutedView> {
+                    ExecutedView view = blank(of_case.views[v].registers);
+                    shared->render(of_case.views[v].registers, view.picture.view(), view.depth_q20.view());
+                    return view;
+                });
+            }};
+}
+
+Executor files_executor(const std::filesystem::path& folder) {
+    return {"files:" + folder.filename().string(),
+            [folder](const ConformanceCase& of_case, const RaySpaceObject&) -> Result<ExecuteView> {
+                if (!std::filesystem::is_directory(folder / of_case.name)) {
+                    return Error{(folder / of_case.name).string() + ": is not there"};
+                }
+                return ExecuteView([folder, &of_case](std::size_t v) {
+                    return read_view_files(folder, of_case.name, v, of_case.views[v].registers.width,
+                                           of_case.views[v].registers.height);
+                });
+            }};
+}
+
+bool ConformanceMatrix::passed() const {
+    std::vector<int> same(executors.size());
+    for (const auto& row : results) {
+        for (std::size_t e = 0; e < row.size(); ++e) {
+            if (row[e].different > 0 || row[e].failed) return false;
+            same[e] += row[e].same;
+        }
+    }
+    return std::all_of(same.begin(), same.end(), [](int views) { return views > 0; });
+}
+
+Result<ConformanceMatrix> run_vectors(const VectorSet& set, const std::vector<Executor>& executors,
+                                      const std::filesystem::path& write_folder, Progress* progress) {
+    ConformanceMatrix matrix;
+    for (const Executor& executor : executors) matrix.executors.push_back(executor.name);
+    if (progress != nullptr) {
+        progress->start("conformance", static_cast<std::int64_t>(set.cases.size() * executors.size()));
+    }
+    for (const ConformanceCase& of_case : set.cases) {
+        const Result<RaySpaceObject> object = read_object(set.folder / of_case.object, {.decode = false});
+        if (!object) return object.error();
+        if (Status status = check_views(of_case, *object); !status) return status.error();
+        std::vector<CaseResult>& row = matrix.results.emplace_back();
+        for (std::size_t e = 0; e < executors.size(); ++e) {
+            row.push_back(run_case(of_case, *object, executors[e], e == 0 ? write_folder : std::filesystem::path()));
+            if (progress != nullptr) progress->advance();
+        }
+    }
+    if (progress != nullptr) progress->finish();
+    return matrix;
+}
+
+}  // namespace rs::engine

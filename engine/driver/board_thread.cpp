@@ -1,0 +1,198 @@
+#include "engine/driver/board_thread.hpp"
+
+#include <exception>
+#include <utility>
+
+namespace rs::engine {
+
+BoardThread::BoardThread(std::unique_ptr<BoardDevice> device) : device_(std::move(device)) {
+    thread_ = std::thread([this] { work(); });
+}
+
+BoardThread::~BoardThread() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+}
+
+void BoardThread::add(std::uint32_t number, std::shared_ptr<const RaySpaceObject> object) {
+    const std::lock_guard lock(mutex_);
+    known_[number].object = std::move(object);
+}
+
+void BoardThread::remove(std::uint32_t number) {
+    const std::lock_guard lock(mutex_);
+    const auto found = known_.find(number);
+    if (found == known_.end()) return;
+    if (found->second.slot) slots_to_free_.push_back(*found->second.slot);
+    known_.erase(found);
+    changed_.notify_all();
+}
+
+void BoardThread::want(const std::vector<std::uint32_t>& numbers) {
+    const std::lock_guard lock(mutex_);
+    ++now_;
+    for (const std::uint32_t number : numbers) {
+        const auto found = known_.find(number);
+        if (found == known_.end()) continue;
+        found->second.last_wanted = now_;
+        found->second.waits = !found->second.slot && !found->second.failed;
+    }
+    changed_.notify_all();
+}
+
+bool BoardThread::reserve() {
+    const std::lock_guard lock(mutex_);
+    if (loading_) return false;
+    reserved_ = true;
+    return true;
+}
+
+bool BoardThread::holds(std::uint32_t number) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = known_.find(number);
+    return found != known_.end() && found->second.slot;
+}
+
+void BoardThread::draw(std::vector<Asked> views) {
+    const std::lock_guard lock(mutex_);
+    reserved_ = false;
+    changed_.notify_all();
+    if (views.empty()) return;
+    std::vector<DeviceView> cycle;
+    for (Asked& view : views) {
+        // An object may have been removed since: its slot is not free before this cycle is drawn, but then it is
+        // unknown here.
+        const auto found = known_.find(view.object);
+        if (found == known_.end() || !found->second.slot) {
+            drawn_.emplace(Error{"object " + std::to_string(view.object) + " has left the board"});
+            return;
+        }
+        cycle.push_back({*found->second.slot, std::move(view.registers)});
+    }
+    drawn_.reset();
+    cycle_ = std::move(cycle);
+}
+
+Result<std::vector<Image<Rgba8>>> BoardThread::wait() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return drawn_.has_value(); });
+    Result<std::vector<Image<Rgba8>>> drawn = std::move(*drawn_);
+    drawn_.reset();
+    return drawn;
+}
+
+BoardThreadCounts BoardThread::counts() const {
+    const std::lock_guard lock(mutex_);
+    return counts_;
+}
+
+// The object that was asked for last of those that wait.
+std::optional<std::uint32_t> BoardThread::next_to_load() const {
+    std::optional<std::uint32_t> best;
+    for (const auto& [number, known] : known_) {
+        if (known.waits && (!best || known.last_wanted > known_.at(*best).last_wanted)) best = number;
+    }
+    return best;
+}
+
+std::optional<std::uint32_t> BoardThread::least_wanted(std::uint64_t before) const {
+    std::optional<std::uint32_t> best;
+    for (const auto& [number, known] : known_) {
+        if (!known.slot || known.last_wanted >= before) continue;
+        if (!best || known.last_wanted < known_.at(*best).last_wanted) best = number;
+    }
+    return best;
+}
+
+void BoardThread::note_failure(const Error& error) {
+    counts_.last_failure = error.message;
+}
+
+void BoardThread::evict_slot(std::unique_lock<std::mutex>& lock, int slot) {
+    lock.unlock();
+    const Status evicted = device_->evict(slot);
+    lock.lock();
+    if (!evicted) note_failure(evicted.error());
+}
+
+// Loads the next object, if need be in the place of others that were not asked for as lately. Drops the wish where all
+// of them were.
+void BoardThread::load_one(std::unique_lock<std::mutex>& lock) {
+    const std::uint32_t number = *next_to_load();
+    const std::shared_ptr<const RaySpaceObject> object = known_.at(number).object;
+    const std::uint64_t wanted = known_.at(number).last_wanted;
+    loading_ = true;
+    for (;;) {
+        lock.unlock();
+        Result<std::optional<int>> slot = device_->load(*object);
+        lock.lock();
+        const auto found = known_.find(number);
+        if (!slot) {
+            ++counts_.failed_loads;
+            note_failure(slot.error());
+            if (found != known_.end()) found->second.failed = true;
+            if (found != known_.end()) found->second.waits = false;
+            break;
+        }
+        if (*slot) {
+            ++counts_.loads;
+            if (found == known_.end()) {
+                slots_to_free_.push_back(**slot);
+            } else {
+                found->second.slot = **slot;
+                found->second.waits = false;
+            }
+            break;
+        }
+        const std::optional<std::uint32_t> victim = least_wanted(wanted);
+        if (!victim || found == known_.end()) {
+            if (found != known_.end()) found->second.waits = false;
+            break;
+        }
+        const int freed = *std::exchange(known_.at(*victim).slot, std::nullopt);
+        ++counts_.evictions;
+        evict_slot(lock, freed);
+    }
+    loading_ = false;
+}
+
+void BoardThread::work() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        changed_.wait(lock, [&] {
+            return stopping_ || cycle_ || (!reserved_ && (!slots_to_free_.empty() || next_to_load().has_value()));
+        });
+        if (cycle_) {
+            const std::vector<DeviceView> views = std::move(*cycle_);
+            cycle_.reset();
+            lock.unlock();
+            Result<std::vector<Image<Rgba8>>> drawn = Error{"not drawn"};
+            try {
+                drawn = device_->render(views);
+            } catch (const std::exception& escaped) {
+                drawn = Error{std::string("the board's driver failed: ") + escaped.what()};
+            }
+            lock.lock();
+            if (!drawn) {
+                ++counts_.failed_cycles;
+                note_failure(drawn.error());
+            }
+            drawn_.emplace(std::move(drawn));
+            changed_.notify_all();
+        } else if (stopping_) {
+            return;
+        } else if (!slots_to_free_.empty()) {
+            const int slot = slots_to_free_.back();
+            slots_to_free_.pop_back();
+            evict_slot(lock, slot);
+        } else {
+            load_one(lock);
+        }
+    }
+}
+
+}  // namespace rs::engine

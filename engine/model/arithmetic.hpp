@@ -1,0 +1,64 @@
+#pragma once
+// The arithmetic units of the board, as functions without a clock and with the cycles they take. Quotients and products
+// are those of engine/RECONSTRUCTION.md; divide_serially and multiply_serially are the steps by which the hardware
+// makes them, one row of logic cells a step, and a test compares.
+
+#include <cstdint>
+
+namespace rs::engine::model {
+
+// Pipelined divider: sign and magnitude in, 32 stages of one quotient bit (a 33-bit subtract and a choice each), sign
+// and floor out. A new division may enter in every cycle.
+inline constexpr int kDivideCycles = 34;
+
+// Serial multiplier: 36 x 36 bits signed, 4 bits of the multiplier a cycle. One product at a time.
+inline constexpr int kMultiplyCycles = 9;
+
+// A quotient, or `overflow`: its magnitude is 2^32 or more.
+struct Quotient {
+    std::int64_t value = 0;
+    bool overflow = false;
+};
+
+// floor(dividend / divisor), divisor 1 .. 2^32 - 1, |dividend| below 2^63.
+constexpr Quotient divide(std::int64_t dividend, std::int64_t divisor) {
+    const std::int64_t quotient = dividend / divisor;
+    const std::int64_t floored = quotient * divisor > dividend ? quotient - 1 : quotient;
+    const std::int64_t magnitude = quotient < 0 ? -quotient : quotient;
+    if (magnitude >> 32 != 0) return {0, true};
+    return {floored, false};
+}
+
+// The same by the stages of the pipeline.
+constexpr Quotient divide_serially(std::int64_t dividend, std::int64_t divisor) {
+    const bool negative = dividend < 0;
+    const auto magnitude = negative ? ~static_cast<std::uint64_t>(dividend) + 1 : static_cast<std::uint64_t>(dividend);
+    const auto d = static_cast<std::uint64_t>(divisor);
+    std::uint64_t rest = magnitude >> 32U;
+    if (rest >= d) return {0, true};
+    std::uint64_t quotient = 0;
+    for (int bit = 31; bit >= 0; --bit) {
+        rest = (rest << 1U) | ((magnitude >> static_cast<unsigned>(bit)) & 1U);
+        const bool takes = rest >= d;
+        if (takes) rest -= d;
+        quotient = (quotient << 1U) | static_cast<std::uint64_t>(takes);
+    }
+    const auto value = static_cast<std::int64_t>(quotient);
+    if (!negative) return {value, false};
+    return {rest == 0 ? -value : -value - 1, false};
+}
+
+// a * b for |b| below 2^35, by nine steps of 4 bits of b; the product must fit 64 bits.
+constexpr std::int64_t multiply_serially(std::int64_t a, std::int64_t b) {
+    std::uint64_t sum = 0;
+    const auto digits = static_cast<std::uint64_t>(b);
+    for (int step = 0; step < kMultiplyCycles; ++step) {
+        const std::uint64_t digit = (digits >> static_cast<unsigned>(4 * step)) & 15U;
+        // The topmost digit carries the sign: it counts -8 .. 7.
+        const auto factor = step == kMultiplyCycles - 1 && digit >= 8 ? digit - 16 : digit;
+        sum += (static_cast<std::uint64_t>(a) * factor) << static_cast<unsigned>(4 * step);
+    }
+    return static_cast<std::int64_t>(sum);
+}
+
+}  // namespace rs::engine::model

@@ -1,0 +1,200 @@
+#include "engine/model/board.hpp"
+
+#include "engine/model/object_image.hpp"
+
+#include <algorithm>
+
+namespace rs::engine::model {
+namespace {
+
+constexpr std::uint64_t kMostCycles = std::uint64_t{1} << 40;
+
+// Pixel (i, j) is half (j & 1) of word i * ceil(height / 2) + (j >> 1).
+Image<Rgba8> picture_of(const HostPicture& words, const BoardView& view) {
+    Image<Rgba8> picture(view.width, view.height);
+    const auto pitch = static_cast<std::size_t>(view.words_per_column());
+    for (int j = 0; j < view.height; ++j) {
+        for (int i = 0; i < view.width; ++i) {
+            const std::uint64_t word =
+                words.words[static_cast<std::size_t>(i) * pitch + static_cast<std::size_t>(j / 2)];
+            const auto pixel = static_cast<std::uint32_t>(word >> (32 * (j % 2)));
+            const auto byte = [&](unsigned n) { return static_cast<std::uint8_t>(pixel >> (8 * n)); };
+            picture(i, j) = {byte(0), byte(1), byte(2), byte(3)};
+        }
+    }
+    return picture;
+}
+
+}  // namespace
+
+Board::Board(const BoardConfig& config, std::uint64_t shuffle_seed)
+    : top_(std::make_unique<BoardTop>(config, shuffle_seed)),
+      map_(config.memory),
+      slots_(static_cast<std::size_t>(config.limits.objects)) {}
+
+Result<int> Board::take_slot(const RaySpaceObject& object) {
+    if (Status status = drawable(object, top_->config.limits); !status) return status.error();
+    const auto free = std::find_if(slots_.begin(), slots_.end(), [](const Slot& s) { return !s.used; });
+    if (free == slots_.end()) {
+        return Error{object.name + ": all " + std::to_string(slots_.size()) +
+                     " object slots of the board are taken; evict an object first"};
+    }
+    const Result<Placement> placement = map_.take(object_words(object), object.name);
+    if (!placement) return placement.error();
+    *free = {true, *placement};
+    return static_cast<int>(free - slots_.begin());
+}
+
+Result<int> Board::place(const RaySpaceObject& object) {
+    const Result<int> slot = take_slot(object);
+    if (!slot) return slot.error();
+    ObjectImage image = object_image(object, slots_[static_cast<std::size_t>(*slot)].placement);
+    for (const MemorySegment& segment : image.segments) {
+        for (std::size_t n = 0; n < segment.words.size(); ++n) {
+            top_->sdram.set_word(segment.address + static_cast<WordAddress>(n), segment.words[n]);
+        }
+    }
+    image.registers.valid = true;
+    top_->registers.objects[static_cast<std::size_t>(*slot)] = image.registers;
+    return *slot;
+}
+
+Result<int> Board::start_load(const RaySpaceObject& object) {
+    const Result<int> slot = take_slot(object);
+    if (!slot) return slot.error();
+    ObjectImage image = object_image(object, slots_[static_cast<std::size_t>(*slot)].placement);
+    top_->disk_controller.load(
+        {*slot, image.registers, std::make_shared<const std::vector<MemorySegment>>(std::move(image.segments))});
+    return *slot;
+}
+
+Status Board::finish_loads() {
+    const auto idle = [&] { return top_->disk_controller.is_idle() && top_->object_ready.count() == 0; };
+    if (Status status = top_->simulator.run_until(idle, kMostCycles); !status) return status;
+    const std::vector<DiskController::Load>& loads = top_->disk_controller.loads();
+    std::string failed;
+    for (; collected_loads_ < loads.size(); ++collected_loads_) {
+        const DiskController::Load& load = loads[collected_loads_];
+        if (!load.failed) continue;
+        Slot& slot = slots_[static_cast<std::size_t>(load.slot)];
+        map_.give_back(slot.placement);
+        slot = {};
+        failed += (failed.empty() ? "slot " : ", ") + std::to_string(load.slot);
+    }
+    if (failed.empty()) return {};
+    return Error{"the board's disk gave nothing for too long while it loaded " + failed +
+                 "; the slot is empty again, load the object once more"};
+}
+
+Status Board::evict(int slot) {
+    if (slot < 0 || slot >= static_cast<int>(slots_.size()) || !slots_[static_cast<std::size_t>(slot)].used) {
+        return Error{"object slot " + std::to_string(slot) + " holds nothing to evict"};
+    }
+    if (top_->disk_controller.is_loading(slot)) {
+        return Error{"object slot " + std::to_string(slot) + " is being loaded; wait for it before evicting"};
+    }
+    bool is_asked_for = top_->render_control.uses_object(slot);
+    for (std::uint64_t n = top_->render_control.commands_taken(); n < top_->programs.size(); ++n) {
+        for (const BoardView& view : top_->programs[n].bank.views) is_asked_for |= view.object == slot;
+    }
+    if (is_asked_for) {
+        return Error{"object slot " + std::to_string(slot) +
+                     " is being drawn; evict it when its rendering cycles are done"};
+    }
+    top_->registers.objects[static_cast<std::size_t>(slot)] = {};
+    map_.give_back(slots_[static_cast<std::size_t>(slot)].placement);
+    slots_[static_cast<std::size_t>(slot)] = {};
+    return {};
+}
+
+Result<BoardView> Board::view(int slot, const engine::ViewRegisters& registers) const {
+    return board_view(registers, slot);
+}
+
+void Board::submit(std::vector<BoardView> views) {
+    HostProgram program;
+    for (const BoardView& view : views) {
+        const bool exists = view.object >= 0 && view.object < static_cast<int>(top_->registers.objects.size());
+        program.register_writes +=
+            register_writes(view, exists ? top_->registers.objects[static_cast<std::size_t>(view.object)].planes : 0);
+    }
+    ++program.register_writes;  // the start command
+    program.bank.views = std::move(views);
+    top_->programs.push_back(std::move(program));
+}
+
+RenderedCycle Board::collect(std::size_t cycle) {
+    const RenderControl::Cycle& done = top_->render_control.cycles()[cycle];
+    RenderedCycle result{done.started, done.rendered, 0, {}};
+    std::deque<HostPicture>& arrived = top_->host_bus.pictures();
+    for (const BoardView& view : top_->programs[done.program].bank.views) {
+        RS_CHECK(!arrived.empty() && arrived.front().words.size() == static_cast<std::size_t>(view.words()));
+        result.pictures.push_back(picture_of(arrived.front(), view));
+        result.arrived = (arrived.front().arrived + 1) * static_cast<std::uint64_t>(top_->config.pci.period) /
+                         static_cast<std::uint64_t>(top_->config.clock_period);
+        arrived.pop_front();
+    }
+    top_->programs[done.program].bank.views = {};  // a board lives for many cycles
+    return result;
+}
+
+Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles) {
+    BoardRun run;
+    run.begin = snapshot();
+    const std::vector<RenderControl::Cycle>& done = top_->render_control.cycles();
+    const std::size_t first = done.size();
+    const std::size_t refused = top_->render_control.refusals().size();
+    const auto rendered = [&] {
+        return done.size() - first - static_cast<std::size_t>(!done.empty() && done.back().rendered == 0);
+    };
+    // The pictures of a cycle are collected when its last has come, so what stands last is of the cycle being
+    // delivered.
+    const std::deque<HostPicture>& at_host = top_->host_bus.pictures();
+    const auto arrived = [&] {
+        return !at_host.empty() && at_host.back().last_view &&
+               at_host.back().words.size() == at_host.back().expected_words;
+    };
+    std::size_t submitted = 0;
+    while (run.cycles.size() < cycles.size()) {
+        while (submitted < cycles.size() &&
+               submitted - std::min(submitted, rendered()) < static_cast<std::size_t>(top_->config.queue_cycles)) {
+            submit(cycles[submitted++]);
+        }
+        const std::size_t was = rendered();
+        const auto event = [&] {
+            return rendered() != was || top_->render_control.refusals().size() != refused || arrived();
+        };
+        if (Status status = top_->simulator.run_until(event, kMostCycles); !status) return status.error();
+        if (top_->render_control.refusals().size() != refused) {
+            return Error{"the board refused a rendering cycle: " + top_->render_control.refusals().back().reason};
+        }
+        if (rendered() > 0 && run.first_rendered.blocks.empty()) run.first_rendered = snapshot();
+        if (rendered() == cycles.size() && run.rendered.blocks.empty()) run.rendered = snapshot();
+        if (arrived()) run.cycles.push_back(collect(first + run.cycles.size()));
+    }
+    run.end = snapshot();
+    // The board learns that its buffer is free.
+    const auto quiet = [&] {
+        return top_->host_dma.last_activity() == Activity::idle && top_->buffer_free.count() == 0;
+    };
+    if (Status status = top_->simulator.run_until(quiet, kMostCycles); !status) return status.error();
+    return run;
+}
+
+std::vector<const Block*> Board::blocks() const {
+    std::vector<const Block*> all;
+    for (const Domain domain : {Domain::board, Domain::pci}) {
+        const std::vector<Block*>& blocks = top_->simulator.parts(domain).blocks;
+        all.insert(all.end(), blocks.begin(), blocks.end());
+    }
+    std::sort(all.begin(), all.end(), [](const Block* a, const Block* b) { return a->name() < b->name(); });
+    return all;
+}
+
+Snapshot Board::snapshot() const {
+    Snapshot shot{top_->simulator.board_cycles(), top_->simulator.pci_cycles(), {}};
+    for (const Block* block : blocks()) shot.blocks.push_back(block->counts());
+    return shot;
+}
+
+}  // namespace rs::engine::model

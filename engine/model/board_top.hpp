@@ -1,0 +1,94 @@
+#pragma once
+// The board: constructs the FIFOs and the blocks and wires them. Nothing else happens here; DIAGRAM.md shows it.
+
+#include "engine/model/blocks/colour_conversion.hpp"
+#include "engine/model/blocks/column_address.hpp"
+#include "engine/model/blocks/disk_controller.hpp"
+#include "engine/model/blocks/host_bus.hpp"
+#include "engine/model/blocks/host_dma.hpp"
+#include "engine/model/blocks/image_writer.hpp"
+#include "engine/model/blocks/line_reader.hpp"
+#include "engine/model/blocks/map_reader.hpp"
+#include "engine/model/blocks/memory_controller.hpp"
+#include "engine/model/blocks/raster_generator.hpp"
+#include "engine/model/blocks/ray_position.hpp"
+#include "engine/model/blocks/render_control.hpp"
+#include "engine/model/blocks/row_scan.hpp"
+#include "engine/model/blocks/sample_fetch.hpp"
+#include "engine/model/blocks/sample_select.hpp"
+#include "engine/model/blocks/vertical_compensation.hpp"
+#include "engine/model/clock/simulator.hpp"
+
+namespace rs::engine::model {
+
+// The FIFOs between a column's start and its pixels, and the blocks that they join: a pipe.
+struct PipeFifos {
+    Fifo<ViewJob> jobs{"jobs", 2, ViewJob::kBits};
+    Fifo<ColumnRay> columns{"columns", 2, ColumnRay::kBits};
+    Fifo<RayPoint> points{"points", 2, RayPoint::kBits};
+    Fifo<MappedRay> mapped{"mapped", 2, MappedRay::kBits};
+    Fifo<RayLine> lines{"lines", 2, RayLine::kBits};
+    Fifo<ColumnWalk> walks{"walks", 2, ColumnWalk::kBits};
+    Fifo<PlacedColumn> placed{"placed", 4, PlacedColumn::kBits};
+    Fifo<PixelPair> pairs{"pairs", 4, PixelPair::kBits};
+    Fifo<SampleTag> tags{"tags", 32, SampleTag::kBits};
+    Fifo<YuvaPixel> samples{"samples", 4, YuvaPixel::kBits};
+    Fifo<RgbaPixel> pixels{"pixels", 4, RgbaPixel::kBits};
+
+    Fifo<MemoryRead> map_reads{"map_reads", 2, MemoryRead::kBits};
+    Fifo<MemoryWord> map_words{"map_words", 2, MemoryWord::kBits};
+    Fifo<MemoryRead> line_reads{"line_reads", 4, MemoryRead::kBits};
+    Fifo<MemoryWord> line_words{"line_words", 4, MemoryWord::kBits};
+    Fifo<MemoryRead> sample_reads{"sample_reads", 8, MemoryRead::kBits};
+    Fifo<MemoryWord> sample_words{"sample_words", 16, MemoryWord::kBits};
+    Fifo<MemoryWrite> image_writes{"image_writes", 16, MemoryWrite::kBits};
+    Fifo<Done> view_written{"view_written", 2, Done::kBits};
+};
+
+struct Pipe {
+    explicit Pipe(const RegisterFile& registers);
+    PipeFifos fifos;
+    RasterGenerator raster_generator;
+    RayPosition ray_position;
+    MapReader map_reader;
+    LineReader line_reader;
+    VerticalCompensation vertical_compensation;
+    ColumnAddress column_address;
+    RowScan row_scan;
+    SampleFetch sample_fetch;
+    SampleSelect sample_select;
+    ColourConversion colour_conversion;
+    ImageWriter image_writer;
+};
+
+struct BoardTop {
+    explicit BoardTop(const BoardConfig& config, std::uint64_t shuffle_seed = 0);
+    BoardTop(const BoardTop&) = delete;
+    BoardTop& operator=(const BoardTop&) = delete;
+
+    const BoardConfig config;
+    RegisterFile registers;
+    Sdram sdram;
+    HostPrograms programs;
+
+    CrossingFifo<StartCommand> commands{"commands", 4, StartCommand::kBits};
+    CrossingFifo<ImageWord> image_words{"image_words", 32, ImageWord::kBits};
+    CrossingFifo<Done> transferred{"transferred", 2, Done::kBits};
+    Fifo<Done> images_ready{"images_ready", 2, Done::kBits};
+    Fifo<Done> buffer_free{"buffer_free", 2, Done::kBits};
+    Fifo<MemoryRead> host_reads{"host_reads", 4, MemoryRead::kBits};
+    Fifo<MemoryWord> host_words{"host_words", 8, MemoryWord::kBits};
+    Fifo<MemoryWrite> load_words{"load_words", 64, MemoryWrite::kBits};
+    Fifo<Done> object_loaded{"object_loaded", 2, Done::kBits};
+    Fifo<Done> object_ready{"object_ready", 2, 5};
+
+    Pipe pipe;
+    RenderControl render_control;
+    MemoryController memory;
+    HostDma host_dma;
+    DiskController disk_controller;
+    HostBus host_bus;
+    Simulator simulator;
+};
+
+}  // namespace rs::engine::model

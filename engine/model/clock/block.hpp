@@ -1,0 +1,70 @@
+#pragma once
+// A block of the board: a clocked machine that meets others only through FIFOs. It declares its FIFOs (the diagram is
+// made of the declarations), counts where its cycles went, and does its work in tick(). Blocks hold no pointers to
+// blocks; board_top constructs and wires.
+
+#include "engine/model/clock/activity.hpp"
+#include "engine/model/clock/crossing_fifo.hpp"
+#include "engine/model/clock/fifo.hpp"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rs::engine::model {
+
+struct Port {
+    enum class Direction { in, out };
+    Direction direction = Direction::in;
+    std::string fifo;
+    int width_bits = 0;
+    int depth = 0;
+};
+
+class Block {
+public:
+    // `timing`: latency and interval between results, in cycles, as one line of the diagram.
+    Block(std::string name, std::string timing) : name_(std::move(name)), timing_(std::move(timing)) {}
+    virtual ~Block() = default;
+    Block(const Block&) = delete;
+    Block& operator=(const Block&) = delete;
+
+    // One cycle of the block's clock. `now` counts them from 0.
+    virtual Activity tick(std::uint64_t now) = 0;
+
+    void clock(std::uint64_t now) {
+        last_ = tick(now);
+        ++counts_.cycles[static_cast<std::size_t>(last_)];
+    }
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const std::string& timing() const { return timing_; }
+    [[nodiscard]] const std::vector<Port>& ports() const { return ports_; }
+    [[nodiscard]] const ActivityCounts& counts() const { return counts_; }
+    [[nodiscard]] Activity last_activity() const { return last_; }
+
+    // Registers inside, as text, for the dump of a run that is stuck.
+    [[nodiscard]] virtual std::string state_text() const { return {}; }
+
+protected:
+    template <class F>
+    F& reads(F& fifo) {
+        ports_.push_back({Port::Direction::in, fifo.name(), fifo.width_bits(), fifo.depth()});
+        return fifo;
+    }
+    template <class F>
+    F& writes(F& fifo) {
+        ports_.push_back({Port::Direction::out, fifo.name(), fifo.width_bits(), fifo.depth()});
+        return fifo;
+    }
+
+private:
+    std::string name_;
+    std::string timing_;
+    std::vector<Port> ports_;
+    ActivityCounts counts_;
+    Activity last_ = Activity::idle;
+};
+
+}  // namespace rs::engine::model

@@ -1,0 +1,102 @@
+#pragma once
+// Two-phase FIFOs: the only way from block to block. During a cycle everybody sees the FIFO as it was when the cycle
+// began; what is pushed and popped takes effect when the cycle ends (commit). So the order in which blocks are ticked
+// cannot matter: a push is visible in the next cycle, and room made by a pop is too. A FIFO of depth 1 therefore moves
+// an item every second cycle, one of depth 2 or more one per cycle.
+//
+// One push and one pop per cycle, as a RAM with a write port and a read port has. Breaking a rule is a defect of the
+// block and stops the program.
+
+#include "rayspace/check.hpp"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rs::engine::model {
+
+// What can be said of a FIFO without knowing its items: for diagrams, waveforms and dumps.
+class FifoState {
+public:
+    FifoState(std::string name, int depth, int width_bits)
+        : name_(std::move(name)), depth_(depth), width_bits_(width_bits) {
+        RS_CHECK(depth >= 1 && width_bits >= 1);
+    }
+    virtual ~FifoState() = default;
+    FifoState(const FifoState&) = delete;
+    FifoState& operator=(const FifoState&) = delete;
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] int depth() const { return depth_; }
+    [[nodiscard]] int width_bits() const { return width_bits_; }
+
+    // All as of the beginning of the cycle.
+    [[nodiscard]] int count() const { return count_; }
+    [[nodiscard]] int room() const { return depth_ - count_; }
+    [[nodiscard]] bool can_push() const { return count_ < depth_; }
+    [[nodiscard]] bool can_pop() const { return count_ > 0; }
+    [[nodiscard]] std::uint64_t pushed_in_all() const { return pushed_in_all_; }
+
+    // Ends the cycle. True where something moved.
+    bool commit() {
+        if (!pushed_ && !popped_) return false;
+        count_ += static_cast<int>(pushed_) - static_cast<int>(popped_);
+        pushed_in_all_ += static_cast<std::uint64_t>(pushed_);
+        pushed_ = popped_ = false;
+        return true;
+    }
+
+    // Item `index` from the front, as text; for the dump of a run that is stuck.
+    [[nodiscard]] virtual std::string item_text(int index) const = 0;
+
+protected:
+    int count_ = 0;
+    bool pushed_ = false;
+    bool popped_ = false;
+
+private:
+    std::string name_;
+    int depth_;
+    int width_bits_;
+    std::uint64_t pushed_in_all_ = 0;
+};
+
+// T has `std::string text(const T&)` findable by argument-dependent look-up. `width_bits` is what the hardware stores.
+template <class T>
+class Fifo final : public FifoState {
+public:
+    Fifo(std::string name, int depth, int width_bits) : FifoState(std::move(name), depth, width_bits) {
+        std::size_t places = 1;
+        while (places < static_cast<std::size_t>(depth)) places *= 2;
+        items_.resize(places);
+        mask_ = places - 1;
+    }
+
+    void push(const T& item) {
+        RS_CHECK(can_push() && !pushed_);
+        items_[(head_ + static_cast<std::size_t>(count_) + (popped_ ? mask_ : 0)) & mask_] = item;
+        pushed_ = true;
+    }
+    [[nodiscard]] const T& front() const {
+        RS_CHECK(can_pop() && !popped_);
+        return items_[head_];
+    }
+    T pop() {
+        RS_CHECK(can_pop() && !popped_);
+        const T item = items_[head_];
+        head_ = (head_ + 1) & mask_;
+        popped_ = true;
+        return item;
+    }
+    [[nodiscard]] std::string item_text(int index) const override {
+        return text(items_[(head_ + static_cast<std::size_t>(index)) & mask_]);
+    }
+
+private:
+    std::vector<T> items_;
+    std::size_t mask_ = 0;
+    std::size_t head_ = 0;
+};
+
+}  // namespace rs::engine::model

@@ -1,0 +1,34 @@
+#pragma once
+// An object as it lies on the board's disk and in its memory: pictures column by column, alpha in 2 bits, the RS map a
+// byte per cell, cameras and lines in records (the layouts stand in column_address.hpp and line_reader.hpp).
+
+#include "engine/model/blocks/disk_controller.hpp"
+#include "engine/model/memory_map.hpp"
+#include "rayspace/ray_space_object.hpp"
+
+#include <array>
+#include <vector>
+
+namespace rs::engine::model {
+
+inline constexpr int kAlphaBits = 2;
+
+// Fails where the board cannot hold or draw the object, with the reason and the remedy: a limit of fits_board, a shape
+// map, colour at full size, pictures that are not loaded.
+Status drawable(const RaySpaceObject& object, const BoardLimits& limits);
+
+// The object that the board really draws: alpha rounded to its 2 bits. Bit equality is with this one.
+RaySpaceObject with_board_alpha(RaySpaceObject object);
+
+// Words per region that the object takes.
+std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object);
+
+struct ObjectImage {
+    ObjectRegisters registers;
+    std::vector<MemorySegment> segments;
+};
+
+// `object` is drawable. Alpha is rounded to 2 bits.
+ObjectImage object_image(const RaySpaceObject& object, const Placement& placement);
+
+}  // namespace rs::engine::model

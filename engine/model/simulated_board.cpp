@@ -1,0 +1,67 @@
+#include "engine/model/simulated_board.hpp"
+
+#include "engine/model/board.hpp"
+#include "engine/model/object_image.hpp"
+
+#include <utility>
+
+namespace rs::engine::model {
+namespace {
+
+class SimulatedBoard final : public BoardDevice {
+public:
+    SimulatedBoard(const BoardConfig& config, bool instant_loads)
+        : limits_(config.limits), board_(config), instant_loads_(instant_loads) {}
+
+    [[nodiscard]] Status takes(const RaySpaceObject& object) const override { return drawable(object, limits_); }
+
+    [[nodiscard]] Status draws(const ViewRegisters& registers) const override {
+        const Result<BoardView> view = board_view(registers, 0);
+        if (!view) return view.error();
+        if (registers.width > limits_.image_buffer_side_px || registers.height > limits_.image_buffer_side_px) {
+            return Error{"the view is larger than the board's image buffer"};
+        }
+        return {};
+    }
+
+    [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override {
+        return with_board_alpha(std::move(object));
+    }
+
+    [[nodiscard]] int views_per_cycle() const override { return limits_.views_per_cycle; }
+
+    Result<std::optional<int>> load(const RaySpaceObject& object) override {
+        const Result<int> slot = instant_loads_ ? board_.place(object) : board_.start_load(object);
+        if (!slot) return std::optional<int>();  // takes() was asked before: only room can be missing
+        if (instant_loads_) return std::optional<int>(*slot);
+        if (Status loaded = board_.finish_loads(); !loaded) return loaded.error();
+        return std::optional<int>(*slot);
+    }
+
+    Status evict(int slot) override { return board_.evict(slot); }
+
+    Result<std::vector<Image<Rgba8>>> render(const std::vector<DeviceView>& views) override {
+        std::vector<BoardView> cycle;
+        for (const DeviceView& view : views) {
+            const Result<BoardView> registers = board_.view(view.slot, view.registers);
+            if (!registers) return registers.error();
+            cycle.push_back(*registers);
+        }
+        Result<BoardRun> run = board_.render({cycle});
+        if (!run) return run.error();
+        return std::move(run->cycles.front().pictures);
+    }
+
+private:
+    const BoardLimits limits_;  // read from any thread
+    Board board_;
+    bool instant_loads_;
+};
+
+}  // namespace
+
+std::unique_ptr<BoardDevice> make_simulated_board(const BoardConfig& config, bool instant_loads) {
+    return std::make_unique<SimulatedBoard>(config, instant_loads);
+}
+
+}  // namespace rs::engine::model

@@ -1,0 +1,72 @@
+#include "engine/tools/asked_views.hpp"
+
+#include "engine/core/orbit.hpp"
+#include "rayspace/conventions.hpp"
+#include "rayspace/rig.hpp"
+#include "rayspace/tool_main.hpp"
+
+namespace rs::engine {
+namespace {
+
+Result<ViewShape> view_shape(const AskedViews& views) {
+    ViewShape shape;
+    if (!views.size.empty()) {
+        const Result<PixelSize> size = parse_size(views.size);
+        if (!size) return size.error();
+        shape.width = size->width;
+        shape.height = size->height;
+    }
+    if (views.fov_deg != 0) shape.fov_x_rad = radians(views.fov_deg);
+    return shape;
+}
+
+Result<std::vector<Camera>> cameras_of_rig(const std::string& path, const ViewShape& shape) {
+    const Result<Rig> rig = read_rig(path);
+    if (!rig) return rig.error();
+    if (rig->views.empty()) return Error{path + ": holds no frames to render"};
+    std::vector<Camera> cameras;
+    for (const RigView& view : rig->views) {
+        Camera camera = view.camera;
+        if (shape.width > 0) {
+            camera.cx *= static_cast<double>(shape.width) / camera.width;
+            camera.fl_x *= static_cast<double>(shape.width) / camera.width;
+            camera.cy *= static_cast<double>(shape.height) / camera.height;
+            camera.fl_y *= static_cast<double>(shape.height) / camera.height;
+            camera.width = shape.width;
+            camera.height = shape.height;
+        }
+        cameras.push_back(camera);
+    }
+    return cameras;
+}
+
+}  // namespace
+
+Result<std::vector<Camera>> asked_cameras(const RaySpaceObject& object, const AskedViews& views) {
+    const Result<ViewShape> shape = view_shape(views);
+    if (!shape) return shape.error();
+    if (!views.poses.empty()) return cameras_of_rig(views.poses, *shape);
+    if (views.orbit > 0) return orbit_cameras(object, views.orbit, *shape);
+    const Result<Triple> eye = parse_triple(views.eye, "--eye");
+    if (!eye) return eye.error();
+    const Result<Triple> at = parse_triple(views.at, "--at");
+    if (!at) return at.error();
+    const Result<Camera> camera = camera_from_eye(object, {eye->x, eye->y, eye->z}, {at->x, at->y, at->z}, *shape);
+    if (!camera) return camera.error();
+    return std::vector<Camera>{*camera};
+}
+
+void add_view_options(CLI::App& command, AskedViews& views, bool required) {
+    CLI::Option_group* what = command.add_option_group("views", "What to render");
+    what->add_option("--orbit", views.orbit, "N views once around, as captured")->check(CLI::Range(1, 100000));
+    CLI::Option* poses = what->add_option("--poses", views.poses, "the cameras of a transforms.json");
+    what->add_option("--eye", views.eye, "one view from X,Y,Z, in object radii; Y is the turntable's axis");
+    what->require_option(required ? 1 : 0, 1);
+    command.add_option("--at", views.at, "with --eye: the point looked at, in object radii")->capture_default_str();
+    command.add_option("--size", views.size, "size of the views, WxH; as captured where not given");
+    command.add_option("--fov", views.fov_deg, "horizontal field of view in degrees; as captured where not given")
+        ->check(CLI::Range(0.01, 159.0))
+        ->excludes(poses);
+}
+
+}  // namespace rs::engine

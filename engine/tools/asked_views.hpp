@@ -1,0 +1,30 @@
+#pragma once
+// The options by which the commands are told what to look at: an orbit, the cameras of a rig, or one view from an eye.
+
+#include "rayspace/camera.hpp"
+#include "rayspace/ray_space_object.hpp"
+#include "rayspace/result.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace rs::engine {
+
+struct AskedViews {
+    std::string poses;
+    std::string eye;
+    std::string at = "0,0,0";
+    std::string size;
+    int orbit = 0;
+    double fov_deg = 0;
+};
+
+// Adds --orbit, --poses, --eye (at most one of them; exactly one where `required`), --at, --size and --fov.
+void add_view_options(CLI::App& command, AskedViews& views, bool required = true);
+
+// The cameras that are asked for, in the units of the object's rig.
+Result<std::vector<Camera>> asked_cameras(const RaySpaceObject& object, const AskedViews& views);
+
+}  // namespace rs::engine

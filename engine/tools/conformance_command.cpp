@@ -1,0 +1,159 @@
+#include "engine/tools/conformance_command.hpp"
+
+#include "engine/conformance/run_vectors.hpp"
+#include "engine/core/conformance.hpp"
+#include "engine/tools/board_executor.hpp"
+#include "rayspace/object_file.hpp"
+#include "rayspace/progress.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+namespace rs::engine {
+namespace {
+
+struct ConformanceArguments {
+    std::string target;
+    std::vector<std::string> executors;
+    std::string write_folder;
+    int views = 40;
+    std::uint64_t seed = 1;
+    bool quiet = false;
+    bool json = false;
+};
+
+Result<Executor> executor_from(const std::string& name) {
+    if (name == "scalar") return scalar_executor();
+    if (name == "core") return core_executor();
+    constexpr std::string_view kBoard = "board:";
+    constexpr std::string_view kFiles = "files:";
+    if (name.starts_with(kBoard)) return board_executor(name.substr(kBoard.size()));
+    if (name.starts_with(kFiles)) return files_executor(name.substr(kFiles.size()));
+    return Error{"--executor " + name + ": there is no such executor; give scalar, core, board:CONFIG or files:FOLDER"};
+}
+
+std::string cell_text(const CaseResult& result) {
+    if (result.failed) return "failed";
+    if (result.different > 0) return std::to_string(result.different) + " differ";
+    if (!result.declined.empty()) return "-";
+    return std::to_string(result.same) + " same";
+}
+
+void print_matrix(const VectorSet& set, const ConformanceMatrix& matrix) {
+    std::printf("conformance set, edition %s: %zu cases\n%-20s", set.edition.c_str(), set.cases.size(), "");
+    for (const std::string& name : matrix.executors) std::printf(" %18s", name.c_str());
+    std::printf("\n");
+    for (std::size_t c = 0; c < set.cases.size(); ++c) {
+        std::printf("%-20s", set.cases[c].name.c_str());
+        for (const CaseResult& result : matrix.results[c]) std::printf(" %18s", cell_text(result).c_str());
+        std::printf("\n");
+    }
+    for (std::size_t c = 0; c < set.cases.size(); ++c) {
+        for (std::size_t e = 0; e < matrix.executors.size(); ++e) {
+            const CaseResult& result = matrix.results[c][e];
+            const std::string why = result.different > 0 ? result.first : result.declined;
+            if (!why.empty()) {
+                std::printf("  %s, %s: %s\n", set.cases[c].name.c_str(), matrix.executors[e].c_str(), why.c_str());
+            }
+        }
+    }
+}
+
+void print_json(const VectorSet& set, const ConformanceMatrix& matrix) {
+    nlohmann::json json{{"edition", set.edition}, {"passed", matrix.passed()}};
+    for (std::size_t c = 0; c < set.cases.size(); ++c) {
+        nlohmann::json row{{"case", set.cases[c].name}};
+        for (std::size_t e = 0; e < matrix.executors.size(); ++e) {
+            const CaseResult& result = matrix.results[c][e];
+            row["executors"][matrix.executors[e]] = {{"same", result.same},
+                                                     {"different", result.different},
+                                                     {"declined", result.declined},
+                                                     {"first", result.first}};
+        }
+        json["cases"].push_back(row);
+    }
+    std::cout << json.dump(2) << '\n';
+}
+
+Status run_set(const ConformanceArguments& arguments) {
+    const Result<VectorSet> set = read_vectors(arguments.target);
+    if (!set) return set.error();
+    std::vector<Executor> executors;
+    for (const std::string& name :
+         arguments.executors.empty() ? std::vector<std::string>{"scalar", "core"} : arguments.executors) {
+        Result<Executor> executor = executor_from(name);
+        if (!executor) return executor.error();
+        executors.push_back(std::move(*executor));
+    }
+    ProgressBar progress(arguments.quiet);
+    const Result<ConformanceMatrix> matrix = run_vectors(*set, executors, arguments.write_folder, &progress);
+    if (!matrix) return matrix.error();
+    if (arguments.json) {
+        print_json(*set, *matrix);
+    } else {
+        print_matrix(*set, *matrix);
+    }
+    if (matrix->passed()) return {};
+    return Error{arguments.target + ": not everything is as the definition says; see the table"};
+}
+
+Status run_random_views(const ConformanceArguments& arguments) {
+    Result<RaySpaceObject> object = read_object(arguments.target, {.decode = false});
+    if (!object) return object.error();
+    ProgressBar progress(arguments.quiet);
+    const Result<ConformanceReport> report =
+        check_conformance(std::move(*object), arguments.views, arguments.seed, &progress);
+    if (!report) return report.error();
+    std::printf(
+        "%s: %d views (%d upright, %d of them on a ring), %lld pixels, %lld of the object: %lld differ from the "
+        "definition\n",
+        arguments.target.c_str(), report->views, report->upright_views, report->on_ring_views,
+        static_cast<long long>(report->pixels), static_cast<long long>(report->object_pixels),
+        static_cast<long long>(report->different_pixels));
+    if (report->different_pixels != 0) {
+        return Error{arguments.target +
+                     ": the core's pictures are not those of the definition; this is a defect of the renderer"};
+    }
+    return {};
+}
+
+}  // namespace
+
+void add_conformance_command(CLI::App& app, std::function<Status()>& run) {
+    auto arguments = std::make_shared<ConformanceArguments>();
+    CLI::App* command = app.add_subcommand(
+        "conformance",
+        "Compare implementations with the definition bit for bit: on the conformance set (a folder with a\n"
+        "vectors.json), or, given an object, the core on random views of it");
+    command->add_option("TARGET", arguments->target, "the folder of the conformance set, or an object, .rso")
+        ->required();
+    command->add_option("--executor", arguments->executors,
+                        "of the set: scalar, core, board:CONFIG (a configuration of `simulate`), or files:FOLDER, "
+                        "pictures that another implementation wrote; may be given several times; scalar and core if "
+                        "not given");
+    command->add_option("--write", arguments->write_folder,
+                        "of the set: also write what the first executor renders, as files:FOLDER would be read");
+    command->add_option("--views", arguments->views, "of an object: how many views")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command->add_option("--seed", arguments->seed, "of an object: which views")->capture_default_str();
+    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
+    command->add_flag("--json", arguments->json, "of the set: the table as JSON");
+    command->footer(
+        "Examples:\n  rs-engine conformance engine/conformance/vectors --executor core --executor "
+        "board:prototype-2000\n"
+        "  rs-engine conformance engine/conformance/vectors --executor files:my-pictures\n"
+        "  rs-engine conformance vase.rso --views 100");
+    command->callback([arguments, &run] {
+        run = [arguments] {
+            return std::filesystem::is_directory(arguments->target) ? run_set(*arguments)
+                                                                    : run_random_views(*arguments);
+        };
+    });
+}
+
+}  // namespace rs::engine

@@ -1,0 +1,275 @@
+#include "engine/tools/simulate_command.hpp"
+
+#include "engine/core/reconstruct.hpp"
+#include "engine/model/diagram.hpp"
+#include "engine/model/object_image.hpp"
+#include "engine/model/report.hpp"
+#include "engine/model/waveform.hpp"
+#include "engine/tools/asked_views.hpp"
+#include "rayspace/file_output.hpp"
+#include "rayspace/object_file.hpp"
+#include "rayspace/picture_io.hpp"
+#include "rayspace/ray_space.hpp"
+#include "rayspace/view_output.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+namespace rs::engine {
+namespace {
+
+struct SimulateArguments {
+    std::string config;
+    std::vector<std::string> objects;
+    AskedViews views;
+    std::string output;
+    std::string stats;
+    std::string trace;
+    std::string chart;
+    std::uint64_t trace_cycles = 20000;
+    int per_cycle = 0;
+    bool upright = false;
+    bool load = false;
+    bool diagram = false;
+    bool print_config = false;
+};
+
+// A view of one of the objects, as the definition and as the board take it.
+struct Drawing {
+    std::size_t object = 0;
+    Camera camera;
+    ViewRegisters registers;
+};
+
+// The upright camera in whose picture the object's centre keeps its row.
+Camera stood_upright(const Camera& camera) {
+    Camera upright = upright_camera(camera);
+    const auto row = [](const Camera& c) { return c.project({0, 0, 0}).y; };
+    upright.cy += row(camera) - row(upright);
+    return upright;
+}
+
+// View by view, of each view all objects: so a rendering cycle shows the objects side by side.
+Result<std::vector<Drawing>> asked_drawings(const std::vector<RaySpaceObject>& objects,
+                                            const SimulateArguments& arguments) {
+    std::vector<std::vector<Camera>> cameras;
+    for (const RaySpaceObject& object : objects) {
+        Result<std::vector<Camera>> asked = asked_cameras(object, arguments.views);
+        if (!asked) return asked.error();
+        cameras.push_back(std::move(*asked));
+    }
+    std::vector<Drawing> drawings;
+    for (std::size_t v = 0; v < cameras.front().size(); ++v) {
+        for (std::size_t n = 0; n < objects.size(); ++n) {
+            const Camera camera = arguments.upright ? stood_upright(cameras[n][v]) : cameras[n][v];
+            const Result<ViewRegisters> registers = prepare_view(objects[n], camera);
+            if (!registers) return registers.error();
+            drawings.push_back({n, camera, *registers});
+        }
+    }
+    return drawings;
+}
+
+Result<std::vector<int>> put_on_board(model::Board& board, const std::vector<RaySpaceObject>& objects, bool load) {
+    std::vector<int> slots;
+    for (const RaySpaceObject& object : objects) {
+        const Result<int> slot = load ? board.start_load(object) : board.place(object);
+        if (!slot) return slot.error();
+        slots.push_back(*slot);
+    }
+    if (!load) return slots;
+    if (Status status = board.finish_loads(); !status) return status.error();
+    const double hz = 1e6 * board.top().config.clock_mhz;
+    for (const auto& done : board.top().disk_controller.loads()) {
+        const double seconds = double(done.finished - done.started) / hz;
+        std::printf("loaded slot %d: %.2f MByte in %.3f s, %.2f MByte/s\n", done.slot, double(done.bytes) / 1e6,
+                    seconds, double(done.bytes) / 1e6 / seconds);
+    }
+    return slots;
+}
+
+Result<std::vector<std::vector<model::BoardView>>> rendering_cycles(const model::Board& board,
+                                                                    const std::vector<Drawing>& drawings,
+                                                                    const std::vector<int>& slots, int per_cycle) {
+    std::vector<std::vector<model::BoardView>> cycles;
+    for (const Drawing& drawing : drawings) {
+        if (cycles.empty() || cycles.back().size() == static_cast<std::size_t>(per_cycle)) cycles.emplace_back();
+        const Result<model::BoardView> view = board.view(slots[drawing.object], drawing.registers);
+        if (!view) {
+            return Error{view.error().message + "; --upright does so for the views asked for"};
+        }
+        cycles.back().push_back(*view);
+    }
+    return cycles;
+}
+
+void print_interval(const char* what, const model::Interval& interval) {
+    std::printf("\n%s: %llu board cycles, %.3f ms; limited by %s\n", what,
+                static_cast<unsigned long long>(interval.board_cycles), interval.seconds * 1e3,
+                interval.limiting_block.c_str());
+    for (const model::BlockShare& block : interval.blocks) {
+        std::printf("  %-22s", block.name.c_str());
+        for (std::size_t a = 0; a < model::kActivities; ++a) {
+            const auto activity = static_cast<model::Activity>(a);
+            if (block.counts.of(activity) == 0) continue;
+            std::printf("  %s %.1f%%", std::string(model::activity_name(activity)).c_str(),
+                        100 * block.share(activity));
+        }
+        std::printf("\n");
+    }
+}
+
+void print_report(const model::BoardReport& report) {
+    std::printf("%s: %d rendering cycles, %d pictures, %lld pixels\n", report.config.c_str(), report.cycles,
+                report.pictures, static_cast<long long>(report.pixels));
+    std::printf("drawing: %.2f Mpixel/s, %.2f rendering cycles/s (%llu board cycles)\n", report.pixels_per_second / 1e6,
+                report.cycles_per_second, static_cast<unsigned long long>(report.render_cycles));
+    if (report.arrivals_per_second > 0) {
+        std::printf("arriving at the host: %.2f rendering cycles/s\n", report.arrivals_per_second);
+    }
+    print_interval("while rendering", report.rendering);
+    print_interval("while delivering to the host's memory", report.delivering);
+    std::printf("\nmemory channel 0:");
+    for (const model::MemoryTraffic& traffic : report.memory) {
+        if (traffic.words + traffic.nulls == 0) continue;
+        std::printf("  %s %llu bytes", traffic.client.c_str(), static_cast<unsigned long long>(traffic.words * 8));
+    }
+    std::printf("\nhost bus: %llu bytes of pictures in %llu bursts, %llu retries, %llu register writes\n",
+                static_cast<unsigned long long>(report.bus.image_bytes),
+                static_cast<unsigned long long>(report.bus.bursts), static_cast<unsigned long long>(report.bus.retries),
+                static_cast<unsigned long long>(report.bus.register_writes));
+}
+
+// All pictures against the definition, and into a folder where one is asked for.
+Status use_pictures(const model::BoardRun& run, const std::vector<Drawing>& drawings,
+                    const std::vector<RaySpaceObject>& stored, const std::string& output) {
+    std::vector<Camera> cameras;
+    for (const Drawing& drawing : drawings) cameras.push_back(drawing.camera);
+    Rig rig = rig_of_views(cameras);
+    std::optional<StagedFolder> folder;
+    if (!output.empty()) {
+        Result<StagedFolder> staged = StagedFolder::create(output);
+        if (!staged) return staged.error();
+        folder.emplace(std::move(*staged));
+    }
+    std::size_t n = 0;
+    std::size_t equal = 0;
+    for (const model::RenderedCycle& cycle : run.cycles) {
+        for (const Image<Rgba8>& picture : cycle.pictures) {
+            Image<Rgba8> defined(picture.width(), picture.height());
+            reconstruct_scalar(stored[drawings[n].object], drawings[n].registers, defined);
+            equal += static_cast<std::size_t>(picture == defined);
+            if (folder) {
+                Status status = write_png(folder->temporary_path() / rig.views[n].file_path, picture);
+                if (!status) return status;
+            }
+            ++n;
+        }
+    }
+    std::printf("%zu of %zu pictures equal the definition bit for bit\n", equal, n);
+    if (equal != n) return Error{"the board's pictures are not those of the definition; this is a defect of the model"};
+    if (!folder) return {};
+    if (Status status = write_rig(folder->temporary_path() / kRigFileName, rig); !status) return status;
+    return folder->commit();
+}
+
+Status write_text(const std::string& path, const std::string& text) {
+    Result<StagedFile> file = StagedFile::create(path);
+    if (!file) return file.error();
+    if (Status status = file->write(std::as_bytes(std::span(text))); !status) return status;
+    return file->commit();
+}
+
+Status run_simulate(const SimulateArguments& arguments) {
+    const Result<model::BoardConfig> config = model::read_board_config(arguments.config);
+    if (!config) return config.error();
+    if (arguments.print_config) {
+        std::printf("%s\n", model::board_config_json(*config).c_str());
+        return {};
+    }
+    model::Board board(*config);
+    if (arguments.diagram) {
+        std::printf("%s", model::diagram_tables(board.top()).c_str());
+        return {};
+    }
+    std::vector<RaySpaceObject> objects;
+    for (const std::string& path : arguments.objects) {
+        Result<RaySpaceObject> object = read_object(path);
+        if (!object) return object.error();
+        objects.push_back(model::with_board_alpha(std::move(*object)));
+    }
+    const Result<std::vector<int>> slots = put_on_board(board, objects, arguments.load);
+    if (!slots) return slots.error();
+    const Result<std::vector<Drawing>> drawings = asked_drawings(objects, arguments);
+    if (!drawings) return drawings.error();
+    const int per_cycle = arguments.per_cycle > 0 ? arguments.per_cycle : config->limits.views_per_cycle;
+    const auto cycles = rendering_cycles(board, *drawings, *slots, per_cycle);
+    if (!cycles) return cycles.error();
+
+    std::unique_ptr<model::Waveform> waveform;
+    if (!arguments.trace.empty()) {
+        auto opened = model::Waveform::open(arguments.trace, board.top(), arguments.trace_cycles);
+        if (!opened) return opened.error();
+        waveform = std::move(*opened);
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    const Result<model::BoardRun> run = board.render(*cycles);
+    if (!run) return run.error();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (waveform) {
+        if (Status status = waveform->finish(); !status) return status;
+    }
+    const model::BoardReport report = model::make_report(board, *run);
+    print_report(report);
+    std::printf("simulated at %.2f million board cycles a second\n", double(report.board_cycles) / seconds / 1e6);
+    if (!arguments.stats.empty()) {
+        if (Status status = write_text(arguments.stats, model::report_json(report)); !status) return status;
+    }
+    if (!arguments.chart.empty()) {
+        const std::string title = report.config + ", " + std::to_string(report.pictures) + " pictures";
+        if (Status status = write_text(arguments.chart, model::report_chart_svg(report, title)); !status) return status;
+    }
+    return use_pictures(*run, *drawings, objects, arguments.output);
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
+    auto arguments = std::make_shared<SimulateArguments>();
+    CLI::App* command = app.add_subcommand(
+        "simulate", "Draw views with the cycle-accurate model of the board, and say where its cycles went");
+    command->add_option("CONFIG", arguments->config, "prototype-2000, or a JSON file with settings that differ from it")
+        ->required();
+    command->add_option("OBJECT", arguments->objects, "ray-space objects without a shape map, .rso");
+    add_view_options(*command, arguments->views, false);
+    command->add_flag("--upright", arguments->upright, "stand tilted cameras upright: the board draws no others");
+    command
+        ->add_option("--per-cycle", arguments->per_cycle,
+                     "views of a rendering cycle; as many as it takes if not given")
+        ->check(CLI::Range(1, 15));
+    command->add_flag("--load", arguments->load, "have the board load the objects from its disk first");
+    command->add_option("-o,--output", arguments->output, "a folder for the pictures");
+    command->add_option("--stats", arguments->stats, "a JSON file for the cycles of every block");
+    command->add_option("--chart", arguments->chart, "an SVG file: where the cycles went");
+    command->add_option("--trace", arguments->trace, "a VCD file, for GTKWave");
+    command->add_option("--trace-cycles", arguments->trace_cycles, "board cycles in it")->capture_default_str();
+    command->add_flag("--diagram", arguments->diagram, "print blocks, ports and FIFOs as in model/DIAGRAM.md, and end");
+    command->add_flag("--print-config", arguments->print_config, "print all settings of CONFIG as JSON, and end");
+    command->footer(
+        "Examples:\n  rs-engine simulate prototype-2000 vase.rso --orbit 15 --size 256x256 -o drawn --stats vase.json\n"
+        "  rs-engine simulate prototype-2000 a.rso b.rso c.rso --orbit 12 --per-cycle 3 --chart cycles.svg\n"
+        "  rs-engine simulate prototype-2000 --diagram");
+    command->callback([arguments, &run] {
+        const AskedViews& views = arguments->views;
+        if (!arguments->diagram && !arguments->print_config) {
+            if (arguments->objects.empty()) throw CLI::RequiredError("OBJECT");
+            if (views.orbit == 0 && views.poses.empty() && views.eye.empty()) {
+                throw CLI::RequiredError("one of --orbit, --poses, --eye");
+            }
+        }
+        run = [arguments] { return run_simulate(*arguments); };
+    });
+}
+
+}  // namespace rs::engine

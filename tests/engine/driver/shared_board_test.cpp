@@ -1,0 +1,242 @@
+// The data module with a board: who draws what, what happens when the board has no room, fails, or holds an object that
+// is replaced; and a long run of random moves with both executors at work. Every picture is compared with the
+// definition.
+
+#include "engine/core/reconstruct.hpp"
+#include "engine/driver/data_module.hpp"
+#include "engine/model/object_image.hpp"
+#include "engine/model/simulated_board.hpp"
+#include "tests/support/random_shape.hpp"
+#include "tests/support/ring_object.hpp"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <random>
+#include <thread>
+
+namespace rs::engine {
+namespace {
+
+const test::RingObjectOptions kSmall{
+    .views = 6, .width = 24, .height = 20, .fl_px = 30, .planes = 4, .x_cells = 24, .u_cells = 16};
+
+// As the board draws it: alpha in 2 bits.
+RaySpaceObject object_of(std::uint64_t seed) {
+    test::RingObjectOptions options = kSmall;
+    options.seed = seed;
+    RaySpaceObject object = model::with_board_alpha(test::ring_object(options));
+    object.name = "object " + std::to_string(seed);
+    return object;
+}
+
+Camera camera_at(double azimuth, double distance, int width, int height) {
+    const glm::dvec3 eye(distance * std::sin(azimuth), 0, distance * std::cos(azimuth));
+    return look_at_camera(eye, {0, 0, 0}, 2 * std::atan(1.1 / distance), width, height);
+}
+
+Image<Rgba8> defined(const RaySpaceObject& object, const Camera& camera) {
+    Image<Rgba8> picture(camera.width, camera.height);
+    reconstruct_scalar(object, *prepare_view(object, camera), picture);
+    return picture;
+}
+
+model::BoardConfig config() {
+    return *model::read_board_config("prototype-2000");
+}
+
+std::vector<Image<Rgba8>> pictures_of(DataModule& module, const std::vector<ViewRequest>& views) {
+    const auto cycle = module.submit(views);
+    EXPECT_TRUE(cycle.ok()) << cycle.error().message;
+    auto pictures = module.retrieve(*cycle);
+    EXPECT_TRUE(pictures.ok()) << pictures.error().message;
+    return pictures ? std::move(*pictures) : std::vector<Image<Rgba8>>();
+}
+
+// Draws until the board has drawn something, or not for long.
+bool board_comes_in(DataModule& module, const ViewRequest& view, const Image<Rgba8>& expected) {
+    for (int n = 0; n < 2000; ++n) {
+        EXPECT_EQ(pictures_of(module, {view}).front(), expected);
+        if (module.statistics().views_by_board > 0) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+TEST(SharedBoard, TheCoreDrawsUntilTheBoardHoldsTheObject) {
+    const RaySpaceObject object = object_of(1);
+    DataModule module({}, model::make_simulated_board(config()));
+    const auto handle = module.load(object);
+    ASSERT_TRUE(handle.ok());
+    const Camera camera = camera_at(0.3, 3.1, 24, 20);
+    EXPECT_TRUE(board_comes_in(module, {*handle, camera}, defined(object, camera)));
+    EXPECT_EQ(module.statistics().board.loads, 1);
+    EXPECT_GT(module.statistics().views_by_core, 0);
+}
+
+TEST(SharedBoard, WhatTheBoardCannotDrawTheCoreDraws) {
+    DataModule module({}, model::make_simulated_board(config(), true));
+    RaySpaceObject shaped = object_of(2);
+    std::mt19937_64 random(3);
+    shaped.rings[0].shape = test::random_shape(shaped, 0, random, 0.3);
+    const RaySpaceObject plain = object_of(4);
+    const auto shaped_handle = module.load(shaped);
+    const auto plain_handle = module.load(plain);
+    ASSERT_TRUE(shaped_handle.ok() && plain_handle.ok());
+    const Camera level = camera_at(1, 3, 20, 20);
+    const Camera tilted = look_at_camera({1, 1.5, 3}, {0, 0, 0}, 0.6, 20, 20);
+    ASSERT_TRUE(board_comes_in(module, {*plain_handle, level}, defined(plain, level)));
+    const DataModuleStatistics before = module.statistics();
+    const auto pictures =
+        pictures_of(module, {{*shaped_handle, level}, {*plain_handle, tilted}, {*plain_handle, level}});
+    ASSERT_EQ(pictures.size(), 3U);
+    EXPECT_EQ(pictures[0], defined(shaped, level));
+    EXPECT_EQ(pictures[1], defined(plain, tilted));
+    EXPECT_EQ(pictures[2], defined(plain, level));
+    EXPECT_EQ(module.statistics().views_by_board, before.views_by_board + 1);
+    EXPECT_EQ(module.statistics().views_by_core, before.views_by_core + 2);
+}
+
+TEST(SharedBoard, ALoadThatFailsLeavesTheObjectToTheCore) {
+    model::BoardConfig slow = config();
+    slow.disk.stall_after_bytes = 1;
+    slow.disk.stall_cycles = 10'000'000;
+    slow.disk.timeout_cycles = 100'000;
+    const RaySpaceObject object = object_of(5);
+    DataModule module({}, model::make_simulated_board(slow));
+    const auto handle = module.load(object);
+    ASSERT_TRUE(handle.ok());
+    const Camera camera = camera_at(2, 3.3, 24, 20);
+    for (int n = 0; n < 2000 && module.statistics().board.failed_loads == 0; ++n) {
+        EXPECT_EQ(pictures_of(module, {{*handle, camera}}).front(), defined(object, camera));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(pictures_of(module, {{*handle, camera}}).front(), defined(object, camera));
+    const DataModuleStatistics statistics = module.statistics();
+    EXPECT_EQ(statistics.board.failed_loads, 1);
+    EXPECT_EQ(statistics.views_by_board, 0);
+    EXPECT_NE(statistics.board.last_failure.find("disk"), std::string::npos) << statistics.board.last_failure;
+}
+
+// A board that holds an object and then refuses every cycle.
+class BrokenBoard final : public BoardDevice {
+public:
+    [[nodiscard]] Status takes(const RaySpaceObject&) const override { return {}; }
+    [[nodiscard]] Status draws(const ViewRegisters&) const override { return {}; }
+    [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override { return object; }
+    [[nodiscard]] int views_per_cycle() const override { return 2; }
+    Result<std::optional<int>> load(const RaySpaceObject&) override { return std::optional<int>(next_++); }
+    Status evict(int) override { return {}; }
+    Result<std::vector<Image<Rgba8>>> render(const std::vector<DeviceView>& views) override {
+        EXPECT_LE(views.size(), 2U);
+        if (++calls_ % 2 == 0) throw std::runtime_error("smoke");
+        return Error{"no power"};
+    }
+
+private:
+    int next_ = 0;
+    int calls_ = 0;
+};
+
+TEST(SharedBoard, ACycleThatFailsIsDrawnByTheCore) {
+    const RaySpaceObject object = object_of(6);
+    DataModule module({}, std::make_unique<BrokenBoard>());
+    const auto handle = module.load(object);
+    ASSERT_TRUE(handle.ok());
+    const Camera camera = camera_at(4, 2.8, 22, 26);
+    for (int n = 0; n < 2000 && module.statistics().board.failed_cycles < 2; ++n) {
+        const auto pictures = pictures_of(module, std::vector<ViewRequest>(4, {*handle, camera}));
+        for (const Image<Rgba8>& picture : pictures) ASSERT_EQ(picture, defined(object, camera));
+    }
+    EXPECT_GE(module.statistics().board.failed_cycles, 2);
+    EXPECT_EQ(module.statistics().views_by_board, 0);
+    EXPECT_NE(module.statistics().board.last_failure.find("smoke"), std::string::npos);
+}
+
+// More objects than the board holds, views of random ones, objects replaced on the way.
+void draw_random_cycles(int cycles, Sharing sharing) {
+    constexpr int kObjects = 24;
+    model::BoardConfig few = config();
+    few.limits.objects = 20;
+    DataModule module({.objects = 64, .cycles_in_flight = 2}, model::make_simulated_board(few, true), sharing);
+    std::vector<RaySpaceObject> objects;
+    for (int n = 0; n < kObjects; ++n) objects.push_back(object_of(100 + static_cast<std::uint64_t>(n)));
+
+    struct Loaded {
+        ObjectHandle handle;
+        std::size_t object = 0;
+    };
+    struct Pending {
+        CycleHandle cycle;
+        std::vector<std::size_t> objects;
+        std::vector<Camera> cameras;
+    };
+    std::mt19937_64 random(77);
+    const auto real = [&](double low, double high) {
+        return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11U), -53);
+    };
+    std::vector<Loaded> loaded;
+    for (std::size_t n = 0; n < objects.size(); ++n) {
+        const auto handle = module.load(objects[n]);
+        ASSERT_TRUE(handle.ok());
+        loaded.push_back({*handle, n});
+    }
+    std::deque<Pending> pending;
+    const auto check_one = [&] {
+        const Pending oldest = std::move(pending.front());
+        pending.pop_front();
+        const auto pictures = module.retrieve(oldest.cycle);
+        ASSERT_TRUE(pictures.ok()) << pictures.error().message;
+        for (std::size_t v = 0; v < oldest.objects.size(); ++v) {
+            ASSERT_EQ((*pictures)[v], defined(objects[oldest.objects[v]], oldest.cameras[v])) << "view " << v;
+        }
+    };
+    for (int n = 0; n < cycles; ++n) {
+        if (pending.size() == 2) check_one();
+        if (testing::Test::HasFatalFailure()) FAIL() << "in cycle " << n;
+        if (random() % 16 == 0) {  // another takes the place of an object that may be being drawn
+            Loaded& place = loaded[random() % loaded.size()];
+            ASSERT_TRUE(module.evict(place.handle).ok());
+            place.object = random() % objects.size();
+            const auto handle = module.load(objects[place.object]);
+            ASSERT_TRUE(handle.ok());
+            place.handle = *handle;
+        }
+        Pending next;
+        std::vector<ViewRequest> views;
+        const std::size_t base = random() % loaded.size();  // mostly the same objects for a while
+        for (std::size_t v = 0; v < 15; ++v) {
+            const Loaded& shown = loaded[(base / 8 * 4 + random() % 16) % loaded.size()];
+            next.objects.push_back(shown.object);
+            const int width = 8 + static_cast<int>(random() % 12);
+            const int height = 8 + static_cast<int>(random() % 12);
+            next.cameras.push_back(camera_at(real(0, 6.28), real(1.5, 6), width, height));
+            views.push_back({shown.handle, next.cameras.back()});
+        }
+        const auto cycle = module.submit(views);
+        ASSERT_TRUE(cycle.ok()) << cycle.error().message;
+        next.cycle = *cycle;
+        pending.push_back(std::move(next));
+    }
+    while (!pending.empty()) check_one();
+    const DataModuleStatistics statistics = module.statistics();
+    EXPECT_EQ(statistics.cycles, cycles);
+    EXPECT_EQ(statistics.views_by_board + statistics.views_by_core, 15 * cycles);
+    EXPECT_GT(statistics.views_by_board, 0);
+    EXPECT_GT(statistics.views_by_core, 0);
+    EXPECT_EQ(statistics.board.failed_cycles, 0) << statistics.board.last_failure;
+    std::printf("%lld views by the board, %lld by the core; %lld loads, %lld evictions\n",
+                static_cast<long long>(statistics.views_by_board), static_cast<long long>(statistics.views_by_core),
+                static_cast<long long>(statistics.board.loads), static_cast<long long>(statistics.board.evictions));
+}
+
+TEST(SharedBoard, TenThousandCyclesSharedByPaceAreRight) {
+    draw_random_cycles(10000, Sharing::kBalanced);
+}
+
+TEST(SharedBoard, AThousandCyclesMostlyOfTheBoardAreRight) {
+    draw_random_cycles(1000, Sharing::kBoardFirst);
+}
+
+}  // namespace
+}  // namespace rs::engine

@@ -1,0 +1,199 @@
+// Cycles of whole pictures: the same in any tick order, memory reads as a formula says, golden counts, and the
+// published figures.
+
+#include "engine/core/ray_setup.hpp"
+#include "engine/model/report.hpp"
+#include "tests/engine/model/board_test_objects.hpp"
+
+namespace rs::engine::model {
+namespace {
+
+struct Scene {
+    RaySpaceObject object;
+    std::vector<std::vector<engine::ViewRegisters>> cycles;
+};
+
+// Pictures that the object fills, of `side` pixels, from an object whose pictures have that size too.
+Scene filled(int side, int views, int cycles) {
+    Scene scene{rs::test::ring_object({.views = 36,
+                                       .width = side,
+                                       .height = side,
+                                       .fl_px = side * 1.5,
+                                       .planes = 12,
+                                       .x_cells = 64,
+                                       .u_cells = 64}),
+                {}};
+    for (int c = 0; c < cycles; ++c) {
+        scene.cycles.emplace_back();
+        for (int v = 0; v < views; ++v) {
+            const auto prepared =
+                prepare_view(scene.object, test::upright_at(0.1 * v + 0.03 * c, 3.5, 0, 0.95, side, side));
+            EXPECT_TRUE(prepared.ok());
+            scene.cycles.back().push_back(*prepared);
+        }
+    }
+    return scene;
+}
+
+Result<BoardRun> drawn(Board& board, const Scene& scene) {
+    const Result<int> slot = board.place(scene.object);
+    if (!slot) return slot.error();
+    std::vector<std::vector<BoardView>> cycles;
+    for (const auto& views : scene.cycles) {
+        cycles.emplace_back();
+        for (const engine::ViewRegisters& view : views) cycles.back().push_back(*board.view(*slot, view));
+    }
+    return board.render(cycles);
+}
+
+// The same, while the disk loads another object.
+Result<BoardRun> drawn_while_loading(Board& board, const Scene& scene) {
+    const Result<int> other = board.start_load(rs::test::ring_object({.views = 8, .seed = 3}));
+    if (!other) return other.error();
+    return drawn(board, scene);
+}
+
+TEST(BoardCycles, TickOrderChangesNeitherCyclesNorBits) {
+    const Scene scene = filled(40, 4, 3);
+    Board reference(test::prototype());
+    const Result<BoardRun> expected = drawn_while_loading(reference, scene);
+    ASSERT_TRUE(expected.ok());
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        Board board(test::prototype(), seed);
+        const Result<BoardRun> run = drawn_while_loading(board, scene);
+        ASSERT_TRUE(run.ok());
+        ASSERT_EQ(run->cycles.size(), expected->cycles.size());
+        for (std::size_t c = 0; c < run->cycles.size(); ++c) {
+            EXPECT_EQ(run->cycles[c].started, expected->cycles[c].started);
+            EXPECT_EQ(run->cycles[c].rendered, expected->cycles[c].rendered);
+            EXPECT_EQ(run->cycles[c].arrived, expected->cycles[c].arrived);
+            EXPECT_EQ(run->cycles[c].pictures, expected->cycles[c].pictures);
+        }
+        for (std::size_t b = 0; b < run->end.blocks.size(); ++b) {
+            EXPECT_EQ(run->end.blocks[b].cycles, expected->end.blocks[b].cycles) << board.blocks()[b]->name();
+        }
+    }
+}
+
+// Per view column with a ray of the plane: a map word; with a picture: four words of records. Per pair of pixels, with
+// rows of the pictures: alpha once, or twice across words; chroma and Y per pixel. Every pixel half a word out.
+TEST(BoardCycles, MemoryReadsAreThoseOfTheFormula) {
+    const Scene scene = filled(45, 3, 1);
+    Board board(test::prototype());
+    const Result<BoardRun> run = drawn(board, scene);
+    ASSERT_TRUE(run.ok());
+    std::uint64_t lines = 0;
+    std::uint64_t samples = 0;
+    std::uint64_t nulls = 0;
+    std::uint64_t words = 0;
+    for (const engine::ViewRegisters& view : scene.cycles.front()) {
+        for (int i = 0; i < view.width; ++i) {
+            const RaySetup ray = set_up_ray(scene.object, view, i, 0);
+            lines += ray.picture >= 0 ? 4 : 0;
+            words += static_cast<std::uint64_t>((view.height + 1) / 2);
+            for (int j = 0; j < view.height; j += 2) {
+                const auto shows = [&](int at) {
+                    return ray.picture >= 0 && at < view.height && ray.row(at) >= 0 &&
+                           ray.row(at) < scene.object.height;
+                };
+                const bool both = shows(j) && shows(j + 1);
+                const std::uint64_t alpha = both && ray.row(j) / 32 != ray.row(j + 1) / 32 ? 2 : 1;
+                const std::uint64_t pixels =
+                    static_cast<std::uint64_t>(shows(j)) + static_cast<std::uint64_t>(shows(j + 1));
+                samples += (pixels > 0 ? alpha : 0) + 2 * pixels;
+                nulls += (pixels > 0 ? 0 : 1) + 2 * (2 - pixels);
+            }
+        }
+    }
+    const BoardReport report = make_report(board, *run);
+    EXPECT_EQ(report.memory[0].words, words);  // host
+    EXPECT_GE(report.memory[1].words * 4, lines);
+    EXPECT_LE(report.memory[1].words, 3U * 45U);
+    EXPECT_EQ(report.memory[2].words, lines);
+    EXPECT_EQ(report.memory[3].words, samples);
+    EXPECT_EQ(report.memory[3].nulls, nulls);
+    EXPECT_EQ(report.memory[4].words, words);  // image
+    EXPECT_EQ(report.bus.image_bytes, words * 8);
+    EXPECT_GT(nulls, 0U);
+}
+
+// Written down once from a run whose parts had been checked; a change of any timing shows here.
+TEST(BoardCyclesGolden, FullPictures) {
+    const auto cycles_of = [](int side, int views) {
+        Board board(test::prototype());
+        const Result<BoardRun> run = drawn(board, filled(side, views, 1));
+        return run ? run->cycles[0].render_cycles() : 0;
+    };
+    EXPECT_EQ(cycles_of(64, 1), 15'240U);
+    EXPECT_EQ(cycles_of(128, 2), 118'427U);
+}
+
+// The published table. Nothing of it is put in: DIAGRAM.md derives the figures by hand.
+TEST(PublishedFigures, OnePictureOf512) {
+    Board board(test::prototype());
+    const Result<BoardRun> run = drawn(board, filled(512, 1, 1));
+    ASSERT_TRUE(run.ok());
+    const BoardReport report = make_report(board, *run);
+    EXPECT_GE(report.pixels_per_second, 10.0e6);
+    EXPECT_LE(report.pixels_per_second, 12.5e6);
+    EXPECT_GT(report.cycles_per_second, 40.0);
+    EXPECT_EQ(report.rendering.limiting_block, "memory_controller");
+}
+
+TEST(PublishedFigures, FifteenPicturesOf256) {
+    Board board(test::prototype());
+    const Result<BoardRun> run = drawn(board, filled(256, 15, 1));
+    ASSERT_TRUE(run.ok());
+    const BoardReport report = make_report(board, *run);
+    EXPECT_GE(report.cycles_per_second, 10.0);
+    EXPECT_LE(report.cycles_per_second, 12.5);
+    EXPECT_EQ(report.rendering.limiting_block, "memory_controller");
+}
+
+TEST(PublishedFigures, NineShowroomPicturesAreLimitedByTheHostBus) {
+    Board board(test::prototype());
+    const Result<BoardRun> run = drawn(board, filled(256, 9, 4));
+    ASSERT_TRUE(run.ok());
+    const BoardReport report = make_report(board, *run);
+    EXPECT_NEAR(report.arrivals_per_second, 15.0, 1.0);
+    EXPECT_EQ(report.delivering.limiting_block, "host_bus");
+    EXPECT_LT(double(report.bus.image_bytes) / report.delivering.seconds, 44e6);  // what the paper wished for
+}
+
+TEST(PublishedFigures, LoadingRunsAtTwentyMegabytesAndDisturbsNothing) {
+    const Scene scene = filled(64, 4, 2);
+    Board quiet(test::prototype());
+    const Result<BoardRun> alone = drawn(quiet, scene);
+    ASSERT_TRUE(alone.ok());
+    Board loading(test::prototype());
+    const RaySpaceObject second = rs::test::ring_object({.views = 30, .width = 96, .height = 96, .seed = 9});
+    const Result<int> slot = loading.place(scene.object);
+    ASSERT_TRUE(slot.ok());
+    const Result<int> other = loading.start_load(second);
+    ASSERT_TRUE(other.ok());
+    std::vector<std::vector<BoardView>> cycles;
+    for (const auto& views : scene.cycles) {
+        cycles.emplace_back();
+        for (const engine::ViewRegisters& view : views) cycles.back().push_back(*loading.view(*slot, view));
+    }
+    const Result<BoardRun> both = loading.render(cycles);
+    ASSERT_TRUE(both.ok());
+    EXPECT_GT(loading.top().memory.counters().load_words, 1000U);
+    for (std::size_t c = 0; c < cycles.size(); ++c) {
+        EXPECT_EQ(both->cycles[c].started, alone->cycles[c].started);
+        EXPECT_EQ(both->cycles[c].rendered, alone->cycles[c].rendered);
+        EXPECT_EQ(both->cycles[c].arrived, alone->cycles[c].arrived);
+        EXPECT_EQ(both->cycles[c].pictures, alone->cycles[c].pictures);
+    }
+    ASSERT_TRUE(loading.finish_loads().ok());
+    const DiskController::Load& load = loading.top().disk_controller.loads().front();
+    EXPECT_NEAR(double(load.bytes) / (double(load.finished - load.started) / 40e6), 20e6, 0.4e6);
+    // What was loaded is drawn right.
+    const auto prepared = prepare_view(second, test::upright_at(1, 3, 0, 1, 50, 50));
+    const Result<BoardRun> run = loading.render({{*loading.view(*other, *prepared)}});
+    ASSERT_TRUE(run.ok());
+    EXPECT_EQ(run->cycles[0].pictures[0], test::defined(with_board_alpha(second), *prepared));
+}
+
+}  // namespace
+}  // namespace rs::engine::model

@@ -1,0 +1,134 @@
+// The host bus and the disk controller, clock by clock.
+
+#include "engine/model/blocks/disk_controller.hpp"
+#include "engine/model/blocks/host_bus.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rs::engine::model {
+namespace {
+
+// The bus alone, with a board that always has words.
+struct BusBench {
+    explicit BusBench(const PciSettings& s) : settings(s), bus(settings, programs, words, commands, transferred) {}
+    void step() {
+        if (left > 0 && words.can_push())
+            words.push(left-- == size + 1 ? head
+                                          : ImageWord{100U + static_cast<std::uint64_t>(size - left), false, false});
+        words.commit_writer();
+        commands.commit_reader();
+        transferred.commit_reader();
+        bus.clock(now++);
+        words.commit_reader();
+        commands.commit_writer();
+        transferred.commit_writer();
+    }
+    void send(int picture_words) {
+        size = picture_words;
+        left = picture_words + 1;
+        head = {static_cast<std::uint64_t>(picture_words), true, true};
+    }
+    PciSettings settings;
+    HostPrograms programs;
+    CrossingFifo<ImageWord> words{"words", 32, 66};
+    CrossingFifo<StartCommand> commands{"commands", 4, 1};
+    CrossingFifo<Done> transferred{"transferred", 2, 1};
+    HostBus bus;
+    ImageWord head;
+    int size = 0;
+    int left = 0;
+    std::uint64_t now = 0;
+};
+
+TEST(HostBus, ABurstTakesItsClocks) {
+    EXPECT_EQ(HostBus::burst_clocks(PciSettings{}, 4), 3 + 1 + 8 + 8 * 2 + 1);
+    for (const int burst : {1, 4, 16}) {
+        PciSettings settings;
+        settings.burst_words = burst;
+        BusBench bench(settings);
+        bench.send(48);
+        std::vector<std::uint64_t> ends;  // of the bursts: the clock of the last word
+        std::size_t seen = 0;
+        for (int n = 0; n < 3000; ++n) {
+            bench.step();
+            if (bench.bus.pictures().empty()) continue;
+            const std::size_t count = bench.bus.pictures().back().words.size();
+            if (count > seen && count % static_cast<std::size_t>(burst) == 0) ends.push_back(bench.now);
+            seen = count;
+        }
+        ASSERT_EQ(ends.size(), 48U / static_cast<std::size_t>(burst));
+        for (std::size_t n = 2; n < ends.size(); ++n) {
+            EXPECT_EQ(ends[n] - ends[n - 1], static_cast<std::uint64_t>(HostBus::burst_clocks(settings, burst)));
+        }
+        for (std::size_t n = 0; n < 48; ++n) EXPECT_EQ(bench.bus.pictures().back().words[n], 101 + n);
+        EXPECT_TRUE(bench.transferred.can_pop());
+    }
+}
+
+TEST(HostBus, RegisterWritesTakeTheirClocksAndEndInACommand) {
+    BusBench bench(PciSettings{});
+    bench.programs.push_back({{}, 10});
+    for (int n = 0; n < 40; ++n) {
+        EXPECT_EQ(bench.commands.count(), 0);
+        bench.step();
+    }
+    EXPECT_EQ(bench.commands.count(), 1);
+    EXPECT_EQ(bench.bus.counters().register_writes, 10U);
+}
+
+TEST(HostBus, BurstsAndRegisterWritesAlternate) {
+    BusBench bench(PciSettings{});
+    bench.programs.push_back({{}, 1000});
+    bench.send(400);
+    for (int n = 0; n < 100 * 33; ++n) bench.step();
+    EXPECT_NEAR(static_cast<double>(bench.bus.counters().bursts), 100, 2);
+    EXPECT_NEAR(static_cast<double>(bench.bus.counters().register_writes), 100, 3);
+}
+
+TEST(DiskController, AWordCrossesThePrivateBusInSixteenCycles) {
+    DiskSettings settings;
+    settings.media_cycles_per_sector = 10;  // the disk is faster than the bus
+    RegisterFile registers;
+    Fifo<MemoryWrite> words("words", 64, 92);
+    Fifo<Done> loaded("loaded", 2, 1);
+    Fifo<Done> ready("ready", 2, 5);
+    DiskController disk(settings, registers, words, loaded, ready);
+    disk.load(
+        {3,
+         {},
+         std::make_shared<const std::vector<MemorySegment>>(std::vector<MemorySegment>{{50, {1, 2}}, {90, {3}}})});
+    std::uint64_t now = 0;
+    const auto step = [&] {
+        disk.clock(now++);
+        words.commit();
+        loaded.commit();
+        ready.commit();
+    };
+    const auto until_word = [&](int count) {
+        const std::uint64_t begin = now;
+        while (words.count() < count && now < begin + 100) step();
+        return now - begin;
+    };
+    until_word(1);
+    EXPECT_EQ(until_word(2), 16U);
+    EXPECT_EQ(until_word(3), 16U);
+    EXPECT_EQ(words.pop().address, 50U);
+    words.commit();
+    EXPECT_FALSE(words.front().last);
+    EXPECT_EQ(words.pop().address, 51U);
+    words.commit();
+    EXPECT_EQ(words.front().address, 90U);
+    EXPECT_TRUE(words.front().last);
+    for (int n = 0; n < 50; ++n) step();
+    EXPECT_FALSE(ready.can_pop());  // the last word is not in memory yet
+    loaded.push({});
+    loaded.commit();
+    step();
+    ASSERT_TRUE(ready.can_pop());
+    EXPECT_EQ(ready.front().number, 3);
+    EXPECT_TRUE(registers.loaded[3].valid);
+    EXPECT_FALSE(registers.objects[3].valid);  // the render controller takes it over
+}
+
+}  // namespace
+}  // namespace rs::engine::model

@@ -1,0 +1,60 @@
+// `rs-engine simulate` as a user calls it.
+
+#include "rayspace/object_file.hpp"
+#include "rayspace/picture_io.hpp"
+#include "tests/engine/model/board_test_objects.hpp"
+#include "tests/support/run_tool.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+namespace rs::engine::model {
+namespace {
+
+using rs::test::run_tool;
+using rs::test::ToolRun;
+
+TEST(SimulateTool, DrawsWritesAndCompares) {
+    const rs::test::TemporaryFolder scratch;
+    const RaySpaceObject object = rs::test::ring_object({.views = 12, .planes = 6, .x_cells = 32, .u_cells = 32});
+    const std::string file = (scratch / "ring.rso").string();
+    ASSERT_TRUE(write_object(file, object).ok());
+    const auto path = [&](const char* name) { return (scratch / name).string(); };
+    const ToolRun run = run_tool(
+        scratch.path(), "rs-engine",
+        {"simulate", "prototype-2000", file, file, "--orbit", "3", "--size", "40x32", "--per-cycle", "2", "--load",
+         "-o", path("drawn"), "--stats", path("stats.json"), "--chart", path("chart.svg"), "--trace", path("run.vcd")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("6 of 6 pictures equal the definition bit for bit"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("MByte/s"), std::string::npos);
+    EXPECT_NE(run.out.find("limited by"), std::string::npos);
+    const Result<Image<Rgba8>> picture = read_picture(scratch / "drawn/0005.png");
+    ASSERT_TRUE(picture.ok());
+    EXPECT_EQ(picture->width(), 40);
+    std::ifstream stats(path("stats.json"));
+    EXPECT_EQ(nlohmann::json::parse(stats)["rendering_cycles"], 3);
+    EXPECT_GT(std::filesystem::file_size(path("chart.svg")), 1000U);
+    EXPECT_GT(std::filesystem::file_size(path("run.vcd")), 1000U);
+}
+
+TEST(SimulateTool, SaysWhatIsWrong) {
+    const rs::test::TemporaryFolder scratch;
+    const auto run = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), "simulate");
+        return run_tool(scratch.path(), "rs-engine", options);
+    };
+    EXPECT_EQ(run({"prototype-2000"}).exit_code, 2);           // no object
+    EXPECT_EQ(run({"prototype-2000", "a.rso"}).exit_code, 2);  // no views
+    EXPECT_EQ(run({"prototype-1999", "a.rso", "--orbit", "3"}).exit_code, 1);
+    EXPECT_EQ(run({"prototype-2000", "a.rso", "--orbit", "3"}).exit_code, 1);  // no such file
+    const ToolRun diagram = run({"prototype-2000", "--diagram"});
+    EXPECT_EQ(diagram.exit_code, 0);
+    EXPECT_NE(diagram.out.find("| memory_controller |"), std::string::npos);
+    EXPECT_NE(run({"prototype-2000", "--print-config"}).out.find("\"burst_words\": 4"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rs::engine::model

@@ -1,0 +1,172 @@
+// FORMAT.md, "HEAD", "RIGJ", "VIEW", "RING", "RMAP", and "PICT" of coding 0, with their numbers of "Ranges".
+#include "tests/reference/golden_maker/golden_damage.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <span>
+
+namespace rs::golden {
+namespace {
+
+using namespace object_chunks;
+
+const std::string kBase = "raw";  // 3 views, 3 planes, maps of 2 x 3 cells
+constexpr std::size_t kViewCount = 3, kPlanes = 3;
+constexpr std::size_t kViewList = 28;
+constexpr std::size_t kLines = kViewList + 2 * kViewCount;
+
+Damage head(const std::string& name, std::size_t offset, std::size_t size, std::int64_t value,
+            const std::string& words) {
+    return number_damage("head-" + name, kBase, kHead, 0, offset, size, value, "chunk HEAD 0 | " + words);
+}
+Damage view(const std::string& name, std::size_t offset, std::int64_t value, const std::string& words) {
+    return number_damage("view-" + name, kBase, kViews, 0, 16 + offset, 4, value, "view 1 | " + words);
+}
+Damage ring(const std::string& name, std::size_t offset, std::size_t size, std::int64_t value,
+            const std::string& words) {
+    return number_damage("ring-" + name, kBase, kRing, 0, offset, size, value, words);
+}
+Damage line(const std::string& name, std::size_t offset, std::int64_t value, const std::string& words) {
+    const std::size_t second_line_of_view_1 = kLines + 16 * (kPlanes + 1);
+    return ring("line-" + name, second_line_of_view_1 + offset, 4, value, "view 1 | " + words);
+}
+Damage map(const std::string& name, const std::string& words, const std::function<void(Bytes&)>& change) {
+    return {"map-" + name, kBase, words, [=](Draft& d) { change(d.payload(kMap)); }};
+}
+Damage longer(const std::string& name, ChunkName chunk, int bytes, const std::string& words) {
+    return {name, kBase, "chunk " + to_string(chunk) + " 0 | " + words, [=](Draft& d) {
+                Bytes& payload = d.payload(chunk);
+                payload.resize(static_cast<std::size_t>(std::max(0, static_cast<int>(payload.size()) + bytes)));
+            }};
+}
+
+// The units per radius.
+Damage radius(const std::string& name, double value) {
+    std::int64_t bits = 0;
+    static_assert(sizeof bits == sizeof value);
+    std::memcpy(&bits, &value, sizeof bits);
+    return number_damage("head-radius-" + name, kBase, kHead, 0, 16, 8, bits, "units per radius");
+}
+
+std::vector<Damage> sizes() {
+    return {
+        longer("head-short", kHead, -1, "bytes long"),      longer("head-long", kHead, 1, "bytes long"),
+        longer("view-short", kViews, -1, "bytes long"),     longer("view-long", kViews, 1, "bytes long"),
+        longer("ring-short", kRing, -1, "bytes long"),      longer("ring-long", kRing, 1, "bytes long"),
+        longer("map-long", kMap, 1, "behind its last row"), longer("map-short", kMap, -1, "row"),
+        longer("map-empty", kMap, -1000000, "too short"),   longer("picture-short", kPicture, -1, "bytes long"),
+        longer("picture-long", kPicture, 1, "bytes long"),
+    };
+}
+
+std::vector<Damage> ranges() {
+    constexpr std::int64_t kTop = std::int64_t{1} << 30;
+    return {
+        head("width-0", 0, 4, 0, "width is 0"),
+        head("width-8193", 0, 4, 8193, "width is 8193"),
+        head("height-0", 4, 4, 0, "height is 0"),
+        head("views-0", 8, 4, 0, "number of views is 0"),
+        head("views-4097", 8, 4, 4097, "number of views is 4097"),
+        head("rings-0", 12, 4, 0, "number of rings is 0"),
+        head("rings-65", 12, 4, 65, "number of rings is 65"),
+        head("name-256", 24, 4, 256, "name's length is 256"),
+        number_damage("head-name-control", kBase, kHead, 0, 28, 1, 0x1B, "name | UTF-8"),
+        number_damage("head-name-not-utf8", kBase, kHead, 0, 28, 1, 0xC0, "name | UTF-8"),
+        radius("0", 0),
+        radius("2e12", 2e12),
+        radius("nan", std::numeric_limits<double>::quiet_NaN()),
+        view("cx", 0, kTop, "principal point"),
+        view("cy", 4, -kTop, "principal point"),
+        view("focal-0", 8, 0, "focal length"),
+        view("focal-large", 8, kTop, "focal length"),
+        view("height", 12, std::int64_t{1} << 28, "256 object radii"),
+        ring("elevation", 0, 4, 90000001, "ring 0 | elevation"),
+        ring("planes-2", 4, 2, 2, "number of planes is 2"),
+        ring("planes-65", 4, 2, 65, "number of planes is 65"),
+        ring("views-0", 6, 2, 0, "number of views is 0"),
+        ring("views-4", 6, 2, 4, "number of views is 4"),
+        ring("x-cells-0", 8, 2, 0, "size along x is 0"),
+        ring("u-cells-4097", 10, 2, 4097, "size along u is 4097"),
+        ring("x-half-small", 12, 4, (1 << 20) - 1, "ring 0 | half width along x"),
+        ring("x-half-large", 12, 4, (1 << 21) + (1 << 16), "ring 0 | half width along x"),
+        ring("x-cells-per-unit", 16, 4, 7000, "ring 0 | cells per unit"),
+        ring("u-half-small", 20, 4, 464943848, "ring 0 | half width along u"),  // 2^28 tan 60 degrees
+        ring("u-cells-per-unit-0", 24, 4, 0, "ring 0 | cells per unit"),
+        ring("view-number", kViewList + 2, 2, 3, "view's number is 3"),
+        ring("view-twice", kViewList + 2, 2, 0, "names view 0 a second time"),
+        line("l0", 0, std::int64_t{1} << 28, "depth of one of its lines"),
+        line("l1", 4, kTop + 1, "depth of one of its lines"),
+        line("q0", 8, -(std::int64_t{1} << 31), "columns of one of its lines"),
+        line("q1", 12, kTop, "columns of one of its lines"),
+    };
+}
+
+std::vector<Damage> rules() {
+    return {
+        {"rig-no-json", kBase, "rig", [](Draft& d) { d.payload(kRig) = Bytes(5, std::byte{'x'}); }},
+        {"rig-other-number-of-frames", kBase, "as many frames as views",
+         [](Draft& d) {
+             const std::string text = R"({"fl_x":9,"fl_y":9,"cx":1,"cy":1,"w":3,"h":2,"frames":[{"file_path":"a.png",)"
+                                      R"("transform_matrix":[[1,0,0,0],[0,1,0,0],[0,0,1,3],[0,0,0,1]]}]})";
+             const auto bytes = std::as_bytes(std::span(text));
+             d.payload(kRig).assign(bytes.begin(), bytes.end());
+         }},
+        {"view-in-no-ring", kBase, "view 2 belongs to no ring",
+         [](Draft& d) {
+             // A ring of the first two views. The third has no picture, which would have no place in the order, and
+             // no cell of the map.
+             d.chunks.erase(d.chunks.begin() + static_cast<std::ptrdiff_t>(d.place(kPicture, 2)));
+             Bytes& ring = d.payload(kRing);
+             ring.resize(kLines + 16 * kPlanes * 2);
+             ring.erase(ring.begin() + kViewList + 4, ring.begin() + kViewList + 6);
+             set_number(ring, 6, 2, 2);
+             Bytes& map = d.payload(kMap);
+             map.clear();
+             for (std::size_t row = 0; row < kPlanes * 2; ++row) {
+                 map.resize(map.size() + 6);
+                 set_number(map, 6 * row, 1, 2);
+                 set_number(map, 6 * row + 2, 65535, 2);
+                 set_number(map, 6 * row + 4, 3, 2);
+             }
+         }},
+        map("run-of-0", "chunk RMAP 0 | a run of 0", [](Bytes& b) { set_number(b, 4, 0, 2); }),
+        map("run-too-long", "chunk RMAP 0 | a run of 4", [](Bytes& b) { set_number(b, 4, 4, 2); }),
+        map("no-runs", "chunk RMAP 0 | row 0", [](Bytes& b) { set_number(b, 0, 0, 2); }),
+        map("row-unfilled", "chunk RMAP 0 | row",
+            [](Bytes& b) {
+                const auto runs = static_cast<std::size_t>(number_at(b, 0, 2));
+                const std::size_t last = 2 + 4 * (runs - 1);
+                if (number_at(b, last + 2, 2) > 1) return set_number(b, last + 2, number_at(b, last + 2, 2) - 1, 2);
+                b.erase(b.begin() + static_cast<std::ptrdiff_t>(last),
+                        b.begin() + static_cast<std::ptrdiff_t>(last + 4));
+                set_number(b, 0, static_cast<std::int64_t>(runs - 1), 2);
+            }),
+        map("view-number", "names view 3", [](Bytes& b) { set_number(b, 2, 3, 2); }),
+        {"map-view-of-another-ring", "raw-shape", "ring 0 | not one of the ring's",
+         [](Draft& d) { set_number(d.payload(kMap, 0), 2, 5, 2); }},
+        {"map-cell-behind-the-camera", kBase, "looks away",
+         [](Draft& d) {
+             // Every line of the first row's view.
+             const auto named = static_cast<std::size_t>(number_at(d.payload(kMap), 2, 2));
+             for (std::size_t k = 0; k < kPlanes; ++k) {
+                 set_number(d.payload(kRing), kLines + 16 * (named * kPlanes + k), -(std::int64_t{1} << 27), 4);
+             }
+         }},
+        number_damage("picture-coding-7", kBase, kPicture, 1, 0, 1, 7, "chunk PICT 1 | picture coding 7"),
+        number_damage("picture-coded-without-code", kBase, kPicture, 1, 0, 1, 1, "chunk PICT 1 | picture coding 1"),
+        number_damage("picture-reserved", kBase, kPicture, 1, 15, 1, 1, "chunk PICT 1 | reserved"),
+    };
+}
+
+}  // namespace
+
+std::vector<Damage> geometry_damages() {
+    std::vector<Damage> all = sizes();
+    for (auto* const list : {&ranges, &rules}) {
+        for (Damage& damage : (*list)()) all.push_back(std::move(damage));
+    }
+    return all;
+}
+
+}  // namespace rs::golden

@@ -1,0 +1,33 @@
+#include "tests/reference/library_tiles.hpp"
+
+#include "rayspace/codec/decode_picture.hpp"
+
+#include <algorithm>
+
+namespace rs::reference {
+
+std::vector<LibraryPlanes> decode_by_tiles(const codec::CodedPictures& coded) {
+    std::vector<LibraryPlanes> decoded(coded.pictures.size());
+    for (auto& planes : decoded) {
+        for (auto& plane : planes) plane = Image<std::uint8_t>(coded.coded_width(), coded.coded_height(), 77);
+    }
+    const auto views_of = [](auto& planes) {
+        return codec::PlaneViews{planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
+    };
+    for (int level = 0; level < kProgressiveLevels; ++level) {
+        for (std::size_t v = 0; v < decoded.size(); ++v) {
+            if (coded.levels[v] != level) continue;
+            const codec::CodedPicture& picture = coded.pictures[v];
+            std::array<codec::ConstPlaneViews, 2> references;
+            for (std::size_t r = 0; r < static_cast<std::size_t>(picture.head.references()); ++r) {
+                std::ranges::copy(views_of(decoded[picture.head.reference[r]]), references[r].begin());
+            }
+            for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
+                codec::decode_tile(coded, v, t, references, nullptr, views_of(decoded[v]));
+            }
+        }
+    }
+    return decoded;
+}
+
+}  // namespace rs::reference
