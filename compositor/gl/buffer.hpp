@@ -1,5 +1,5 @@
 #pragma once
-// Bytes that shaders read: vertices and indices. Their content is fixed at creation.
+// Bytes that shaders read: vertices, indices, tables. Their content is fixed at creation.
 
 #include "compositor/gl/handle.hpp"
 
@@ -12,6 +12,8 @@ class Buffer {
 public:
     // Not empty.
     explicit Buffer(std::span<const std::byte> bytes);
+    // To `layout(std430, binding = binding) buffer`.
+    void bind_table(unsigned binding) const;
     [[nodiscard]] unsigned name() const { return handle_.name(); }
 
 private:

@@ -28,6 +28,19 @@ struct Context::State {
     std::string device_name;
     std::vector<std::string> errors;
 
+    // The conventions of the header, of the context that is current.
+    void settle(const ContextOptions& options) {
+        device_name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+        if (options.debug) {
+            glEnable(GL_DEBUG_OUTPUT);
+            glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+            glDebugMessageCallback(note_message, &errors);
+        }
+        glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+        glEnable(GL_FRAMEBUFFER_SRGB);
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    }
+
     State() = default;
     State(const State&) = delete;
     State& operator=(const State&) = delete;
@@ -74,15 +87,17 @@ Result<Context> Context::create_surfaceless(const ContextOptions& options) {
     if (!eglMakeCurrent(state->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state->context)) {
         return no_context("the context cannot be made current");
     }
-    state->device_name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    if (options.debug) {
-        glEnable(GL_DEBUG_OUTPUT);
-        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-        glDebugMessageCallback(note_message, &state->errors);
+    state->settle(options);
+    return Context(std::move(state));
+}
+
+Result<Context> Context::adopt_current(const ContextOptions& options) {
+    if (!epoxy_is_desktop_gl() || epoxy_gl_version() < 45) {
+        return Error{"OpenGL: the window's context is of version " + std::to_string(epoxy_gl_version() / 10) + "." +
+                     std::to_string(epoxy_gl_version() % 10) + "; 4.5 is needed: update the graphics driver"};
     }
-    glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
-    glEnable(GL_FRAMEBUFFER_SRGB);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    auto state = std::make_unique<State>();
+    state->settle(options);
     return Context(std::move(state));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// An OpenGL 4.5 core context without a window or a display: EGL on Mesa's surfaceless platform, drawing only into
-// framebuffers. Where there is no GPU Mesa draws on the CPU.
+// An OpenGL 4.5 core context: without a window or a display (EGL on Mesa's surfaceless platform, drawing only into
+// framebuffers; where there is no GPU Mesa draws on the CPU), or a window's.
 //
 // Everything below compositor/ draws with the same conventions, set at creation: the picture's first row is its top
 // (glClipControl GL_UPPER_LEFT), and depth runs from 1 at the near plane to 0 at infinity (reversed; nearer is
@@ -23,6 +23,9 @@ class Context {
 public:
     // Fails, saying what is missing, where EGL, the platform or OpenGL 4.5 cannot be had.
     static Result<Context> create_surfaceless(const ContextOptions& options = {});
+    // The context that something else, such as a window, has made current on this thread and will destroy after this.
+    // Fails where it is older than OpenGL 4.5.
+    static Result<Context> adopt_current(const ContextOptions& options = {});
     Context(Context&&) noexcept;
     Context& operator=(Context&&) noexcept;
     ~Context();

@@ -11,12 +11,22 @@ enum class Blending {
     kOverPremultiplied,  // the shader's colour is multiplied by its alpha
 };
 
+// Sides of triangles that are not drawn.
+enum class Culling { kNone, kBack, kFront };
+
 struct DrawState {
-    bool depth_write = true;  // where the depth test passes: not farther than what is there
+    bool depth_test = true;   // draws only what is not farther than what is there
+    bool depth_write = true;  // where the depth test passes; needs the depth test
     Blending blending = Blending::kReplace;
+    Culling culling = Culling::kNone;
+    bool clockwise = false;   // triangles whose corners turn clockwise show their front, else the others
+    bool wire_frame = false;  // only the edges of triangles
 };
 
 // Into the framebuffer that began last.
 void draw(const Program& program, const VertexArray& vertices, const DrawState& state);
+
+// Waits until everything is drawn.
+void finish();
 
 }  // namespace rs::gl

@@ -61,6 +61,27 @@ void Framebuffer::resolve_to(const Framebuffer& target) const {
                            GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
+float Framebuffer::depth_at(int column, int row, const Framebuffer& scratch) const {
+    RS_CHECK(scratch.width_ == width_ && scratch.height_ == height_ && scratch.samples_ == 1);
+    glBlitNamedFramebuffer(handle_.name(), scratch.handle_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
+                           GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, scratch.handle_.name());
+    float depth = 0;
+    glReadPixels(column, row, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
+    return depth;
+}
+
+void Framebuffer::show_in_window(int width, int height) const {
+    RS_CHECK(samples_ == 1);
+    // Bytes as they are: the window is not one of sRGB, and its first row is the lowest.
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    const GLenum filter = width == width_ && height == height_ ? GL_NEAREST : GL_LINEAR;
+    glBlitNamedFramebuffer(handle_.name(), 0, 0, 0, width_, height_, 0, height, width, 0, GL_COLOR_BUFFER_BIT, filter);
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+}
+
 Image<Rgba8> Framebuffer::read_picture() const {
     RS_CHECK(samples_ == 1);
     Image<Rgba8> picture(width_, height_);

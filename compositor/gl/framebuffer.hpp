@@ -21,6 +21,12 @@ public:
     void begin(const glm::vec3& background) const;
     // Averages the samples into `target`, which has the same size and one sample.
     void resolve_to(const Framebuffer& target) const;
+    // The depth at a pixel (column, row): near plane over distance, 0 where nothing was drawn. `scratch` has the same
+    // size and one sample; its depths are lost. Waits for all drawing.
+    [[nodiscard]] float depth_at(int column, int row, const Framebuffer& scratch) const;
+    // Puts the picture into the current window, stretched to width x height pixels, which then is what is drawn into
+    // (for an overlay). One sample only.
+    void show_in_window(int width, int height) const;
     // Waits for all drawing. One sample only.
     [[nodiscard]] Image<Rgba8> read_picture() const;
 

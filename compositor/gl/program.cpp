@@ -87,6 +87,10 @@ void Program::set(const char* uniform, const glm::ivec2& value) const {
     glProgramUniform2i(name(), location(uniform), value.x, value.y);
 }
 
+void Program::set(const char* uniform, const glm::ivec4& value) const {
+    glProgramUniform4i(name(), location(uniform), value.x, value.y, value.z, value.w);
+}
+
 void Program::set(const char* uniform, const glm::vec3& value) const {
     glProgramUniform3f(name(), location(uniform), value.x, value.y, value.z);
 }

@@ -2,16 +2,34 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <bit>
+
 namespace rs::gl {
 
-Texture::Texture(int width, int height) : width_(width), height_(height) {
+Texture::Texture(int width, int height, int levels) : width_(width), height_(height) {
     RS_CHECK(width >= 1 && height >= 1);
     unsigned name = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &name);
     handle_ = Handle<Kind::kTexture>(name);
-    glTextureStorage2D(name, 1, GL_SRGB8_ALPHA8, width, height);
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureStorage2D(name, levels, GL_SRGB8_ALPHA8, width, height);
+}
+
+Texture::Texture(int width, int height) : Texture(width, height, 1) {
+    glTextureParameteri(handle_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(handle_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+Texture::Texture(ConstImageView<Rgba8> picture, const TextureWrap& wrap)
+    : Texture(picture.width(), picture.height(),
+              std::bit_width(static_cast<unsigned>(std::max(picture.width(), picture.height())))) {
+    upload(picture);
+    const unsigned name = handle_.name();
+    glGenerateTextureMipmap(name);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_S, wrap.repeat_s ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_T, wrap.repeat_t ? GL_REPEAT : GL_CLAMP_TO_EDGE);
 }
 
 void Texture::upload(ConstImageView<Rgba8> picture) const {

@@ -6,10 +6,18 @@
 
 namespace rs::gl {
 
+// How a picture is read between and beyond its texels.
+struct TextureWrap {
+    bool repeat_s = true;  // else the border texels go on
+    bool repeat_t = true;
+};
+
 class Texture {
 public:
-    // Content undefined. Sides 1..kMaxPictureSide_px.
+    // Content undefined; read without interpolation. Sides 1..kMaxPictureSide_px.
     Texture(int width, int height);
+    // A picture that does not change, for surfaces: read with linear interpolation from levels of half the size each.
+    Texture(ConstImageView<Rgba8> picture, const TextureWrap& wrap);
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
 
@@ -19,6 +27,7 @@ public:
     void bind(unsigned unit) const;
 
 private:
+    Texture(int width, int height, int levels);
     Handle<Kind::kTexture> handle_;
     int width_ = 0;
     int height_ = 0;

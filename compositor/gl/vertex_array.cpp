@@ -16,11 +16,13 @@ Handle<Kind::kVertexArray> new_vertex_array() {
 VertexArray::VertexArray(int vertex_count) : handle_(new_vertex_array()), count_(vertex_count) {}
 
 VertexArray::VertexArray(std::span<const std::byte> vertices, int stride_bytes,
-                         const std::vector<VertexAttribute>& attributes, std::span<const std::uint32_t> indices)
+                         const std::vector<VertexAttribute>& attributes, std::span<const std::uint32_t> indices,
+                         Primitive primitive)
     : vertices_(Buffer(vertices)),
       indices_(Buffer(std::as_bytes(indices))),
       handle_(new_vertex_array()),
-      count_(static_cast<int>(indices.size())) {
+      count_(static_cast<int>(indices.size())),
+      primitive_(primitive) {
     glVertexArrayVertexBuffer(name(), 0, vertices_->name(), 0, stride_bytes);
     glVertexArrayElementBuffer(name(), indices_->name());
     for (GLuint location = 0; location < attributes.size(); ++location) {

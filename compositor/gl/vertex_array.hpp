@@ -1,5 +1,6 @@
 #pragma once
-// Indexed triangles ready to be drawn, or no vertices at all for shaders that make theirs from gl_VertexID.
+// Indexed triangles, lines or points ready to be drawn, or no vertices at all for shaders that make theirs from
+// gl_VertexID.
 
 #include "compositor/gl/buffer.hpp"
 #include "compositor/gl/handle.hpp"
@@ -17,23 +18,27 @@ struct VertexAttribute {
     unsigned offset_bytes = 0;
 };
 
+enum class Primitive { kTriangles, kLines, kPoints };
+
 class VertexArray {
 public:
     // Without vertices: draws `vertex_count` vertices as a triangle strip.
     explicit VertexArray(int vertex_count);
-    // Triangles; neither span is empty.
+    // Neither span is empty.
     VertexArray(std::span<const std::byte> vertices, int stride_bytes, const std::vector<VertexAttribute>& attributes,
-                std::span<const std::uint32_t> indices);
+                std::span<const std::uint32_t> indices, Primitive primitive = Primitive::kTriangles);
 
     [[nodiscard]] unsigned name() const { return handle_.name(); }
     [[nodiscard]] bool indexed() const { return indices_.has_value(); }
-    [[nodiscard]] int count() const { return count_; }  // of indices where indexed, else of vertices
+    [[nodiscard]] Primitive primitive() const { return primitive_; }  // where indexed
+    [[nodiscard]] int count() const { return count_; }                // of indices where indexed, else of vertices
 
 private:
     std::optional<Buffer> vertices_;
     std::optional<Buffer> indices_;
     Handle<Kind::kVertexArray> handle_;
     int count_ = 0;
+    Primitive primitive_ = Primitive::kTriangles;
 };
 
 }  // namespace rs::gl

@@ -2,6 +2,32 @@
 
 namespace rs::compositor {
 
+void BoundingBox::include(const glm::dvec3& point) {
+    if (empty()) {
+        lowest = highest = point;
+        return;
+    }
+    lowest = glm::min(lowest, point);
+    highest = glm::max(highest, point);
+}
+
+BoundingBox BoundingBox::moved(const glm::dmat4& matrix) const {
+    BoundingBox result;
+    if (empty()) return result;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p((corner & 1) != 0 ? highest.x : lowest.x, (corner & 2) != 0 ? highest.y : lowest.y,
+                           (corner & 4) != 0 ? highest.z : lowest.z);
+        result.include(glm::dvec3(matrix * glm::dvec4(p, 1)));
+    }
+    return result;
+}
+
+BoundingBox bounds_of(const Mesh& mesh) {
+    BoundingBox box;
+    for (const std::uint32_t index : mesh.indices) box.include(mesh.vertices[index].position);
+    return box;
+}
+
 Mesh box_mesh(const glm::dvec3& size) {
     const glm::vec3 half = glm::vec3(size) * 0.5F;
     Mesh mesh;
@@ -11,11 +37,15 @@ Mesh box_mesh(const glm::dvec3& size) {
             glm::vec3 u(0);
             glm::vec3 v(0);
             normal[axis] = side;
-            u[(axis + 1) % 3] = 1;
+            u[(axis + 1) % 3] = side;
             v[(axis + 2) % 3] = 1;
             const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
             for (const glm::vec2 corner : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
-                mesh.vertices.push_back({(normal + u * corner.x + v * corner.y) * half, normal});
+                MeshVertex vertex;
+                vertex.position = (normal + u * corner.x + v * corner.y) * half;
+                vertex.normal = normal;
+                vertex.texture = corner * 0.5F + 0.5F;
+                mesh.vertices.push_back(vertex);
             }
             for (const std::uint32_t index : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.indices.push_back(first + index);
         }

@@ -1,15 +1,21 @@
 #pragma once
-// A scene as the viewer composites it: the nodes of the graph with their chains of transforms, lights and a camera
-// path. Colours are linear light, 0..1 (lights may exceed 1). Y is up; the unit of length is the scene's own.
+// A scene as the viewer composites it: flattened to draw lists, whatever file it comes from (VRML97, glTF, OBJ, JSON).
+// Colours are linear light. Y is up; the unit of length is the scene's own.
 
 #include "compositor/scene/camera_path.hpp"
+#include "compositor/scene/light.hpp"
+#include "compositor/scene/material.hpp"
 #include "compositor/scene/mesh.hpp"
+#include "compositor/scene/surroundings.hpp"
 #include "compositor/scene/transform.hpp"
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace rs::compositor {
@@ -24,9 +30,10 @@ struct Floor {
 };
 
 struct GeometryNode {
-    Mesh mesh;
-    glm::vec3 colour{0.5F};
-    TransformChain chain;
+    std::shared_ptr<const Mesh> mesh;  // not null; shared where the file says so
+    Material material;
+    glm::dmat4 world_from_node{1.0};    // affine, with an inverse
+    std::vector<std::uint32_t> lights;  // those of Scene::lights that shine here only, besides those everywhere
 };
 
 // An object made of pictures. In the node's coordinates the unit is the object radius and Y the turntable's axis.
@@ -34,21 +41,25 @@ struct RaySpaceNode {
     std::filesystem::path file;  // .rso
     TransformChain chain;
     bool standing = true;  // the origin of the chain is the object's foot instead of the middle of its captured frame
-};
-
-struct Lights {
-    glm::dvec3 towards{-0.45, -1.0, -0.6};  // the direction in which the light travels, of any length but 0
-    glm::vec3 directional{0.75F};
-    glm::vec3 ambient{0.4F};
+    std::string description;
 };
 
 struct Scene {
-    glm::vec3 background{0.62F, 0.68F, 0.74F};
+    Background background;
     std::optional<Floor> floor;
-    Lights lights;
+    std::vector<Light> lights{{.colour = glm::vec3(0.75F),
+                               .ambient = glm::vec3(0.4F),
+                               .towards = glm::normalize(glm::dvec3(-0.45, -1, -0.6))}};
     std::vector<GeometryNode> geometry;
     std::vector<RaySpaceNode> objects;
-    std::optional<CameraPath> camera;
+    std::optional<Fog> fog;
+    std::vector<Viewpoint> viewpoints;  // the first is where a visit begins
+    Navigation navigation;
+    std::optional<CameraPath> camera;   // a way through the scene
+    std::vector<std::string> warnings;  // what could not be shown, "FILE: line N: ..."
 };
+
+// Of all geometry, in scene coordinates; empty where there is none.
+BoundingBox bounds_of(const Scene& scene);
 
 }  // namespace rs::compositor

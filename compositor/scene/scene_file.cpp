@@ -1,10 +1,14 @@
 #include "compositor/scene/scene_file.hpp"
 
+#include "compositor/scene/model_file.hpp"
 #include "compositor/scene/strict_json.hpp"
+#include "compositor/scene/vrml_file.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/linear_light.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace rs::compositor {
 namespace {
@@ -82,9 +86,10 @@ private:
 
     void read_box(JsonObject& node) {
         GeometryNode box;
-        box.mesh = box_mesh(node.take("box").triple(kSmallest, kFarthest));
-        if (node.has("colour")) box.colour = colour(node.take("colour"));
-        box.chain = chain_;
+        box.mesh = std::make_shared<const Mesh>(box_mesh(node.take("box").triple(kSmallest, kFarthest)));
+        box.material.diffuse = node.has("colour") ? colour(node.take("colour")) : glm::vec3(0.5F);
+        box.material.ambient = 1;
+        box.world_from_node = world_from_node(chain_).matrix();
         scene_.geometry.push_back(std::move(box));
     }
 
@@ -93,6 +98,11 @@ private:
     TransformChain chain_;
     std::size_t nodes_ = 0;
 };
+
+std::string lower_case(std::string text) {
+    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return text;
+}
 
 Floor read_floor(JsonObject object) {
     Floor floor;
@@ -109,13 +119,12 @@ Floor read_floor(JsonObject object) {
     return floor;
 }
 
-Lights read_lights(JsonObject object) {
-    Lights lights;
-    if (object.has("towards")) lights.towards = take_direction(object, "towards");
-    if (object.has("directional")) lights.directional = glm::vec3(object.take("directional").triple(0, kBrightest));
-    if (object.has("ambient")) lights.ambient = glm::vec3(object.take("ambient").triple(0, kBrightest));
+// One directional light, which brings the ambient light along.
+void read_lights(JsonObject object, Light& light) {
+    if (object.has("towards")) light.towards = glm::normalize(take_direction(object, "towards"));
+    if (object.has("directional")) light.colour = glm::vec3(object.take("directional").triple(0, kBrightest));
+    if (object.has("ambient")) light.ambient = glm::vec3(object.take("ambient").triple(0, kBrightest));
     object.expect_all_taken();
-    return lights;
 }
 
 CameraPose take_pose(JsonObject& object) {
@@ -151,9 +160,9 @@ Result<Scene> scene_from_json(const std::string& text, const std::filesystem::pa
         const nlohmann::json json = parse_json_text(text, path.string());
         JsonObject top(JsonValue(json, path.string(), ""));
         Scene scene;
-        if (top.has("background")) scene.background = colour(top.take("background"));
+        if (top.has("background")) scene.background.sky = {colour(top.take("background"))};
         if (top.has("floor")) scene.floor = read_floor(JsonObject(top.take("floor")));
-        if (top.has("lights")) scene.lights = read_lights(JsonObject(top.take("lights")));
+        if (top.has("lights")) read_lights(JsonObject(top.take("lights")), scene.lights.front());
         if (top.has("nodes")) NodeReader(scene, path.parent_path()).read_list(top.take("nodes"));
         if (top.has("camera")) scene.camera = read_camera(JsonObject(top.take("camera")));
         top.expect_all_taken();
@@ -164,6 +173,15 @@ Result<Scene> scene_from_json(const std::string& text, const std::filesystem::pa
 }
 
 Result<Scene> read_scene(const std::filesystem::path& path) {
+    const std::string name = lower_case(path.filename().string());
+    const auto is_one_of = [&](std::initializer_list<const char*> endings) {
+        return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return name.ends_with(ending); });
+    };
+    if (is_one_of({".wrl", ".wrl.gz", ".wrz", ".vrml"})) return read_vrml(path);
+    if (is_one_of({".gltf", ".glb", ".obj"})) return read_model(path);
+    if (!is_one_of({".json"})) {
+        return Error{path.string() + ": is no scene by its name; give a .wrl, .wrl.gz, .gltf, .glb, .obj or .json"};
+    }
     const Result<std::vector<std::byte>> bytes = read_file(path, kMaxFile_bytes);
     if (!bytes) return bytes.error();
     return scene_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes from JSON. The format is described in compositor/README.md.
+// Scenes from files: JSON (compositor/README.md), VRML97 (vrml_file.hpp), glTF 2.0 and OBJ (model_file.hpp).
 
 #include "compositor/scene/scene.hpp"
 #include "rayspace/result.hpp"
@@ -9,11 +9,11 @@
 
 namespace rs::compositor {
 
-// Object files are looked for beside the scene file; none is opened here. Errors name the file and the key. Files
-// beyond 64 MiB are refused.
+// By the file's name: .wrl, .wrl.gz, .wrz, .vrml; .gltf, .glb, .obj; .json. Files that the scene names are looked for
+// beside it; no .rso is opened here. Errors name the file and the line or key. Files beyond 64 MiB are refused.
 Result<Scene> read_scene(const std::filesystem::path& path);
 
-// The text of a scene file; `path` names it in errors, and its folder is where object files are.
+// The text of a JSON scene; `path` names it in errors, and its folder is where object files are.
 Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& path);
 
 }  // namespace rs::compositor

@@ -5,6 +5,7 @@
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/viewer/frame_compositor.hpp"
 #include "compositor/viewer/framing.hpp"
+#include "compositor/window/visit.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/picture_io.hpp"
 #include "rayspace/progress.hpp"
@@ -12,6 +13,8 @@
 #include "rayspace/tool_main.hpp"
 #include "rayspace/view_output.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <tuple>
 
@@ -30,6 +33,8 @@ struct ViewArguments {
     double fov_deg = 0;
     double frames_per_second = 30;
     int orbit = 0;
+    std::string viewpoint;
+    bool wire_frame = false;
     bool quiet = false;
 };
 
@@ -52,15 +57,49 @@ Result<Scene> asked_scene(const ViewArguments& arguments) {
     return scene;
 }
 
-// What the command line says about the camera outranks the scene file, and that the framing of the objects.
+// The viewpoint that the command line names, or the first.
+Result<const Viewpoint*> asked_viewpoint(const ViewArguments& arguments, const Scene& scene) {
+    if (arguments.viewpoint.empty()) return scene.viewpoints.empty() ? nullptr : &scene.viewpoints.front();
+    std::string known;
+    for (const Viewpoint& viewpoint : scene.viewpoints) {
+        if (viewpoint.description == arguments.viewpoint) return &viewpoint;
+        known += (known.empty() ? "" : ", ") + ("'" + viewpoint.description + "'");
+    }
+    return Error{"--viewpoint " + arguments.viewpoint + ": the scene has no viewpoint of this description; it has " +
+                 (known.empty() ? "none" : known)};
+}
+
+CameraPose pose_that_shows_all(const Scene& scene, const std::vector<PlacedObject>& objects, double fov_x_rad,
+                               double aspect) {
+    const BoundingBox bounds = bounds_of(scene);
+    if (!objects.empty() || bounds.empty()) return framing_pose(objects, fov_x_rad, aspect);
+    return framing_pose(bounds, fov_x_rad, aspect);
+}
+
+// What the command line says about the camera outranks the scene's path, that its viewpoint, and that the framing of
+// all that there is.
 Result<std::vector<Camera>> asked_cameras(const ViewArguments& arguments, const Scene& scene,
                                           const std::vector<PlacedObject>& objects, PixelSize size) {
-    CameraPath path = scene.camera.value_or(CameraPath{});
-    if (arguments.fov_deg > 0) path.fov_x_rad = radians(arguments.fov_deg);
-    if (path.keys.empty()) {
-        path.keys = {framing_pose(objects, path.fov_x_rad, static_cast<double>(size.width) / size.height)};
+    const Result<const Viewpoint*> viewpoint = asked_viewpoint(arguments, scene);
+    if (!viewpoint) return viewpoint.error();
+    const bool looks_elsewhere = !arguments.eye.empty() || !arguments.at.empty();
+    const bool at_viewpoint = *viewpoint != nullptr && (!scene.camera || !arguments.viewpoint.empty());
+    if (at_viewpoint && !looks_elsewhere && arguments.orbit == 0) {
+        Viewpoint here = **viewpoint;
+        if (arguments.fov_deg > 0) {
+            const double half_x = std::tan(radians(arguments.fov_deg) / 2);
+            here.field_of_view_rad = 2 * std::atan(half_x * std::min(size.width, size.height) / size.width);
+        }
+        return std::vector<Camera>{camera_at(here, size.width, size.height)};
     }
-    if (!arguments.eye.empty() || !arguments.at.empty()) {
+    CameraPath path = at_viewpoint ? CameraPath{} : scene.camera.value_or(CameraPath{});
+    if (arguments.fov_deg > 0) path.fov_x_rad = radians(arguments.fov_deg);
+    if (at_viewpoint) path.keys = {pose_at(**viewpoint, bounds_of(scene))};
+    if (path.keys.empty()) {
+        const double aspect = static_cast<double>(size.width) / size.height;
+        path.keys = {pose_that_shows_all(scene, objects, path.fov_x_rad, aspect)};
+    }
+    if (looks_elsewhere) {
         CameraPose pose = path.keys.front();
         for (const auto& [text, option, point] :
              {std::tuple{&arguments.eye, "--eye", &pose.eye}, std::tuple{&arguments.at, "--at", &pose.at}}) {
@@ -100,18 +139,39 @@ Status write_folder(FrameCompositor& compositor, const std::vector<Camera>& came
     return staged->commit();
 }
 
+// In a window: beginning where the first camera is, then at the scene's viewpoints.
+Status run_visit(const ViewArguments& arguments, const Scene& scene, const std::vector<PlacedObject>& objects,
+                 const Camera& first, PixelSize size) {
+    VisitOptions options;
+    options.window.title = arguments.scene.empty() ? "rs-view" : arguments.scene;
+    options.window.width = size.width;
+    options.window.height = size.height;
+    options.wire_frame = arguments.wire_frame;
+    Viewpoint begin;
+    begin.world_from_camera = first.world_from_camera;
+    begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
+    options.viewpoints.push_back(begin);
+    options.viewpoints.insert(options.viewpoints.end(), scene.viewpoints.begin(), scene.viewpoints.end());
+    return visit(scene, objects, options);
+}
+
 Status run_view(const ViewArguments& arguments) {
-    const Result<OutputKind> kind = output_kind(arguments.output);
+    const bool in_window = arguments.output.empty();
+    const Result<OutputKind> kind = in_window ? OutputKind::picture : output_kind(arguments.output);
     if (!kind) return kind.error();
     const Result<PixelSize> size = parse_size(arguments.size);
     if (!size) return size.error();
     const Result<Scene> scene = asked_scene(arguments);
     if (!scene) return scene.error();
+    for (const std::string& warning : scene->warnings) {
+        std::fprintf(stderr, "rs-view: warning: %s\n", warning.c_str());
+    }
     ProgressBar progress(arguments.quiet);
     const Result<std::vector<PlacedObject>> objects = load_objects(*scene, &progress);
     if (!objects) return objects.error();
     const Result<std::vector<Camera>> cameras = asked_cameras(arguments, *scene, *objects, *size);
     if (!cameras) return cameras.error();
+    if (in_window) return run_visit(arguments, *scene, *objects, cameras->front(), *size);
     if (*kind == OutputKind::picture && cameras->size() != 1) {
         return Error{arguments.output + ": " + std::to_string(cameras->size()) +
                      " frames do not fit one picture; give a folder or an .mp4 to -o"};
@@ -119,8 +179,8 @@ Status run_view(const ViewArguments& arguments) {
 
     Result<gl::Context> context = gl::Context::create_surfaceless();
     if (!context) return context.error();
-    Result<FrameCompositor> compositor =
-        FrameCompositor::create(*scene, *objects, {.width = size->width, .height = size->height});
+    Result<FrameCompositor> compositor = FrameCompositor::create(
+        *scene, *objects, {.width = size->width, .height = size->height, .wire_frame = arguments.wire_frame});
     if (!compositor) return compositor.error();
     progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
     if (*kind == OutputKind::video) {
@@ -139,23 +199,28 @@ Status run_view(const ViewArguments& arguments) {
 
 int main(int argc, char** argv) {
     using namespace rs::compositor;
-    CLI::App app("Composites ray-space objects and geometry into pictures or a video.", "rs-view");
+    CLI::App app("Composites ray-space objects and geometry: in a window to walk through, or into pictures or a video.",
+                 "rs-view");
     ViewArguments arguments;
     bool headless = false;
-    app.add_option("SCENE", arguments.scene, "scene file, .json (compositor/README.md)");
+    app.add_option("SCENE", arguments.scene,
+                   "scene: .wrl, .wrl.gz (VRML97), .gltf, .glb, .obj or .json (compositor/README.md)");
     app.add_option("--object", arguments.objects,
                    "FILE.rso[@X,Y,Z[,TURN_DEG[,SCALE]]]: an object whose foot stands at X,Y,Z, turned about Y; may be "
                    "repeated. Objects without a place stand in a row. Without SCENE they get a floor")
         ->type_name("OBJECT")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("-o,--output", arguments.output, "FILE.png, FILE.mp4 or a folder")->required();
-    app.add_flag("--headless", headless, "draw without a window or a display; the only mode, so it need not be given");
-    app.add_option("--eye", arguments.eye, "viewpoint X,Y,Z; of the scene file, or where all objects are in view")
+    app.add_option("-o,--output", arguments.output, "FILE.png, FILE.mp4 or a folder; without it, a window opens");
+    app.add_flag("--headless", headless, "draw without a window or a display; implied by -o");
+    app.add_option("--eye", arguments.eye, "viewpoint X,Y,Z; of the scene, or where all is in view")
         ->type_name("X,Y,Z");
     app.add_option("--at", arguments.at, "point looked at")->type_name("X,Y,Z");
-    app.add_option("--fov", arguments.fov_deg, "horizontal field of view in degrees (50, or of the scene file)")
+    app.add_option("--fov", arguments.fov_deg, "horizontal field of view in degrees (50, or of the scene)")
         ->check(CLI::Range(1.0, 150.0));
+    app.add_option("--viewpoint", arguments.viewpoint, "description of one of the scene's viewpoints (the first)")
+        ->type_name("NAME");
+    app.add_flag("--wire-frame", arguments.wire_frame, "only the edges of the geometry's triangles");
     app.add_option("--size", arguments.size, "size of the frames, WxH")->capture_default_str();
     app.add_option("--orbit", arguments.orbit, "N frames once around the point looked at")
         ->check(CLI::Range(1, 100000));
@@ -166,13 +231,18 @@ int main(int argc, char** argv) {
     app.footer(
         "Lengths are in the scene's units; an object of scale 1 has radius 1. Y is up.\n"
         "Examples:\n"
+        "  rs-view museum.wrl\n"
         "  rs-view --object vase.rso -o shot.png\n"
         "  rs-view --object vase.rso@-1.2,0,0 --object lamp.rso@1.2,0,0,45,0.8 --orbit 120 -o turn.mp4\n"
+        "  rs-view world.wrl -o world.png\n"
         "  rs-view room.json --eye 0,1.2,6 --at 0,0.8,0 --fov 45 --size 1920x1080 -o room.png");
     std::function<rs::Status()> run;
     app.callback([&] {
         if (arguments.scene.empty() && arguments.objects.empty()) {
             throw CLI::ValidationError("nothing to show; give a scene file or --object FILE.rso");
+        }
+        if (headless && arguments.output.empty()) {
+            throw CLI::ValidationError("--headless needs -o: the picture, video or folder to write");
         }
         run = [&] { return run_view(arguments); };
     });

@@ -5,42 +5,44 @@
 #include "engine/core/view_registers.hpp"
 
 #include <algorithm>
-#include <cstddef>
-#include <span>
+#include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace rs::compositor {
 namespace {
 
-// Depth of the near plane in scene units. Depth is stored as kNear / depth in floating point, whose relative precision
-// is the same near and far: it may be small.
-constexpr double kNear = 0.001;
-
-// Reversed depth with the far plane at infinity (gl/context.hpp). Points have camera coordinates: right, up, back.
-glm::dmat4 clip_from_camera(const Camera& camera) {
-    glm::dmat4 m(0.0);
-    m[0][0] = 2 * camera.fl_x / camera.width;
-    m[1][1] = 2 * camera.fl_y / camera.height;
-    m[2][0] = 1 - 2 * camera.cx / camera.width;
-    m[2][1] = 2 * camera.cy / camera.height - 1;
-    m[2][3] = -1;
-    m[3][2] = kNear;
-    return m;
+// How much of an object's own light is left at a distance.
+float kept_in_fog(const std::optional<Fog>& fog, double distance) {
+    if (!fog) return 1;
+    if (distance >= fog->visibility) return 0;
+    const double left = fog->visibility - distance;
+    return static_cast<float>(fog->kind == FogKind::kLinear ? left / fog->visibility : std::exp(-distance / left));
 }
 
-gl::VertexArray upload(const Mesh& mesh) {
-    return {std::as_bytes(std::span(mesh.vertices)),
-            sizeof(MeshVertex),
-            {{3, offsetof(MeshVertex, position)}, {3, offsetof(MeshVertex, normal)}},
-            mesh.indices};
-}
+// Seconds from lap to lap; of all that was drawn until then if `waits`, else of giving it to the driver.
+class PartClock {
+public:
+    explicit PartClock(bool waits) : waits_(waits) {}
+    double lap() {
+        if (waits_) gl::finish();
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    }
+
+private:
+    bool waits_;
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 }  // namespace
 
 Result<FrameCompositor> FrameCompositor::create(const Scene& scene, std::vector<PlacedObject> objects,
                                                 const FrameOptions& options) {
-    auto geometry = gl::Program::create("geometry", shaders::kGeometryVertex, shaders::kGeometryFragment);
-    if (!geometry) return geometry.error();
+    auto background = BackgroundRenderer::create(scene.background);
+    if (!background) return background.error();
+    auto surfaces = SurfaceRenderer::create(scene);
+    if (!surfaces) return surfaces.error();
     auto floor = gl::Program::create("floor", shaders::kFloorVertex, shaders::kFloorFragment);
     if (!floor) return floor.error();
     auto object = gl::Program::create("object", shaders::kObjectVertex, shaders::kObjectFragment);
@@ -49,72 +51,136 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& scene, std::vector<
     if (!frame) return frame.error();
     auto resolved = gl::Framebuffer::create(options.width, options.height, 1);
     if (!resolved) return resolved.error();
-    return FrameCompositor(scene, std::move(objects), {std::move(*geometry), std::move(*floor), std::move(*object)},
-                           std::move(*frame), std::move(*resolved));
+    return FrameCompositor(scene, std::move(objects), {std::move(*floor), std::move(*object)}, std::move(*background),
+                           std::move(*surfaces), std::move(*frame), std::move(*resolved), options);
 }
 
 FrameCompositor::FrameCompositor(const Scene& scene, std::vector<PlacedObject> objects, Programs programs,
-                                 gl::Framebuffer frame, gl::Framebuffer resolved)
-    : background_(scene.background),
-      floor_(scene.floor),
-      lights_(scene.lights),
+                                 BackgroundRenderer background, SurfaceRenderer surfaces, gl::Framebuffer frame,
+                                 gl::Framebuffer resolved, const FrameOptions& options)
+    : floor_(scene.floor),
+      floor_background_(background_colour(scene.background, {0, 0, -1})),
+      fog_(scene.fog),
       objects_(std::move(objects)),
       programs_(std::move(programs)),
+      background_(std::move(background)),
+      surfaces_(std::move(surfaces)),
+      wire_frame_(options.wire_frame),
+      time_parts_(options.time_parts),
+      samples_(options.samples),
       frame_(std::move(frame)),
       resolved_(std::move(resolved)),
       rectangle_(4),
       textures_(objects_.size()) {
-    for (const GeometryNode& node : scene.geometry) {
-        geometry_.push_back({upload(node.mesh), node.colour, world_from_node(node.chain)});
+    for (const PlacedObject& placed : objects_) first_places_.push_back(placed.world_from_object);
+    for (const Light& light : scene.lights) {
+        if (light.kind != LightKind::kDirectional || !light.everywhere) continue;
+        floor_light_ += light.ambient + light.colour * static_cast<float>(std::max(-light.towards.y, 0.0));
     }
 }
 
 Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {
+    if (Status status = draw(camera); !status) return status.error();
+    return picture();
+}
+
+Status FrameCompositor::draw(const Camera& camera) {
     RS_CHECK(camera.width == frame_.width() && camera.height == frame_.height());
-    const glm::dmat4 clip_from_world = clip_from_camera(camera) * glm::inverse(camera.world_from_camera);
+    const FrameView view = view_of_frame(camera);
     statistics_ = {};
-    frame_.begin(background_);
-    draw_geometry(clip_from_world);
-    if (floor_) draw_floor(clip_from_world);
+    statistics_.nodes.resize(objects_.size());
+    camera_ = camera;
+    PartClock clock(time_parts_);
+    frame_.begin(background_.zenith());
+    if (!background_.plain()) background_.draw(camera);
+    const std::vector<SurfaceRenderer::Transparent> transparent = surfaces_.draw_opaque(view, wire_frame_);
+    statistics_.geometry_in_view = surfaces_.nodes_in_view();
+    if (floor_) draw_floor(view);
+    statistics_.geometry_s = clock.lap();
 
     std::vector<std::pair<std::size_t, ObjectView>> seen;
     for (std::size_t i = 0; i < objects_.size(); ++i) {
-        if (auto view = view_of_object(objects_[i], camera)) seen.emplace_back(i, *view);
+        if (auto object = view_of_object(objects_[i], camera)) seen.emplace_back(i, *object);
     }
     statistics_.nodes_not_seen = static_cast<int>(objects_.size() - seen.size());
-    std::stable_sort(seen.begin(), seen.end(),
-                     [](const auto& a, const auto& b) { return a.second.plane_distance > b.second.plane_distance; });
-    for (const auto& [index, view] : seen) {
-        if (const Status status = draw_object(index, view); !status) return status.error();
+
+    // Everything that is blended, the farthest first; of the same distance geometry before objects.
+    struct Blended {
+        double distance;
+        const SurfaceRenderer::Transparent* surface;
+        const std::pair<std::size_t, ObjectView>* object;
+    };
+    std::vector<Blended> blended;
+    for (const auto& surface : transparent) blended.push_back({surface.distance, &surface, nullptr});
+    for (const auto& object : seen) blended.push_back({object.second.plane_distance, nullptr, &object});
+    std::stable_sort(blended.begin(), blended.end(),
+                     [](const Blended& a, const Blended& b) { return a.distance > b.distance; });
+    for (const Blended& item : blended) {
+        if (item.surface != nullptr) {
+            surfaces_.draw_transparent(*item.surface, view, wire_frame_);
+        } else if (const Status status = draw_object(item.object->first, item.object->second); !status) {
+            return status.error();
+        }
     }
     frame_.resolve_to(resolved_);
-    return resolved_.read_picture();
+    statistics_.composite_s = clock.lap() - statistics_.engine_s - statistics_.upload_s;
+    return {};
 }
 
-void FrameCompositor::draw_geometry(const glm::dmat4& clip_from_world) const {
-    const gl::Program& program = programs_.geometry;
-    program.set("to_light", glm::vec3(-glm::normalize(lights_.towards)));
-    program.set("directional", lights_.directional);
-    program.set("ambient", lights_.ambient);
-    for (const GeometryDraw& item : geometry_) {
-        program.set("clip_from_node", glm::mat4(clip_from_world * item.world_from_node.matrix()));
-        program.set("world_from_node", glm::mat3(item.world_from_node.rotation));
-        program.set("colour", item.colour);
-        gl::draw(program, item.triangles, {});
+Status FrameCompositor::resize(int width, int height) {
+    auto frame = gl::Framebuffer::create(width, height, samples_);
+    if (!frame) return frame.error();
+    auto resolved = gl::Framebuffer::create(width, height, 1);
+    if (!resolved) return resolved.error();
+    frame_ = std::move(*frame);
+    resolved_ = std::move(*resolved);
+    camera_.reset();
+    return {};
+}
+
+void FrameCompositor::turn_object(std::size_t index, double angle_rad) {
+    objects_[index].world_from_object = first_places_[index] * NodeTransform{.angle_rad = angle_rad}.parent_from_node();
+}
+
+std::optional<double> FrameCompositor::distance_ahead() const {
+    const float depth = frame_.depth_at(frame_.width() / 2, frame_.height() / 2, resolved_);
+    if (!(depth > 0)) return std::nullopt;
+    return kNear / depth;
+}
+
+std::optional<std::size_t> FrameCompositor::object_at(int x, int y) const {
+    if (!camera_ || x < 0 || y < 0 || x >= width() || y >= height()) return std::nullopt;
+    const double geometry = frame_.depth_at(x, y, resolved_);  // kNear / distance, 0 where there is none
+    const glm::dvec3 position(x + 0.5, y + 0.5, 1);
+    std::optional<std::size_t> nearest;
+    double nearest_distance = 0;
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+        const auto view = view_of_object(objects_[i], *camera_);
+        if (!view || (nearest && view->plane_distance >= nearest_distance)) continue;
+        const ScreenRectangle& area = view->rectangle;
+        if (x < area.x || y < area.y || x >= area.x + area.width || y >= area.y + area.height) continue;
+        if (glm::dot(view->inverse_depth_facing, position) * kNear < geometry) continue;  // hidden
+        const engine::Renderer& renderer = objects_[i].object->renderer;
+        const auto registers = engine::prepare_view(renderer.object(), view->camera);
+        if (!registers) continue;
+        Image<Rgba8> shown(area.width, area.height);
+        renderer.render(*registers, shown);
+        if (shown(x - area.x, y - area.y).a < 128) continue;
+        nearest = i;
+        nearest_distance = view->plane_distance;
     }
+    return nearest;
 }
 
-void FrameCompositor::draw_floor(const glm::dmat4& clip_from_world) const {
+void FrameCompositor::draw_floor(const FrameView& view) const {
     const gl::Program& program = programs_.floor;
-    const auto up = static_cast<float>(std::max(-glm::normalize(lights_.towards).y, 0.0));
-    const glm::vec3 light = lights_.ambient + lights_.directional * up;
-    program.set("clip_from_world", glm::mat4(clip_from_world));
+    program.set("clip_from_world", glm::mat4(view.clip_from_world));
     program.set("height", static_cast<float>(floor_->height));
     program.set("radius", static_cast<float>(floor_->radius));
     program.set("square", static_cast<float>(floor_->square));
-    program.set("colour_a", floor_->colour_a * light);
-    program.set("colour_b", floor_->colour_b * light);
-    program.set("background", background_);
+    program.set("colour_a", floor_->colour_a * floor_light_);
+    program.set("colour_b", floor_->colour_b * floor_light_);
+    program.set("background", floor_background_);
     gl::draw(program, rectangle_, {});
 }
 
@@ -127,8 +193,12 @@ Status FrameCompositor::draw_object(std::size_t index, const ObjectView& view) {
     if (picture_.width() < area.width || picture_.height() < area.height) {
         picture_ = Image<Rgba8>(std::max(picture_.width(), area.width), std::max(picture_.height(), area.height));
     }
-    const ImageView<Rgba8> picture = picture_.view().crop(0, 0, area.width, area.height);
-    renderer.render(*registers, picture);
+    const ImageView<Rgba8> shown = picture_.view().crop(0, 0, area.width, area.height);
+    PartClock clock(time_parts_);
+    renderer.render(*registers, shown);
+    const double engine_s = clock.lap();
+    statistics_.nodes[index] = {true, area.width, area.height, engine_s};
+    statistics_.engine_s += engine_s;
     statistics_.nodes_rendered += 1;
     statistics_.pixels_rendered += std::int64_t{area.width} * area.height;
 
@@ -137,8 +207,9 @@ Status FrameCompositor::draw_object(std::size_t index, const ObjectView& view) {
         texture.emplace(std::max(texture ? texture->width() : 0, area.width),
                         std::max(texture ? texture->height() : 0, area.height));
     }
-    texture->upload(picture);
+    texture->upload(shown);
     texture->bind(0);
+    statistics_.upload_s += clock.lap();
 
     const gl::Program& program = programs_.object;
     program.set("rectangle", glm::vec4(area.x, area.y, area.width, area.height));
@@ -147,6 +218,7 @@ Status FrameCompositor::draw_object(std::size_t index, const ObjectView& view) {
     program.set("facing_depth", glm::vec3(view.inverse_depth_facing * kNear));
     program.set("foot_depth", glm::vec3(view.inverse_depth_foot * kNear));
     program.set("from_above", view.from_above ? 1 : 0);
+    program.set("fog", glm::vec4(fog_ ? fog_->colour : glm::vec3(0), kept_in_fog(fog_, view.plane_distance)));
     gl::draw(program, rectangle_, {.depth_write = false, .blending = gl::Blending::kOverPremultiplied});
     return {};
 }

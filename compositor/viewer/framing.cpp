@@ -50,4 +50,33 @@ CameraPose framing_pose(const std::vector<PlacedObject>& objects, double fov_x_r
     return {middle + back * distance, middle};
 }
 
+CameraPose framing_pose(const BoundingBox& bounds, double fov_x_rad, double aspect) {
+    const glm::dvec3 half = (bounds.highest - bounds.lowest) * 0.5;
+    const double half_x_rad = fov_x_rad / 2;
+    const double half_y_rad = std::atan(std::tan(half_x_rad) / aspect);
+    // The nearest side of the box is the one that has to fit.
+    const double distance =
+        half.z + std::max({half.x / std::tan(half_x_rad), half.y / std::tan(half_y_rad), 1e-3 + half.z * 0.1}) * 1.05;
+    return {bounds.middle() + glm::dvec3(0, 0, distance), bounds.middle()};
+}
+
+Camera camera_at(const Viewpoint& viewpoint, int width, int height) {
+    Camera camera;
+    camera.width = width;
+    camera.height = height;
+    camera.fl_x = std::min(width, height) / 2.0 / std::tan(viewpoint.field_of_view_rad / 2);
+    camera.fl_y = camera.fl_x;
+    camera.cx = width / 2.0;
+    camera.cy = height / 2.0;
+    camera.world_from_camera = viewpoint.world_from_camera;
+    return camera;
+}
+
+CameraPose pose_at(const Viewpoint& viewpoint, const BoundingBox& bounds) {
+    const glm::dvec3 eye(viewpoint.world_from_camera[3]);
+    const glm::dvec3 ahead = -glm::dvec3(viewpoint.world_from_camera[2]);
+    const double distance = bounds.empty() ? 1 : glm::dot(bounds.middle() - eye, ahead);
+    return {eye, eye + ahead * std::max(distance, 0.1)};
+}
+
 }  // namespace rs::compositor

@@ -1,29 +1,7 @@
 #pragma once
-// The GLSL of the frame compositor. Colours are linear light; the framebuffer encodes sRGB.
+// The GLSL of floors and of objects made of pictures. Colours are linear light; the framebuffer encodes sRGB.
 
 namespace rs::compositor::shaders {
-
-// Triangles in one colour: one directional light and ambient light.
-inline constexpr const char* kGeometryVertex = R"(#version 450 core
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-uniform mat4 clip_from_node;
-uniform mat3 world_from_node;
-out vec3 normal_in_world;
-void main() {
-    gl_Position = clip_from_node * vec4(position, 1.0);
-    normal_in_world = world_from_node * normal;
-})";
-inline constexpr const char* kGeometryFragment = R"(#version 450 core
-in vec3 normal_in_world;
-uniform vec3 colour;
-uniform vec3 to_light;
-uniform vec3 directional;
-uniform vec3 ambient;
-out vec4 result;
-void main() {
-    result = vec4(colour * (ambient + directional * max(dot(normalize(normal_in_world), to_light), 0.0)), 1.0);
-})";
 
 // The floor's square; a disc of it is kept. The checker is averaged over the pixel's footprint, so that it fades to an
 // even tone in the distance instead of flickering.
@@ -70,6 +48,7 @@ uniform ivec2 first_pixel;
 uniform vec3 facing_depth;  // value in the depth buffer = dot(_, (x, y, 1))
 uniform vec3 foot_depth;
 uniform int from_above;
+uniform vec4 fog;            // colour; w: how much of the object's own light is left
 out vec4 result;
 void main() {
     vec4 straight = texelFetch(picture, ivec2(gl_FragCoord.xy) - first_pixel, 0);
@@ -78,7 +57,7 @@ void main() {
     float facing = dot(facing_depth, place);
     float foot = dot(foot_depth, place);
     gl_FragDepth = clamp(from_above != 0 ? max(facing, foot) : min(facing, foot), 0.0, 1.0);
-    result = vec4(straight.rgb * straight.a, straight.a);
+    result = vec4(mix(fog.rgb, straight.rgb, fog.w) * straight.a, straight.a);
 })";
 
 }  // namespace rs::compositor::shaders

@@ -43,7 +43,7 @@ Result<std::unique_ptr<Waveform>> Waveform::open(const std::filesystem::path& pa
 Waveform::Waveform(StagedFile file, BoardTop& board, std::uint64_t most_cycles)
     : file_(std::move(file)), board_(board), most_cycles_(most_cycles) {}
 
-void Waveform::put(std::string text) {
+void Waveform::put(const std::string& text) {
     buffer_ += text;
     if (buffer_.size() < kFlush_bytes) return;
     if (status_) status_ = file_.write(std::as_bytes(std::span(buffer_)));
@@ -68,7 +68,7 @@ void Waveform::declare() {
         for (const Block* block : parts.blocks) {
             header += "$scope module " + block->name() + " $end\n";
             Signal activity;
-            activity.bits = std::bit_width(kActivities);
+            activity.bits = static_cast<int>(std::bit_width(kActivities));
             activity.block = block;
             add("activity", activity, header);
             activity.bits = 1;
@@ -79,13 +79,13 @@ void Waveform::declare() {
         header += "$scope module fifos_" + std::string(domain == Domain::board ? "board" : "bus") + " $end\n";
         for (const FifoState* fifo : parts.fifos) {
             Signal count;
-            count.bits = std::bit_width(static_cast<unsigned>(fifo->depth()));
+            count.bits = static_cast<int>(std::bit_width(static_cast<unsigned>(fifo->depth())));
             count.fifo = fifo;
             add(fifo->name(), count, header);
         }
         for (const CrossingState* fifo : parts.written) {
             Signal count;
-            count.bits = std::bit_width(static_cast<unsigned>(fifo->depth()));
+            count.bits = static_cast<int>(std::bit_width(static_cast<unsigned>(fifo->depth())));
             count.crossing = fifo;
             add(fifo->name(), count, header);
         }

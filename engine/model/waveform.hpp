@@ -24,7 +24,7 @@ private:
     Waveform(StagedFile file, BoardTop& board, std::uint64_t most_cycles);
     void declare();
     void sample(std::uint64_t cycle);
-    void put(std::string text);
+    void put(const std::string& text);
 
     struct Signal {
         std::string id;

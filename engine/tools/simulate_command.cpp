@@ -145,6 +145,7 @@ void print_report(const model::BoardReport& report) {
 Status use_pictures(const model::BoardRun& run, const std::vector<Drawing>& drawings,
                     const std::vector<RaySpaceObject>& stored, const std::string& output) {
     std::vector<Camera> cameras;
+    cameras.reserve(drawings.size());
     for (const Drawing& drawing : drawings) cameras.push_back(drawing.camera);
     Rig rig = rig_of_views(cameras);
     std::optional<StagedFolder> folder;

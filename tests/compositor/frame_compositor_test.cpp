@@ -71,9 +71,10 @@ protected:
 
 Scene with_box(const glm::dvec3& size, const glm::dvec3& centre) {
     GeometryNode box;
-    box.mesh = box_mesh(size);
-    box.colour = {0.1F, 0.6F, 0.1F};
-    box.chain = {{centre}};
+    box.mesh = std::make_shared<const Mesh>(box_mesh(size));
+    box.material.diffuse = {0.1F, 0.6F, 0.1F};
+    box.material.ambient = 1;
+    box.world_from_node[3] = glm::dvec4(centre, 1);
     Scene scene;
     scene.geometry.push_back(std::move(box));
     return scene;
@@ -151,8 +152,8 @@ Image<Rgba8> expected_over(const Scene& scene, const PlacedObject& placed, const
         const auto over = [&](std::uint8_t code, float background) {
             return srgb8_from_linear(linear_from_srgb8(code) * a + background * (1 - a));
         };
-        pixel = {over(pixel.r, scene.background.r), over(pixel.g, scene.background.g),
-                 over(pixel.b, scene.background.b), 255};
+        pixel = {over(pixel.r, scene.background.sky[0].r), over(pixel.g, scene.background.sky[0].g),
+                 over(pixel.b, scene.background.sky[0].b), 255};
     }
     return picture;
 }

@@ -36,24 +36,27 @@ TEST(SceneFile, ReadsEveryKey) {
     })",
                                                 "rooms/hall.json");
     ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_EQ(scene->background, glm::vec3(1));
+    ASSERT_EQ(scene->background.sky.size(), 1U);
+    EXPECT_EQ(scene->background.sky[0], glm::vec3(1));
     ASSERT_TRUE(scene->floor);
     EXPECT_EQ(scene->floor->height, -1);
     EXPECT_EQ(scene->floor->radius, 20);
     EXPECT_EQ(scene->floor->square, 0.5);
     EXPECT_EQ(scene->floor->colour_b, glm::vec3(1));
-    EXPECT_EQ(scene->lights.towards, glm::dvec3(0, -1, 0));
-    EXPECT_EQ(scene->lights.directional, glm::vec3(2));
-    EXPECT_EQ(scene->lights.ambient.z, 0.3F);
+    ASSERT_EQ(scene->lights.size(), 1U);
+    EXPECT_EQ(scene->lights[0].towards, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(scene->lights[0].colour, glm::vec3(2));
+    EXPECT_EQ(scene->lights[0].ambient.z, 0.3F);
+    EXPECT_FALSE(scene->navigation.headlight);
     ASSERT_EQ(scene->objects.size(), 1U);
     EXPECT_EQ(scene->objects[0].file, "rooms/vase.rso");
     EXPECT_FALSE(scene->objects[0].standing);
     ASSERT_EQ(scene->objects[0].chain.size(), 1U);
     EXPECT_LT(glm::distance(world_from_node(scene->objects[0].chain).point({0, 0, 2}), glm::dvec3(2, 2, 3)), 1e-12);
     ASSERT_EQ(scene->geometry.size(), 1U);
-    ASSERT_EQ(scene->geometry[0].chain.size(), 2U);
-    EXPECT_LT(glm::distance(world_from_node(scene->geometry[0].chain).point({0, 1, 0}), glm::dvec3(0, -3, 0)), 1e-12);
-    EXPECT_EQ(scene->geometry[0].colour, glm::vec3(0, 1, 0));
+    const glm::dvec3 above(scene->geometry[0].world_from_node * glm::dvec4(0, 1, 0, 1));
+    EXPECT_LT(glm::distance(above, glm::dvec3(0, -3, 0)), 1e-12);
+    EXPECT_EQ(scene->geometry[0].material.diffuse, glm::vec3(0, 1, 0));
     ASSERT_TRUE(scene->camera);
     EXPECT_EQ(scene->camera->keys.size(), 2U);
     EXPECT_EQ(scene->camera->frames, 30);
@@ -72,12 +75,12 @@ TEST(SceneFile, TheExampleOfTheReadmeIsRead) {
     EXPECT_EQ(scene->geometry.size(), 2U);
     // It shows the default values where it can.
     const Scene defaults;
-    EXPECT_LT(glm::distance(scene->background, defaults.background), 0.02F);
+    EXPECT_LT(glm::distance(scene->background.sky[0], defaults.background.sky[0]), 0.02F);
     EXPECT_LT(glm::distance(scene->floor->colour_a, Floor{}.colour_a), 0.02F);
     EXPECT_LT(glm::distance(scene->floor->colour_b, Floor{}.colour_b), 0.02F);
     EXPECT_EQ(scene->floor->radius, Floor{}.radius);
-    EXPECT_EQ(scene->lights.towards, defaults.lights.towards);
-    EXPECT_EQ(scene->lights.ambient, defaults.lights.ambient);
+    EXPECT_EQ(scene->lights[0].towards, defaults.lights[0].towards);
+    EXPECT_EQ(scene->lights[0].ambient, defaults.lights[0].ambient);
     EXPECT_EQ(scene->camera->fov_x_rad, CameraPath{}.fov_x_rad);
 }
 

@@ -1,0 +1,32 @@
+#pragma once
+// What a surface looks like, as VRML97 describes it (ISO/IEC 14772-1, 4.14 and 6.27). Colours are linear light.
+
+#include "rayspace/image.hpp"
+
+#include <glm/glm.hpp>
+
+#include <memory>
+
+namespace rs::compositor {
+
+struct SceneTexture {
+    Image<Rgba8> picture;  // sRGB, straight alpha; the first row is the top
+    bool has_alpha = false;
+    bool repeat_s = true;  // else the border goes on
+    bool repeat_t = true;
+    bool modulates = false;  // multiplies the diffuse colour (grey pictures, glTF); else it replaces it
+};
+
+struct Material {
+    glm::vec3 diffuse{0.8F};
+    glm::vec3 specular{0};
+    glm::vec3 emissive{0};
+    float ambient = 0.2F;    // how much of a light's ambient part is reflected, times `diffuse`
+    float shininess = 0.2F;  // times 128: the exponent of the highlight
+    float opacity = 1;       // 1 - transparency
+    bool lit = true;         // else it shows `diffuse` as it is
+    std::shared_ptr<const SceneTexture> texture;
+    glm::mat3 texture_transform{1};  // of (s, t, 1)
+};
+
+}  // namespace rs::compositor

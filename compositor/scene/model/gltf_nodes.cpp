@@ -1,0 +1,236 @@
+#include "compositor/scene/model/gltf_nodes.hpp"
+
+#include "compositor/scene/scene_pictures.hpp"
+#include "compositor/scene/strict_json.hpp"
+#include "rayspace/conventions.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+namespace rs::compositor::model {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMaxHeight = 500;
+constexpr std::size_t kMaxNodes = 100'000;
+constexpr double kFarthest = 1e9;
+
+// The JSON of a .glb (glTF 2.0, 4.4): a header of 12 bytes, then the chunk with its length and type.
+std::string json_text(std::span<const std::byte> bytes, const std::string& file) {
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (!text.starts_with("glTF")) return text;
+    std::uint32_t length = 0;
+    if (bytes.size() >= 20) std::memcpy(&length, bytes.data() + 12, sizeof length);
+    if (bytes.size() < 20 || length > bytes.size() - 20 || text.substr(16, 4) != "JSON") {
+        throw MalformedJson{file + ": is a damaged .glb file; export it again"};
+    }
+    return text.substr(20, length);
+}
+
+class NodeWalk {
+public:
+    NodeWalk(const json& top, const std::filesystem::path& path, Scene& scene)
+        : top_(top), path_(path), scene_(scene) {}
+
+    void walk_scene() {
+        const json& scenes = list(top_, "scenes");
+        const std::size_t index = top_.value("scene", std::size_t{0});
+        if (index >= scenes.size()) return;
+        for (const json& root : list(scenes[index], "nodes")) walk(root, glm::dmat4(1.0), {}, 0);
+    }
+
+private:
+    [[nodiscard]] static const json& list(const json& parent, const char* key) {
+        static const json kNone = json::array();
+        if (!parent.is_object() || !parent.contains(key) || !parent[key].is_array()) return kNone;
+        return parent[key];
+    }
+
+    [[nodiscard]] static double number(const json& parent, const char* key, double otherwise) {
+        if (!parent.is_object() || !parent.contains(key) || !parent[key].is_number()) return otherwise;
+        return std::clamp(parent[key].get<double>(), -kFarthest, kFarthest);
+    }
+
+    template <std::size_t count>
+    [[nodiscard]] static std::array<double, count> numbers(const json& parent, const char* key,
+                                                           std::array<double, count> values) {
+        const json& given = list(parent, key);
+        for (std::size_t i = 0; given.size() == count && i < count; ++i) {
+            if (given[i].is_number()) values[i] = std::clamp(given[i].get<double>(), -kFarthest, kFarthest);
+        }
+        return values;
+    }
+
+    [[nodiscard]] MalformedJson wrong(const std::string& place, const std::string& what) const {
+        return {path_.string() + ": " + place + ": " + what};
+    }
+
+    // A node's move, turn and scale; of a matrix the nearest. `even` is false where that is not the same.
+    static NodeTransform transform_of(const json& node, glm::dmat4& matrix, bool& even) {
+        const auto t = numbers<3>(node, "translation", {0, 0, 0});
+        const auto r = numbers<4>(node, "rotation", {0, 0, 0, 1});
+        const auto s = numbers<3>(node, "scale", {1, 1, 1});
+        const glm::dquat turn = glm::normalize(glm::dquat(r[3], r[0], r[1], r[2]));
+        matrix = glm::mat4_cast(turn);
+        for (int axis = 0; axis < 3; ++axis) matrix[axis] *= s[static_cast<std::size_t>(axis)];
+        matrix[3] = glm::dvec4(t[0], t[1], t[2], 1);
+        if (!list(node, "matrix").empty()) {
+            constexpr std::array<double, 16> kOne = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+            matrix = glm::make_mat4(numbers<16>(node, "matrix", kOne).data());
+        }
+        NodeTransform result;
+        const glm::dmat3 linear(matrix);
+        const double determinant = glm::determinant(linear);
+        result.translation = glm::dvec3(matrix[3]);
+        result.scale = std::cbrt(std::abs(determinant));
+        if (!(result.scale > 1e-9)) {
+            result.scale = 1e-9;
+            even = false;
+            return result;
+        }
+        const glm::dmat3 rotation = linear / (determinant < 0 ? -result.scale : result.scale);
+        const glm::dmat3 defect = glm::transpose(rotation) * rotation - glm::dmat3(1.0);
+        double largest = determinant < 0 ? 1 : 0;
+        for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(defect[i / 3][i % 3]));
+        even = even && largest < 1e-3;
+        const glm::dquat q = glm::normalize(glm::quat_cast(rotation));
+        if (glm::length(glm::axis(q)) > 0) result.axis = glm::axis(q);
+        result.angle_rad = glm::angle(q);
+        return result;
+    }
+
+    void walk(const json& index, const glm::dmat4& world_from_parent, TransformChain chain, int height) {
+        const json& nodes = list(top_, "nodes");
+        if (!index.is_number_unsigned() || index.get<std::size_t>() >= nodes.size()) {
+            throw wrong("nodes", "a node names another that is not there; export the file again");
+        }
+        const std::size_t i = index.get<std::size_t>();
+        const json& node = nodes[i];
+        if (height > kMaxHeight || ++visited_ > kMaxNodes) {
+            throw wrong("nodes[" + std::to_string(i) + "]", "its nodes stand too deep or in a ring; flatten them");
+        }
+        bool even = true;
+        glm::dmat4 matrix(1.0);
+        chain.push_back(transform_of(node, matrix, even));
+        const glm::dmat4 world_from_node = world_from_parent * matrix;
+        const bool was_even = std::exchange(even_, even_ && even);
+        if (node.is_object()) {
+            if (node.contains("extras")) read_extras(node, i, chain);
+            if (node.contains("camera")) read_camera(node, world_from_node);
+            if (node.contains("extensions")) read_light(node, world_from_node);
+        }
+        for (const json& child : list(node, "children")) walk(child, world_from_node, chain, height + 1);
+        even_ = was_even;
+    }
+
+    void read_extras(const json& node, std::size_t i, TransformChain chain) {
+        const json& extras = node["extras"];
+        if (!extras.is_object() || !extras.contains("RaySpace")) return;
+        const std::string place = "nodes[" + std::to_string(i) + "].extras.RaySpace";
+        JsonObject fields(JsonValue(extras["RaySpace"], path_.string(), place));
+        RaySpaceNode object;
+        const auto file = local_path(fields.take("url").text(), path_.parent_path());
+        if (!file) throw wrong(place, "url is no file on this machine");
+        object.file = *file;
+        NodeTransform size;
+        if (fields.has("size")) size.scale = fields.take("size").number(1e-6, 1e6);
+        if (fields.has("standing")) object.standing = fields.take("standing").boolean();
+        if (fields.has("description")) object.description = fields.take("description").text();
+        if (object.description.empty() && node.contains("name") && node["name"].is_string()) {
+            object.description = node["name"].get<std::string>();
+        }
+        fields.expect_all_taken();
+        chain.push_back(size);
+        object.chain = std::move(chain);
+        if (!even_) {
+            scene_.warnings.push_back(path_.string() + ": " + place +
+                                      ": is mirrored or stretched more along one axis; shown without");
+        }
+        scene_.objects.push_back(std::move(object));
+    }
+
+    void read_camera(const json& node, const glm::dmat4& world_from_node) {
+        const json& cameras = list(top_, "cameras");
+        const json& index = node["camera"];
+        if (!index.is_number_unsigned() || index.get<std::size_t>() >= cameras.size()) return;
+        const json& camera = cameras[index.get<std::size_t>()];
+        if (!camera.is_object() || !camera.contains("perspective")) return;
+        const json& perspective = camera["perspective"];
+        Viewpoint viewpoint;
+        if (camera.contains("name") && camera["name"].is_string()) viewpoint.description = camera["name"];
+        const double fov_y = std::clamp(number(perspective, "yfov", 0.8), radians(1), radians(170));
+        const double aspect = number(perspective, "aspectRatio", 1);
+        viewpoint.field_of_view_rad = aspect >= 1 ? fov_y : 2 * std::atan(std::tan(fov_y / 2) * std::max(aspect, 0.01));
+        const glm::dvec3 back = glm::dvec3(world_from_node[2]);
+        const glm::dvec3 up = glm::dvec3(world_from_node[1]);
+        const glm::dvec3 right = glm::cross(up, back);
+        if (!(glm::length(right) > 0)) return;
+        viewpoint.world_from_camera[0] = glm::dvec4(glm::normalize(right), 0);
+        viewpoint.world_from_camera[1] = glm::dvec4(glm::normalize(glm::cross(back, right)), 0);
+        viewpoint.world_from_camera[2] = glm::dvec4(glm::normalize(back), 0);
+        viewpoint.world_from_camera[3] = world_from_node[3];
+        scene_.viewpoints.push_back(std::move(viewpoint));
+    }
+
+    void read_light(const json& node, const glm::dmat4& world_from_node) {
+        constexpr const char* kExtension = "KHR_lights_punctual";
+        const auto within = [&](const json& parent) -> const json* {
+            if (!parent.contains("extensions") || !parent["extensions"].contains(kExtension)) return nullptr;
+            return &parent["extensions"][kExtension];
+        };
+        const json* named = within(node);
+        const json* all = within(top_);
+        if (named == nullptr || all == nullptr) return;
+        const double index = number(*named, "light", -1);
+        const json& lights = list(*all, "lights");
+        if (index < 0 || index >= static_cast<double>(lights.size())) return;
+        const json& given = lights[static_cast<std::size_t>(index)];
+        const std::string type = given.is_object() ? given.value("type", "") : "";
+        Light light;
+        light.kind = type == "point" ? LightKind::kPoint : type == "spot" ? LightKind::kSpot : LightKind::kDirectional;
+        // A perfectly white surface sends 1 / pi of the light that falls on it to every side.
+        const auto colour = numbers<3>(given, "color", {1, 1, 1});
+        light.colour = glm::vec3(glm::dvec3(colour[0], colour[1], colour[2]) * number(given, "intensity", 1) / kPi);
+        light.location = glm::dvec3(world_from_node[3]);
+        const glm::dvec3 towards = -glm::dvec3(world_from_node[2]);
+        if (glm::length(towards) > 0) light.towards = glm::normalize(towards);
+        light.attenuation = {0, 0, 1};
+        light.radius = number(given, "range", kFarthest);
+        if (light.kind == LightKind::kSpot && given.contains("spot")) {
+            light.beam_width_rad = number(given["spot"], "innerConeAngle", 0);
+            light.cut_off_rad = std::clamp(number(given["spot"], "outerConeAngle", kPi / 4), 0.0, kPi / 2);
+        }
+        scene_.lights.push_back(light);
+    }
+
+    const json& top_;
+    const std::filesystem::path& path_;
+    Scene& scene_;
+    std::size_t visited_ = 0;
+    bool even_ = true;
+};
+
+}  // namespace
+
+Result<GltfContents> read_gltf_nodes(std::span<const std::byte> bytes, const std::filesystem::path& path,
+                                     Scene& scene) {
+    try {
+        const json top = parse_json_text(json_text(bytes, path.string()), path.string());
+        NodeWalk(top, path, scene).walk_scene();
+        return GltfContents{top.is_object() && top.contains("meshes") && !top["meshes"].empty()};
+    } catch (const MalformedJson& malformed) {
+        return Error{malformed.message};
+    } catch (const json::exception&) {
+        return Error{path.string() + ": a value of its JSON is of another type than glTF 2.0 says; export it again"};
+    }
+}
+
+}  // namespace rs::compositor::model

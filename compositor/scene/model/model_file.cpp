@@ -1,0 +1,143 @@
+#include "compositor/scene/model_file.hpp"
+
+#include "compositor/scene/model/gltf_nodes.hpp"
+#include "compositor/scene/model/model_materials.hpp"
+#include "rayspace/file_output.hpp"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
+#include <cmath>
+#include <exception>
+#include <map>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+constexpr std::uint64_t kMaxFile_bytes = std::uint64_t{64} << 20;
+constexpr std::size_t kMaxDraws = 100'000;
+constexpr int kMaxHeight = 500;
+
+std::shared_ptr<const Mesh> convert(const aiMesh& source, bool two_sided) {
+    auto mesh = std::make_shared<Mesh>();
+    mesh->topology = source.mPrimitiveTypes == aiPrimitiveType_LINE    ? Topology::kLines
+                     : source.mPrimitiveTypes == aiPrimitiveType_POINT ? Topology::kPoints
+                                                                       : Topology::kTriangles;
+    mesh->two_sided = two_sided || mesh->topology != Topology::kTriangles;
+    mesh->has_colours = source.HasVertexColors(0);
+    const unsigned corners = mesh->topology == Topology::kTriangles ? 3 : mesh->topology == Topology::kLines ? 2 : 1;
+    for (unsigned i = 0; i < source.mNumVertices; ++i) {
+        MeshVertex vertex;
+        vertex.position = {source.mVertices[i].x, source.mVertices[i].y, source.mVertices[i].z};
+        if (source.HasNormals() && corners == 3) {
+            vertex.normal = {source.mNormals[i].x, source.mNormals[i].y, source.mNormals[i].z};
+        }
+        if (source.HasTextureCoords(0)) {
+            vertex.texture = {source.mTextureCoords[0][i].x, source.mTextureCoords[0][i].y};
+        }
+        if (mesh->has_colours) {
+            const aiColor4D& c = source.mColors[0][i];
+            vertex.colour = {c.r, c.g, c.b, 1};
+        }
+        mesh->vertices.push_back(vertex);
+    }
+    for (unsigned f = 0; f < source.mNumFaces; ++f) {
+        const aiFace& face = source.mFaces[f];
+        if (face.mNumIndices != corners) continue;
+        for (unsigned k = 0; k < corners; ++k) {
+            // Faces are whole or not at all.
+            if (face.mIndices[k] >= source.mNumVertices) return std::make_shared<Mesh>();
+            mesh->indices.push_back(face.mIndices[k]);
+        }
+    }
+    return mesh;
+}
+
+class ModelWalk {
+public:
+    ModelWalk(const aiScene& model, model::ModelMaterials& materials, Scene& scene)
+        : model_(model), materials_(materials), scene_(scene) {}
+
+    // False where there is too much.
+    bool walk(const aiNode& node, const glm::dmat4& world_from_parent, int height) {
+        if (height > kMaxHeight) return false;
+        const aiMatrix4x4& m = node.mTransformation;  // by rows
+        const glm::dmat4 local(m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4,
+                               m.d4);
+        const glm::dmat4 world_from_node = world_from_parent * local;
+        const double determinant = glm::determinant(glm::dmat3(world_from_node));
+        const bool visible = std::isfinite(determinant) && std::abs(determinant) > 1e-30;
+        for (unsigned i = 0; visible && i < node.mNumMeshes; ++i) {
+            if (scene_.geometry.size() > kMaxDraws) return false;
+            add(node.mMeshes[i], world_from_node);
+        }
+        for (unsigned i = 0; i < node.mNumChildren; ++i) {
+            if (!walk(*node.mChildren[i], world_from_node, height + 1)) return false;
+        }
+        return true;
+    }
+
+private:
+    void add(unsigned index, const glm::dmat4& world_from_node) {
+        const aiMesh& source = *model_.mMeshes[index];
+        const model::ModelMaterial& look = materials_.at(source.mMaterialIndex);
+        std::shared_ptr<const Mesh>& mesh = meshes_[index];
+        if (!mesh) mesh = convert(source, look.two_sided);
+        if (mesh->indices.empty()) return;
+        GeometryNode node{mesh, look.material, world_from_node, {}};
+        if (mesh->topology != Topology::kTriangles) {
+            node.material.lit = false;
+            node.material.texture = nullptr;
+        }
+        scene_.geometry.push_back(std::move(node));
+    }
+
+    const aiScene& model_;
+    model::ModelMaterials& materials_;
+    Scene& scene_;
+    std::map<unsigned, std::shared_ptr<const Mesh>> meshes_;
+};
+
+}  // namespace
+
+Result<Scene> read_model(const std::filesystem::path& path) {
+    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxFile_bytes);
+    if (!bytes) return bytes.error();
+    Scene scene;
+    scene.lights.clear();
+    const std::string extension = path.extension().string();
+    const bool is_gltf = extension.size() > 1 && (extension[1] == 'g' || extension[1] == 'G');
+    bool has_meshes = true;
+    if (is_gltf) {
+        const Result<model::GltfContents> contents = model::read_gltf_nodes(*bytes, path, scene);
+        if (!contents) return contents.error();
+        has_meshes = contents->has_meshes;
+    }
+    scene.navigation.headlight = scene.lights.empty();
+    try {
+        Assimp::Importer importer;
+        const aiScene* model = importer.ReadFile(
+            path.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices |
+                               aiProcess_SortByPType | aiProcess_ValidateDataStructure);
+        if (model == nullptr || model->mRootNode == nullptr) {
+            std::string reason = importer.GetErrorString();
+            for (char& c : reason) c = c == '\n' || c == '\r' ? ' ' : c;
+            const std::string message = path.string() + ": cannot be read: " + reason + "; export it again";
+            // Objects alone make a scene, but Assimp does not take a file without meshes.
+            if (is_gltf && !scene.objects.empty() && !has_meshes) return scene;
+            return Error{message};
+        }
+        model::ModelMaterials materials(*model, path);
+        if (!ModelWalk(*model, materials, scene).walk(*model->mRootNode, glm::dmat4(1.0), 0)) {
+            return Error{path.string() + ": has too many meshes, or nodes too deep; make it smaller"};
+        }
+        scene.warnings.insert(scene.warnings.end(), materials.warnings.begin(), materials.warnings.end());
+    } catch (const std::exception& exception) {
+        return Error{path.string() + ": cannot be read: " + exception.what() + "; export it again"};
+    }
+    return scene;
+}
+
+}  // namespace rs::compositor

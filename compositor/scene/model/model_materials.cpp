@@ -1,0 +1,116 @@
+#include "compositor/scene/model/model_materials.hpp"
+
+#include "rayspace/picture_io.hpp"
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/material.h>
+#include <assimp/scene.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+
+namespace rs::compositor::model {
+namespace {
+
+template <class T>
+std::optional<T> property(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
+    T value{};
+    if (material.Get(key, type, index, value) != AI_SUCCESS) return std::nullopt;
+    return value;
+}
+
+glm::vec3 vec(const aiColor3D& c) {
+    return glm::clamp(glm::vec3(c.r, c.g, c.b), glm::vec3(0), glm::vec3(1));
+}
+
+bool repeats(const aiMaterial& source, aiTextureType type, bool along_s) {
+    const auto mode = along_s ? property<int>(source, AI_MATKEY_MAPPINGMODE_U(type, 0))
+                              : property<int>(source, AI_MATKEY_MAPPINGMODE_V(type, 0));
+    return mode.value_or(aiTextureMapMode_Wrap) != aiTextureMapMode_Clamp;
+}
+
+// Rough surfaces have wide highlights: a Phong lobe of exponent n is about as wide as roughness^4 = 2 / (n + 2).
+float shininess_of(float roughness) {
+    const float r = std::clamp(roughness, 0.2F, 1.0F);
+    return std::clamp((2 / (r * r * r * r) - 2) / 128, 0.0F, 1.0F);
+}
+
+}  // namespace
+
+ModelMaterials::ModelMaterials(const aiScene& model, std::filesystem::path file)
+    : model_(model), file_(std::move(file)) {}
+
+const ModelMaterial& ModelMaterials::at(unsigned index) {
+    const auto known = converted_.find(index);
+    if (known != converted_.end()) return known->second;
+    return converted_.emplace(index, convert(*model_.mMaterials[index])).first->second;
+}
+
+// Pictures inside of the file are written to a temporary one, which the picture reader opens.
+std::shared_ptr<const SceneTexture> ModelMaterials::picture(const std::string& name, bool repeat_s, bool repeat_t) {
+    std::string fault;
+    std::shared_ptr<const SceneTexture> read;
+    const aiTexture* embedded = model_.GetEmbeddedTexture(name.c_str());
+    if (embedded == nullptr) {
+        read = pictures_.read({name}, file_.parent_path(), repeat_s, repeat_t, fault);
+    } else if (embedded->mHeight != 0) {
+        fault = "a picture inside of the file is of an unknown kind";
+    } else {
+        std::string path = (std::filesystem::temp_directory_path() / "rayspace-picture-XXXXXX").string();
+        const int descriptor = mkstemp(path.data());
+        if (descriptor >= 0) close(descriptor);
+        std::ofstream(path, std::ios::binary)
+            .write(reinterpret_cast<const char*>(embedded->pcData), static_cast<std::streamsize>(embedded->mWidth));
+        read = pictures_.read({path}, "", repeat_s, repeat_t, fault);
+        std::error_code ignored;
+        std::filesystem::remove(path, ignored);
+    }
+    if (!fault.empty()) warnings.push_back(file_.string() + ": " + fault + "; drawn without");
+    return read;
+}
+
+ModelMaterial ModelMaterials::convert(const aiMaterial& source) {
+    ModelMaterial result;
+    Material& material = result.material;
+    material.ambient = 1;
+    material.emissive = vec(property<aiColor3D>(source, AI_MATKEY_COLOR_EMISSIVE).value_or(aiColor3D(0)));
+    result.two_sided = property<int>(source, AI_MATKEY_TWOSIDED).value_or(1) != 0;
+    bool blends = true;
+    if (const auto base = property<aiColor4D>(source, AI_MATKEY_BASE_COLOR)) {
+        const float metallic = std::clamp(property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1), 0.0F, 1.0F);
+        const glm::vec3 colour = vec({base->r, base->g, base->b});
+        // Without surroundings to mirror a metal would be black but for its highlights: half of it is kept as diffuse.
+        material.diffuse = colour * (1 - 0.5F * metallic);
+        material.specular = glm::mix(glm::vec3(0.04F), colour, metallic);
+        material.shininess = shininess_of(property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1));
+        const std::string mode =
+            property<aiString>(source, AI_MATKEY_GLTF_ALPHAMODE).value_or(aiString("OPAQUE")).C_Str();
+        blends = mode != "OPAQUE";
+        material.opacity = mode == "BLEND" ? std::clamp(base->a, 0.0F, 1.0F) : 1;
+        result.two_sided = property<int>(source, AI_MATKEY_TWOSIDED).value_or(0) != 0;
+    } else {
+        material.diffuse = vec(property<aiColor3D>(source, AI_MATKEY_COLOR_DIFFUSE).value_or(aiColor3D(0.8F)));
+        material.specular = vec(property<aiColor3D>(source, AI_MATKEY_COLOR_SPECULAR).value_or(aiColor3D(0)));
+        material.shininess = std::clamp(property<float>(source, AI_MATKEY_SHININESS).value_or(0) / 128, 0.0F, 1.0F);
+        if (material.shininess == 0) material.specular = glm::vec3(0);
+        material.opacity = std::clamp(property<float>(source, AI_MATKEY_OPACITY).value_or(1), 0.0F, 1.0F);
+    }
+    const int shading = property<int>(source, AI_MATKEY_SHADING_MODEL).value_or(aiShadingMode_Gouraud);
+    material.lit = shading != aiShadingMode_Unlit;
+    for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+        aiString name;
+        if (material.texture || source.GetTexture(type, 0, &name) != AI_SUCCESS || name.length == 0) continue;
+        const auto read = picture(name.C_Str(), repeats(source, type, true), repeats(source, type, false));
+        if (!read) continue;
+        auto texture = std::make_shared<SceneTexture>(*read);
+        texture->modulates = true;
+        texture->has_alpha = texture->has_alpha && blends;
+        material.texture = std::move(texture);
+    }
+    return result;
+}
+
+}  // namespace rs::compositor::model

@@ -1,0 +1,39 @@
+#pragma once
+// Assimp's materials -> ours. Private to the reader of models; not thread-safe.
+
+#include "compositor/scene/scene_pictures.hpp"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct aiScene;
+struct aiMaterial;
+
+namespace rs::compositor::model {
+
+struct ModelMaterial {
+    Material material;
+    bool two_sided = true;
+};
+
+class ModelMaterials {
+public:
+    ModelMaterials(const aiScene& model, std::filesystem::path file);
+    // Cached by index, which must be one of the model's.
+    const ModelMaterial& at(unsigned index);
+    std::vector<std::string> warnings;
+
+private:
+    ModelMaterial convert(const aiMaterial& source);
+    std::shared_ptr<const SceneTexture> picture(const std::string& name, bool repeat_s, bool repeat_t);
+
+    const aiScene& model_;
+    std::filesystem::path file_;
+    ScenePictures pictures_;
+    std::map<unsigned, ModelMaterial> converted_;
+};
+
+}  // namespace rs::compositor::model

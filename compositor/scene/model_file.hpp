@@ -1,0 +1,22 @@
+#pragma once
+// Scenes from glTF 2.0 (.gltf, .glb) and OBJ files, through Assimp.
+//
+// A glTF node stands for an object made of pictures where its `extras` say so:
+//
+//     "extras": {"RaySpace": {"url": "vase.rso", "size": 1, "standing": true, "description": "..."}}
+//
+// with the fields of VRML's RaySpace node (vrml_file.hpp); all but `url` may be left out.
+
+#include "compositor/scene/scene.hpp"
+#include "rayspace/result.hpp"
+
+#include <filesystem>
+
+namespace rs::compositor {
+
+// Metallic and rough surfaces become diffuse and specular ones; embedded and separate pictures are read. A file without
+// lights gets a headlight. What cannot be shown becomes a warning of the scene. Files beyond 64 MiB are refused. May be
+// called from any thread.
+Result<Scene> read_model(const std::filesystem::path& path);
+
+}  // namespace rs::compositor

@@ -1,0 +1,53 @@
+#pragma once
+// What surrounds a scene and how it wants to be looked at: background, fog, viewpoints, navigation. Colours are linear
+// light.
+
+#include "compositor/scene/material.hpp"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rs::compositor {
+
+// Seen at infinity (ISO/IEC 14772-1, 6.5): the sky's colours from the zenith down, over them the ground's from the
+// nadir up, over them pictures on a cube.
+struct Background {
+    std::vector<glm::vec3> sky{{0.62F, 0.68F, 0.74F}};  // at least one: the zenith's; then one for each angle
+    std::vector<double> sky_angles_rad;                 // from the zenith, not decreasing; beyond the last, its colour
+    std::vector<glm::vec3> ground;                      // none, or the nadir's and one for each angle
+    std::vector<double> ground_angles_rad;              // from the nadir
+    // Front (seen along -Z), back, left, right, top, bottom; null where there is none.
+    std::array<std::shared_ptr<const SceneTexture>, 6> pictures;
+    glm::dmat3 world_from_background{1.0};  // rotation
+};
+// Of sky and ground, looking along `direction` in scene coordinates, of any length but 0.
+glm::vec3 background_colour(const Background& background, const glm::dvec3& direction);
+
+enum class FogKind { kLinear, kExponential };
+struct Fog {
+    FogKind kind = FogKind::kLinear;
+    glm::vec3 colour{1};
+    double visibility = 1;  // the distance at which nothing else is seen, > 0, scene units
+};
+
+struct Viewpoint {
+    std::string description;
+    glm::dmat4 world_from_camera{1.0};    // rigid; columns are right, up, back, centre
+    double field_of_view_rad = 0.785398;  // full angle along the picture's shorter side
+};
+
+struct Navigation {
+    std::vector<std::string> types{"WALK", "ANY"};
+    bool headlight = false;  // a white light that goes along with the viewer
+    double speed = 1;        // scene units per second
+    // Distance to walls, height of the eyes, height of a step.
+    glm::dvec3 avatar{0.25, 1.6, 0.75};
+    double visibility_limit = 0;  // 0: none
+};
+
+}  // namespace rs::compositor

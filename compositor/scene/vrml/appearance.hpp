@@ -1,0 +1,19 @@
+#pragma once
+// VRML97's Appearance, Material and texture nodes -> Material. Private to the VRML reader; not thread-safe.
+
+#include "compositor/scene/material.hpp"
+#include "compositor/scene/scene_pictures.hpp"
+#include "compositor/scene/vrml/graph.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace rs::compositor::vrml {
+
+glm::vec3 linear_colour(const glm::dvec3& srgb);
+
+// `appearance` may be null. `fault` tells why a texture is left out; empty where none is.
+Material material_of(const Node* appearance, const Mesh& mesh, const std::filesystem::path& folder,
+                     ScenePictures& pictures, std::string& fault);
+
+}  // namespace rs::compositor::vrml

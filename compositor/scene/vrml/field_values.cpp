@@ -1,0 +1,200 @@
+#include "compositor/scene/vrml/field_values.hpp"
+
+#include <charconv>
+
+namespace rs::compositor::vrml {
+namespace {
+
+constexpr long kMaxSide = 8192;  // of a PixelTexture, px
+constexpr long kMaxPixels = 1L << 24;
+constexpr std::size_t kMaxText_bytes = 1 << 16;
+
+int numbers_in(FieldType type) {
+    switch (type) {
+        case FieldType::kVec2f:
+            return 2;
+        case FieldType::kVec3f:
+        case FieldType::kColor:
+            return 3;
+        case FieldType::kRotation:
+            return 4;
+        default:
+            return 1;
+    }
+}
+
+template <class Number>
+void append(Number value, std::string& out) {
+    char text[48];
+    out += ' ';
+    out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+class ValueCopier {
+public:
+    ValueCopier(Lexer& lexer, const FieldSpec& spec, const std::string& field, std::string& out)
+        : lexer_(lexer), spec_(spec), field_(field), out_(out) {}
+
+    std::size_t copy() {
+        const Token first = lexer_.peek();
+        if (!spec_.many) {
+            if (first.kind == TokenKind::open_list) throw wrong_type();
+            copy_single();
+            return count_;
+        }
+        out_ += " [";
+        if (lexer_.take_kind(TokenKind::open_list)) {
+            while (!lexer_.take_kind(TokenKind::close_list)) {
+                if (lexer_.peek().kind == TokenKind::end) {
+                    throw lexer_.wrong(first.line, "the list of " + field_ + " is not closed; add a ]");
+                }
+                copy_single();
+            }
+        } else {
+            copy_single();
+        }
+        out_ += " ]";
+        return count_;
+    }
+
+private:
+    MalformedVrml wrong_type() const {
+        return lexer_.wrong(field_ + " takes " + field_type_name(spec_) + ", not " + shown(lexer_.peek()) +
+                            "; correct it");
+    }
+
+    void copy_single() {
+        if (spec_.type == FieldType::kBool) return copy_bool();
+        if (spec_.type == FieldType::kString) return copy_text();
+        if (spec_.type == FieldType::kImage) return copy_image();
+        for (int i = 0; i < numbers_in(spec_.type); ++i) {
+            if (spec_.type == FieldType::kInt32) {
+                copy_integer();
+            } else {
+                copy_number();
+            }
+        }
+    }
+
+    void copy_bool() {
+        const bool yes = lexer_.peek().text == "TRUE";
+        if (lexer_.peek().kind != TokenKind::word || (!yes && lexer_.peek().text != "FALSE")) throw wrong_type();
+        lexer_.take();
+        out_ += yes ? " TRUE" : " FALSE";
+        ++count_;
+    }
+
+    void copy_text() {
+        if (lexer_.peek().kind != TokenKind::text) throw wrong_type();
+        const Token token = lexer_.take();
+        if (token.text.size() > kMaxText_bytes) {
+            throw lexer_.wrong(token.line, "a text of " + std::to_string(token.text.size()) + " bytes; shorten it");
+        }
+        ((out_ += " \"") += token.text) += '"';
+        count_ += 1 + token.text.size() / 8;
+    }
+
+    long take_integer() {
+        long value = 0;
+        if (lexer_.peek().kind != TokenKind::number || !parse_integer(lexer_.peek().text, value)) throw wrong_type();
+        lexer_.take();
+        ++count_;
+        return value;
+    }
+
+    long copy_integer() {
+        // Hexadecimal numbers may use the sign's bit.
+        const auto value = static_cast<int>(static_cast<unsigned>(take_integer()));
+        append(value, out_);
+        return value;
+    }
+
+    void copy_number() {
+        float value = 0;
+        if (lexer_.peek().kind != TokenKind::number) throw wrong_type();
+        if (!parse_float(lexer_.peek().text, value)) {
+            throw lexer_.wrong(field_ + ": " + shown(lexer_.peek()) + " is no number that fits; correct it");
+        }
+        lexer_.take();
+        append(value, out_);
+        ++count_;
+    }
+
+    void copy_image() {
+        const int line = lexer_.peek().line;
+        const long width = copy_integer();
+        const long height = copy_integer();
+        const long components = copy_integer();
+        if (width < 0 || height < 0 || width > kMaxSide || height > kMaxSide || components < 0 || components > 4 ||
+            (width > 0 && height > kMaxPixels / width)) {
+            throw lexer_.wrong(line, field_ + ": an image of " + std::to_string(width) + "x" + std::to_string(height) +
+                                         " with " + std::to_string(components) + " components; it cannot be read");
+        }
+        for (long i = 0; i < width * height; ++i) append(static_cast<unsigned>(take_integer()), out_);
+    }
+
+    Lexer& lexer_;
+    const FieldSpec& spec_;
+    const std::string& field_;
+    std::string& out_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
+std::size_t copy_value(Lexer& lexer, const FieldSpec& spec, const std::string& field, std::string& out) {
+    return ValueCopier(lexer, spec, field, out).copy();
+}
+
+void skip_to_close(Lexer& lexer, int opened_at_line) {
+    for (long open = 1; open > 0;) {
+        const Token token = lexer.take();
+        switch (token.kind) {
+            case TokenKind::open_list:
+            case TokenKind::open_body:
+                ++open;
+                break;
+            case TokenKind::close_list:
+            case TokenKind::close_body:
+                --open;
+                break;
+            case TokenKind::end:
+                throw lexer.wrong(opened_at_line, "what is opened here is not closed; add a } or ]");
+            default:
+                break;
+        }
+    }
+}
+
+void skip_value(Lexer& lexer) {
+    const Token first = lexer.peek();
+    switch (first.kind) {
+        case TokenKind::open_list:
+        case TokenKind::open_body:
+            lexer.take();
+            return skip_to_close(lexer, first.line);
+        case TokenKind::number:
+            while (lexer.peek().kind == TokenKind::number) lexer.take();
+            return;
+        case TokenKind::text:
+            lexer.take();
+            return;
+        case TokenKind::word: {
+            lexer.take();
+            const bool has_name = first.text == "DEF" || first.text == "USE" || first.text == "IS";
+            if (has_name) lexer.expect(TokenKind::word, "a name");
+            if (first.text == "DEF") lexer.expect(TokenKind::word, "a node");
+            if (lexer.peek().kind == TokenKind::open_body) {
+                const int line = lexer.take().line;
+                skip_to_close(lexer, line);
+            }
+            return;
+        }
+        case TokenKind::close_list:
+        case TokenKind::close_body:
+        case TokenKind::end:
+            return;
+    }
+}
+
+}  // namespace rs::compositor::vrml

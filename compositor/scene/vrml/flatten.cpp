@@ -1,0 +1,182 @@
+#include "compositor/scene/vrml/flatten.hpp"
+
+#include "compositor/scene/vrml/appearance.hpp"
+#include "compositor/scene/vrml/surroundings_nodes.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace rs::compositor::vrml {
+namespace {
+
+constexpr int kMaxInlines = 16;  // files in files
+constexpr std::size_t kMaxDraws = 100'000;
+
+struct TooMuch {};
+
+class Flattener {
+public:
+    Flattener(const Loader& load, Scene& scene) : load_(load), scene_(scene) {}
+
+    void walk_file(const std::shared_ptr<const LoadedFile>& file, const Place& place) {
+        open_files_.push_back(file);
+        kept_files_.insert(file);
+        if (warned_files_.insert(file.get()).second) {
+            for (const std::string& warning : file->graph.warnings) warn(warning);
+        }
+        walk_children(file->graph.roots, place);
+        open_files_.pop_back();
+    }
+
+    void finish() {
+        if (more_warnings_ > 0) scene_.warnings.push_back("and " + std::to_string(more_warnings_) + " more warnings");
+        scene_.viewpoints.insert(scene_.viewpoints.end(), inlined_viewpoints_.begin(), inlined_viewpoints_.end());
+    }
+
+private:
+    [[nodiscard]] const std::filesystem::path& path() const { return open_files_.back()->path; }
+    [[nodiscard]] std::filesystem::path folder() const { return path().parent_path(); }
+
+    void warn(const std::string& text) {
+        if (!warned_.insert(text).second) return;
+        if (scene_.warnings.size() < 2 * kMaxWarnings) {
+            scene_.warnings.push_back(text);
+        } else {
+            ++more_warnings_;
+        }
+    }
+
+    void warn(const Node& node, const std::string& what) {
+        const std::string line = node.source.line > 0 ? "line " + std::to_string(node.source.line) + ": " : "";
+        warn(path().string() + ": " + line + node.type + ": " + what);
+    }
+
+    // A directional light shines on its siblings and what is below them.
+    void walk_children(const std::vector<NodePointer>& children, Place place) {
+        for (const NodePointer& child : children) {
+            if (child->type != "DirectionalLight" || !child->flag("on")) continue;
+            place.lights.push_back(static_cast<std::uint32_t>(scene_.lights.size()));
+            scene_.lights.push_back(light_of(*child, place));
+        }
+        for (const NodePointer& child : children) walk(*child, place);
+    }
+
+    void walk(const Node& node, const Place& above) {
+        if (++visits_ > kMaxVisits || scene_.geometry.size() > kMaxDraws) throw TooMuch{};
+        Place place = above;
+        if (++place.height > kMaxHeight) throw TooMuch{};
+        const std::string& type = node.type;
+        if (type == "Shape") return add_shape(node, place);
+        if (type == "Transform") {
+            if (descend(node, place)) walk_children(node.field("children").nodes, place);
+        } else if (type == "Switch") {
+            const std::vector<NodePointer>& choice = node.field("choice").nodes;
+            const double which = node.number("whichChoice");
+            if (which >= 0 && which < static_cast<double>(choice.size())) {
+                walk_children({choice[static_cast<std::size_t>(which)]}, place);
+            }
+        } else if (type == "LOD") {
+            // The finest.
+            if (!node.field("level").nodes.empty()) walk_children({node.field("level").nodes.front()}, place);
+        } else if (type == "Inline" || type == "InlineLoadControl") {
+            if (node.flag("load")) include(node, place);
+        } else if (type == "RaySpace") {
+            add_object(node, place);
+        } else if (type == "PointLight" || type == "SpotLight") {
+            if (node.flag("on")) scene_.lights.push_back(light_of(node, place));
+        } else if (node.fields.contains("children")) {
+            walk_children(node.field("children").nodes, place);
+        } else {
+            add_bindable(node, place);
+        }
+    }
+
+    void add_shape(const Node& shape, const Place& place) {
+        const NodePointer geometry = shape.node("geometry");
+        if (!geometry || !geometry->mesh) return;
+        const NodePointer appearance = shape.node("appearance");
+        const auto key = std::pair(appearance.get(), geometry->mesh->topology);
+        auto known = materials_.find(key);
+        if (known == materials_.end()) {
+            std::string fault;
+            const Material material = material_of(appearance.get(), *geometry->mesh, folder(), pictures_, fault);
+            if (!fault.empty()) warn(*appearance->node("texture"), fault + "; drawn without");
+            known = materials_.emplace(key, material).first;
+        }
+        scene_.geometry.push_back({geometry->mesh, known->second, place.world_from_node, place.lights});
+    }
+
+    void add_object(const Node& node, const Place& place) {
+        RaySpaceNode object;
+        const std::vector<std::string>& urls = node.field("url").texts;
+        const auto file = urls.empty() ? std::nullopt : local_path(urls.front(), folder());
+        if (!file) return warn(node, "names no file on this machine; left out");
+        if (!(node.number("size") > 0)) return warn(node, "its size must be above 0; left out");
+        if (!place.unlike.empty()) warn(node, place.unlike + "; shown without");
+        object.file = *file;
+        object.chain = place.chain;
+        NodeTransform size;
+        size.scale = node.number("size");
+        object.chain.push_back(size);
+        object.standing = node.flag("standing");
+        object.description = node.text("description").empty() ? node.source.name : node.text("description");
+        scene_.objects.push_back(std::move(object));
+    }
+
+    void add_bindable(const Node& node, const Place& place) {
+        if (node.type == "Viewpoint") {
+            (place.inlined ? inlined_viewpoints_ : scene_.viewpoints).push_back(viewpoint_of(node, place));
+            return;
+        }
+        if (place.inlined || bound_.contains(node.type)) return;
+        if (node.type == "NavigationInfo") scene_.navigation = navigation_of(node, place);
+        if (node.type == "Fog" && node.number("visibilityRange") > 0) scene_.fog = fog_of(node, place);
+        if (node.type == "Background") {
+            std::string fault;
+            scene_.background = background_of(node, place, folder(), pictures_, fault);
+            if (!fault.empty()) warn(node, fault + "; drawn without");
+        }
+        bound_.insert(node.type);
+    }
+
+    void include(const Node& node, const Place& place) {
+        if (open_files_.size() > kMaxInlines) return warn(node, "files include each other too deep; left out");
+        const auto file = load_(node.field("url").texts, folder());
+        if (!file) return warn(node, file.error().message + "; left out");
+        for (const auto& open : open_files_) {
+            if (open->path == (*file)->path) return warn(node, "the file includes itself; left out");
+        }
+        Place inside = place;
+        inside.inlined = true;
+        walk_file(*file, inside);
+    }
+
+    const Loader& load_;
+    Scene& scene_;
+    ScenePictures pictures_;
+    std::map<std::pair<const Node*, Topology>, Material> materials_;
+    std::vector<std::shared_ptr<const LoadedFile>> open_files_;
+    std::set<std::shared_ptr<const LoadedFile>> kept_files_;  // the keys of materials_ point into them
+    std::set<const LoadedFile*> warned_files_;
+    std::set<std::string> warned_;
+    std::set<std::string> bound_;
+    std::vector<Viewpoint> inlined_viewpoints_;
+    double visits_ = 0;
+    int more_warnings_ = 0;
+};
+
+}  // namespace
+
+Status flatten(const std::shared_ptr<const LoadedFile>& file, const Loader& load, Scene& scene) {
+    Flattener flattener(load, scene);
+    try {
+        flattener.walk_file(file, {});
+    } catch (const TooMuch&) {
+        return Error{file->path.string() + ": USE, PROTO and Inline unfold to too much to be shown; use them less"};
+    }
+    flattener.finish();
+    return {};
+}
+
+}  // namespace rs::compositor::vrml

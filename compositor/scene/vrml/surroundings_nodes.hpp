@@ -1,0 +1,22 @@
+#pragma once
+// VRML97's lights, viewpoints, navigation, fog and background nodes. Private to the VRML reader.
+
+#include "compositor/scene/light.hpp"
+#include "compositor/scene/scene_pictures.hpp"
+#include "compositor/scene/surroundings.hpp"
+#include "compositor/scene/vrml/place.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace rs::compositor::vrml {
+
+Light light_of(const Node& node, const Place& place);
+Viewpoint viewpoint_of(const Node& node, const Place& place);
+Navigation navigation_of(const Node& node, const Place& place);
+Fog fog_of(const Node& node, const Place& place);
+// `fault` tells why a picture is left out; empty where none is.
+Background background_of(const Node& node, const Place& place, const std::filesystem::path& folder,
+                         ScenePictures& pictures, std::string& fault);
+
+}  // namespace rs::compositor::vrml

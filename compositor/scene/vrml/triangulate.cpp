@@ -1,0 +1,233 @@
+#include "compositor/scene/vrml/triangulate.hpp"
+
+#include "compositor/scene/vrml/coin_pointer.hpp"
+#include "compositor/scene/vrml/node_table.hpp"
+#include "rayspace/linear_light.hpp"
+
+#include <Inventor/SoPrimitiveVertex.h>
+#include <Inventor/actions/SoCallbackAction.h>
+#include <Inventor/fields/SoFields.h>
+#include <Inventor/nodes/SoComplexity.h>
+#include <Inventor/nodes/SoSeparator.h>
+#include <Inventor/nodes/SoTexture2.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <initializer_list>
+#include <unordered_map>
+#include <utility>
+
+namespace rs::compositor::vrml {
+namespace {
+
+// Coin's measure of how finely spheres, cylinders and cones are cut, 0..1.
+constexpr float kRoundness = 0.8F;
+
+// Collects what Coin cuts a shape into. Corners that agree in everything become one vertex.
+class MeshCollector {
+public:
+    explicit MeshCollector(bool clockwise) : clockwise_(clockwise) {}
+
+    void add_to(SoCallbackAction& action) {
+        action.addTriangleCallback(
+            SoNode::getClassTypeId(),
+            [](void* self, SoCallbackAction* at, const SoPrimitiveVertex* a, const SoPrimitiveVertex* b,
+               const SoPrimitiveVertex* c) {
+                static_cast<MeshCollector*>(self)->add(Topology::kTriangles, at, {a, b, c});
+            },
+            this);
+        action.addLineSegmentCallback(
+            SoNode::getClassTypeId(),
+            [](void* self, SoCallbackAction* at, const SoPrimitiveVertex* a, const SoPrimitiveVertex* b) {
+                static_cast<MeshCollector*>(self)->add(Topology::kLines, at, {a, b});
+            },
+            this);
+        action.addPointCallback(
+            SoNode::getClassTypeId(),
+            [](void* self, SoCallbackAction* at, const SoPrimitiveVertex* a) {
+                static_cast<MeshCollector*>(self)->add(Topology::kPoints, at, {a});
+            },
+            this);
+    }
+
+    [[nodiscard]] Mesh take() { return std::move(mesh_); }
+
+private:
+    void add(Topology topology, SoCallbackAction* action, std::initializer_list<const SoPrimitiveVertex*> corners) {
+        mesh_.topology = topology;
+        for (const SoPrimitiveVertex* corner : corners) mesh_.indices.push_back(vertex_of(*corner, *action));
+        // VRML's ccw FALSE: the other side is the front.
+        if (clockwise_ && topology == Topology::kTriangles) std::swap(mesh_.indices.end()[-1], mesh_.indices.end()[-2]);
+    }
+
+    std::uint32_t vertex_of(const SoPrimitiveVertex& corner, SoCallbackAction& action) {
+        const SbVec3f& p = corner.getPoint();
+        const SbVec3f& n = corner.getNormal();
+        const SbVec4f& t = corner.getTextureCoords();
+        SbColor ambient;
+        SbColor diffuse;
+        SbColor specular;
+        SbColor emissive;
+        float shininess = 0;
+        float transparency = 0;
+        action.getMaterial(ambient, diffuse, specular, emissive, shininess, transparency, corner.getMaterialIndex());
+        MeshVertex vertex;
+        vertex.position = {p[0], p[1], p[2]};
+        vertex.normal = {n[0], n[1], n[2]};
+        const float length = glm::length(vertex.normal);
+        vertex.normal = length > 0 && mesh_.topology == Topology::kTriangles ? vertex.normal / length : glm::vec3(0);
+        vertex.texture = t[3] != 0 ? glm::vec2(t[0], t[1]) / t[3] : glm::vec2(0);
+        vertex.colour = {linear_from_srgb(diffuse[0]), linear_from_srgb(diffuse[1]), linear_from_srgb(diffuse[2]), 1};
+        const auto key = std::bit_cast<Key>(std::array<float, 11>{
+            vertex.position.x, vertex.position.y, vertex.position.z, vertex.normal.x, vertex.normal.y, vertex.normal.z,
+            vertex.texture.x, vertex.texture.y, vertex.colour.r, vertex.colour.g, vertex.colour.b});
+        const auto [found, is_new] = known_.emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
+        if (is_new) mesh_.vertices.push_back(vertex);
+        return found->second;
+    }
+
+    bool clockwise_;
+    Mesh mesh_;
+    using Key = std::array<std::uint32_t, 11>;
+    struct Hash {
+        std::size_t operator()(const Key& key) const {
+            std::size_t hash = 0;
+            for (const std::uint32_t word : key) hash = (hash ^ word) * 0x9e3779b97f4a7c15U + (hash >> 29U);
+            return hash;
+        }
+    };
+    std::unordered_map<Key, std::uint32_t, Hash> known_;
+};
+
+template <class Field>
+Field* as(SoField& field) {
+    return field.getTypeId() == Field::getClassTypeId() ? static_cast<Field*>(&field) : nullptr;
+}
+
+// Sets what a geometry node can have, nodes excepted.
+void set_field(SoField& field, const Value& value) {
+    // Some lists are not empty by default.
+    if (auto* list = dynamic_cast<SoMField*>(&field)) list->setNum(0);
+    const std::vector<double>& n = value.numbers;
+    if (n.empty() && value.texts.empty()) return;
+    std::vector<float> floats(n.begin(), n.end());
+    const auto count = [&](std::size_t each) { return static_cast<int>(floats.size() / each); };
+    if (auto* flag = as<SoSFBool>(field)) flag->setValue(n.at(0) != 0);
+    if (auto* integer = as<SoSFInt32>(field)) integer->setValue(static_cast<std::int32_t>(n.at(0)));
+    if (auto* number = as<SoSFFloat>(field)) number->setValue(floats.at(0));
+    if (auto* triple = as<SoSFVec3f>(field)) triple->setValue(floats.at(0), floats.at(1), floats.at(2));
+    if (auto* text = as<SoSFString>(field)) text->setValue(value.texts.at(0).c_str());
+    if (auto* list = as<SoMFFloat>(field)) list->setValues(0, count(1), floats.data());
+    if (auto* list = as<SoMFVec2f>(field))
+        list->setValues(0, count(2), reinterpret_cast<const float(*)[2]>(floats.data()));
+    if (auto* list = as<SoMFVec3f>(field))
+        list->setValues(0, count(3), reinterpret_cast<const float(*)[3]>(floats.data()));
+    if (auto* list = as<SoMFColor>(field))
+        list->setValues(0, count(3), reinterpret_cast<const float(*)[3]>(floats.data()));
+    if (auto* list = as<SoMFRotation>(field)) {
+        for (int i = 0; i < count(4); ++i) {
+            const float* turn = floats.data() + std::ptrdiff_t{i} * 4;
+            list->set1Value(i, SbRotation(SbVec3f(turn[0], turn[1], turn[2]), turn[3]));
+        }
+    }
+    if (auto* list = as<SoMFString>(field)) {
+        for (std::size_t i = 0; i < value.texts.size(); ++i)
+            list->set1Value(static_cast<int>(i), value.texts[i].c_str());
+    }
+}
+
+class CoinShape {
+public:
+    CoinShape(const Node& geometry, const ShapeCheck& check) : check_(check), node_(fresh(geometry)) {
+        const IndexedLists& lists = check.lists;
+        if (geometry.type != "IndexedFaceSet" && geometry.type != "IndexedLineSet") return;
+        set_list("coordIndex", lists.coord);
+        set_list("colorIndex", lists.color);
+        if (geometry.type == "IndexedLineSet") return;
+        set_list("normalIndex", lists.normal);
+        set_list("texCoordIndex", lists.texture);
+    }
+    [[nodiscard]] SoNode* get() const { return node_; }
+
+private:
+    SoNode* fresh(const Node& from) const {
+        auto* node = static_cast<SoNode*>(SoType::fromName(("VRML" + from.type).c_str()).createInstance());
+        for (const auto& [name, spec] : find_node(from.type)->fields) {
+            SoField* field = node->getField(name.c_str());
+            const Value& value = from.field(name);
+            const bool usable =
+                std::find(check_.unusable.begin(), check_.unusable.end(), name) == check_.unusable.end();
+            if (name.ends_with("Index") || !usable) continue;
+            if (spec.type != FieldType::kNode) {
+                set_field(*field, value);
+                continue;
+            }
+            if (!value.nodes.empty()) static_cast<SoSFNode*>(field)->setValue(fresh(*value.nodes.front()));
+        }
+        return node;
+    }
+
+    void set_list(const char* name, const std::vector<std::int32_t>& list) const {
+        auto* field = static_cast<SoMFInt32*>(node_->getField(name));
+        field->setNum(0);
+        if (!list.empty()) field->setValues(0, static_cast<int>(list.size()), list.data());
+    }
+
+    const ShapeCheck& check_;
+    SoNode* node_;
+};
+
+// Whether only the front of the shape is to be seen.
+bool is_solid(const Node& node) {
+    if (node.fields.contains("solid")) return node.flag("solid");
+    // The others are closed where nothing is taken off.
+    for (const char* part : {"side", "bottom", "top"}) {
+        if (node.fields.contains(part) && !node.flag(part)) return false;
+    }
+    return node.type != "Text";
+}
+
+// Texture coordinates for faces without: s along the longest side of the box around them, t along the second, both in
+// the scale of the longest (ISO/IEC 14772-1, 6.23). Of equal sides X goes before Y before Z, where Coin takes Y first.
+void map_by_box(Mesh& mesh) {
+    const BoundingBox box = bounds_of(mesh);
+    const glm::dvec3 size = box.highest - box.lowest;
+    std::array<int, 3> axes = {0, 1, 2};
+    std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return size[a] > size[b]; });
+    if (!(size[axes[0]] > 0)) return;
+    for (MeshVertex& vertex : mesh.vertices) {
+        const glm::dvec3 place = (glm::dvec3(vertex.position) - box.lowest) / size[axes[0]];
+        vertex.texture = {place[axes[0]], place[axes[1]]};
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<const Mesh> triangulate(const Node& geometry, const ShapeCheck& check) {
+    const bool has_colours = geometry.fields.contains("color") && geometry.node("color") != nullptr &&
+                             std::find(check.unusable.begin(), check.unusable.end(), "color") == check.unusable.end();
+    const CoinPointer<SoSeparator> root(new SoSeparator);
+    auto* complexity = new SoComplexity;
+    complexity->value = kRoundness;
+    root->addChild(complexity);
+    // Coin leaves texture coordinates out where no picture wants them.
+    auto* picture = new SoTexture2;
+    constexpr unsigned char kTexel[] = {255};
+    picture->image.setValue(SbVec2s(1, 1), 1, kTexel);
+    root->addChild(picture);
+    root->addChild(CoinShape(geometry, check).get());
+    SoCallbackAction action;
+    MeshCollector collector(geometry.fields.contains("ccw") && !geometry.flag("ccw"));
+    collector.add_to(action);
+    action.apply(root.get());
+    auto mesh = std::make_shared<Mesh>(collector.take());
+    if (mesh->indices.empty()) return nullptr;
+    if (geometry.type == "IndexedFaceSet" && check.lists.texture.empty()) map_by_box(*mesh);
+    mesh->has_colours = has_colours;
+    mesh->two_sided = mesh->topology != Topology::kTriangles || !is_solid(geometry);
+    return mesh;
+}
+
+}  // namespace rs::compositor::vrml

@@ -1,0 +1,15 @@
+#pragma once
+// Geometry nodes -> triangles, lines, points. Private to the VRML reader.
+
+#include "compositor/scene/mesh.hpp"
+#include "compositor/scene/vrml/shape_lists.hpp"
+
+#include <memory>
+
+namespace rs::compositor::vrml {
+
+// The shape must have passed check_shape() without a fault. Null where there is nothing to draw. To be called within a
+// CoinSession.
+std::shared_ptr<const Mesh> triangulate(const Node& geometry, const ShapeCheck& check);
+
+}  // namespace rs::compositor::vrml

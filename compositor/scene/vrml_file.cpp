@@ -1,0 +1,94 @@
+#include "compositor/scene/vrml_file.hpp"
+
+#include "compositor/scene/gzip.hpp"
+#include "compositor/scene/vrml/clean_vrml.hpp"
+#include "compositor/scene/vrml/flatten.hpp"
+#include "rayspace/file_output.hpp"
+
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+constexpr std::uint64_t kMaxFile_bytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kMaxFiles_bytes = std::uint64_t{256} << 20;
+
+Result<std::string> read_world_text(const std::filesystem::path& path) {
+    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxFile_bytes);
+    if (!bytes) return bytes.error();
+    if (is_gzip(*bytes)) return gunzip(*bytes, kMaxFile_bytes, path.string());
+    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+}
+
+Result<std::shared_ptr<const vrml::LoadedFile>> load_text(std::string_view text, const std::filesystem::path& path) {
+    const Result<vrml::CleanVrml> clean = vrml::clean_vrml(text, path.string());
+    if (!clean) return clean.error();
+    Result<vrml::Graph> graph = vrml::read_graph(*clean, path.string());
+    if (!graph) return graph.error();
+    graph->warnings.insert(graph->warnings.begin(), clean->warnings.begin(), clean->warnings.end());
+    return std::shared_ptr<const vrml::LoadedFile>(
+        std::make_shared<vrml::LoadedFile>(vrml::LoadedFile{path, std::move(*graph)}));
+}
+
+// Reads each included file once.
+class IncludedFiles {
+public:
+    Result<std::shared_ptr<const vrml::LoadedFile>> load(const std::vector<std::string>& urls,
+                                                         const std::filesystem::path& folder) {
+        Error fault{"names no file"};
+        for (const std::string& url : urls) {
+            const auto path = local_path(url, folder);
+            if (!path) {
+                fault = {"'" + url.substr(0, 80) + "' is no file on this machine"};
+                continue;
+            }
+            auto known = loaded_.find(*path);
+            if (known == loaded_.end()) known = loaded_.emplace(*path, load_new(*path)).first;
+            if (known->second) return known->second;
+            fault = known->second.error();
+        }
+        return fault;
+    }
+
+private:
+    Result<std::shared_ptr<const vrml::LoadedFile>> load_new(const std::filesystem::path& path) {
+        const Result<std::string> text = read_world_text(path);
+        if (!text) return text.error();
+        size_bytes_ += text->size();
+        if (size_bytes_ > kMaxFiles_bytes) {
+            return Error{path.string() + ": the included files are larger than " +
+                         std::to_string(kMaxFiles_bytes >> 20) + " MiB together"};
+        }
+        return load_text(*text, path);
+    }
+
+    std::map<std::filesystem::path, Result<std::shared_ptr<const vrml::LoadedFile>>> loaded_;
+    std::uint64_t size_bytes_ = 0;
+};
+
+}  // namespace
+
+Result<Scene> scene_from_vrml(std::string_view text, const std::filesystem::path& path) {
+    // As the paths of included files are written, so that a file that includes itself is known.
+    const auto file = load_text(text, path.lexically_normal());
+    if (!file) return file.error();
+    Scene scene;
+    scene.lights.clear();
+    scene.background.sky = {glm::vec3(0)};
+    scene.navigation.headlight = true;
+    IncludedFiles included;
+    const Status status = vrml::flatten(
+        *file, [&](const auto& urls, const auto& folder) { return included.load(urls, folder); }, scene);
+    if (!status) return status.error();
+    return scene;
+}
+
+Result<Scene> read_vrml(const std::filesystem::path& path) {
+    const Result<std::string> text = read_world_text(path);
+    if (!text) return text.error();
+    return scene_from_vrml(*text, path);
+}
+
+}  // namespace rs::compositor

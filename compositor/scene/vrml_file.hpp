@@ -1,0 +1,30 @@
+#pragma once
+// Scenes from VRML97 files (.wrl, plain or gzip): vrml/clean_vrml.hpp tells what is read and what is left out.
+//
+// Besides the nodes of VRML97 there is one for objects made of pictures:
+//
+//     RaySpace {
+//         exposedField MFString url          []     # the .rso file; the first counts
+//         exposedField SFFloat  size         1      # the object's radius in the units of the node, above 0
+//         exposedField SFBool   standing     TRUE   # its foot stands at the origin; else the middle of its capture
+//         exposedField SFString description  ""
+//     }
+
+#include "compositor/scene/scene.hpp"
+#include "rayspace/result.hpp"
+
+#include <filesystem>
+#include <string_view>
+
+namespace rs::compositor {
+
+// Files that the world names (textures, Inline) are looked for beside the file that names them, on this machine only.
+// No .rso is opened. What cannot be shown becomes a warning of the scene; what cannot be read is an error, with its
+// line. Worlds beyond 64 MiB, all included files together beyond 256 MiB, are refused. May be called from any thread;
+// one call works at a time.
+Result<Scene> read_vrml(const std::filesystem::path& path);
+
+// The text of a world without gzip; `path` names it in messages, and its folder is where it looks for files.
+Result<Scene> scene_from_vrml(std::string_view text, const std::filesystem::path& path);
+
+}  // namespace rs::compositor

@@ -1,0 +1,68 @@
+#pragma once
+// The GLSL of the background: colours by the angle from the zenith and the nadir, over them pictures on a cube.
+
+namespace rs::compositor::shaders {
+
+inline constexpr const char* kBackgroundVertex = R"(#version 450 core
+void main() {
+    gl_Position = vec4((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1, 0.0, 1.0);
+})";
+
+inline constexpr const char* kBackgroundFragment = R"(#version 450 core
+layout(std430, binding = 3) readonly buffer Gradients { vec4 stops[]; };  // colour; w: angle; the sky's, then the ground's
+layout(binding = 1) uniform sampler2D pictures[6];
+uniform mat3 direction_from_pixel;  // (x, y, 1) -> direction in the background's coordinates
+uniform ivec2 stop_counts;          // sky, ground
+uniform int shown_pictures;         // bit i: pictures[i]
+out vec4 result;
+
+vec3 gradient(int first, int count, float angle) {
+    vec4 before = stops[first];
+    for (int i = 1; i < count; ++i) {
+        vec4 next = stops[first + i];
+        if (angle <= next.w) return mix(before.rgb, next.rgb, next.w > before.w ? (angle - before.w) / (next.w - before.w) : 1.0);
+        before = next;
+    }
+    return before.rgb;
+}
+
+// The faces are seen from inside, upright; the top and bottom as when looking up or down from the front.
+vec4 texel(vec3 d) {
+    vec3 a = abs(d);
+    int face;
+    vec2 p;
+    if (a.z >= a.x && a.z >= a.y) {
+        face = d.z < 0.0 ? 0 : 1;
+        p = vec2(d.z < 0.0 ? d.x : -d.x, d.y) / a.z;
+    } else if (a.x >= a.y) {
+        face = d.x < 0.0 ? 2 : 3;
+        p = vec2(d.x < 0.0 ? -d.z : d.z, d.y) / a.x;
+    } else {
+        face = d.y > 0.0 ? 4 : 5;
+        p = vec2(d.x, d.y > 0.0 ? d.z : -d.z) / a.y;
+    }
+    if ((shown_pictures & (1 << face)) == 0) return vec4(0.0);
+    vec2 uv = vec2(0.5 + 0.5 * p.x, 0.5 - 0.5 * p.y);
+    switch (face) {
+        case 0: return textureLod(pictures[0], uv, 0.0);
+        case 1: return textureLod(pictures[1], uv, 0.0);
+        case 2: return textureLod(pictures[2], uv, 0.0);
+        case 3: return textureLod(pictures[3], uv, 0.0);
+        case 4: return textureLod(pictures[4], uv, 0.0);
+        default: return textureLod(pictures[5], uv, 0.0);
+    }
+}
+
+void main() {
+    vec3 d = normalize(direction_from_pixel * vec3(gl_FragCoord.xy, 1.0));
+    float from_zenith = acos(clamp(d.y, -1.0, 1.0));
+    float from_nadir = 3.14159265 - from_zenith;
+    vec3 colour = gradient(0, stop_counts.x, from_zenith);
+    if (stop_counts.y > 1 && from_nadir <= stops[stop_counts.x + stop_counts.y - 1].w) {
+        colour = gradient(stop_counts.x, stop_counts.y, from_nadir);
+    }
+    vec4 over = shown_pictures != 0 ? texel(d) : vec4(0.0);
+    result = vec4(mix(colour, over.rgb, over.a), 1.0);
+})";
+
+}  // namespace rs::compositor::shaders

@@ -1,0 +1,40 @@
+#pragma once
+// The tables that the geometry's shader reads, laid out as it declares them (geometry_shaders.hpp, std430). Pure;
+// thread-safe.
+
+#include "compositor/scene/scene.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace rs::compositor {
+
+struct LightRow {
+    glm::vec4 colour_kind;
+    glm::vec4 ambient_radius;
+    glm::vec4 location_cut_off;
+    glm::vec4 towards_beam;
+    glm::vec4 attenuation;
+};
+LightRow row_of(const Light& light);
+
+enum class AlphaUse { kNone = 0, kMask = 1, kBlend = 2 };
+// A picture whose alpha is nearly everywhere 0 or 255 cuts holes, with sharp edges and no order of drawing.
+AlphaUse alpha_use(const SceneTexture& texture);
+
+struct MaterialRow {
+    glm::vec4 diffuse_opacity;
+    glm::vec4 specular_exponent;
+    glm::vec4 emissive_ambient;
+};
+MaterialRow row_of(const Material& material);
+// The shader's material_flags.
+glm::ivec4 flags_of(const Material& material, bool has_colours, AlphaUse alpha);
+
+// The lights that can reach the box: those of `node.lights`, and of those everywhere all that are near enough.
+std::vector<std::uint32_t> lights_that_reach(const Scene& scene, const GeometryNode& node,
+                                             const BoundingBox& box_in_world);
+
+}  // namespace rs::compositor

@@ -1,0 +1,57 @@
+#pragma once
+// What happens to a window, in words of our own, so that what follows from it can be tested without one.
+
+#include <glm/glm.hpp>
+
+#include <variant>
+#include <vector>
+
+namespace rs::compositor {
+
+enum class Key {
+    kForward,            // W, up arrow
+    kBack,               // S, down
+    kLeft,               // A
+    kRight,              // D
+    kTurnLeft,           // left arrow
+    kTurnRight,          // right arrow
+    kUp,                 // E, space
+    kDown,               // Q, C
+    kFast,               // shift
+    kWalk,               // 1
+    kFly,                // 2
+    kExamine,            // 3
+    kNextViewpoint,      // page down
+    kPreviousViewpoint,  // page up
+    kHome,               // home
+    kHelp,               // F1, H
+    kPanel,              // tab
+    kWireFrame,          // F
+    kScreenshot,         // P
+    kRecord,             // R
+    kQuit,               // escape
+};
+
+enum class Button { kLeft, kRight };
+
+struct KeyEvent {
+    Key key = Key::kForward;
+    bool down = false;
+};
+struct ButtonEvent {
+    Button button = Button::kLeft;
+    bool down = false;
+    glm::dvec2 at_px{0};  // in the window, from the upper left
+};
+struct MoveEvent {
+    glm::dvec2 to_px{0};
+};
+struct WheelEvent {
+    double notches = 0;  // forward
+};
+// The window is no longer in front: keys that are held will not be seen to be let go.
+struct LostFocusEvent {};
+
+using Event = std::variant<KeyEvent, ButtonEvent, MoveEvent, WheelEvent, LostFocusEvent>;
+
+}  // namespace rs::compositor

@@ -1,0 +1,59 @@
+#pragma once
+// What lies over the picture in a window: a panel of figures and switches, help, and a line of news. Dear ImGui.
+
+#include "compositor/viewer/navigation.hpp"
+#include "compositor/window/window.hpp"
+
+#include <string>
+#include <vector>
+
+namespace rs::compositor {
+
+struct ObjectLine {
+    std::string name;
+    bool in_view = false;
+    int width = 0;  // of the picture that the engine drew, px
+    int height = 0;
+    double milliseconds = 0;  // of the engine
+};
+
+// What the panel shows, and what the visitor changes in it.
+struct PanelState {
+    bool show_panel = true;
+    bool show_help = false;
+    bool wire_frame = false;
+    bool recording = false;
+    NavigationMode mode = NavigationMode::kWalk;
+    double speed = 1;  // scene units a second
+    bool take_screenshot = false;
+
+    double frame_ms = 0;  // of the last frames' middle one
+    double geometry_ms = 0;
+    double engine_ms = 0;
+    double upload_ms = 0;
+    double composite_ms = 0;
+    std::string executor;
+    std::string device;
+    std::vector<ObjectLine> objects;
+    int picked = -1;      // of `objects`
+    double turn_rad = 0;  // by which the visitor has turned it
+    std::string news;     // empty: none
+};
+
+// Stands between a window and its owner's drawing; one a process. Destroyed before the window.
+class Overlay {
+public:
+    explicit Overlay(Window& window);
+    Overlay(const Overlay&) = delete;
+    Overlay& operator=(const Overlay&) = delete;
+    ~Overlay();
+
+    // True while the mouse is over the panel, or something is typed into it: events are the panel's.
+    [[nodiscard]] bool wants_mouse() const;
+    [[nodiscard]] bool wants_keys() const;
+
+    // Draws into the window; after the picture, before swap().
+    void draw(PanelState& state);
+};
+
+}  // namespace rs::compositor

@@ -1,0 +1,260 @@
+#include "compositor/window/visit.hpp"
+
+#include "compositor/viewer/framing.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace rs::compositor {
+namespace {
+
+constexpr double kTravelSeconds = 1;
+constexpr double kNewsSeconds = 3;
+constexpr std::size_t kFramesCounted = 31;
+constexpr double kRecordedFrames_per_s = 30;
+
+// The first name of PREFIX-1.ENDING, PREFIX-2.ENDING, ... that is free.
+std::filesystem::path free_name(const std::filesystem::path& folder, const char* prefix, const char* ending,
+                                int& number) {
+    for (;;) {
+        const std::filesystem::path path = folder / (std::string(prefix) + "-" + std::to_string(++number) + ending);
+        if (!std::filesystem::exists(path)) return path;
+    }
+}
+
+double middle_one(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
+Visit::Visit(Window window, FrameCompositor compositor, const Scene& scene, const VisitOptions& options)
+    : window_(std::move(window)),
+      compositor_(std::move(compositor)),
+      overlay_(std::make_unique<Overlay>(window_)),
+      options_(options),
+      last_(std::chrono::steady_clock::now()) {
+    navigation_.speed = scene.navigation.speed;
+    if (const BoundingBox bounds = bounds_of(scene); !bounds.empty()) middle_ = bounds.middle();
+    for (const RaySpaceNode& node : scene.objects) {
+        names_.push_back(node.description.empty() ? node.file.stem().string() : node.description);
+    }
+    turns_rad_.resize(names_.size());
+    visitor_ = visitor_at(options_.viewpoints.front(), middle_);
+    panel_.mode = mode_of(scene.navigation);
+    panel_.speed = navigation_.speed;
+    panel_.wire_frame = options.wire_frame;
+    panel_.executor = "software core";
+    panel_.device = window_.context().device_name();
+    tell("press H for help");
+}
+
+Visit::~Visit() {
+    if (video_) static_cast<void>(video_->finish());
+}
+
+Result<std::unique_ptr<Visit>> Visit::create(const Scene& scene, std::vector<PlacedObject> objects,
+                                             const VisitOptions& options) {
+    RS_CHECK(!options.viewpoints.empty());
+    Result<Window> window = Window::create(options.window);
+    if (!window) return window.error();
+    const glm::ivec2 size = glm::max(window->framebuffer_px(), glm::ivec2(1));
+    Result<FrameCompositor> compositor = FrameCompositor::create(
+        scene, std::move(objects), {.width = size.x, .height = size.y, .samples = options.samples});
+    if (!compositor) return compositor.error();
+    return std::unique_ptr<Visit>(new Visit(std::move(*window), std::move(*compositor), scene, options));
+}
+
+Camera Visit::camera() const {
+    const Viewpoint here = viewpoint_of(visitor_, options_.viewpoints[viewpoint_]);
+    return camera_at(here, compositor_.width(), compositor_.height());
+}
+
+void Visit::tell(const std::string& news) {
+    panel_.news = news;
+    news_seconds_ = kNewsSeconds;
+}
+
+void Visit::begin_travel(const Visitor& to) {
+    travel_ = {visitor_, to, 0};
+}
+
+void Visit::go_to_viewpoint(std::size_t number) {
+    viewpoint_ = number;
+    begin_travel(visitor_at(options_.viewpoints[number], middle_));
+    const std::string& name = options_.viewpoints[number].description;
+    tell(name.empty() ? "viewpoint " + std::to_string(number + 1) : name);
+}
+
+void Visit::pick(const glm::dvec2& at_px) {
+    // Events are in screen units, frames in pixels; on dense screens these differ.
+    const std::optional<std::size_t> object =
+        compositor_.object_at(static_cast<int>(at_px.x), static_cast<int>(at_px.y));
+    panel_.picked = object ? static_cast<int>(*object) : -1;
+    if (!object) return;
+    panel_.turn_rad = turns_rad_[*object];
+    tell(names_[*object]);
+}
+
+Status Visit::obey(Key command) {
+    const std::size_t count = options_.viewpoints.size();
+    switch (command) {
+        case Key::kWalk:
+            panel_.mode = NavigationMode::kWalk;
+            break;
+        case Key::kFly:
+            panel_.mode = NavigationMode::kFly;
+            break;
+        case Key::kExamine:
+            panel_.mode = NavigationMode::kExamine;
+            visitor_.pivot_distance = compositor_.distance_ahead().value_or(glm::length(middle_ - visitor_.eye));
+            break;
+        case Key::kNextViewpoint:
+            go_to_viewpoint((viewpoint_ + 1) % count);
+            break;
+        case Key::kPreviousViewpoint:
+            go_to_viewpoint((viewpoint_ + count - 1) % count);
+            break;
+        case Key::kHome:
+            go_to_viewpoint(0);
+            break;
+        case Key::kHelp:
+            panel_.show_help = !panel_.show_help;
+            break;
+        case Key::kPanel:
+            panel_.show_panel = !panel_.show_panel;
+            break;
+        case Key::kWireFrame:
+            panel_.wire_frame = !panel_.wire_frame;
+            break;
+        case Key::kScreenshot:
+            panel_.take_screenshot = true;
+            break;
+        case Key::kRecord:
+            panel_.recording = !panel_.recording;
+            break;
+        case Key::kQuit:
+            window_.close();
+            break;
+        default:
+            break;
+    }
+    return {};
+}
+
+Status Visit::take_pictures() {
+    if (!panel_.take_screenshot) return {};
+    panel_.take_screenshot = false;
+    const std::filesystem::path path = free_name(options_.pictures, "screenshot", ".png", shots_);
+    const Status written = write_png(path, compositor_.picture());
+    tell(written ? path.string() : written.error().message);
+    return {};
+}
+
+Status Visit::record() {
+    if (panel_.recording && !video_) {
+        int number = 0;
+        const std::filesystem::path path = free_name(options_.pictures, "recording", ".mp4", number);
+        Result<VideoWriter> video =
+            VideoWriter::open(path, compositor_.width(), compositor_.height(), kRecordedFrames_per_s);
+        if (!video) {
+            panel_.recording = false;
+            tell(video.error().message);
+            return {};
+        }
+        video_.emplace(std::move(*video));
+        tell("recording " + path.string());
+    }
+    if (!video_) return {};
+    Status status = panel_.recording ? video_->add(compositor_.picture()) : video_->finish();
+    if (!panel_.recording || !status) {
+        video_.reset();
+        panel_.recording = false;
+        tell(status ? "recording finished" : status.error().message);
+    }
+    return {};
+}
+
+void Visit::refresh_panel(double seconds) {
+    frame_seconds_.push_back(seconds);
+    if (frame_seconds_.size() > kFramesCounted) frame_seconds_.erase(frame_seconds_.begin());
+    const FrameStatistics& statistics = compositor_.statistics();
+    panel_.frame_ms = 1e3 * middle_one(frame_seconds_);
+    panel_.geometry_ms = 1e3 * statistics.geometry_s;
+    panel_.engine_ms = 1e3 * statistics.engine_s;
+    panel_.upload_ms = 1e3 * statistics.upload_s;
+    panel_.composite_ms = 1e3 * statistics.composite_s;
+    panel_.objects.resize(names_.size());
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        const NodeStatistics& node = statistics.nodes[i];
+        panel_.objects[i] = {names_[i], node.in_view, node.width, node.height, 1e3 * node.engine_s};
+    }
+    if ((news_seconds_ -= seconds) <= 0) panel_.news.clear();
+}
+
+Result<bool> Visit::step(std::optional<double> seconds) {
+    const auto now = std::chrono::steady_clock::now();
+    const double passed = seconds.value_or(std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+    for (const Event& event : window_.poll()) {
+        const bool of_mouse = std::holds_alternative<WheelEvent>(event) ||
+                              (std::holds_alternative<ButtonEvent>(event) && std::get<ButtonEvent>(event).down);
+        if (of_mouse && overlay_->wants_mouse()) continue;
+        if (std::holds_alternative<KeyEvent>(event) && overlay_->wants_keys()) continue;
+        input_.take(event);
+    }
+    for (const Key command : input_.commands()) {
+        if (Status status = obey(command); !status) return status.error();
+    }
+    if (window_.wants_to_close()) return false;
+    const glm::ivec2 size = window_.framebuffer_px();
+    if (size.x < 1 || size.y < 1) return true;  // an icon
+    if (size.x != compositor_.width() || size.y != compositor_.height()) {
+        if (Status status = compositor_.resize(size.x, size.y); !status) return status.error();
+        if (video_) panel_.recording = false;  // a video has one size
+    }
+
+    navigation_.speed = panel_.speed;
+    const NavigationInput movement = input_.movement(passed);
+    if (travel_) {
+        travel_->t += passed / kTravelSeconds;
+        visitor_ = between(travel_->from, travel_->to, travel_->t);
+        if (travel_->t >= 1) travel_.reset();
+    } else {
+        visitor_ = moved(visitor_, panel_.mode, movement, navigation_);
+    }
+    compositor_.set_wire_frame(panel_.wire_frame);
+    if (panel_.picked >= 0) {
+        const auto picked = static_cast<std::size_t>(panel_.picked);
+        turns_rad_[picked] = panel_.turn_rad;
+        compositor_.turn_object(picked, panel_.turn_rad);
+    }
+    if (Status status = compositor_.draw(camera()); !status) return status.error();
+    if (const auto click = input_.click()) pick(*click);
+    if (Status status = take_pictures(); !status) return status.error();
+    if (Status status = record(); !status) return status.error();
+    refresh_panel(passed);
+    compositor_.show_in_window(size.x, size.y);
+    const int picked_before = panel_.picked;
+    overlay_->draw(panel_);
+    if (panel_.picked != picked_before && panel_.picked >= 0) {
+        panel_.turn_rad = turns_rad_[static_cast<std::size_t>(panel_.picked)];
+    }
+    window_.swap();
+    return true;
+}
+
+Status visit(const Scene& scene, std::vector<PlacedObject> objects, const VisitOptions& options) {
+    const Result<std::unique_ptr<Visit>> made = Visit::create(scene, std::move(objects), options);
+    if (!made) return made.error();
+    for (;;) {
+        const Result<bool> goes_on = (*made)->step();
+        if (!goes_on) return goes_on.error();
+        if (!*goes_on) return {};
+    }
+}
+
+}  // namespace rs::compositor

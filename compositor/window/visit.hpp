@@ -1,0 +1,89 @@
+#pragma once
+// A visit to a scene in a window: walk, fly, look around, pick and turn objects, take pictures home.
+//
+// For the main thread only. The scene and its objects are loaded before.
+
+#include "compositor/scene/scene.hpp"
+#include "compositor/viewer/frame_compositor.hpp"
+#include "compositor/viewer/navigation.hpp"
+#include "compositor/viewer/placed_object.hpp"
+#include "compositor/window/overlay.hpp"
+#include "compositor/window/visitor_input.hpp"
+#include "compositor/window/window.hpp"
+#include "rayspace/picture_io.hpp"
+#include "rayspace/result.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace rs::compositor {
+
+struct VisitOptions {
+    WindowOptions window;
+    std::vector<Viewpoint> viewpoints;     // at least one; the first is where the visit begins
+    std::filesystem::path pictures = ".";  // where screenshots and recordings go
+    int samples = 4;
+    bool wire_frame = false;
+};
+
+class Visit {
+public:
+    static Result<std::unique_ptr<Visit>> create(const Scene& scene, std::vector<PlacedObject> objects,
+                                                 const VisitOptions& options);
+    ~Visit();  // finishes a recording
+
+    // A frame: what happened since the last, the picture, the overlay. False when the visitor wants to leave.
+    // `seconds`: since the last frame, as a clock on the wall says if not given.
+    Result<bool> step(std::optional<double> seconds = std::nullopt);
+
+    [[nodiscard]] Window& window() { return window_; }
+    [[nodiscard]] const Visitor& visitor() const { return visitor_; }
+    [[nodiscard]] const PanelState& panel() const { return panel_; }
+    // Of the last frame, without the overlay.
+    [[nodiscard]] Image<Rgba8> picture() const { return compositor_.picture(); }
+
+private:
+    Visit(Window window, FrameCompositor compositor, const Scene& scene, const VisitOptions& options);
+
+    Status obey(Key command);
+    void go_to_viewpoint(std::size_t number);
+    void begin_travel(const Visitor& to);
+    void pick(const glm::dvec2& at_px);
+    Status take_pictures();
+    Status record();
+    void refresh_panel(double seconds);
+    void tell(const std::string& news);
+    [[nodiscard]] Camera camera() const;
+
+    Window window_;
+    FrameCompositor compositor_;
+    std::unique_ptr<Overlay> overlay_;
+    VisitOptions options_;
+    NavigationSettings navigation_;
+    std::vector<std::string> names_;  // of the objects
+    glm::dvec3 middle_{0};            // of the scene
+    VisitorInput input_;
+    PanelState panel_;
+    Visitor visitor_;
+    struct Travel {
+        Visitor from;
+        Visitor to;
+        double t = 0;
+    };
+    std::optional<Travel> travel_;
+    std::size_t viewpoint_ = 0;
+    std::vector<double> turns_rad_;  // [object]
+    std::vector<double> frame_seconds_;
+    std::optional<VideoWriter> video_;
+    int shots_ = 0;
+    double news_seconds_ = 0;
+    std::chrono::steady_clock::time_point last_;
+};
+
+// Until the visitor leaves.
+Status visit(const Scene& scene, std::vector<PlacedObject> objects, const VisitOptions& options);
+
+}  // namespace rs::compositor

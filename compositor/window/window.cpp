@@ -1,0 +1,174 @@
+#include "compositor/window/window.hpp"
+
+// epoxy before GLFW, which would bring another loader's declarations.
+#include <epoxy/gl.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+struct Binding {
+    int glfw_key;
+    Key key;
+};
+constexpr std::array kBindings = {
+    Binding{GLFW_KEY_W, Key::kForward},
+    Binding{GLFW_KEY_UP, Key::kForward},
+    Binding{GLFW_KEY_S, Key::kBack},
+    Binding{GLFW_KEY_DOWN, Key::kBack},
+    Binding{GLFW_KEY_A, Key::kLeft},
+    Binding{GLFW_KEY_D, Key::kRight},
+    Binding{GLFW_KEY_LEFT, Key::kTurnLeft},
+    Binding{GLFW_KEY_RIGHT, Key::kTurnRight},
+    Binding{GLFW_KEY_E, Key::kUp},
+    Binding{GLFW_KEY_SPACE, Key::kUp},
+    Binding{GLFW_KEY_Q, Key::kDown},
+    Binding{GLFW_KEY_C, Key::kDown},
+    Binding{GLFW_KEY_LEFT_SHIFT, Key::kFast},
+    Binding{GLFW_KEY_RIGHT_SHIFT, Key::kFast},
+    Binding{GLFW_KEY_1, Key::kWalk},
+    Binding{GLFW_KEY_2, Key::kFly},
+    Binding{GLFW_KEY_3, Key::kExamine},
+    Binding{GLFW_KEY_PAGE_DOWN, Key::kNextViewpoint},
+    Binding{GLFW_KEY_HOME, Key::kHome},
+    Binding{GLFW_KEY_PAGE_UP, Key::kPreviousViewpoint},
+    Binding{GLFW_KEY_F1, Key::kHelp},
+    Binding{GLFW_KEY_H, Key::kHelp},
+    Binding{GLFW_KEY_TAB, Key::kPanel},
+    Binding{GLFW_KEY_F, Key::kWireFrame},
+    Binding{GLFW_KEY_P, Key::kScreenshot},
+    Binding{GLFW_KEY_R, Key::kRecord},
+    Binding{GLFW_KEY_ESCAPE, Key::kQuit},
+};
+
+std::optional<Key> key_of(int glfw_key) {
+    for (const Binding& binding : kBindings) {
+        if (binding.glfw_key == glfw_key) return binding.key;
+    }
+    return std::nullopt;
+}
+
+std::optional<Button> button_of(int glfw_button) {
+    if (glfw_button == GLFW_MOUSE_BUTTON_LEFT) return Button::kLeft;
+    if (glfw_button == GLFW_MOUSE_BUTTON_RIGHT || glfw_button == GLFW_MOUSE_BUTTON_MIDDLE) return Button::kRight;
+    return std::nullopt;
+}
+
+Error no_window(const std::string& what) {
+    const char* reason = nullptr;
+    glfwGetError(&reason);
+    return Error{"window: " + what + (reason != nullptr ? std::string(" (") + reason + ")" : std::string()) +
+                 "; on a machine without a display use --headless with -o"};
+}
+
+}  // namespace
+
+struct Window::State {
+    GLFWwindow* window = nullptr;
+    std::optional<gl::Context> context;
+    std::vector<Event> events;
+
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() {
+        context.reset();
+        if (window != nullptr) glfwDestroyWindow(window);
+        glfwTerminate();
+    }
+
+    static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
+
+    void listen() {
+        glfwSetWindowUserPointer(window, this);
+        glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
+            if (const auto known = key_of(key); known && action != GLFW_REPEAT) {
+                of(w).events.emplace_back(KeyEvent{*known, action == GLFW_PRESS});
+            }
+        });
+        glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+            glm::dvec2 at(0);
+            glfwGetCursorPos(w, &at.x, &at.y);
+            if (const auto known = button_of(button)) {
+                of(w).events.emplace_back(ButtonEvent{*known, action == GLFW_PRESS, at});
+            }
+        });
+        glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+            of(w).events.emplace_back(MoveEvent{{x, y}});
+        });
+        glfwSetScrollCallback(window,
+                              [](GLFWwindow* w, double, double up) { of(w).events.emplace_back(WheelEvent{up}); });
+        glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+            if (focused == GLFW_FALSE) of(w).events.emplace_back(LostFocusEvent{});
+        });
+    }
+};
+
+Window::Window(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Window::Window(Window&&) noexcept = default;
+Window& Window::operator=(Window&&) noexcept = default;
+Window::~Window() = default;
+
+Result<Window> Window::create(const WindowOptions& options) {
+    if (glfwInit() == GLFW_FALSE) return no_window("no display can be opened");
+    auto state = std::make_unique<State>();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
+    // Frames are drawn elsewhere and come with their final bytes.
+    glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    state->window = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+    if (state->window == nullptr) return no_window("no window with OpenGL 4.5 core can be had");
+    glfwMakeContextCurrent(state->window);
+    glfwSwapInterval(options.wait_for_screen ? 1 : 0);
+    Result<gl::Context> context = gl::Context::adopt_current({.debug = options.debug});
+    if (!context) return context.error();
+    state->context.emplace(std::move(*context));
+    state->listen();
+    return Window(std::move(state));
+}
+
+gl::Context& Window::context() {
+    return *state_->context;
+}
+
+bool Window::wants_to_close() const {
+    return glfwWindowShouldClose(state_->window) == GLFW_TRUE;
+}
+
+void Window::close() {
+    glfwSetWindowShouldClose(state_->window, GLFW_TRUE);
+}
+
+glm::ivec2 Window::framebuffer_px() const {
+    glm::ivec2 size(0);
+    glfwGetFramebufferSize(state_->window, &size.x, &size.y);
+    return size;
+}
+
+std::vector<Event> Window::poll() {
+    glfwPollEvents();
+    return std::exchange(state_->events, {});
+}
+
+void Window::inject(const Event& event) {
+    state_->events.push_back(event);
+}
+
+void Window::swap() {
+    glfwSwapBuffers(state_->window);
+}
+
+GLFWwindow* Window::handle() const {
+    return state_->window;
+}
+
+}  // namespace rs::compositor
