@@ -10,6 +10,7 @@
 #include "tests/support/ring_object.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <deque>
 #include <random>
@@ -17,6 +18,10 @@
 
 namespace rs::engine {
 namespace {
+
+// The threads that are tested here are the module's own; those of TBB synchronise in ways that race detectors do not
+// see.
+const tbb::global_control kNoOtherThreads(tbb::global_control::max_allowed_parallelism, 1);
 
 const test::RingObjectOptions kSmall{
     .views = 6, .width = 24, .height = 20, .fl_px = 30, .planes = 4, .x_cells = 24, .u_cells = 16};
