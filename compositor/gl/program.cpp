@@ -107,4 +107,12 @@ void Program::set(const char* uniform, const glm::mat4& value) const {
     glProgramUniformMatrix4fv(name(), location(uniform), 1, GL_FALSE, glm::value_ptr(value));
 }
 
+void Program::set(const char* uniform, std::span<const glm::vec4> values) const {
+    glProgramUniform4fv(name(), location(uniform), static_cast<GLsizei>(values.size()), glm::value_ptr(values[0]));
+}
+
+bool Program::uses(const char* uniform) const {
+    return glGetUniformLocation(name(), uniform) >= 0;
+}
+
 }  // namespace rs::gl

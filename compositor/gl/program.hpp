@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <span>
 #include <string>
 
 namespace rs::gl {
@@ -25,6 +26,10 @@ public:
     void set(const char* uniform, const glm::vec4& value) const;
     void set(const char* uniform, const glm::mat3& value) const;
     void set(const char* uniform, const glm::mat4& value) const;
+    // An array of vec4, from its first element on; `uniform` is the array's name.
+    void set(const char* uniform, std::span<const glm::vec4> values) const;
+    // Whether the program uses a uniform of this name: compilers drop what changes nothing.
+    [[nodiscard]] bool uses(const char* uniform) const;
 
     [[nodiscard]] unsigned name() const { return handle_.name(); }
 

@@ -4,6 +4,7 @@
 #include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/viewer/frame_compositor.hpp"
+#include "compositor/viewer/frame_times.hpp"
 #include "compositor/viewer/framing.hpp"
 #include "compositor/window/visit.hpp"
 #include "rayspace/file_output.hpp"
@@ -33,7 +34,9 @@ struct ViewArguments {
     double fov_deg = 0;
     double frames_per_second = 30;
     int orbit = 0;
+    int samples = FrameOptions{}.samples;
     std::string viewpoint;
+    std::string stats;
     bool wire_frame = false;
     bool quiet = false;
 };
@@ -124,13 +127,13 @@ Result<std::vector<Camera>> asked_cameras(const ViewArguments& arguments, const 
 }
 
 // The frames with the cameras that saw them, as a set of pictures that other tools can open.
-Status write_folder(FrameCompositor& compositor, const std::vector<Camera>& cameras, const ViewArguments& arguments,
-                    Progress& progress) {
+Status write_folder(const std::function<Result<Image<Rgba8>>(const Camera&)>& compose,
+                    const std::vector<Camera>& cameras, const ViewArguments& arguments, Progress& progress) {
     Result<StagedFolder> staged = StagedFolder::create(arguments.output);
     if (!staged) return staged.error();
     const Rig rig = rig_of_views(cameras);
     for (const RigView& view : rig.views) {
-        const Result<Image<Rgba8>> frame = compositor.compose(view.camera);
+        const Result<Image<Rgba8>> frame = compose(view.camera);
         if (!frame) return frame.error();
         if (Status status = write_png(staged->temporary_path() / view.file_path, *frame); !status) return status;
         progress.advance();
@@ -147,12 +150,31 @@ Status run_visit(const ViewArguments& arguments, const Scene& scene, const std::
     options.window.width = size.width;
     options.window.height = size.height;
     options.wire_frame = arguments.wire_frame;
+    options.samples = arguments.samples;
     Viewpoint begin;
     begin.world_from_camera = first.world_from_camera;
     begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
     options.viewpoints.push_back(begin);
     options.viewpoints.insert(options.viewpoints.end(), scene.viewpoints.begin(), scene.viewpoints.end());
     return visit(scene, objects, options);
+}
+
+Status write_text(const std::string& path, const std::string& text) {
+    Result<StagedFile> file = StagedFile::create(path);
+    if (!file) return file.error();
+    if (Status status = file->write(std::as_bytes(std::span(text))); !status) return status;
+    return file->commit();
+}
+
+Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::vector<Camera>& cameras,
+                    const std::function<Result<Image<Rgba8>>(const Camera&)>& compose, Progress& progress) {
+    if (kind == OutputKind::video) {
+        return write_view_video(arguments.output, arguments.frames_per_second, cameras, compose, progress);
+    }
+    if (kind == OutputKind::folder) return write_folder(compose, cameras, arguments, progress);
+    const Result<Image<Rgba8>> frame = compose(cameras.front());
+    if (!frame) return frame.error();
+    return write_png(arguments.output, *frame);
 }
 
 Status run_view(const ViewArguments& arguments) {
@@ -179,19 +201,21 @@ Status run_view(const ViewArguments& arguments) {
 
     Result<gl::Context> context = gl::Context::create_surfaceless();
     if (!context) return context.error();
-    Result<FrameCompositor> compositor = FrameCompositor::create(
-        *scene, *objects, {.width = size->width, .height = size->height, .wire_frame = arguments.wire_frame});
+    Result<FrameCompositor> compositor = FrameCompositor::create(*scene, *objects,
+                                                                 {.width = size->width,
+                                                                  .height = size->height,
+                                                                  .samples = arguments.samples,
+                                                                  .wire_frame = arguments.wire_frame,
+                                                                  .time_parts = !arguments.stats.empty()});
     if (!compositor) return compositor.error();
+    FrameTimes times;
+    const auto compose = [&](const Camera& camera) -> Result<Image<Rgba8>> {
+        if (Status status = times.draw(*compositor, camera); !status) return status.error();
+        return compositor->picture();
+    };
     progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
-    if (*kind == OutputKind::video) {
-        return write_view_video(
-            arguments.output, arguments.frames_per_second, *cameras,
-            [&](const Camera& camera) { return compositor->compose(camera); }, progress);
-    }
-    if (*kind == OutputKind::folder) return write_folder(*compositor, *cameras, arguments, progress);
-    const Result<Image<Rgba8>> frame = compositor->compose(cameras->front());
-    if (!frame) return frame.error();
-    return write_png(arguments.output, *frame);
+    if (Status status = write_frames(arguments, *kind, *cameras, compose, progress); !status) return status;
+    return arguments.stats.empty() ? Status() : write_text(arguments.stats, times.to_json());
 }
 
 }  // namespace
@@ -227,6 +251,11 @@ int main(int argc, char** argv) {
     app.add_option("--fps", arguments.frames_per_second, "frames per second of an .mp4")
         ->check(CLI::Range(1.0, 240.0))
         ->capture_default_str();
+    app.add_option("--samples", arguments.samples, "per pixel, for the edges of geometry")
+        ->check(CLI::Range(1, 16))
+        ->capture_default_str();
+    app.add_option("--stats", arguments.stats, "with -o: also write the frames' times, by part, as JSON")
+        ->type_name("FILE.json");
     app.add_flag("-q,--quiet", arguments.quiet, "no progress bar");
     app.footer(
         "Lengths are in the scene's units; an object of scale 1 has radius 1. Y is up.\n"

@@ -1,7 +1,7 @@
 #include "compositor/viewer/surface_renderer.hpp"
 
 #include "compositor/viewer/geometry_shaders.hpp"
-#include "compositor/viewer/surface_tables.hpp"
+#include "compositor/viewer/surface_kind.hpp"
 
 #include <map>
 #include <span>
@@ -32,13 +32,6 @@ std::shared_ptr<const gl::VertexArray> upload(const Mesh& mesh) {
                                                    mesh.indices, primitive_of(mesh.topology));
 }
 
-// A table is never empty, as buffers cannot be.
-template <class Row>
-gl::Buffer table(std::vector<Row> rows) {
-    if (rows.empty()) rows.emplace_back();
-    return gl::Buffer(std::as_bytes(std::span(rows)));
-}
-
 // Everything that several nodes share is uploaded once.
 class Uploads {
 public:
@@ -63,7 +56,24 @@ public:
         return found->second;
     }
 
+    Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind) {
+        auto& made = programs_[kind];
+        if (!made) {
+            auto program =
+                gl::Program::create("surface", shaders::kSurfaceVertex, constants_of(kind) + shaders::kSurfaceFragment);
+            if (!program) return program.error();
+            made = std::make_shared<const gl::Program>(std::move(*program));
+        }
+        return made;
+    }
+    [[nodiscard]] std::vector<std::shared_ptr<const gl::Program>> programs() const {
+        std::vector<std::shared_ptr<const gl::Program>> all;
+        for (const auto& [kind, program] : programs_) all.push_back(program);
+        return all;
+    }
+
 private:
+    std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;
     std::map<const Mesh*, std::shared_ptr<const gl::VertexArray>> meshes_;
     std::map<const SceneTexture*, std::shared_ptr<const gl::Texture>> pictures_;
     std::map<const SceneTexture*, AlphaUse> alphas_;
@@ -72,15 +82,11 @@ private:
 }  // namespace
 
 Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
-    auto program = gl::Program::create("surface", shaders::kSurfaceVertex, shaders::kSurfaceFragment);
-    if (!program) return program.error();
-    SurfaceRenderer renderer(std::move(*program));
+    auto depth = gl::Program::create("depth", shaders::kDepthVertex, shaders::kDepthFragment);
+    if (!depth) return depth.error();
+    SurfaceRenderer renderer(std::move(*depth));
     renderer.fog_ = scene.fog;
     renderer.headlight_ = scene.navigation.headlight;
-    std::vector<LightRow> lights;
-    for (const Light& light : scene.lights) lights.push_back(row_of(light));
-    std::vector<std::uint32_t> light_lists;
-    std::vector<MaterialRow> materials;
     Uploads uploads;
     for (const GeometryNode& node : scene.geometry) {
         if (node.mesh->indices.empty()) continue;
@@ -93,63 +99,80 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
             item.picture = uploads.picture(*node.material.texture);
             alpha = uploads.alpha(*node.material.texture);
         }
-        item.material = static_cast<int>(materials.size());
-        materials.push_back(row_of(node.material));
-        item.material_flags = flags_of(node.material, node.mesh->has_colours, alpha);
+        const std::vector<std::uint32_t> lights = lights_that_reach(scene, node, item.bounds);
+        auto program = uploads.program(kind_of(scene, node, alpha, lights));
+        if (!program) return program.error();
+        item.program = std::move(*program);
+        item.material = row_of(node.material);
+        item.lights = rows_of(scene, lights);
         item.texture_transform = node.material.texture_transform;
-        const std::vector<std::uint32_t> near = lights_that_reach(scene, node, item.bounds);
-        item.light_range = {static_cast<int>(light_lists.size()), static_cast<int>(near.size())};
-        light_lists.insert(light_lists.end(), near.begin(), near.end());
         item.transparent = node.material.opacity < 1 || alpha == AlphaUse::kBlend;
+        item.has_holes = alpha == AlphaUse::kMask;
         item.two_sided = node.mesh->two_sided;
         item.mirrored = glm::determinant(glm::dmat3(node.world_from_node)) < 0;
         renderer.items_.push_back(std::move(item));
     }
-    renderer.lights_.emplace(table(std::move(lights)));
-    renderer.light_lists_.emplace(table(std::move(light_lists)));
-    renderer.materials_.emplace(table(std::move(materials)));
+    renderer.programs_ = uploads.programs();
     return renderer;
 }
 
 void SurfaceRenderer::set_frame(const FrameView& view) const {
-    lights_->bind_table(0);
-    light_lists_->bind_table(1);
-    materials_->bind_table(2);
-    program_.set("eye", glm::vec3(view.camera.centre()));
-    program_.set("headlight", headlight_ ? glm::vec3(view.camera.forward()) : glm::vec3(0));
-    const float fog_kind = !fog_ ? 0.0F : fog_->kind == FogKind::kLinear ? 1.0F : 2.0F;
-    program_.set("fog", glm::vec4(fog_ ? fog_->colour : glm::vec3(0), fog_kind));
-    program_.set("fog_visibility", fog_ ? static_cast<float>(fog_->visibility) : 1.0F);
+    for (const auto& program : programs_) {
+        if (program->uses("eye")) program->set("eye", glm::vec3(view.camera.centre()));
+        if (program->uses("headlight")) program->set("headlight", glm::vec3(view.camera.forward()));
+        if (!fog_) continue;
+        if (program->uses("fog")) program->set("fog", fog_->colour);
+        if (program->uses("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog_->visibility));
+    }
 }
 
 void SurfaceRenderer::draw(const Item& item, const FrameView& view, gl::DrawState state) const {
-    program_.set("clip_from_node", glm::mat4(view.clip_from_world * item.world_from_node));
-    program_.set("world_from_node", glm::mat4(item.world_from_node));
-    program_.set("world_normal_from_node", glm::mat3(glm::transpose(glm::inverse(glm::dmat3(item.world_from_node)))));
-    program_.set("material_index", item.material);
-    program_.set("material_flags", item.material_flags);
-    program_.set("texture_transform", item.texture_transform);
-    program_.set("light_range", item.light_range);
+    const gl::Program& program = *item.program;
+    const auto set = [&](const char* name, const auto& value) {
+        if (program.uses(name)) program.set(name, value);
+    };
+    program.set("clip_from_node", glm::mat4(view.clip_from_world * item.world_from_node));
+    set("world_from_node", glm::mat4(item.world_from_node));
+    set("world_normal_from_node", glm::mat3(glm::transpose(glm::inverse(glm::dmat3(item.world_from_node)))));
+    set("texture_transform", item.texture_transform);
+    // Rows of vec4 without gaps: surface_tables.cpp asserts their sizes.
+    set("material", std::span(&item.material.diffuse_opacity, 3));
+    if (!item.lights.empty()) set("lights", std::span(&item.lights.front().colour, 5 * item.lights.size()));
     if (item.picture) item.picture->bind(0);
     state.clockwise = item.mirrored;
-    gl::draw(program_, *item.mesh, state);
+    gl::draw(program, *item.mesh, state);
+}
+
+void SurfaceRenderer::draw_depth(const Item& item, const FrameView& view, gl::DrawState state) const {
+    depth_.set("clip_from_node", glm::mat4(view.clip_from_world * item.world_from_node));
+    state.clockwise = item.mirrored;
+    state.colour_write = false;
+    gl::draw(depth_, *item.mesh, state);
 }
 
 std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const FrameView& view, bool wire_frame) {
     set_frame(view);
     nodes_in_view_ = 0;
     std::vector<Transparent> transparent;
+    std::vector<std::size_t> opaque;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
         if (!may_be_seen(item.bounds, view)) continue;
         ++nodes_in_view_;
         if (item.transparent) {
             transparent.push_back({i, glm::distance(item.bounds.middle(), view.camera.centre())});
-            continue;
+        } else {
+            opaque.push_back(i);
         }
-        const gl::Culling culling = item.two_sided || wire_frame ? gl::Culling::kNone : gl::Culling::kBack;
-        draw(item, view, {.culling = culling, .wire_frame = wire_frame});
     }
+    const auto state_of = [&](const Item& item) {
+        return gl::DrawState{.culling = item.two_sided || wire_frame ? gl::Culling::kNone : gl::Culling::kBack,
+                             .wire_frame = wire_frame};
+    };
+    for (const std::size_t i : opaque) {
+        if (!items_[i].has_holes) draw_depth(items_[i], view, state_of(items_[i]));
+    }
+    for (const std::size_t i : opaque) draw(items_[i], view, state_of(items_[i]));
     return transparent;
 }
 

@@ -1,14 +1,15 @@
 #pragma once
-// Draws the geometry of a scene: lit (geometry_shaders.hpp), textured, in fog, culled by the frustum. Meshes, pictures,
-// materials and lights are on the GPU from the beginning on; a draw only names them.
+// Draws the geometry of a scene: lit (geometry_shaders.hpp), textured, in fog, culled by the frustum. Meshes and
+// pictures are on the GPU from the beginning on, and every kind of surface has its shader. Depth is drawn first, so
+// that light is computed only for what is seen.
 
-#include "compositor/gl/buffer.hpp"
 #include "compositor/gl/draw.hpp"
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/texture.hpp"
 #include "compositor/gl/vertex_array.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/frustum.hpp"
+#include "compositor/viewer/surface_tables.hpp"
 #include "rayspace/result.hpp"
 
 #include <cstddef>
@@ -39,24 +40,24 @@ private:
         std::shared_ptr<const gl::VertexArray> mesh;
         std::shared_ptr<const gl::Texture> picture;
         glm::dmat4 world_from_node;
-        BoundingBox bounds;  // in scene coordinates
-        int material = 0;
-        glm::ivec4 material_flags{0};
+        BoundingBox bounds;                          // in scene coordinates
+        std::shared_ptr<const gl::Program> program;  // of its kind
+        MaterialRow material;
+        std::vector<LightRow> lights;
         glm::mat3 texture_transform{1};
-        glm::ivec2 light_range{0};
+        bool has_holes = false;  // cut by its picture's alpha
         bool transparent = false;
         bool two_sided = true;
         bool mirrored = false;  // by its matrix
     };
-    explicit SurfaceRenderer(gl::Program program) : program_(std::move(program)) {}
+    explicit SurfaceRenderer(gl::Program depth) : depth_(std::move(depth)) {}
     void set_frame(const FrameView& view) const;
+    void draw_depth(const Item& item, const FrameView& view, gl::DrawState state) const;
     void draw(const Item& item, const FrameView& view, gl::DrawState state) const;
 
-    gl::Program program_;
+    gl::Program depth_;
+    std::vector<std::shared_ptr<const gl::Program>> programs_;  // one for each kind of surface that there is
     std::vector<Item> items_;
-    std::optional<gl::Buffer> lights_;
-    std::optional<gl::Buffer> light_lists_;
-    std::optional<gl::Buffer> materials_;
     std::optional<Fog> fog_;
     bool headlight_ = false;
     int nodes_in_view_ = 0;

@@ -7,8 +7,7 @@ namespace rs::compositor {
 static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 48);
 
 LightRow row_of(const Light& light) {
-    const float kind = light.kind == LightKind::kDirectional ? 0.0F : light.kind == LightKind::kPoint ? 1.0F : 2.0F;
-    return {{light.colour, kind},
+    return {{light.colour, 0},
             {light.ambient, static_cast<float>(light.radius)},
             {glm::vec3(light.location), static_cast<float>(light.cut_off_rad)},
             {glm::vec3(light.towards), static_cast<float>(light.beam_width_rad)},
@@ -34,11 +33,6 @@ MaterialRow row_of(const Material& material) {
             {material.emissive, material.ambient}};
 }
 
-glm::ivec4 flags_of(const Material& material, bool has_colours, AlphaUse alpha) {
-    const int picture = !material.texture ? 0 : material.texture->modulates ? 2 : 1;
-    return {material.lit ? 1 : 0, picture, static_cast<int>(alpha), has_colours ? 1 : 0};
-}
-
 std::vector<std::uint32_t> lights_that_reach(const Scene& scene, const GeometryNode& node,
                                              const BoundingBox& box_in_world) {
     std::vector<std::uint32_t> found = node.lights;
@@ -51,6 +45,16 @@ std::vector<std::uint32_t> lights_that_reach(const Scene& scene, const GeometryN
         }
     }
     return found;
+}
+
+std::vector<LightRow> rows_of(const Scene& scene, const std::vector<std::uint32_t>& lights) {
+    std::vector<LightRow> rows;
+    for (const LightKind kind : {LightKind::kDirectional, LightKind::kPoint, LightKind::kSpot}) {
+        for (const std::uint32_t i : lights) {
+            if (scene.lights[i].kind == kind) rows.push_back(row_of(scene.lights[i]));
+        }
+    }
+    return rows;
 }
 
 }  // namespace rs::compositor

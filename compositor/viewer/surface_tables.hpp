@@ -1,5 +1,5 @@
 #pragma once
-// The tables that the geometry's shader reads, laid out as it declares them (geometry_shaders.hpp, std430). Pure;
+// The numbers that the geometry's shaders read, laid out as they declare them (geometry_shaders.hpp). Pure;
 // thread-safe.
 
 #include "compositor/scene/scene.hpp"
@@ -12,7 +12,7 @@
 namespace rs::compositor {
 
 struct LightRow {
-    glm::vec4 colour_kind;
+    glm::vec4 colour;
     glm::vec4 ambient_radius;
     glm::vec4 location_cut_off;
     glm::vec4 towards_beam;
@@ -30,11 +30,11 @@ struct MaterialRow {
     glm::vec4 emissive_ambient;
 };
 MaterialRow row_of(const Material& material);
-// The shader's material_flags.
-glm::ivec4 flags_of(const Material& material, bool has_colours, AlphaUse alpha);
-
 // The lights that can reach the box: those of `node.lights`, and of those everywhere all that are near enough.
 std::vector<std::uint32_t> lights_that_reach(const Scene& scene, const GeometryNode& node,
                                              const BoundingBox& box_in_world);
+
+// Their rows, directional ones first, then points, then spots.
+std::vector<LightRow> rows_of(const Scene& scene, const std::vector<std::uint32_t>& lights);
 
 }  // namespace rs::compositor

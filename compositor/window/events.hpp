@@ -41,7 +41,7 @@ struct KeyEvent {
 struct ButtonEvent {
     Button button = Button::kLeft;
     bool down = false;
-    glm::dvec2 at_px{0};  // in the window, from the upper left
+    glm::dvec2 at_px{0};  // of the framebuffer, from the upper left
 };
 struct MoveEvent {
     glm::dvec2 to_px{0};

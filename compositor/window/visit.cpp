@@ -90,7 +90,6 @@ void Visit::go_to_viewpoint(std::size_t number) {
 }
 
 void Visit::pick(const glm::dvec2& at_px) {
-    // Events are in screen units, frames in pixels; on dense screens these differ.
     const std::optional<std::size_t> object =
         compositor_.object_at(static_cast<int>(at_px.x), static_cast<int>(at_px.y));
     panel_.picked = object ? static_cast<int>(*object) : -1;

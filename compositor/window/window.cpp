@@ -60,6 +60,15 @@ std::optional<Button> button_of(int glfw_button) {
     return std::nullopt;
 }
 
+// Of the framebuffer, which has more pixels than the window has units on dense screens.
+glm::dvec2 in_pixels(GLFWwindow* window, double x, double y) {
+    glm::ivec2 units(1);
+    glm::ivec2 pixels(1);
+    glfwGetWindowSize(window, &units.x, &units.y);
+    glfwGetFramebufferSize(window, &pixels.x, &pixels.y);
+    return glm::dvec2(x, y) * glm::dvec2(pixels) / glm::dvec2(glm::max(units, glm::ivec2(1)));
+}
+
 Error no_window(const std::string& what) {
     const char* reason = nullptr;
     glfwGetError(&reason);
@@ -96,11 +105,11 @@ struct Window::State {
             glm::dvec2 at(0);
             glfwGetCursorPos(w, &at.x, &at.y);
             if (const auto known = button_of(button)) {
-                of(w).events.emplace_back(ButtonEvent{*known, action == GLFW_PRESS, at});
+                of(w).events.emplace_back(ButtonEvent{*known, action == GLFW_PRESS, in_pixels(w, at.x, at.y)});
             }
         });
         glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
-            of(w).events.emplace_back(MoveEvent{{x, y}});
+            of(w).events.emplace_back(MoveEvent{in_pixels(w, x, y)});
         });
         glfwSetScrollCallback(window,
                               [](GLFWwindow* w, double, double up) { of(w).events.emplace_back(WheelEvent{up}); });

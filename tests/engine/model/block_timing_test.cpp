@@ -171,7 +171,7 @@ TEST(BlockTiming, ColourConversionHasLatencyFiveAndAPixelPerCycle) {
     ColourConversion block(in, out);
     Bench bench({&in, &out});
     for (int n = 0; n < 3; ++n) {
-        in.push({0, 10 * n, 128, 128, 3});
+        in.push({0, 10 * n, 128, 128, 255});
         in.commit();
     }
     EXPECT_EQ(bench.until(block, out), 5);
