@@ -4,8 +4,9 @@
 #   ./demo.sh                   traces two objects on a turntable,
 #   ./demo.sh FOLDER_OF_PHOTOS  or takes your turntable photographs,
 #
-# encodes them, checks the files and the renderer bit for bit, renders an orbit video and a contact sheet, and puts the
-# objects on a floor. Everything lands in demo-out/. Further arguments after the folder go to `rs-capture import`.
+# encodes them, checks the files and the renderer bit for bit, renders an orbit video and a contact sheet, and shows
+# them: our objects in a shop and a museum that we walk through (the other objects are traced small), yours on a floor.
+# Everything lands in demo-out/. Further arguments after the folder go to `rs-capture import`.
 set -euo pipefail
 cd "$(dirname "$0")"
 FROM=$OLDPWD
@@ -17,12 +18,17 @@ VIEWS=${RAYSPACE_DEMO_VIEWS:-90}
 SIZE=${RAYSPACE_DEMO_SIZE:-400x400}
 SPP=${RAYSPACE_DEMO_SPP:-24}
 OBJECTS=${RAYSPACE_DEMO_OBJECTS:-vase doll}
+# Of the other objects in the showroom, which are seen from farther away; and of the walk through it.
+ROOM_VIEWS=${RAYSPACE_DEMO_ROOM_VIEWS:-48}
+ROOM_SIZE=${RAYSPACE_DEMO_ROOM_SIZE:-224x224}
+ROOM_SPP=${RAYSPACE_DEMO_ROOM_SPP:-8}
+WALK_SIZE=${RAYSPACE_DEMO_WALK_SIZE:-960x540}
 
 PHOTOS=
 if [ $# -gt 0 ]; then
   case $1 in
     -h | --help)
-      sed -n '2,9s/^# \{0,1\}//p' demo.sh
+      sed -n '2,10s/^# \{0,1\}//p' demo.sh
       exit 0
       ;;
     /*) PHOTOS=$1 ;;
@@ -37,7 +43,7 @@ install_packages "${BUILD_PACKAGES[@]}"
 say "Building the tools"
 # No tests here: they would ask for packages that the tools do not need.
 configure build/release -DCMAKE_BUILD_TYPE=Release -DRAYSPACE_TESTS=OFF -DRAYSPACE_BENCH=OFF
-cmake --build build/release -j "$(nproc)" --target rs-capture rs-encode rs-engine rs-view
+cmake --build build/release -j "$(nproc)" --target rs-capture rs-encode rs-engine rs-showroom rs-view
 
 mkdir -p "$OUT"
 TABLE=()
@@ -63,22 +69,52 @@ from_set() {
   step "$name: contact sheet" "$OUT/$name-sheet.png" "$BIN/rs-engine" render "$OUT/$name.rso" --orbit 12 --sheet 4 -o "$OUT/$name-sheet.png"
 }
 
+# traced_for_room NAME...: the objects that are not here yet, small, all at once.
+traced_for_room() {
+  local name job jobs=()
+  for name in "$@"; do
+    {
+      "$BIN/rs-capture" synth "datasets-synthetic/recipes/$name.json" -o "$OUT/$name-set" \
+        --views "$ROOM_VIEWS" --size "$ROOM_SIZE" --spp "$ROOM_SPP" -q &&
+        "$BIN/rs-encode" build "$OUT/$name-set" -o "$OUT/$name.rso" --name "$name" -q
+    } &
+    jobs+=($!)
+  done
+  for job in "${jobs[@]}"; do wait "$job" || fail "an object of the showroom could not be made; see above"; done
+}
+
+# show_room: the shop and the museum, and the walk through both.
+show_room() {
+  local rest=() name world=$OUT/showroom view
+  for name in vase flower doll lamp lattice blocks; do
+    case " $OBJECTS " in *" $name "*) ;; *) rest+=("$name") ;; esac
+  done
+  [ ${#rest[@]} -eq 0 ] || step "showroom: ${rest[*]}" "" traced_for_room "${rest[@]}"
+  step "showroom: build the rooms" "$world" "$BIN/rs-showroom" -o "$world"
+  for view in shop museum; do
+    step "showroom: $view" "$OUT/showroom-$view.png" \
+      "$BIN/rs-view" "$world/showroom.wrl" --viewpoint "$view" -o "$OUT/showroom-$view.png"
+  done
+  step "showroom: walk" "$OUT/showroom-walk.mp4" "$BIN/rs-view" "$world/showroom.wrl" \
+    --path "$world/showroom-walk.json" --size "$WALK_SIZE" -o "$OUT/showroom-walk.mp4"
+}
+
 if [ -n "$PHOTOS" ]; then
   NAME=$(basename "$(realpath "$PHOTOS")")
   step "$NAME: import photographs" "$OUT/$NAME-set" "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/$NAME-set" "$@"
   from_set "$NAME"
-  SHOW=(--object "$OUT/$NAME.rso")
+  step "on a floor" "$OUT/$NAME-floor.png" "$BIN/rs-view" --object "$OUT/$NAME.rso" -o "$OUT/$NAME-floor.png"
+  LOOK="the contact sheet, the orbit video and $NAME-floor.png"
 else
-  SHOW=()
   for name in $OBJECTS; do
     step "$name: trace $VIEWS pictures" "$OUT/$name-set" "$BIN/rs-capture" synth "datasets-synthetic/recipes/$name.json" \
       -o "$OUT/$name-set" --views "$VIEWS" --size "$SIZE" --spp "$SPP"
     from_set "$name"
-    SHOW+=(--object "$OUT/$name.rso@$((${#SHOW[@]} - 1)).2,0,0")
   done
+  show_room
+  LOOK="showroom-walk.mp4, showroom-shop.png and showroom-museum.png, the contact sheets and the orbit videos"
 fi
-step "showroom" "$OUT/showroom.png" "$BIN/rs-view" "${SHOW[@]}" -o "$OUT/showroom.png"
 
 printf '\n%-34s %9s  %7s  %s\n' "step" "time" "size" "file"
 printf '%s\n' "${TABLE[@]}"
-say "Done. Look at $OUT/: the contact sheets, the orbit videos and showroom.png"
+say "Done. Look at $OUT/: $LOOK"

@@ -29,6 +29,7 @@ bool parse_numbers(std::string_view text, std::vector<double>& numbers) {
 
 Result<RaySpaceNode> parse_object_argument(const std::string& text, const glm::dvec3& otherwise) {
     RaySpaceNode node;
+    node.required = true;
     NodeTransform transform;
     transform.translation = otherwise;
     const std::size_t sign = text.rfind('@');

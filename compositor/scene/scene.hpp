@@ -42,6 +42,7 @@ struct RaySpaceNode {
     TransformChain chain;
     bool standing = true;  // the origin of the chain is the object's foot instead of the middle of its captured frame
     std::string description;
+    bool required = false;  // without it there is nothing to show; others are left out with a warning
 };
 
 struct Scene {

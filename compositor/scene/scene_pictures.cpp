@@ -49,7 +49,10 @@ std::shared_ptr<const SceneTexture> ScenePictures::read(const std::vector<std::s
             continue;
         }
         const Key key{*path, repeat_s, repeat_t};
-        if (const auto known = read_.find(key); known != read_.end()) return known->second;
+        if (const auto known = read_.find(key); known != read_.end()) {
+            fault.clear();
+            return known->second;
+        }
         const Result<PictureInfo> info = read_picture_info(*path);
         if (!info) {
             fault = info.error().message;

@@ -37,6 +37,7 @@ struct ViewArguments {
     int samples = FrameOptions{}.samples;
     std::string viewpoint;
     std::string stats;
+    std::string path;
     bool wire_frame = false;
     bool quiet = false;
 };
@@ -49,6 +50,13 @@ Result<Scene> asked_scene(const ViewArguments& arguments) {
         Result<Scene> read = read_scene(arguments.scene);
         if (!read) return read.error();
         scene = std::move(*read);
+    }
+    if (!arguments.path.empty()) {
+        const Result<Scene> walk = read_scene(arguments.path);
+        if (!walk) return walk.error();
+        if (!walk->camera)
+            return Error{arguments.path + ": has no camera path (compositor/README.md, JSON, \"camera\")"};
+        scene.camera = walk->camera;
     }
     const auto count = static_cast<double>(arguments.objects.size());
     for (std::size_t i = 0; i < arguments.objects.size(); ++i) {
@@ -183,14 +191,14 @@ Status run_view(const ViewArguments& arguments) {
     if (!kind) return kind.error();
     const Result<PixelSize> size = parse_size(arguments.size);
     if (!size) return size.error();
-    const Result<Scene> scene = asked_scene(arguments);
+    Result<Scene> scene = asked_scene(arguments);
     if (!scene) return scene.error();
-    for (const std::string& warning : scene->warnings) {
-        std::fprintf(stderr, "rs-view: warning: %s\n", warning.c_str());
-    }
     ProgressBar progress(arguments.quiet);
     const Result<std::vector<PlacedObject>> objects = load_objects(*scene, &progress);
     if (!objects) return objects.error();
+    for (const std::string& warning : scene->warnings) {
+        std::fprintf(stderr, "rs-view: warning: %s\n", warning.c_str());
+    }
     const Result<std::vector<Camera>> cameras = asked_cameras(arguments, *scene, *objects, *size);
     if (!cameras) return cameras.error();
     if (in_window) return run_visit(arguments, *scene, *objects, cameras->front(), *size);
@@ -244,6 +252,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1.0, 150.0));
     app.add_option("--viewpoint", arguments.viewpoint, "description of one of the scene's viewpoints (the first)")
         ->type_name("NAME");
+    app.add_option("--path", arguments.path, "walk along the camera path of a JSON scene file, in place of the scene's")
+        ->type_name("FILE.json");
     app.add_flag("--wire-frame", arguments.wire_frame, "only the edges of the geometry's triangles");
     app.add_option("--size", arguments.size, "size of the frames, WxH")->capture_default_str();
     app.add_option("--orbit", arguments.orbit, "N frames once around the point looked at")

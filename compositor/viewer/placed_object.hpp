@@ -27,7 +27,8 @@ struct PlacedObject {
 };
 PlacedObject place(std::shared_ptr<const ViewableObject> object, const RaySpaceNode& node);
 
-// Reads the files of the scene's ray-space nodes, each file once, and places them in the order of scene.objects.
-Result<std::vector<PlacedObject>> load_objects(const Scene& scene, Progress* progress = nullptr);
+// Reads the files of the scene's ray-space nodes, each file once, and places them in the order of scene.objects. A node
+// whose file cannot be shown is taken out of the scene, with a warning for the file; fails where it is required.
+Result<std::vector<PlacedObject>> load_objects(Scene& scene, Progress* progress = nullptr);
 
 }  // namespace rs::compositor

@@ -65,6 +65,40 @@ TEST_F(View, AModelIsShownWhole) {
     EXPECT_GT(red_pixels(in("shot.png")), 300);
 }
 
+// Of a scene the rest is shown; what the command line asks for must be there.
+TEST_F(View, AnObjectThatIsNotThereIsLeftOut) {
+    write("hall.wrl", std::string(kWorld) + "RaySpace { url \"gone.rso\" }\nRaySpace { url \"gone.rso\" }\n");
+    const test::ToolRun run = view({in("hall.wrl"), "-o", in("shot.png")});
+    if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("gone.rso"));
+    EXPECT_THAT(run.err, HasSubstr("shown without this object"));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;  // one for the file, one of the world
+    EXPECT_GT(red_pixels(in("shot.png")), 20);
+    const test::ToolRun asked = view({in("hall.wrl"), "--object", in("gone.rso"), "-o", in("other.png")});
+    EXPECT_EQ(asked.exit_code, 1);
+    EXPECT_FALSE(std::filesystem::exists(in("other.png")));
+}
+
+TEST_F(View, AWalkIsTakenFromItsFile) {
+    write("hall.wrl", kWorld);
+    write("walk.json",
+          R"({"camera": {"path": [{"eye": [0, 0, 9], "at": [0, 0, 0]}, {"eye": [0, 0, 4], "at": [0, 0, 0]}],
+                                      "frames": 3, "fov_degrees": 40}})");
+    const test::ToolRun run =
+        view({in("hall.wrl"), "--path", in("walk.json"), "-o", in("frames"), "--stats", in("s.json")});
+    if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(std::filesystem::exists(in("frames/0002.png")));
+    std::ifstream stats(in("s.json"));
+    const std::string text((std::istreambuf_iterator<char>(stats)), {});
+    EXPECT_THAT(text, HasSubstr("\"frames\": 3"));
+    write("empty.json", "{}");
+    const test::ToolRun none = view({in("hall.wrl"), "--path", in("empty.json"), "-o", in("x.png")});
+    EXPECT_EQ(none.exit_code, 1);
+    EXPECT_THAT(none.err, HasSubstr("has no camera path"));
+}
+
 TEST_F(View, WhatIsNoSceneIsRefusedOnOneLine) {
     write("broken.wrl", "#VRML V2.0 utf8\n\nGroup {\n children [\n");
     write("hall.txt", "hello");
