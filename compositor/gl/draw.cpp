@@ -32,8 +32,6 @@ void enable(GLenum what, bool on) {
 void draw(const Program& program, const VertexArray& vertices, const DrawState& state) {
     enable(GL_DEPTH_TEST, state.depth_test);
     glDepthFunc(GL_GEQUAL);
-    const GLboolean colours = state.colour_write ? GL_TRUE : GL_FALSE;
-    glColorMask(colours, colours, colours, colours);
     glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
     enable(GL_BLEND, state.blending == Blending::kOverPremultiplied);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

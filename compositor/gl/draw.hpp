@@ -21,7 +21,6 @@ struct DrawState {
     Culling culling = Culling::kNone;
     bool clockwise = false;   // triangles whose corners turn clockwise show their front, else the others
     bool wire_frame = false;  // only the edges of triangles
-    bool colour_write = true;
 };
 
 // Into the framebuffer that began last.

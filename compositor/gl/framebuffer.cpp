@@ -48,8 +48,7 @@ Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
 void Framebuffer::begin(const glm::vec3& background) const {
     glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
     glViewport(0, 0, width_, height_);
-    glDepthMask(GL_TRUE);  // they hold for clears too
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);  // it holds for clears too
     const float colour[] = {background.r, background.g, background.b, 1.0F};
     glClearNamedFramebufferfv(handle_.name(), GL_COLOR, 0, colour);
     const float infinity = 0;

@@ -22,7 +22,6 @@ out vec3 place_in_world;
 out vec3 normal_in_world;
 out vec2 place_on_texture;
 out vec4 vertex_colour;
-invariant gl_Position;
 void main() {
     gl_Position = clip_from_node * vec4(position, 1.0);
     place_in_world = (world_from_node * vec4(position, 1.0)).xyz;
@@ -31,16 +30,6 @@ void main() {
     place_on_texture = vec2(st.s, 1.0 - st.t);  // rows begin at the top
     vertex_colour = colour;
 })";
-
-// Positions only, where depth is drawn before colours. The same expression as above, so that depths are equal.
-inline constexpr const char* kDepthVertex = R"(#version 450 core
-layout(location = 0) in vec3 position;
-uniform mat4 clip_from_node;
-invariant gl_Position;
-void main() { gl_Position = clip_from_node * vec4(position, 1.0); })";
-
-inline constexpr const char* kDepthFragment = R"(#version 450 core
-void main() {})";
 
 // Behind the constants of constants_of(SurfaceKind).
 inline constexpr const char* kSurfaceFragment = R"(

@@ -3,6 +3,7 @@
 #include "compositor/viewer/geometry_shaders.hpp"
 #include "compositor/viewer/surface_kind.hpp"
 
+#include <algorithm>
 #include <map>
 #include <span>
 #include <utility>
@@ -82,9 +83,7 @@ private:
 }  // namespace
 
 Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
-    auto depth = gl::Program::create("depth", shaders::kDepthVertex, shaders::kDepthFragment);
-    if (!depth) return depth.error();
-    SurfaceRenderer renderer(std::move(*depth));
+    SurfaceRenderer renderer;
     renderer.fog_ = scene.fog;
     renderer.headlight_ = scene.navigation.headlight;
     Uploads uploads;
@@ -107,7 +106,6 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
         item.lights = rows_of(scene, lights);
         item.texture_transform = node.material.texture_transform;
         item.transparent = node.material.opacity < 1 || alpha == AlphaUse::kBlend;
-        item.has_holes = alpha == AlphaUse::kMask;
         item.two_sided = node.mesh->two_sided;
         item.mirrored = glm::determinant(glm::dmat3(node.world_from_node)) < 0;
         renderer.items_.push_back(std::move(item));
@@ -143,13 +141,6 @@ void SurfaceRenderer::draw(const Item& item, const FrameView& view, gl::DrawStat
     gl::draw(program, *item.mesh, state);
 }
 
-void SurfaceRenderer::draw_depth(const Item& item, const FrameView& view, gl::DrawState state) const {
-    depth_.set("clip_from_node", glm::mat4(view.clip_from_world * item.world_from_node));
-    state.clockwise = item.mirrored;
-    state.colour_write = false;
-    gl::draw(depth_, *item.mesh, state);
-}
-
 std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const FrameView& view, bool wire_frame) {
     set_frame(view);
     nodes_in_view_ = 0;
@@ -169,9 +160,13 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
         return gl::DrawState{.culling = item.two_sided || wire_frame ? gl::Culling::kNone : gl::Culling::kBack,
                              .wire_frame = wire_frame};
     };
-    for (const std::size_t i : opaque) {
-        if (!items_[i].has_holes) draw_depth(items_[i], view, state_of(items_[i]));
-    }
+    // The nearest first: what they hide is not lit.
+    const auto distance = [&](std::size_t i) {
+        const BoundingBox& box = items_[i].bounds;
+        return glm::distance(glm::clamp(view.camera.centre(), box.lowest, box.highest), view.camera.centre());
+    };
+    std::stable_sort(opaque.begin(), opaque.end(),
+                     [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
     for (const std::size_t i : opaque) draw(items_[i], view, state_of(items_[i]));
     return transparent;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Draws the geometry of a scene: lit (geometry_shaders.hpp), textured, in fog, culled by the frustum. Meshes and
-// pictures are on the GPU from the beginning on, and every kind of surface has its shader. Depth is drawn first, so
-// that light is computed only for what is seen.
+// pictures are on the GPU from the beginning on, and every kind of surface has its shader. The nearest is drawn
+// first, so that light is computed for little that is hidden.
 
 #include "compositor/gl/draw.hpp"
 #include "compositor/gl/program.hpp"
@@ -45,17 +45,14 @@ private:
         MaterialRow material;
         std::vector<LightRow> lights;
         glm::mat3 texture_transform{1};
-        bool has_holes = false;  // cut by its picture's alpha
         bool transparent = false;
         bool two_sided = true;
         bool mirrored = false;  // by its matrix
     };
-    explicit SurfaceRenderer(gl::Program depth) : depth_(std::move(depth)) {}
+    SurfaceRenderer() = default;
     void set_frame(const FrameView& view) const;
-    void draw_depth(const Item& item, const FrameView& view, gl::DrawState state) const;
     void draw(const Item& item, const FrameView& view, gl::DrawState state) const;
 
-    gl::Program depth_;
     std::vector<std::shared_ptr<const gl::Program>> programs_;  // one for each kind of surface that there is
     std::vector<Item> items_;
     std::optional<Fog> fog_;
