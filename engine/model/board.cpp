@@ -1,7 +1,5 @@
 #include "engine/model/board.hpp"
 
-#include "engine/model/object_image.hpp"
-
 #include <algorithm>
 
 namespace rs::engine::model {
@@ -29,7 +27,7 @@ Image<Rgba8> picture_of(const HostPicture& words, const BoardView& view) {
 
 Board::Board(const BoardConfig& config, std::uint64_t shuffle_seed)
     : top_(std::make_unique<BoardTop>(config, shuffle_seed)),
-      map_(config.memory),
+      map_(config.memory, config.limits.coded_pictures),
       slots_(static_cast<std::size_t>(config.limits.objects)) {}
 
 Result<int> Board::take_slot(const RaySpaceObject& object) {
@@ -39,16 +37,24 @@ Result<int> Board::take_slot(const RaySpaceObject& object) {
         return Error{object.name + ": all " + std::to_string(slots_.size()) +
                      " object slots of the board are taken; evict an object first"};
     }
-    const Result<Placement> placement = map_.take(object_words(object), object.name);
+    const Result<Placement> placement =
+        map_.take(object_words(object, top_->config.limits.coded_pictures), object.name);
     if (!placement) return placement.error();
     *free = {true, *placement};
     return static_cast<int>(free - slots_.begin());
 }
 
+ObjectImage Board::image_of(const RaySpaceObject& object, int slot) {
+    ObjectImage image =
+        object_image(object, slots_[static_cast<std::size_t>(slot)].placement, top_->config.limits.coded_pictures);
+    image.registers.serial = ++loads_;
+    return image;
+}
+
 Result<int> Board::place(const RaySpaceObject& object) {
     const Result<int> slot = take_slot(object);
     if (!slot) return slot.error();
-    ObjectImage image = object_image(object, slots_[static_cast<std::size_t>(*slot)].placement);
+    ObjectImage image = image_of(object, *slot);
     for (const MemorySegment& segment : image.segments) {
         for (std::size_t n = 0; n < segment.words.size(); ++n) {
             top_->sdram.set_word(segment.address + static_cast<WordAddress>(n), segment.words[n]);
@@ -62,7 +68,7 @@ Result<int> Board::place(const RaySpaceObject& object) {
 Result<int> Board::start_load(const RaySpaceObject& object) {
     const Result<int> slot = take_slot(object);
     if (!slot) return slot.error();
-    ObjectImage image = object_image(object, slots_[static_cast<std::size_t>(*slot)].placement);
+    ObjectImage image = image_of(object, *slot);
     top_->disk_controller.load(
         {*slot, image.registers, std::make_shared<const std::vector<MemorySegment>>(std::move(image.segments))});
     return *slot;
@@ -123,8 +129,8 @@ void Board::submit(std::vector<BoardView> views) {
     top_->programs.push_back(std::move(program));
 }
 
-RenderedCycle Board::collect(std::size_t cycle) {
-    const RenderControl::Cycle& done = top_->render_control.cycles()[cycle];
+RenderedCycle Board::collect(std::uint64_t cycle) {
+    const RenderControl::Cycle& done = top_->render_control.cycle(cycle);
     RenderedCycle result{done.started, done.rendered, 0, {}};
     std::deque<HostPicture>& arrived = top_->host_bus.pictures();
     for (const BoardView& view : top_->programs[done.program].bank.views) {
@@ -134,18 +140,19 @@ RenderedCycle Board::collect(std::size_t cycle) {
                          static_cast<std::uint64_t>(top_->config.clock_period);
         arrived.pop_front();
     }
-    top_->programs[done.program].bank.views = {};  // a board lives for many cycles
+    top_->programs.forget_before(done.program + 1);
     return result;
 }
 
 Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles) {
     BoardRun run;
     run.begin = snapshot();
-    const std::vector<RenderControl::Cycle>& done = top_->render_control.cycles();
-    const std::size_t first = done.size();
+    const RenderControl& control = top_->render_control;
+    const std::uint64_t first = control.cycles_begun();
     const std::size_t refused = top_->render_control.refusals().size();
     const auto rendered = [&] {
-        return done.size() - first - static_cast<std::size_t>(!done.empty() && done.back().rendered == 0);
+        const bool is_drawing = !control.cycles().empty() && control.cycles().back().rendered == 0;
+        return static_cast<std::size_t>(control.cycles_begun() - first) - static_cast<std::size_t>(is_drawing);
     };
     // The pictures of a cycle are collected when its last has come, so what stands last is of the cycle being
     // delivered.

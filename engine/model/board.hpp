@@ -6,6 +6,7 @@
 
 #include "engine/model/board_top.hpp"
 #include "engine/model/memory_map.hpp"
+#include "engine/model/object_image.hpp"
 #include "rayspace/image.hpp"
 #include "rayspace/ray_space_object.hpp"
 
@@ -81,12 +82,14 @@ private:
         Placement placement;
     };
     Result<int> take_slot(const RaySpaceObject& object);
-    [[nodiscard]] RenderedCycle collect(std::size_t cycle);
+    ObjectImage image_of(const RaySpaceObject& object, int slot);
+    [[nodiscard]] RenderedCycle collect(std::uint64_t cycle);
 
     std::unique_ptr<BoardTop> top_;
     MemoryMap map_;
     std::vector<Slot> slots_;
     std::size_t collected_loads_ = 0;
+    std::uint32_t loads_ = 0;  // placed or begun: the serial numbers of the objects
 };
 
 }  // namespace rs::engine::model

@@ -5,11 +5,17 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace rs::engine::model {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr int kPublishedObjects = 20;
+// Registers for as many objects as memory is meant to hold, eight times the published ones. 512 bits each: 5 block
+// RAMs.
+constexpr int kCodedObjects = 160;
 
 // Calls visit(path, reference, least, most) for every number of a configuration: one list serves reading, writing and
 // checking.
@@ -19,7 +25,7 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("clock_period", c.clock_period, 1, 100);
     visit("queue_cycles", c.queue_cycles, 1, 2);
     visit("no_progress_cycles", c.no_progress_cycles, 1000, 1'000'000'000);
-    visit("limits/objects", c.limits.objects, 1, 20);
+    visit("limits/objects", c.limits.objects, 1, c.limits.coded_pictures ? kCodedObjects : kPublishedObjects);
     visit("limits/views_per_cycle", c.limits.views_per_cycle, 1, 15);
     visit("limits/pictures_per_object", c.limits.pictures_per_object, 1, 120);
     visit("limits/picture_side_px", c.limits.picture_side_px, 1, 512);
@@ -37,16 +43,21 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("memory/refresh_to_any", c.memory.timing.refresh_to_any, 1, 31);
     visit("memory/read_latency", c.memory.timing.read_latency, 1, 4);
     visit("memory/interface_latency", c.memory.timing.interface_latency, 0, 4);
-    visit("memory/luma/first", c.memory.regions.luma.first, 0, 15);
-    visit("memory/luma/count", c.memory.regions.luma.count, 1, 16);
-    visit("memory/chroma/first", c.memory.regions.chroma.first, 0, 15);
-    visit("memory/chroma/count", c.memory.regions.chroma.count, 1, 16);
-    visit("memory/alpha/first", c.memory.regions.alpha.first, 0, 15);
-    visit("memory/alpha/count", c.memory.regions.alpha.count, 1, 16);
-    visit("memory/tables/first", c.memory.regions.tables.first, 0, 15);
-    visit("memory/tables/count", c.memory.regions.tables.count, 1, 16);
-    visit("memory/images/first", c.memory.regions.images.first, 0, 15);
-    visit("memory/images/count", c.memory.regions.images.count, 1, 16);
+    const auto visit_banks = [&](const char* first, const char* count, auto& banks) {
+        visit(first, banks.first, 0, 15);
+        visit(count, banks.count, 1, 16);
+    };
+    if (c.limits.coded_pictures) {
+        visit_banks("memory/flat_tiles/first", "memory/flat_tiles/count", c.memory.regions.flat_tiles);
+        visit_banks("memory/predicted_tiles/first", "memory/predicted_tiles/count", c.memory.regions.predicted_tiles);
+        visit_banks("memory/tile_table/first", "memory/tile_table/count", c.memory.regions.tile_table);
+    } else {
+        visit_banks("memory/luma/first", "memory/luma/count", c.memory.regions.luma);
+        visit_banks("memory/chroma/first", "memory/chroma/count", c.memory.regions.chroma);
+        visit_banks("memory/alpha/first", "memory/alpha/count", c.memory.regions.alpha);
+    }
+    visit_banks("memory/tables/first", "memory/tables/count", c.memory.regions.tables);
+    visit_banks("memory/images/first", "memory/images/count", c.memory.regions.images);
     visit("memory/maintenance_interval", c.memory.maintenance_interval, 64, 100'000);
     visit("memory/load_words_per_window", c.memory.load_words_per_window, 1, 1024);
     visit("memory/write_batch", c.memory.write_batch, 1, 15);
@@ -76,7 +87,8 @@ std::string contradiction(const BoardConfig& c) {
     const MemoryRegions& r = c.memory.regions;
     const int banks = 1 << c.memory.shape.bank_bits;
     std::vector<int> owners(static_cast<std::size_t>(banks));
-    for (const RegionBanks& region : {r.luma, r.chroma, r.alpha, r.tables, r.images}) {
+    const auto of_objects = object_regions(r, c.limits.coded_pictures);
+    for (const RegionBanks& region : {of_objects[0], of_objects[1], of_objects[2], of_objects[3], r.images}) {
         for (int b = region.first; b < region.first + region.count; ++b) {
             if (b >= banks) return "a memory region lies beyond the last of " + std::to_string(banks) + " banks";
             if (owners[static_cast<std::size_t>(b)]++ != 0) return "two memory regions share bank " + std::to_string(b);
@@ -149,10 +161,31 @@ BoardConfig prototype_2000() {
     return config;
 }
 
+BoardConfig compressed_2000() {
+    BoardConfig config = prototype_2000();
+    config.name = "compressed-2000";
+    config.limits.coded_pictures = true;
+    config.limits.objects = kCodedObjects;
+    config.memory.regions.tables = {7, 8};
+    return config;
+}
+
+std::optional<BoardConfig> built_in(const std::string& name) {
+    if (name == "prototype-2000") return prototype_2000();
+    if (name == "compressed-2000") return compressed_2000();
+    return std::nullopt;
+}
+
+std::string listed_built_ins() {
+    std::string list;
+    for (const std::string& name : built_in_configs()) list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
 }  // namespace
 
 std::vector<std::string> built_in_configs() {
-    return {"prototype-2000"};
+    return {"prototype-2000", "compressed-2000"};
 }
 
 Result<BoardConfig> parse_board_config(const std::string& text, const std::string& where) {
@@ -162,16 +195,18 @@ Result<BoardConfig> parse_board_config(const std::string& text, const std::strin
         if (!json.contains(key) || !json[key].is_string()) return otherwise;
         return json[key].get<std::string>();
     };
-    if (text_of("base", "prototype-2000") != "prototype-2000") {
-        return Error{where + ": base \"" + text_of("base", "") +
-                     "\" is no built-in configuration; give prototype-2000"};
+    const std::string base = text_of("base", "prototype-2000");
+    const std::optional<BoardConfig> known = built_in(base);
+    if (!known) {
+        return Error{where + ": base \"" + base + "\" is no built-in configuration; give one of " + listed_built_ins()};
     }
-    BoardConfig config = prototype_2000();
+    BoardConfig config = *known;
     config.name = text_of("name", where);
     if (const std::string key = unknown_key(json, to_json(config), ""); !key.empty()) {
         return Error{where + ": \"" + key +
                      "\" is no setting, or not of its kind; settings are those of "
-                     "rs-engine simulate prototype-2000 --print-config"};
+                     "rs-engine simulate " +
+                     base + " --print-config"};
     }
     std::string bad;
     for_each_number(config, [&](const char* path, auto& value, std::int64_t, std::int64_t) {
@@ -191,10 +226,10 @@ Result<BoardConfig> parse_board_config(const std::string& text, const std::strin
 }
 
 Result<BoardConfig> read_board_config(const std::string& name_or_path) {
-    if (name_or_path == "prototype-2000") return checked(prototype_2000(), name_or_path);
+    if (const std::optional<BoardConfig> known = built_in(name_or_path)) return checked(*known, name_or_path);
     constexpr std::uint64_t kCap_bytes = 1 << 20;
     if (!std::filesystem::exists(name_or_path)) {
-        return Error{name_or_path + ": neither a built-in configuration (prototype-2000) nor a file"};
+        return Error{name_or_path + ": neither a built-in configuration (" + listed_built_ins() + ") nor a file"};
     }
     const Result<std::vector<std::byte>> bytes = read_file(name_or_path, kCap_bytes);
     if (!bytes) return bytes.error();
@@ -204,7 +239,7 @@ Result<BoardConfig> read_board_config(const std::string& name_or_path) {
 std::string board_config_json(const BoardConfig& config) {
     Json json = to_json(config);
     json["name"] = config.name;
-    json["base"] = "prototype-2000";
+    json["base"] = config.limits.coded_pictures ? "compressed-2000" : "prototype-2000";
     return json.dump(2);
 }
 

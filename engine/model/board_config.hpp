@@ -5,6 +5,7 @@
 #include "engine/model/board_limits.hpp"
 #include "rayspace/result.hpp"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -43,9 +44,19 @@ struct MemoryRegions {
     RegionBanks luma{0, 8};
     RegionBanks chroma{8, 4};
     RegionBanks alpha{12, 2};
+    // Of coded pictures, instead of luma, chroma and alpha: so the hops of a prediction meet in no bank.
+    RegionBanks flat_tiles{0, 2};  // of pictures without references
+    RegionBanks predicted_tiles{2, 4};
+    RegionBanks tile_table{6, 1};
     RegionBanks tables{14, 1};
     RegionBanks images{15, 1};
 };
+
+// The four that objects are in: Region of memory_map.hpp.
+constexpr std::array<RegionBanks, 4> object_regions(const MemoryRegions& r, bool coded_pictures) {
+    if (coded_pictures) return {r.flat_tiles, r.predicted_tiles, r.tile_table, r.tables};
+    return {r.luma, r.chroma, r.alpha, r.tables};
+}
 
 struct MemorySettings {
     SdramShape shape;
@@ -91,7 +102,7 @@ struct BoardConfig {
     [[nodiscard]] double pci_mhz() const { return double(clock_mhz) * clock_period / pci.period; }
 };
 
-// "prototype-2000": the published board.
+// "prototype-2000": the published board. "compressed-2000": the same with pictures that stay compressed in its memory.
 std::vector<std::string> built_in_configs();
 
 // Name of a built-in, or a JSON file: {"base": "prototype-2000", "memory": {...}, ...} changes what it names. Fails on

@@ -1,5 +1,7 @@
 #include "engine/model/board_limits.hpp"
 
+#include "engine/model/coded_layout.hpp"
+
 #include <algorithm>
 
 namespace rs::engine {
@@ -19,9 +21,16 @@ BoardFootprint board_footprint(const RaySpaceObject& object, const BoardLimits& 
     const auto chroma_pixels =
         static_cast<std::uint64_t>(half_size(object.width)) * static_cast<std::uint64_t>(half_size(object.height));
     BoardFootprint footprint;
-    footprint.luma_bytes = pictures * pixels;
-    footprint.chroma_bytes = pictures * 2 * chroma_pixels;
-    footprint.alpha_bytes = pictures * ((pixels * static_cast<std::uint64_t>(limits.alpha_bits) + 7) / 8);
+    if (limits.coded_pictures) {
+        const codec::CodedPictures& coded = *object.coded;
+        footprint.tile_bytes = 8 * (model::picture_words(coded, false) + model::picture_words(coded, true));
+        footprint.tile_table_bytes = 8 * model::tile_table_words(coded);
+        footprint.book_bytes = 8 * model::book_words(coded.board);
+    } else {
+        footprint.luma_bytes = pictures * pixels;
+        footprint.chroma_bytes = pictures * 2 * chroma_pixels;
+        footprint.alpha_bytes = pictures * ((pixels * static_cast<std::uint64_t>(limits.alpha_bits) + 7) / 8);
+    }
     for (const Ring& ring : object.rings) {
         footprint.map_bytes += ring.cells.size();
         footprint.lines_bytes += ring.views.size() * 16 * (1 + static_cast<std::uint64_t>(ring.planes));

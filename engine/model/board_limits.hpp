@@ -26,6 +26,7 @@ struct BoardLimits {
     int alpha_bits = 2;
     int image_buffer_side_px = 512;  // the largest reconstructed image, R, G, B and alpha, in two buffers
     std::uint64_t memory_bytes = std::uint64_t{1} << 30;
+    bool coded_pictures = false;  // pictures are those of profile `board`, kept as they are; else Y, U, V and alpha
 };
 
 // Bytes of board memory that an object takes; planes of pictures and maps are stored without gaps.
@@ -35,11 +36,17 @@ struct BoardFootprint {
     std::uint64_t alpha_bytes = 0;
     std::uint64_t map_bytes = 0;    // one byte per cell: at most 120 pictures and "none"
     std::uint64_t lines_bytes = 0;  // 16 bytes per view, 16 per view and plane
+    // Of coded pictures (coded_layout.hpp), instead of luma, chroma and alpha.
+    std::uint64_t tile_bytes = 0;
+    std::uint64_t tile_table_bytes = 0;
+    std::uint64_t book_bytes = 0;
     [[nodiscard]] std::uint64_t total_bytes() const {
-        return luma_bytes + chroma_bytes + alpha_bytes + map_bytes + lines_bytes;
+        return luma_bytes + chroma_bytes + alpha_bytes + map_bytes + lines_bytes + tile_bytes + tile_table_bytes +
+               book_bytes;
     }
 };
 
+// Where `limits` ask for coded pictures, `object` has them, all loaded.
 BoardFootprint board_footprint(const RaySpaceObject& object, const BoardLimits& limits);
 
 // Fails with the limit that the object exceeds, its value, and what to encode it with instead.

@@ -1,6 +1,7 @@
 #pragma once
 // The board: constructs the FIFOs and the blocks and wires them. Nothing else happens here; DIAGRAM.md shows it.
 
+#include "engine/model/block_decompression.hpp"
 #include "engine/model/blocks/colour_conversion.hpp"
 #include "engine/model/blocks/column_address.hpp"
 #include "engine/model/blocks/disk_controller.hpp"
@@ -19,44 +20,58 @@
 #include "engine/model/blocks/vertical_compensation.hpp"
 #include "engine/model/clock/simulator.hpp"
 
+#include <optional>
+
 namespace rs::engine::model {
 
-// The FIFOs between a column's start and its pixels, and the blocks that they join: a pipe.
+// The FIFOs between a column's start and its pixels, and the blocks that they join: a pipe. What lies between `walks`
+// and `samples` depends on the pictures: SampleReading, or block decompression.
 struct PipeFifos {
+    explicit PipeFifos(bool coded_pictures)
+        : samples("samples", 4, coded_pictures ? YuvaPixel::kBitsOfCoded : YuvaPixel::kBits) {}
     Fifo<ViewJob> jobs{"jobs", 2, ViewJob::kBits};
     Fifo<ColumnRay> columns{"columns", 2, ColumnRay::kBits};
     Fifo<RayPoint> points{"points", 2, RayPoint::kBits};
     Fifo<MappedRay> mapped{"mapped", 2, MappedRay::kBits};
     Fifo<RayLine> lines{"lines", 2, RayLine::kBits};
     Fifo<ColumnWalk> walks{"walks", 2, ColumnWalk::kBits};
-    Fifo<PlacedColumn> placed{"placed", 4, PlacedColumn::kBits};
-    Fifo<PixelPair> pairs{"pairs", 4, PixelPair::kBits};
-    Fifo<SampleTag> tags{"tags", 32, SampleTag::kBits};
-    Fifo<YuvaPixel> samples{"samples", 4, YuvaPixel::kBits};
+    Fifo<YuvaPixel> samples;
     Fifo<RgbaPixel> pixels{"pixels", 4, RgbaPixel::kBits};
 
     Fifo<MemoryRead> map_reads{"map_reads", 2, MemoryRead::kBits};
     Fifo<MemoryWord> map_words{"map_words", 2, MemoryWord::kBits};
     Fifo<MemoryRead> line_reads{"line_reads", 4, MemoryRead::kBits};
     Fifo<MemoryWord> line_words{"line_words", 4, MemoryWord::kBits};
-    Fifo<MemoryRead> sample_reads{"sample_reads", 8, MemoryRead::kBits};
-    Fifo<MemoryWord> sample_words{"sample_words", 16, MemoryWord::kBits};
     Fifo<MemoryWrite> image_writes{"image_writes", 16, MemoryWrite::kBits};
     Fifo<Done> view_written{"view_written", 2, Done::kBits};
 };
 
+// Of pictures that are not compressed: from a column's walk to its samples, pixel by pixel.
+struct SampleReading {
+    SampleReading(const RegisterFile& registers, PipeFifos& pipe);
+    void add_to(Simulator& simulator);
+
+    Fifo<PlacedColumn> placed{"placed", 4, PlacedColumn::kBits};
+    Fifo<PixelPair> pairs{"pairs", 4, PixelPair::kBits};
+    Fifo<SampleTag> tags{"tags", 32, SampleTag::kBits};
+    Fifo<MemoryRead> sample_reads{"sample_reads", 8, MemoryRead::kBits};
+    Fifo<MemoryWord> sample_words{"sample_words", 16, MemoryWord::kBits};
+    ColumnAddress column_address;
+    RowScan row_scan;
+    SampleFetch sample_fetch;
+    SampleSelect sample_select;
+};
+
 struct Pipe {
-    explicit Pipe(const RegisterFile& registers);
+    Pipe(const RegisterFile& registers, bool coded_pictures);
     PipeFifos fifos;
     RasterGenerator raster_generator;
     RayPosition ray_position;
     MapReader map_reader;
     LineReader line_reader;
     VerticalCompensation vertical_compensation;
-    ColumnAddress column_address;
-    RowScan row_scan;
-    SampleFetch sample_fetch;
-    SampleSelect sample_select;
+    std::optional<SampleReading> sample_reading;  // one of the two
+    std::optional<BlockDecompression> block_decompression;
     ColourConversion colour_conversion;
     ImageWriter image_writer;
 };
@@ -80,7 +95,7 @@ struct BoardTop {
     Fifo<MemoryWord> host_words{"host_words", 8, MemoryWord::kBits};
     Fifo<MemoryWrite> load_words{"load_words", 64, MemoryWrite::kBits};
     Fifo<Done> object_loaded{"object_loaded", 2, Done::kBits};
-    Fifo<Done> object_ready{"object_ready", 2, 5};
+    Fifo<Done> object_ready;
 
     Pipe pipe;
     RenderControl render_control;

@@ -1,18 +1,21 @@
 #include "engine/model/memory_map.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace rs::engine::model {
 namespace {
 
-constexpr const char* kNames[kObjectRegions] = {"luma", "chroma", "alpha", "tables"};
+using Names = std::array<const char*, kObjectRegions>;
+constexpr Names kRawNames = {"luma", "chroma", "alpha", "tables"};
+constexpr Names kCodedNames = {"flat tiles", "predicted tiles", "tile table", "tables"};
 
 }  // namespace
 
-MemoryMap::MemoryMap(const MemorySettings& settings) {
-    const MemoryRegions& r = settings.regions;
-    const RegionBanks banks[kObjectRegions] = {r.luma, r.chroma, r.alpha, r.tables};
+MemoryMap::MemoryMap(const MemorySettings& settings, bool coded_pictures)
+    : names_(coded_pictures ? kCodedNames : kRawNames) {
+    const std::array<RegionBanks, kObjectRegions> banks = object_regions(settings.regions, coded_pictures);
     for (std::size_t n = 0; n < kObjectRegions; ++n) {
         spaces_[n].all = {static_cast<std::uint64_t>(banks[n].first) * settings.shape.words_per_bank(),
                           static_cast<std::uint64_t>(banks[n].count) * settings.shape.words_per_bank()};
@@ -33,7 +36,7 @@ Result<Placement> MemoryMap::take(const std::array<std::uint64_t, kObjectRegions
         }
         if (space.all.first + space.all.words - at < words[n]) {
             return Error{name + ": board memory is full: it needs " + std::to_string(words[n] * 8) + " bytes of " +
-                         kNames[n] + " in one piece, and " + std::to_string(free_words(static_cast<Region>(n)) * 8) +
+                         names_[n] + " in one piece, and " + std::to_string(free_words(static_cast<Region>(n)) * 8) +
                          " of " + std::to_string(space.all.words * 8) +
                          " are free; evict an object, or encode it smaller"};
         }
@@ -56,6 +59,14 @@ void MemoryMap::give_back(const Placement& placement) {
         RS_CHECK(run != taken.end());
         taken.erase(run);
     }
+}
+
+std::uint64_t MemoryMap::copies(const std::array<std::uint64_t, kObjectRegions>& words) const {
+    std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+    for (std::size_t n = 0; n < kObjectRegions; ++n) {
+        if (words[n] > 0) most = std::min(most, spaces_[n].all.words / words[n]);
+    }
+    return most;
 }
 
 std::uint64_t MemoryMap::capacity_words(Region region) const {

@@ -11,7 +11,7 @@
 
 namespace rs::engine::model {
 
-enum class Region { luma, chroma, alpha, tables };
+enum class Region { luma, chroma, alpha, tables, flat_tiles = luma, predicted_tiles = chroma, tile_table = alpha };
 inline constexpr std::size_t kObjectRegions = 4;
 
 struct Placement {
@@ -21,12 +21,15 @@ struct Placement {
 
 class MemoryMap {
 public:
-    explicit MemoryMap(const MemorySettings& settings);
+    explicit MemoryMap(const MemorySettings& settings, bool coded_pictures = false);
 
     // Finds a place for so many words per region. Fails, and takes nothing, where a region has none; `name` is the
     // object's, for the error.
     Result<Placement> take(const std::array<std::uint64_t, kObjectRegions>& words, const std::string& name);
     void give_back(const Placement& placement);
+
+    // How many objects of so many words per region it holds when it holds nothing else.
+    [[nodiscard]] std::uint64_t copies(const std::array<std::uint64_t, kObjectRegions>& words) const;
 
     [[nodiscard]] std::uint64_t capacity_words(Region region) const;
     [[nodiscard]] std::uint64_t free_words(Region region) const;
@@ -40,6 +43,7 @@ private:
         Run all;
         std::vector<Run> taken;  // in order
     };
+    const std::array<const char*, kObjectRegions>& names_;
     std::array<Space, kObjectRegions> spaces_;
 };
 

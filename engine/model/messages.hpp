@@ -117,10 +117,12 @@ struct SampleTag {
 };
 
 struct YuvaPixel {
+    // Uncompressed pictures have alpha in 2 bits, which are repeated four times to 8 where it is 0, 85, 170 or 255.
     static constexpr int kBits = 4 + 3 * 8 + 2;
+    static constexpr int kBitsOfCoded = 4 + 3 * 8 + 8;
     int view = 0;
     int y = 0, u = 0, v = 0;
-    int alpha_level = 0;  // 0..3
+    int alpha = 0;  // 0..255
 };
 
 struct RgbaPixel {

@@ -1,6 +1,7 @@
 #include "engine/model/object_image.hpp"
 
 #include "engine/model/blocks/map_reader.hpp"
+#include "engine/model/coded_object_image.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 
 #include <algorithm>
@@ -54,15 +55,14 @@ MemorySegment map_and_lines(WordAddress address, const RaySpaceObject& object) {
     return segment;
 }
 
-}  // namespace
-
-Status drawable(const RaySpaceObject& object, const BoardLimits& limits) {
-    if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
-    if (Status status = fits_board(object, limits); !status) return status;
-    if (!object.rings.front().shape.empty()) {
-        return Error{object.name +
-                     ": has a shape map, which the published board does not know (it takes objects to lie on "
-                     "their reference planes); encode it with --raymap plane"};
+// The pictures are there, as Y, U and V at half size, and alpha.
+Status has_raw_pictures(const RaySpaceObject& object) {
+    if (object.coded != nullptr) {
+        return Error{object.name + ": its pictures are of profile " + codec::name_of(object.coded->profile) +
+                     ", and this board holds raw ones (U and V at half size); encode it with --profile raw" +
+                     (object.coded->profile == codec::Profile::kBoard
+                          ? ", or use compressed-2000"
+                          : ", or with --profile board for compressed-2000")};
     }
     if (object.pictures.size() != object.views.size() ||
         std::any_of(object.pictures.begin(), object.pictures.end(), [](const PlanarPicture& p) { return p.empty(); })) {
@@ -78,6 +78,40 @@ Status drawable(const RaySpaceObject& object, const BoardLimits& limits) {
     return {};
 }
 
+void add_raw_pictures(const RaySpaceObject& object, const Placement& placement, ObjectRegisters& r,
+                      std::vector<MemorySegment>& segments) {
+    const auto at = [&](Region region) { return placement.first[static_cast<std::size_t>(region)]; };
+    r.luma_pitch = words_of(object.height, 8);
+    r.chroma_pitch = words_of(half_size(object.height), 4);
+    r.alpha_pitch = words_of(object.height, 32);
+    r.luma = at(Region::luma);
+    r.chroma = at(Region::chroma);
+    r.alpha = at(Region::alpha);
+    segments.push_back(
+        columns(r.alpha, object, object.width, object.height, 2,
+                [](const PlanarPicture& p, int x, int y) { return codec::level_of_alpha(p.a(x, y), kAlphaBits); }));
+    segments.push_back(columns(r.chroma, object, half_size(object.width), half_size(object.height), 16,
+                               [](const PlanarPicture& p, int x, int y) { return p.u(x, y) | p.v(x, y) << 8; }));
+    segments.push_back(columns(r.luma, object, object.width, object.height, 8,
+                               [](const PlanarPicture& p, int x, int y) { return p.y(x, y); }));
+}
+
+}  // namespace
+
+Status drawable(const RaySpaceObject& object, const BoardLimits& limits) {
+    if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
+    if (Status status = limits.coded_pictures ? has_board_pictures(object) : has_raw_pictures(object); !status) {
+        return status;
+    }
+    if (Status status = fits_board(object, limits); !status) return status;
+    if (!object.rings.front().shape.empty()) {
+        return Error{object.name +
+                     ": has a shape map, which the published board does not know (it takes objects to lie on "
+                     "their reference planes); encode it with --raymap plane"};
+    }
+    return {};
+}
+
 RaySpaceObject with_board_alpha(RaySpaceObject object) {
     for (PlanarPicture& picture : object.pictures) {
         for (std::uint8_t& a : picture.a.pixels()) {
@@ -87,21 +121,30 @@ RaySpaceObject with_board_alpha(RaySpaceObject object) {
     return object;
 }
 
-std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object) {
+RaySpaceObject as_drawn_by_board(RaySpaceObject object, const BoardLimits& limits) {
+    return limits.coded_pictures ? object : with_board_alpha(std::move(object));
+}
+
+std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object, bool coded_pictures) {
     const std::uint64_t pictures = object.views.size();
+    const Ring& ring = object.rings.front();
+    const std::uint64_t tables =
+        (ring.cells.size() + 7) / 8 + 2 * pictures * static_cast<std::uint64_t>(1 + ring.planes);
+    if (coded_pictures) {
+        std::array<std::uint64_t, kObjectRegions> words = coded_words(*object.coded);
+        words[static_cast<std::size_t>(Region::tables)] += tables;
+        return words;
+    }
     const auto columns_of = [&](int width, int words) {
         return pictures * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(words);
     };
-    const Ring& ring = object.rings.front();
     return {columns_of(object.width, words_of(object.height, 8)),
             columns_of(half_size(object.width), words_of(half_size(object.height), 4)),
-            columns_of(object.width, words_of(object.height, 32)),
-            (ring.cells.size() + 7) / 8 + 2 * pictures * static_cast<std::uint64_t>(1 + ring.planes)};
+            columns_of(object.width, words_of(object.height, 32)), tables};
 }
 
-ObjectImage object_image(const RaySpaceObject& object, const Placement& placement) {
+ObjectImage object_image(const RaySpaceObject& object, const Placement& placement, bool coded_pictures) {
     const Ring& ring = object.rings.front();
-    const auto at = [&](Region region) { return placement.first[static_cast<std::size_t>(region)]; };
     ObjectImage image;
     ObjectRegisters& r = image.registers;
     r.width = object.width;
@@ -114,23 +157,15 @@ ObjectImage object_image(const RaySpaceObject& object, const Placement& placemen
     r.x_cells_per_unit_q12 = ring.x_cells_per_unit_q12;
     r.u_half_q28 = ring.u_half_q28;
     r.u_cells_per_unit_q12 = ring.u_cells_per_unit_q12;
-    r.luma_pitch = words_of(object.height, 8);
-    r.chroma_pitch = words_of(half_size(object.height), 4);
-    r.alpha_pitch = words_of(object.height, 32);
-    r.luma = at(Region::luma);
-    r.chroma = at(Region::chroma);
-    r.alpha = at(Region::alpha);
-    r.map = at(Region::tables);
+    r.map = placement.first[static_cast<std::size_t>(Region::tables)];
     r.lines = r.map + static_cast<WordAddress>((ring.cells.size() + 7) / 8);
-
     image.segments.push_back(map_and_lines(r.map, object));
-    image.segments.push_back(
-        columns(r.alpha, object, object.width, object.height, 2,
-                [](const PlanarPicture& p, int x, int y) { return codec::level_of_alpha(p.a(x, y), kAlphaBits); }));
-    image.segments.push_back(columns(r.chroma, object, half_size(object.width), half_size(object.height), 16,
-                                     [](const PlanarPicture& p, int x, int y) { return p.u(x, y) | p.v(x, y) << 8; }));
-    image.segments.push_back(columns(r.luma, object, object.width, object.height, 8,
-                                     [](const PlanarPicture& p, int x, int y) { return p.y(x, y); }));
+    if (coded_pictures) {
+        const auto books = r.map + static_cast<WordAddress>(image.segments.back().words.size());
+        add_coded_pictures(*object.coded, placement, books, r, image.segments);
+    } else {
+        add_raw_pictures(object, placement, r, image.segments);
+    }
     return image;
 }
 

@@ -14,21 +14,25 @@ namespace rs::engine::model {
 inline constexpr int kAlphaBits = 2;
 
 // Fails where the board cannot hold or draw the object, with the reason and the remedy: a limit of fits_board, a shape
-// map, colour at full size, pictures that are not loaded.
+// map, pictures that are not loaded, or not of the kind that the board holds (limits.coded_pictures).
 Status drawable(const RaySpaceObject& object, const BoardLimits& limits);
 
 // The object that the board really draws: alpha rounded to its 2 bits. Bit equality is with this one.
 RaySpaceObject with_board_alpha(RaySpaceObject object);
 
+// The object that a board with these limits really draws: with_board_alpha() where pictures are not compressed, else
+// the object itself.
+RaySpaceObject as_drawn_by_board(RaySpaceObject object, const BoardLimits& limits);
+
 // Words per region that the object takes.
-std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object);
+std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object, bool coded_pictures);
 
 struct ObjectImage {
     ObjectRegisters registers;
     std::vector<MemorySegment> segments;
 };
 
-// `object` is drawable. Alpha is rounded to 2 bits.
-ObjectImage object_image(const RaySpaceObject& object, const Placement& placement);
+// `object` is drawable. Alpha of pictures that are not compressed is rounded to 2 bits.
+ObjectImage object_image(const RaySpaceObject& object, const Placement& placement, bool coded_pictures);
 
 }  // namespace rs::engine::model

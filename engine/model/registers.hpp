@@ -1,11 +1,12 @@
 #pragma once
-// The register file of the board: 20 objects, and two banks of 15 views, of which one is rendered while the host fills
+// The register file of the board: its objects, and two banks of 15 views, of which one is rendered while the host fills
 // the other. It is a memory (in the FPGA, embedded RAM, copied where two blocks read at once), not a block: the render
 // controller is the only one that writes it, and only while the blocks that read are empty.
 
 #include "engine/core/view_registers.hpp"
 #include "engine/model/board_limits.hpp"
 #include "engine/model/sdram.hpp"
+#include "rayspace/codec/board_code.hpp"
 
 #include <array>
 #include <cstdint>
@@ -15,6 +16,13 @@
 namespace rs::engine::model {
 
 inline constexpr int kMostPlanes = 12;
+
+// How many codebooks an object has, of flat and of predicted records.
+struct BookCounts {
+    std::array<int, 2> block{};
+    std::array<int, 2> quarter{};
+    bool alpha = false;
+};
 
 // Where an object lies and what section 1 of RECONSTRUCTION.md says of it. Widths: sizes 10 bits, addresses 27 bits,
 // fixed point as in RECONSTRUCTION.md.
@@ -38,6 +46,18 @@ struct ObjectRegisters {
     WordAddress alpha = 0;
     WordAddress map = 0;
     WordAddress lines = 0;
+
+    // Of an object with pictures of profile `board` (coded_layout.hpp), instead of those of luma, chroma and alpha.
+    int coded_width = 0;  // px; 10 bits
+    int coded_height = 0;
+    int tile_columns = 0;  // 5 bits
+    int table_pitch = 0;   // entries of a column of tiles; 5 bits
+    WordAddress tile_table = 0;
+    WordAddress books = 0;
+    std::uint32_t book_words = 0;  // 15 bits
+    BookCounts book_counts;
+    std::array<std::array<codec::RecordClass, codec::kBoardClasses>, 2> classes{};  // a byte each
+    std::uint32_t serial = 0;  // number of the load, from 1: tells apart the objects that a slot holds in turn
 };
 
 struct PlaneView {
@@ -65,8 +85,8 @@ struct ViewBank {
 };
 
 struct RegisterFile {
-    std::array<ObjectRegisters, 20> objects{};
-    std::array<ObjectRegisters, 20> loaded{};  // written by the disk controller, taken over by the render controller
+    std::vector<ObjectRegisters> objects;  // [slot]
+    std::vector<ObjectRegisters> loaded;   // written by the disk controller, taken over by the render controller
     std::array<ViewBank, 2> banks{};
     int active = 0;                                  // the bank that is rendered, and the image buffer that is written
     std::array<std::vector<int>, 2> buffer_words{};  // [buffer][view]: kept until the host has the pictures

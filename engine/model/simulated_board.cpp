@@ -25,7 +25,7 @@ public:
     }
 
     [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override {
-        return with_board_alpha(std::move(object));
+        return as_drawn_by_board(std::move(object), limits_);
     }
 
     [[nodiscard]] int views_per_cycle() const override { return limits_.views_per_cycle; }

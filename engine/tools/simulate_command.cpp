@@ -71,6 +71,18 @@ Result<std::vector<Drawing>> asked_drawings(const std::vector<RaySpaceObject>& o
     return drawings;
 }
 
+// What an object takes of the board, and how many like it the board would hold.
+void print_footprint(const RaySpaceObject& object, const model::Board& board) {
+    const BoardLimits& limits = board.top().config.limits;
+    if (!model::drawable(object, limits)) return;  // refused, with the reason, when it is loaded
+    const auto words = model::object_words(object, limits.coded_pictures);
+    std::uint64_t all = 0;
+    for (const std::uint64_t n : words) all += 8 * n;
+    std::printf("%s: %llu bytes of board memory; memory for %llu such objects, %d slots\n", object.name.c_str(),
+                static_cast<unsigned long long>(all), static_cast<unsigned long long>(board.memory_map().copies(words)),
+                limits.objects);
+}
+
 Result<std::vector<int>> put_on_board(model::Board& board, const std::vector<RaySpaceObject>& objects, bool load) {
     std::vector<int> slots;
     for (const RaySpaceObject& object : objects) {
@@ -198,8 +210,9 @@ Status run_simulate(const SimulateArguments& arguments) {
     for (const std::string& path : arguments.objects) {
         Result<RaySpaceObject> object = read_object(path);
         if (!object) return object.error();
-        objects.push_back(model::with_board_alpha(std::move(*object)));
+        objects.push_back(model::as_drawn_by_board(std::move(*object), config->limits));
     }
+    for (const RaySpaceObject& object : objects) print_footprint(object, board);
     const Result<std::vector<int>> slots = put_on_board(board, objects, arguments.load);
     if (!slots) return slots.error();
     const Result<std::vector<Drawing>> drawings = asked_drawings(objects, arguments);
@@ -240,7 +253,9 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<SimulateArguments>();
     CLI::App* command = app.add_subcommand(
         "simulate", "Draw views with the cycle-accurate model of the board, and say where its cycles went");
-    command->add_option("CONFIG", arguments->config, "prototype-2000, or a JSON file with settings that differ from it")
+    command
+        ->add_option("CONFIG", arguments->config,
+                     "prototype-2000, compressed-2000, or a JSON file with settings that differ from one of them")
         ->required();
     command->add_option("OBJECT", arguments->objects, "ray-space objects without a shape map, .rso");
     add_view_options(*command, arguments->views, false);
@@ -260,6 +275,7 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
     command->footer(
         "Examples:\n  rs-engine simulate prototype-2000 vase.rso --orbit 15 --size 256x256 -o drawn --stats vase.json\n"
         "  rs-engine simulate prototype-2000 a.rso b.rso c.rso --orbit 12 --per-cycle 3 --chart cycles.svg\n"
+        "  rs-engine simulate compressed-2000 vase-board.rso --orbit 15 --size 256x256 --stats vase.json\n"
         "  rs-engine simulate prototype-2000 --diagram");
     command->callback([arguments, &run] {
         const AskedViews& views = arguments->views;

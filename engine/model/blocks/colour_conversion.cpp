@@ -5,7 +5,7 @@
 namespace rs::engine::model {
 
 std::uint32_t converted(const YuvaPixel& pixel) {
-    const Rgba8 c = rgba_from_yuva(pixel.y, pixel.u, pixel.v, 85 * pixel.alpha_level);
+    const Rgba8 c = rgba_from_yuva(pixel.y, pixel.u, pixel.v, pixel.alpha);
     return static_cast<std::uint32_t>(c.r) | static_cast<std::uint32_t>(c.g) << 8U |
            static_cast<std::uint32_t>(c.b) << 16U | static_cast<std::uint32_t>(c.a) << 24U;
 }
@@ -27,7 +27,7 @@ Activity ColourConversion::tick(std::uint64_t) {
         const YuvaPixel pixel = in_.pop();
         stages_[0].pixel = {pixel.view, converted(pixel)};
     }
-    return Activity::busy;
+    return stages_[0].full ? Activity::busy : Activity::idle;  // idle: pixels leave, none comes
 }
 
 }  // namespace rs::engine::model

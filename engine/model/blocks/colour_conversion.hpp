@@ -1,6 +1,6 @@
 #pragma once
 // YUV -> RGB (RECONSTRUCTION.md, section 4), a pixel per cycle through four stages: the four products by constants from
-// tables in embedded RAM, two stages of 26-bit additions, clamp. Alpha levels 0..3 become 0, 85, 170, 255.
+// tables in embedded RAM, two stages of 26-bit additions, clamp.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/messages.hpp"

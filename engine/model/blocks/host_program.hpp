@@ -3,9 +3,11 @@
 // pictures that the board sends. Not blocks: the world around the board.
 
 #include "engine/model/registers.hpp"
+#include "rayspace/check.hpp"
 
 #include <cstdint>
 #include <deque>
+#include <utility>
 #include <vector>
 
 namespace rs::engine::model {
@@ -15,8 +17,24 @@ struct HostProgram {
     int register_writes = 0;  // 32-bit writes that carry it over the bus
 };
 
-// [number of the start command]
-using HostPrograms = std::deque<HostProgram>;
+// [number of the start command]: those that have not been forgotten. A board lives for many cycles.
+class HostPrograms {
+public:
+    void push_back(HostProgram program) { kept_.push_back(std::move(program)); }
+    [[nodiscard]] std::uint64_t size() const { return forgotten_ + kept_.size(); }  // forgotten ones count
+    [[nodiscard]] const HostProgram& operator[](std::uint64_t number) const {
+        RS_CHECK(number >= forgotten_ && number < size());
+        return kept_[static_cast<std::size_t>(number - forgotten_)];
+    }
+    void forget_before(std::uint64_t number) {
+        for (; forgotten_ < number && !kept_.empty(); ++forgotten_) kept_.pop_front();
+    }
+    [[nodiscard]] std::size_t kept() const { return kept_.size(); }
+
+private:
+    std::deque<HostProgram> kept_;
+    std::uint64_t forgotten_ = 0;
+};
 
 struct HostPicture {
     int view = 0;

@@ -102,6 +102,8 @@ bool RenderControl::start_views(std::uint64_t now) {
     rendering_ = true;
     next_view_ = written_views_ = 0;
     cycles_.push_back({queue_.front().program, now, 0});
+    ++cycles_begun_;
+    if (cycles_.size() > kKeptCycles) cycles_.pop_front();
     return true;
 }
 

@@ -22,6 +22,9 @@ public:
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override;
 
+    // Drawn, delivered and waiting cycles are four at most.
+    static constexpr std::size_t kKeptCycles = 8;
+
     // The status registers.
     struct Cycle {
         std::uint64_t program = 0;
@@ -32,7 +35,14 @@ public:
         std::uint64_t program = 0;
         std::string reason;
     };
-    [[nodiscard]] const std::vector<Cycle>& cycles() const { return cycles_; }
+    // The last cycles that have begun, up to kKeptCycles; the last of them is number cycles_begun() - 1.
+    [[nodiscard]] const std::deque<Cycle>& cycles() const { return cycles_; }
+    [[nodiscard]] std::uint64_t cycles_begun() const { return cycles_begun_; }
+    [[nodiscard]] const Cycle& cycle(std::uint64_t number) const {
+        const std::uint64_t from_end = cycles_begun_ - number;
+        RS_CHECK(from_end >= 1 && from_end <= cycles_.size());
+        return cycles_[cycles_.size() - static_cast<std::size_t>(from_end)];
+    }
     [[nodiscard]] const std::vector<Refusal>& refusals() const { return refusals_; }
     [[nodiscard]] bool uses_object(int slot) const;                                 // in a cycle that waits or is drawn
     [[nodiscard]] std::uint64_t commands_taken() const { return commands_taken_; }  // or refused
@@ -64,7 +74,8 @@ private:
     int next_bank_ = 0;
     std::uint64_t commands_taken_ = 0;
     bool buffer_busy_[2] = {false, false};
-    std::vector<Cycle> cycles_;
+    std::deque<Cycle> cycles_;
+    std::uint64_t cycles_begun_ = 0;
     std::vector<Refusal> refusals_;
 };
 

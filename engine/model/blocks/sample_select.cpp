@@ -27,7 +27,7 @@ Activity SampleSelect::tick(std::uint64_t) {
             v_ = static_cast<int>((word >> (16 * lane + 8)) & 255U);
             break;
         case SampleTag::Kind::luma:
-            out_.push({tag.view, static_cast<int>((word >> (8 * lane)) & 255U), u_, v_, level_[n]});
+            out_.push({tag.view, static_cast<int>((word >> (8 * lane)) & 255U), u_, v_, 85 * level_[n]});
             level_[n] = 0;  // a pixel without alpha of its own is transparent
             break;
     }

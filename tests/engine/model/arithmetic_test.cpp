@@ -53,7 +53,7 @@ TEST(ArithmeticProperty, ProductsOfNineStepsAreProducts) {
 TEST(Colour, AllAlphaLevelsAreThoseOfTheDefinition) {
     for (int level = 0; level < 4; ++level) {
         for (int n = 0; n < 4096; ++n) {
-            const YuvaPixel pixel{0, n & 255, (n * 7) & 255, (n * 13) & 255, level};
+            const YuvaPixel pixel{0, n & 255, (n * 7) & 255, (n * 13) & 255, 85 * level};
             const Rgba8 c = rgba_from_yuva(pixel.y, pixel.u, pixel.v, (level * 255 + 1) / 3);
             const std::uint32_t word = converted(pixel);
             ASSERT_EQ(word, static_cast<std::uint32_t>(c.r) | static_cast<std::uint32_t>(c.g) << 8U |

@@ -1,32 +1,12 @@
 // Latency and throughput of each block: nothing a cycle early, the result on time, the next one after its interval.
 
+#include "tests/engine/model/block_bench.hpp"
 #include "tests/engine/model/board_test_objects.hpp"
 
 namespace rs::engine::model {
 namespace {
 
-// A block alone on a clock, with its FIFOs. visible(fifo, n) cycles: how many cycles after an input is visible.
-class Bench {
-public:
-    explicit Bench(std::initializer_list<FifoState*> fifos) : fifos_(fifos) {}
-    void step(Block& block) {
-        block.clock(now_++);
-        for (FifoState* fifo : fifos_) fifo->commit();
-    }
-    // Steps until `out` holds one more item, and says how many steps that took.
-    int until(Block& block, const FifoState& out, int most = 400) {
-        const int before = out.count();
-        for (int n = 1; n <= most; ++n) {
-            step(block);
-            if (out.count() > before) return n;
-        }
-        return -1;
-    }
-
-private:
-    std::vector<FifoState*> fifos_;
-    std::uint64_t now_ = 0;
-};
+using test::Bench;
 
 // A view of an object, in a register file.
 struct Registers {

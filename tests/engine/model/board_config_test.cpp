@@ -60,6 +60,24 @@ TEST(BoardConfig, RefusalsNameFileKeyAndBound) {
     EXPECT_NE(missing.error().message.find("neither a built-in"), std::string::npos);
 }
 
+TEST(BoardConfig, CompressedHasItsOwnSlotsAndRegions) {
+    const Result<BoardConfig> config =
+        parse_board_config(R"({"base": "compressed-2000", "memory": {"flat_tiles": {"count": 1}}})", "f");
+    ASSERT_TRUE(config.ok()) << config.error().message;
+    EXPECT_TRUE(config->limits.coded_pictures);
+    EXPECT_EQ(config->limits.objects, 160);
+    EXPECT_EQ(config->memory.regions.flat_tiles.count, 1);
+    const Result<BoardConfig> again = parse_board_config(board_config_json(*config), "f");
+    ASSERT_TRUE(again.ok());
+    EXPECT_EQ(board_config_json(*again), board_config_json(*config));
+    EXPECT_NE(refusal(R"({"base": "compressed-2000", "limits": {"objects": 161}})").find("outside 1..160"),
+              std::string::npos);
+    EXPECT_NE(refusal(R"({"base": "compressed-2000", "memory": {"luma": {"first": 1}}})").find("is no setting"),
+              std::string::npos);
+    EXPECT_NE(refusal(R"({"base": "compressed-2000", "memory": {"tile_table": {"first": 5}}})").find("share bank 5"),
+              std::string::npos);
+}
+
 TEST(BoardConfig, IsReadFromAFile) {
     const rs::test::TemporaryFolder scratch;
     const std::string path = (scratch / "slow.json").string();

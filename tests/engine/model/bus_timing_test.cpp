@@ -89,6 +89,8 @@ TEST(DiskController, AWordCrossesThePrivateBusInSixteenCycles) {
     DiskSettings settings;
     settings.media_cycles_per_sector = 10;  // the disk is faster than the bus
     RegisterFile registers;
+    registers.objects.resize(20);
+    registers.loaded.resize(20);
     Fifo<MemoryWrite> words("words", 64, 92);
     Fifo<Done> loaded("loaded", 2, 1);
     Fifo<Done> ready("ready", 2, 5);

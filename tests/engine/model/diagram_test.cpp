@@ -25,14 +25,15 @@ std::string text_of(const std::filesystem::path& path) {
 
 TEST(Diagram, ThePageHoldsTheTablesOfTheCode) {
     const std::string page = text_of(std::filesystem::path(RAYSPACE_SOURCE_DIR) / "engine/model/DIAGRAM.md");
-    const BoardTop board(test::prototype());
-    EXPECT_NE(page.find(diagram_tables(board)), std::string::npos)
-        << "engine/model/DIAGRAM.md differs from rs-engine simulate prototype-2000 --diagram:\n"
-        << diagram_tables(board);
+    for (const std::string& name : built_in_configs()) {
+        const BoardTop board(*read_board_config(name));
+        EXPECT_NE(page.find(diagram_tables(board)), std::string::npos)
+            << "engine/model/DIAGRAM.md differs from rs-engine simulate " << name << " --diagram:\n"
+            << diagram_tables(board);
+    }
 }
 
-TEST(Diagram, EveryFifoHasOneBlockAtEachEnd) {
-    const BoardTop board(test::prototype());
+void expect_one_block_at_each_end(const BoardTop& board) {
     std::map<std::string, int> readers;
     std::map<std::string, int> writers;
     std::set<std::string> names;
@@ -51,6 +52,10 @@ TEST(Diagram, EveryFifoHasOneBlockAtEachEnd) {
         EXPECT_EQ(readers[name], 1) << name;
         EXPECT_EQ(writers[name], 1) << name;
     }
+}
+
+TEST(Diagram, EveryFifoHasOneBlockAtEachEnd) {
+    for (const std::string& name : built_in_configs()) expect_one_block_at_each_end(BoardTop(*read_board_config(name)));
 }
 
 struct SmallRun {

@@ -2,7 +2,7 @@
 
 #include "rayspace/object_file.hpp"
 #include "rayspace/picture_io.hpp"
-#include "tests/engine/model/board_test_objects.hpp"
+#include "tests/engine/model/coded_test_objects.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -38,6 +38,21 @@ TEST(SimulateTool, DrawsWritesAndCompares) {
     EXPECT_EQ(nlohmann::json::parse(stats)["rendering_cycles"], 3);
     EXPECT_GT(std::filesystem::file_size(path("chart.svg")), 1000U);
     EXPECT_GT(std::filesystem::file_size(path("run.vcd")), 1000U);
+}
+
+TEST(SimulateTool, DrawsCompressedPictures) {
+    const rs::test::TemporaryFolder scratch;
+    const std::string file = (scratch / "balls.rso").string();
+    ASSERT_TRUE(write_object(file, test::encoded_object(12, 64).coded).ok());
+    const ToolRun run =
+        run_tool(scratch.path(), "rs-engine", {"simulate", "compressed-2000", file, "--orbit", "2", "--size", "40x32"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("2 of 2 pictures equal the definition bit for bit"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("160 slots"), std::string::npos) << run.out;
+    const ToolRun refused =
+        run_tool(scratch.path(), "rs-engine", {"simulate", "prototype-2000", file, "--orbit", "2", "--size", "40x32"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_NE(refused.err.find("use compressed-2000"), std::string::npos) << refused.err;
 }
 
 TEST(SimulateTool, SaysWhatIsWrong) {

@@ -1,0 +1,34 @@
+#pragma once
+// A block alone on a clock, with its FIFOs.
+
+#include "engine/model/clock/block.hpp"
+
+#include <initializer_list>
+#include <vector>
+
+namespace rs::engine::model::test {
+
+class Bench {
+public:
+    explicit Bench(std::initializer_list<FifoState*> fifos) : fifos_(fifos) {}
+    void step(Block& block) {
+        block.clock(now_++);
+        for (FifoState* fifo : fifos_) fifo->commit();
+    }
+    // Steps until `out` holds one more item, and says how many steps that took: in the cycle before, it was not
+    // visible. -1: not within `most`.
+    int until(Block& block, const FifoState& out, int most = 400) {
+        const int before = out.count();
+        for (int n = 1; n <= most; ++n) {
+            step(block);
+            if (out.count() > before) return n;
+        }
+        return -1;
+    }
+
+private:
+    std::vector<FifoState*> fifos_;
+    std::uint64_t now_ = 0;
+};
+
+}  // namespace rs::engine::model::test

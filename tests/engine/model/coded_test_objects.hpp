@@ -1,0 +1,115 @@
+#pragma once
+// Objects with pictures of profile `board` for the tests of block decompression: random ones, which no encoder makes,
+// and encoded ones.
+
+#include "rayspace/codec/board_chunk.hpp"
+#include "rayspace/codec/decode_picture.hpp"
+#include "tests/engine/model/board_test_objects.hpp"
+#include "tests/support/coded_object.hpp"
+
+#include <random>
+
+namespace rs::engine::model::test {
+
+inline BoardConfig compressed() {
+    Result<BoardConfig> config = read_board_config("compressed-2000");
+    EXPECT_TRUE(config.ok());
+    return *config;
+}
+
+// Every class, all books, tiles of random bytes that are often cut short, tiles that are missing; pictures of four
+// levels with none, one or two references of any lower level, so that predictions are up to three hops long.
+inline codec::CodedPictures random_pictures(const RaySpaceObject& object, std::mt19937_64& random) {
+    const auto below = [&](std::uint64_t n) { return static_cast<int>(random() % n); };
+    codec::CodedPictures coded;
+    coded.profile = codec::Profile::kBoard;
+    coded.width = object.width;
+    coded.height = object.height;
+    for (std::size_t set = 0; set < 2; ++set) {
+        for (std::size_t c = 1; c < coded.board.classes[set].size(); ++c) {
+            coded.board.classes[set][c] = {set == 1 && below(8) > 0, below(3) == 0, below(3), below(5)};
+        }
+    }
+    const int most = 1 << below(7);  // how large the differences are
+    const auto fill = [&](codec::Book& book, int dimensions) {
+        book.resize(static_cast<std::size_t>(codec::kBookEntries * dimensions));
+        for (std::int8_t& value : book)
+            value = static_cast<std::int8_t>(below(2 * static_cast<std::uint64_t>(most)) - most);
+    };
+    for (std::size_t set = 0; set < 2; ++set) {
+        const codec::StageCounts counts = codec::stage_counts(coded.board, set);
+        for (int s = 0; s < counts.block; ++s)
+            fill(coded.board.books[set].block[static_cast<std::size_t>(s)], codec::kBlockDimensions);
+        for (int s = 0; s < counts.quarter; ++s)
+            fill(coded.board.books[set].quarter[static_cast<std::size_t>(s)], codec::kQuarterDimensions);
+    }
+    if (codec::uses_alpha(coded.board)) {
+        coded.board.alpha.resize(std::size_t{codec::kBookEntries} * 16);
+        for (std::uint8_t& a : coded.board.alpha) a = static_cast<std::uint8_t>(below(256));
+    }
+    const auto tiles = static_cast<std::size_t>(coded.tile_columns() * coded.tile_rows());
+    for (std::size_t v = 0; v < object.views.size(); ++v) {
+        coded.levels.push_back(static_cast<std::uint8_t>(v < 4 ? v : static_cast<std::size_t>(below(4))));
+        coded.pictures.emplace_back();
+        for (std::size_t t = 0; t < tiles; ++t) {
+            std::vector<std::byte>& bytes = coded.pictures.back().bytes;
+            const auto size = static_cast<std::uint32_t>(below(3) == 0 ? below(40) : below(430));
+            coded.pictures.back().tiles.push_back({static_cast<std::uint32_t>(bytes.size()), size, below(8) > 0});
+            for (std::uint32_t n = 0; n < size; ++n) bytes.push_back(static_cast<std::byte>(random()));
+        }
+    }
+    for (std::size_t v = 0; v < object.views.size(); ++v) {
+        // Mostly of the level below, for long chains.
+        const int only = coded.levels[v] - 1;
+        const bool any = below(4) == 0;
+        std::vector<std::uint16_t> lower;
+        for (std::size_t r = 0; r < object.views.size(); ++r) {
+            const int level = coded.levels[r];
+            if (any ? level <= only : level == only) lower.push_back(static_cast<std::uint16_t>(r));
+        }
+        codec::PictureHead& head = coded.pictures[v].head;
+        const int references = std::min(static_cast<int>(lower.size()), below(8) == 0 ? 0 : 1 + below(2));
+        if (references > 0) head.reference[0] = lower[random() % lower.size()];
+        if (references > 1) {
+            do head.reference[1] = lower[random() % lower.size()];
+            while (head.reference[1] == head.reference[0]);
+        }
+    }
+    return coded;
+}
+
+// Both as the board gets it and, in object.pictures, as it is defined.
+inline RaySpaceObject with_coded(RaySpaceObject object, codec::CodedPictures coded) {
+    object.coded = std::make_shared<codec::CodedPictures>(std::move(coded));
+    codec::decode_pictures(object);
+    return object;
+}
+
+inline RaySpaceObject random_coded_object(const rs::test::RingObjectOptions& options) {
+    RaySpaceObject object = rs::test::ring_object(options);
+    std::mt19937_64 random(options.seed);
+    codec::CodedPictures coded = random_pictures(object, random);
+    return with_coded(std::move(object), std::move(coded));
+}
+
+// The drawn balls, encoded as rs-encode does it; and the same uncompressed.
+struct EncodedObject {
+    RaySpaceObject coded;
+    RaySpaceObject raw;
+};
+inline EncodedObject encoded_object(int views, int side) {
+    EncodedObject object;
+    object.raw = rs::test::ring_object({.views = views,
+                                        .width = side,
+                                        .height = side,
+                                        .fl_px = 1.3 * side,
+                                        .planes = 6,
+                                        .x_cells = 64,
+                                        .u_cells = 64});
+    const std::vector<Image<Rgba8>> pictures = rs::test::drawn_pictures(object.raw);
+    object.coded = with_coded(object.raw, rs::test::code_board_pictures(object.raw, pictures, {}));
+    for (std::size_t v = 0; v < pictures.size(); ++v) object.raw.pictures[v] = planar_from_rgba(pictures[v].view());
+    return object;
+}
+
+}  // namespace rs::engine::model::test
