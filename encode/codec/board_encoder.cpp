@@ -5,6 +5,7 @@
 #include "encode/codec/board_stages.hpp"
 #include "encode/codec/fidelity.hpp"
 #include "encode/codec/motion_search.hpp"
+#include "encode/codec/ring_references.hpp"
 #include "rayspace/codec/board_tile.hpp"
 #include "rayspace/codec/decode_picture.hpp"
 
@@ -123,20 +124,11 @@ private:
                 coded_.levels[view] = static_cast<std::uint8_t>(std::max(1, progressive_level(n)));
                 codec::PictureHead& head = coded_.pictures[view].head;
                 std::size_t found = 0;
-                for (const int direction : {-1, 1}) {
-                    int steps = 1;
-                    int other = (n + direction + count) % count;
-                    while (!is_reference(other)) {
-                        other = (other + direction + count) % count;
-                        ++steps;
-                    }
-                    const std::uint16_t reference = ring.views[static_cast<std::size_t>(other)];
-                    if (found == 1 && head.reference[0] == reference) continue;
-                    const double angle = 6.2832 * steps / count;
-                    work_[view].reach_px[found] =
-                        std::clamp(static_cast<int>(0.35 * angle * object_.width) + 6, 8, 120);
-                    head.reference[found++] = reference;
-                }
+                for_ring_references(ring, n, object_.width, 120, is_reference,
+                                    [&](std::uint16_t reference, int reach_px) {
+                                        work_[view].reach_px[found] = reach_px;
+                                        head.reference[found++] = reference;
+                                    });
             }
         }
     }

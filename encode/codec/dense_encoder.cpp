@@ -3,6 +3,7 @@
 #include "encode/codec/bool_encoder.hpp"
 #include "encode/codec/coders.hpp"
 #include "encode/codec/fidelity.hpp"
+#include "encode/codec/ring_references.hpp"
 #include "encode/codec/source_picture.hpp"
 #include "encode/codec/tile_encoder.hpp"
 #include "rayspace/codec/decode_picture.hpp"
@@ -114,19 +115,12 @@ private:
                     codec::kMaxStep);
                 if (level == 0) continue;
                 std::size_t found = 0;
-                for (const int direction : {-1, 1}) {
-                    int steps = 1;
-                    int other = (n + direction + count) % count;
-                    while (progressive_level(other) >= level) {
-                        other = (other + direction + count) % count;
-                        ++steps;
-                    }
-                    const std::uint16_t reference = ring.views[static_cast<std::size_t>(other)];
-                    if (found == 1 && head.reference[0] == reference) continue;
-                    const double angle = 6.2832 * steps / count;
-                    work_[view].reach[found] = std::clamp(static_cast<int>(0.35 * angle * object_.width) + 6, 8, 96);
-                    head.reference[found++] = reference;
-                }
+                for_ring_references(
+                    ring, n, object_.width, 96, [&](int p) { return progressive_level(p) < level; },
+                    [&](std::uint16_t reference, int reach_px) {
+                        work_[view].reach[found] = reach_px;
+                        head.reference[found++] = reference;
+                    });
             }
         }
     }
