@@ -5,6 +5,7 @@
 #include "rayspace/file_output.hpp"
 #include "rayspace/picture_io.hpp"
 #include "rayspace/rig_json.hpp"
+#include "rayspace/write_file.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -64,10 +65,7 @@ Status write_rig(const fs::path& transforms_json, const Rig& rig) {
     }
     if (!std::isfinite(rig.object_radius)) return Error{where + ": the object radius is not finite"};
     const std::string text = rig_to_json(rig);
-    auto file = StagedFile::create(transforms_json);
-    if (!file) return file.error();
-    if (Status status = file->write(std::as_bytes(std::span(text))); !status) return status;
-    return file->commit();
+    return write_file(transforms_json, text);
 }
 
 fs::path picture_path(const fs::path& folder, const RigView& view) {

@@ -13,6 +13,7 @@
 #include "rayspace/rig.hpp"
 #include "rayspace/tool_main.hpp"
 #include "rayspace/view_output.hpp"
+#include "rayspace/write_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -167,13 +168,6 @@ Status run_visit(const ViewArguments& arguments, const Scene& scene, const std::
     return visit(scene, objects, options);
 }
 
-Status write_text(const std::string& path, const std::string& text) {
-    Result<StagedFile> file = StagedFile::create(path);
-    if (!file) return file.error();
-    if (Status status = file->write(std::as_bytes(std::span(text))); !status) return status;
-    return file->commit();
-}
-
 Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::vector<Camera>& cameras,
                     const std::function<Result<Image<Rgba8>>(const Camera&)>& compose, Progress& progress) {
     if (kind == OutputKind::video) {
@@ -223,7 +217,7 @@ Status run_view(const ViewArguments& arguments) {
     };
     progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
     if (Status status = write_frames(arguments, *kind, *cameras, compose, progress); !status) return status;
-    return arguments.stats.empty() ? Status() : write_text(arguments.stats, times.to_json());
+    return arguments.stats.empty() ? Status() : write_file(arguments.stats, times.to_json());
 }
 
 }  // namespace

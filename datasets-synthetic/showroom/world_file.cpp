@@ -4,6 +4,7 @@
 #include "rayspace/conventions.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/picture_io.hpp"
+#include "rayspace/write_file.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -184,10 +185,7 @@ Status write_world(const World& world, const std::filesystem::path& output, cons
     Result<StagedFolder> staged = StagedFolder::create(output);
     if (!staged) return staged.error();
     const auto write_text = [&](const std::string& file, const std::string& text) -> Status {
-        Result<StagedFile> created = StagedFile::create(staged->temporary_path() / file);
-        if (!created) return created.error();
-        if (Status status = created->write(std::as_bytes(std::span(text))); !status) return status;
-        return created->commit();
+        return write_file(staged->temporary_path() / file, text);
     };
     for (const auto& [file, picture] : world.textures) {
         if (Status status = write_png(staged->temporary_path() / file, picture); !status) return status;

@@ -2,6 +2,7 @@
 
 #include "rayspace/byte_stream.hpp"
 #include "rayspace/file_output.hpp"
+#include "rayspace/write_file.hpp"
 
 #include <xxhash.h>
 #include <nlohmann/json.hpp>
@@ -147,10 +148,7 @@ Status write_vectors(const VectorSet& set) {
     }
     const json root = {{"version", kVectorsVersion}, {"edition", set.edition}, {"cases", std::move(cases)}};
     const std::string text = root.dump() + "\n";
-    Result<StagedFile> file = StagedFile::create(set.folder / kVectorsFile);
-    if (!file) return file.error();
-    if (Status status = file->write(std::as_bytes(std::span(text))); !status) return status;
-    return file->commit();
+    return write_file(set.folder / kVectorsFile, text);
 }
 
 }  // namespace rs::engine

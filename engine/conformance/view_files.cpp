@@ -2,6 +2,7 @@
 
 #include "rayspace/byte_stream.hpp"
 #include "rayspace/file_output.hpp"
+#include "rayspace/write_file.hpp"
 
 #include <cstring>
 #include <system_error>
@@ -14,13 +15,6 @@ constexpr std::uint64_t kBytesPerPixel = 4;  // of colours and of depths
 std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& of_case, std::size_t view,
                               const char* ending) {
     return folder / of_case / (std::to_string(view) + ending);
-}
-
-Status write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-    Result<StagedFile> file = StagedFile::create(path);
-    if (!file) return file.error();
-    if (Status status = file->write(bytes); !status) return status;
-    return file->commit();
 }
 
 Result<std::vector<std::byte>> read_sized(const std::filesystem::path& path, int width, int height) {
@@ -46,11 +40,11 @@ Status write_view_files(const std::filesystem::path& folder, const std::string& 
     for (const Rgba8 p : executed.picture.pixels()) {
         for (const std::uint8_t channel : {p.r, p.g, p.b, p.a}) colours.put(channel);
     }
-    Status written = write_bytes(file_of(folder, of_case, view, ".rgba"), colours.bytes());
+    Status written = write_file(file_of(folder, of_case, view, ".rgba"), colours.bytes());
     if (!written || executed.depth_q20.empty()) return written;
     ByteWriter depths;
     for (const std::int32_t depth : executed.depth_q20.pixels()) depths.put(depth);
-    return write_bytes(file_of(folder, of_case, view, ".depth"), depths.bytes());
+    return write_file(file_of(folder, of_case, view, ".depth"), depths.bytes());
 }
 
 Result<ExecutedView> read_view_files(const std::filesystem::path& folder, const std::string& of_case, std::size_t view,

@@ -11,6 +11,7 @@
 #include "rayspace/picture_io.hpp"
 #include "rayspace/ray_space.hpp"
 #include "rayspace/view_output.hpp"
+#include "rayspace/write_file.hpp"
 
 #include <chrono>
 #include <cstdio>
@@ -187,13 +188,6 @@ Status use_pictures(const model::BoardRun& run, const std::vector<Drawing>& draw
     return folder->commit();
 }
 
-Status write_text(const std::string& path, const std::string& text) {
-    Result<StagedFile> file = StagedFile::create(path);
-    if (!file) return file.error();
-    if (Status status = file->write(std::as_bytes(std::span(text))); !status) return status;
-    return file->commit();
-}
-
 Status run_simulate(const SimulateArguments& arguments) {
     const Result<model::BoardConfig> config = model::read_board_config(arguments.config);
     if (!config) return config.error();
@@ -238,11 +232,11 @@ Status run_simulate(const SimulateArguments& arguments) {
     print_report(report);
     std::printf("simulated at %.2f million board cycles a second\n", double(report.board_cycles) / seconds / 1e6);
     if (!arguments.stats.empty()) {
-        if (Status status = write_text(arguments.stats, model::report_json(report)); !status) return status;
+        if (Status status = write_file(arguments.stats, model::report_json(report)); !status) return status;
     }
     if (!arguments.chart.empty()) {
         const std::string title = report.config + ", " + std::to_string(report.pictures) + " pictures";
-        if (Status status = write_text(arguments.chart, model::report_chart_svg(report, title)); !status) return status;
+        if (Status status = write_file(arguments.chart, model::report_chart_svg(report, title)); !status) return status;
     }
     return use_pictures(*run, *drawings, objects, arguments.output);
 }

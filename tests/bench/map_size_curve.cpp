@@ -8,10 +8,10 @@
 #include "encode/build.hpp"
 #include "engine/core/compare.hpp"
 #include "engine/core/renderer.hpp"
-#include "rayspace/file_output.hpp"
 #include "rayspace/page/line_plot.hpp"
 #include "rayspace/shape_chunk.hpp"
 #include "rayspace/tool_main.hpp"
+#include "rayspace/write_file.hpp"
 
 #include <cstdio>
 #include <span>
@@ -66,10 +66,7 @@ Status write_plot(const std::string& path, const std::vector<Measured>& measured
         plot.series[0].y.push_back(point.psnr_db);
     }
     const std::string svg = standalone_svg_of(plot);
-    Result<StagedFile> file = StagedFile::create(path);
-    if (!file) return file.error();
-    if (Status status = file->write(std::as_bytes(std::span(svg))); !status) return status;
-    return file->commit();
+    return write_file(path, svg);
 }
 
 Status run(const Arguments& arguments) {

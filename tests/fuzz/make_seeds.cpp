@@ -1,6 +1,6 @@
 // Writes the seed files of the corpus: `make_fuzz_seeds tests/fuzz/corpus`. Run it again when the format changes.
-#include "rayspace/file_output.hpp"
 #include "rayspace/object_file.hpp"
+#include "rayspace/write_file.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/small_shape.hpp"
@@ -13,13 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace rs;
-
-Status write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
-    auto file = StagedFile::create(path);
-    if (!file) return file.error();
-    if (Status status = file->write(bytes); !status) return status;
-    return file->commit();
-}
 
 Status write_seeds(const fs::path& corpus) {
     test::SmallObjectOptions one_ring;
@@ -56,7 +49,7 @@ Status write_seeds(const fs::path& corpus) {
         }
         const auto input = fuzz::input_from_chunks(chunks);
         const fs::path soup = corpus / "object" / (std::string("seed-") + name + ".chunks");
-        if (Status status = write_bytes(soup, std::as_bytes(std::span(input))); !status) return status;
+        if (Status status = write_file(soup, std::as_bytes(std::span(input))); !status) return status;
     }
     return {};
 }

@@ -7,8 +7,8 @@
 // so that nobody is paid for empty background. Quality: PSNR over object pixels (alpha >= 128) of straight sRGB, the
 // squared error pooled over all views. rd_ratios.csv gets the rates relative to ASTC at equal PSNR.
 
-#include "rayspace/file_output.hpp"
 #include "rayspace/tool_main.hpp"
+#include "rayspace/write_file.hpp"
 #include "tests/bench/rd/anchors.hpp"
 #include "tests/bench/rd/ours.hpp"
 #include "tests/bench/rd/rate_plot.hpp"
@@ -64,13 +64,6 @@ Result<Wanted> wanted_of(const std::vector<std::string>& only) {
     return wanted;
 }
 
-Status write_text(const std::filesystem::path& path, const std::string& text) {
-    Result<StagedFile> file = StagedFile::create(path);
-    if (!file) return file.error();
-    if (Status status = file->write(std::as_bytes(std::span(text))); !status) return status;
-    return file->commit();
-}
-
 std::string about(const ReferencePictures& pictures) {
     return std::to_string(pictures.views.size()) + " views of " + std::to_string(pictures.width) + "x" +
            std::to_string(pictures.height) + ", " + std::to_string(pictures.touched_blocks) + " touched blocks";
@@ -107,11 +100,11 @@ Status run(const Arguments& arguments) {
         if (!result) return result.error();
         results.push_back(std::move(*result));
         // After every set: what is measured is not lost when a later one fails.
-        if (Status status = write_text(arguments.csv, points_csv(results)); !status) return status;
-        if (Status status = write_text(ratios_path(arguments.csv), ratios_csv(results)); !status) return status;
+        if (Status status = write_file(arguments.csv, points_csv(results)); !status) return status;
+        if (Status status = write_file(ratios_path(arguments.csv), ratios_csv(results)); !status) return status;
     }
     std::fputs(summary_text(results).c_str(), stdout);
-    return arguments.svg.empty() ? Status{} : write_text(arguments.svg, rate_plot_svg(results));
+    return arguments.svg.empty() ? Status{} : write_file(arguments.svg, rate_plot_svg(results));
 }
 
 }  // namespace

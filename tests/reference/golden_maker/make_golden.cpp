@@ -1,7 +1,7 @@
 // Writes the golden files: `make_golden tests/reference/golden`. A golden file changes only with a written reason: run
 // it when the format changes, and say so in tests/reference/golden/README.md.
-#include "rayspace/file_output.hpp"
 #include "rayspace/object_file.hpp"
+#include "rayspace/write_file.hpp"
 #include "tests/reference/golden_maker/golden_damage.hpp"
 #include "tests/reference/golden_maker/golden_objects.hpp"
 #include "tests/reference/golden_planes.hpp"
@@ -16,13 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace rs;
-
-Status write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
-    auto file = StagedFile::create(path);
-    if (!file) return file.error();
-    if (Status status = file->write(bytes); !status) return status;
-    return file->commit();
-}
 
 std::string line_of(const std::string& file, std::size_t view, const golden::PlaneSums& sums) {
     std::string line = file + " " + std::to_string(view);
@@ -63,7 +56,7 @@ Status write_valid(const fs::path& folder, Drafts& drafts) {
         if (!sums.error.empty()) return Error{path.string() + ": " + sums.error};
         for (std::size_t v = 0; v < sums.views.size(); ++v) text += line_of(name + ".rso", v, sums.views[v]);
     }
-    return write_bytes(folder / "planes.txt", std::as_bytes(std::span(text)));
+    return write_file(folder / "planes.txt", std::as_bytes(std::span(text)));
 }
 
 Status write_invalid(const fs::path& folder, const Drafts& drafts) {
@@ -88,11 +81,11 @@ Status write_invalid(const fs::path& folder, const Drafts& drafts) {
         golden::Bytes bytes = fuzz::container_of(draft.chunks);
         if (draft.afterwards) draft.afterwards(bytes);
         const std::string name = damage.name + ".rso";
-        if (Status status = write_bytes(folder / "invalid" / name, bytes); !status) return status;
+        if (Status status = write_file(folder / "invalid" / name, bytes); !status) return status;
         text += name + "; " + (damage.is_of_codec ? "codec" : "file") + "; " + damage.base + ".rso; " + damage.words;
         text += "\n";
     }
-    return write_bytes(folder / "refusals.txt", std::as_bytes(std::span(text)));
+    return write_file(folder / "refusals.txt", std::as_bytes(std::span(text)));
 }
 
 }  // namespace
