@@ -11,6 +11,12 @@ namespace rs::engine::model {
 // and floor out. A new division may enter in every cycle.
 inline constexpr int kDivideCycles = 34;
 
+// Pipelined multiplier: 36 x 36 bits signed, of four 18 x 18 ones; a product may enter in every cycle.
+inline constexpr int kProductCycles = 5;
+
+// Square root, 32 bits of the result one after the other (a 34-bit subtract and a choice each), and its register.
+inline constexpr int kRootCycles = 33;
+
 // Serial multiplier: 36 x 36 bits signed, 4 bits of the multiplier a cycle. One product at a time.
 inline constexpr int kMultiplyCycles = 9;
 
@@ -46,6 +52,22 @@ constexpr Quotient divide_serially(std::int64_t dividend, std::int64_t divisor) 
     const auto value = static_cast<std::int64_t>(quotient);
     if (!negative) return {value, false};
     return {rest == 0 ? -value : -value - 1, false};
+}
+
+// The largest whole number whose square is at most `square`, by the steps of the hardware.
+constexpr std::int64_t square_root_serially(std::uint64_t square) {
+    std::uint64_t root = 0;
+    std::uint64_t rest = 0;
+    for (int bit = 31; bit >= 0; --bit) {
+        rest = (rest << 2U) | ((square >> static_cast<unsigned>(2 * bit)) & 3U);
+        const std::uint64_t trial = (root << 2U) | 1U;
+        root <<= 1U;
+        if (rest >= trial) {
+            rest -= trial;
+            root |= 1U;
+        }
+    }
+    return static_cast<std::int64_t>(root);
 }
 
 // a * b for |b| below 2^35, by nine steps of 4 bits of b; the product must fit 64 bits.

@@ -26,7 +26,7 @@
 namespace rs::engine::model {
 
 struct HopFifos {
-    explicit HopFifos(int hop);
+    explicit HopFifos(int hop, const std::string& suffix);
     Fifo<BlockAsk> asks;
     Fifo<MemoryRead> table_reads;
     Fifo<MemoryWord> table_words;
@@ -51,19 +51,28 @@ struct HopBlocks {
     RecordSelect record_select;
 };
 
-struct BlockDecompression {
-    BlockDecompression(const RegisterFile& registers, Fifo<ColumnWalk>& walks, Fifo<YuvaPixel>& samples);
-    void add_to(Simulator& simulator);
+// The chains of all hops: asks and pixels go into those of hop 0, pixels with all their records come out of `complete`.
+struct RecordChains {
+    // `suffix` is appended to the names of FIFOs and blocks.
+    explicit RecordChains(const RegisterFile& registers, const std::string& suffix = "");
+    void add_chains_to(Simulator& simulator);
     // The memory ports in order of service: the last hop first, for others wait for it; of a hop, records first, which
     // stand in the row of the record before.
-    void add_ports(std::vector<ReadPort>& ports);
+    void add_chain_ports(std::vector<ReadPort>& ports);
 
     std::vector<std::unique_ptr<HopFifos>> fifos;  // [hop]
     Fifo<CodedPixel> complete;
+    std::vector<std::unique_ptr<HopBlocks>> hops;  // [hop]
+};
+
+struct BlockDecompression : RecordChains {
+    BlockDecompression(const RegisterFile& registers, Fifo<ColumnWalk>& walks, Fifo<YuvaPixel>& samples);
+    void add_to(Simulator& simulator);
+    void add_ports(std::vector<ReadPort>& ports);
+
     Fifo<MemoryRead> book_reads{"book_reads", 8, MemoryRead::kBits};
     Fifo<MemoryWord> book_words{"book_words", 16, MemoryWord::kBits};
     BlockScan block_scan;
-    std::vector<std::unique_ptr<HopBlocks>> hops;  // [hop]
     BookLookup book_lookup;
 };
 

@@ -37,16 +37,14 @@ Result<int> Board::take_slot(const RaySpaceObject& object) {
         return Error{object.name + ": all " + std::to_string(slots_.size()) +
                      " object slots of the board are taken; evict an object first"};
     }
-    const Result<Placement> placement =
-        map_.take(object_words(object, top_->config.limits.coded_pictures), object.name);
+    const Result<Placement> placement = map_.take(object_words(object, top_->config.limits), object.name);
     if (!placement) return placement.error();
     *free = {true, *placement};
     return static_cast<int>(free - slots_.begin());
 }
 
 ObjectImage Board::image_of(const RaySpaceObject& object, int slot) {
-    ObjectImage image =
-        object_image(object, slots_[static_cast<std::size_t>(slot)].placement, top_->config.limits.coded_pictures);
+    ObjectImage image = object_image(object, slots_[static_cast<std::size_t>(slot)].placement, top_->config.limits);
     image.registers.serial = ++loads_;
     return image;
 }
@@ -55,9 +53,12 @@ Result<int> Board::place(const RaySpaceObject& object) {
     const Result<int> slot = take_slot(object);
     if (!slot) return slot.error();
     ObjectImage image = image_of(object, *slot);
-    for (const MemorySegment& segment : image.segments) {
-        for (std::size_t n = 0; n < segment.words.size(); ++n) {
-            top_->sdram.set_word(segment.address + static_cast<WordAddress>(n), segment.words[n]);
+    for (int channel = 0; channel < top_->channels(); ++channel) {
+        Sdram& sdram = top_->sdram(channel);
+        for (const MemorySegment& segment : image.segments) {
+            for (std::size_t n = 0; n < segment.words.size(); ++n) {
+                sdram.set_word(segment.address + static_cast<WordAddress>(n), segment.words[n]);
+            }
         }
     }
     image.registers.valid = true;

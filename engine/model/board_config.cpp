@@ -16,6 +16,7 @@ constexpr int kPublishedObjects = 20;
 // Registers for as many objects as memory is meant to hold, eight times the published ones. 512 bits each: 5 block
 // RAMs.
 constexpr int kCodedObjects = 160;
+constexpr int kMostPipes = 32;
 
 // Calls visit(path, reference, least, most) for every number of a configuration: one list serves reading, writing and
 // checking.
@@ -25,12 +26,14 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("clock_period", c.clock_period, 1, 100);
     visit("queue_cycles", c.queue_cycles, 1, 2);
     visit("no_progress_cycles", c.no_progress_cycles, 1000, 1'000'000'000);
+    if (c.pipes > 0) visit("pipes", c.pipes, 1, kMostPipes);
     visit("limits/objects", c.limits.objects, 1, c.limits.coded_pictures ? kCodedObjects : kPublishedObjects);
     visit("limits/views_per_cycle", c.limits.views_per_cycle, 1, 15);
     visit("limits/pictures_per_object", c.limits.pictures_per_object, 1, 120);
     visit("limits/picture_side_px", c.limits.picture_side_px, 1, 512);
     visit("limits/planes", c.limits.planes, 1, 12);
     visit("limits/map_side", c.limits.map_side, 1, 1024);
+    if (c.limits.any_object) visit("limits/shape_bands", c.limits.shape_bands, 1, 256);
     visit("limits/image_buffer_side_px", c.limits.image_buffer_side_px, 1, 512);
     visit("memory/bank_bits", c.memory.shape.bank_bits, 1, 4);
     visit("memory/row_bits", c.memory.shape.row_bits, 1, 14);
@@ -113,6 +116,8 @@ std::string contradiction(const BoardConfig& c) {
     const auto side = static_cast<std::uint64_t>(c.limits.image_buffer_side_px);
     const std::uint64_t image_words =
         2 * static_cast<std::uint64_t>(c.limits.views_per_cycle) * side * ((side + 1) / 2);
+    if (c.pipes > 0 && r.images.count % 2 == 1)
+        return "memory/images/count is odd: each image buffer has banks of its own";
     if (image_words > c.memory.shape.words_per_bank() * static_cast<std::uint64_t>(r.images.count)) {
         return "the two image buffers do not fit the banks of memory/images";
     }
@@ -170,9 +175,25 @@ BoardConfig compressed_2000() {
     return config;
 }
 
+BoardConfig parallel() {
+    BoardConfig config = compressed_2000();
+    config.name = "parallel";
+    config.pipes = 16;
+    config.limits.any_object = true;
+    config.memory.regions.flat_tiles = {0, 4};
+    config.memory.regions.predicted_tiles = {4, 4};
+    config.memory.regions.tile_table = {8, 1};
+    config.memory.regions.tables = {9, 5};
+    config.memory.regions.images = {14, 2};
+    config.pci.burst_words = 16;
+    config.pci.wait_per_transfer = 0;
+    return config;
+}
+
 std::optional<BoardConfig> built_in(const std::string& name) {
     if (name == "prototype-2000") return prototype_2000();
     if (name == "compressed-2000") return compressed_2000();
+    if (name == "parallel") return parallel();
     return std::nullopt;
 }
 
@@ -185,7 +206,7 @@ std::string listed_built_ins() {
 }  // namespace
 
 std::vector<std::string> built_in_configs() {
-    return {"prototype-2000", "compressed-2000"};
+    return {"prototype-2000", "compressed-2000", "parallel"};
 }
 
 Result<BoardConfig> parse_board_config(const std::string& text, const std::string& where) {
@@ -239,7 +260,7 @@ Result<BoardConfig> read_board_config(const std::string& name_or_path) {
 std::string board_config_json(const BoardConfig& config) {
     Json json = to_json(config);
     json["name"] = config.name;
-    json["base"] = config.limits.coded_pictures ? "compressed-2000" : "prototype-2000";
+    json["base"] = config.pipes > 0 ? "parallel" : config.limits.coded_pictures ? "compressed-2000" : "prototype-2000";
     return json.dump(2);
 }
 

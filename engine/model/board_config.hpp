@@ -96,6 +96,7 @@ struct BoardConfig {
     MemorySettings memory;
     PciSettings pci;
     DiskSettings disk;
+    int pipes = 0;         // of a parallel board, each with a memory channel; 0: one pipe and one channel, as in 2000
     int queue_cycles = 2;  // rendering cycles whose registers the board holds
     std::uint64_t no_progress_cycles = 20'000;
 
@@ -103,6 +104,7 @@ struct BoardConfig {
 };
 
 // "prototype-2000": the published board. "compressed-2000": the same with pictures that stay compressed in its memory.
+// "parallel": sixteen pipes, each with a memory channel, that draw objects with a shape map too.
 std::vector<std::string> built_in_configs();
 
 // Name of a built-in, or a JSON file: {"base": "prototype-2000", "memory": {...}, ...} changes what it names. Fails on

@@ -1,6 +1,7 @@
 #include "engine/model/board_limits.hpp"
 
 #include "engine/model/coded_layout.hpp"
+#include "engine/model/parallel_layout.hpp"
 
 #include <algorithm>
 
@@ -21,7 +22,9 @@ BoardFootprint board_footprint(const RaySpaceObject& object, const BoardLimits& 
     const auto chroma_pixels =
         static_cast<std::uint64_t>(half_size(object.width)) * static_cast<std::uint64_t>(half_size(object.height));
     BoardFootprint footprint;
-    if (limits.coded_pictures) {
+    if (limits.any_object && object.coded == nullptr) {
+        footprint.luma_bytes = 8 * pictures * model::raw_picture_words(object.width, object.height);
+    } else if (limits.coded_pictures) {
         const codec::CodedPictures& coded = *object.coded;
         footprint.tile_bytes = 8 * (model::picture_words(coded, false) + model::picture_words(coded, true));
         footprint.tile_table_bytes = 8 * model::tile_table_words(coded);
@@ -34,6 +37,9 @@ BoardFootprint board_footprint(const RaySpaceObject& object, const BoardLimits& 
     for (const Ring& ring : object.rings) {
         footprint.map_bytes += ring.cells.size();
         footprint.lines_bytes += ring.views.size() * 16 * (1 + static_cast<std::uint64_t>(ring.planes));
+        if (!limits.any_object) continue;
+        footprint.lines_bytes += ring.views.size() * 16 * (1 + static_cast<std::uint64_t>(ring.planes));
+        footprint.shape_bytes += 4 * ring.shape.cells.size();
     }
     return footprint;
 }
@@ -54,6 +60,10 @@ Status fits_board(const RaySpaceObject& object, const BoardLimits& limits) {
         if (std::max(ring.x_cells, ring.u_cells) > limits.map_side) {
             return over(object, "RS map side:", std::max(ring.x_cells, ring.u_cells), limits.map_side,
                         "encode it with fewer --cells");
+        }
+        if (limits.any_object && ring.shape.bands > limits.shape_bands) {
+            return over(object, "bands of height in its shape map:", ring.shape.bands, limits.shape_bands,
+                        "encode it from smaller pictures, or with --raymap plane");
         }
     }
     if (object.rings.size() > 1) {

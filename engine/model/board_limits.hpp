@@ -27,6 +27,10 @@ struct BoardLimits {
     int image_buffer_side_px = 512;  // the largest reconstructed image, R, G, B and alpha, in two buffers
     std::uint64_t memory_bytes = std::uint64_t{1} << 30;
     bool coded_pictures = false;  // pictures are those of profile `board`, kept as they are; else Y, U, V and alpha
+    // Objects of either kind of pictures, alpha in 8 bits, with a shape map or without: the parallel board. Then
+    // coded_pictures is true.
+    bool any_object = false;
+    int shape_bands = 256;  // of a shape map
 };
 
 // Bytes of board memory that an object takes; planes of pictures and maps are stored without gaps.
@@ -40,13 +44,14 @@ struct BoardFootprint {
     std::uint64_t tile_bytes = 0;
     std::uint64_t tile_table_bytes = 0;
     std::uint64_t book_bytes = 0;
+    std::uint64_t shape_bytes = 0;  // cells of shape maps
     [[nodiscard]] std::uint64_t total_bytes() const {
         return luma_bytes + chroma_bytes + alpha_bytes + map_bytes + lines_bytes + tile_bytes + tile_table_bytes +
-               book_bytes;
+               book_bytes + shape_bytes;
     }
 };
 
-// Where `limits` ask for coded pictures, `object` has them, all loaded.
+// Where `limits` ask for coded pictures and not for any object, `object` has them, all loaded.
 BoardFootprint board_footprint(const RaySpaceObject& object, const BoardLimits& limits);
 
 // Fails with the limit that the object exceeds, its value, and what to encode it with instead.

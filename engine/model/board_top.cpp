@@ -10,7 +10,7 @@ Simulator::Options simulator_options(const BoardConfig& config, std::uint64_t sh
 }
 
 // The order of the list is the order of service.
-std::vector<ReadPort> read_ports(BoardTop& board) {
+std::vector<ReadPort> read_ports(SingleBoard& board) {
     Pipe& pipe = board.pipe;
     PipeFifos& f = pipe.fifos;
     std::vector<ReadPort> ports = {{"host_dma", &board.host_reads, &board.host_words},
@@ -58,7 +58,43 @@ RegisterFile register_file(const BoardConfig& config) {
                                            config.memory.shape.words_per_bank());
     file.words_per_view = side * ((side + 1) / 2);
     file.views_per_cycle = config.limits.views_per_cycle;
+    // Of a parallel board the two buffers lie in banks of their own: what is drawn meets not what is delivered.
+    file.words_per_buffer = static_cast<WordAddress>(file.views_per_cycle * file.words_per_view);
+    if (config.pipes > 0) {
+        const auto banks = static_cast<std::uint64_t>(config.memory.regions.images.count / 2);
+        file.words_per_buffer = static_cast<WordAddress>(banks * config.memory.shape.words_per_bank());
+    }
     return file;
+}
+
+std::vector<std::unique_ptr<ParallelPipe>> all_pipes(const BoardConfig& config, const RegisterFile& registers) {
+    std::vector<std::unique_ptr<ParallelPipe>> pipes;
+    for (int n = 0; n < config.pipes; ++n) {
+        pipes.push_back(std::make_unique<ParallelPipe>(config, registers, StripeShare{n, config.pipes}));
+    }
+    return pipes;
+}
+
+std::vector<FanPort> fan_ports(const std::vector<std::unique_ptr<ParallelPipe>>& pipes) {
+    std::vector<FanPort> ports;
+    for (const auto& pipe : pipes) {
+        ParallelFifos& f = pipe->fifos;
+        ports.push_back({&f.jobs, &f.scan_jobs, &f.book_jobs, &f.view_written});
+    }
+    return ports;
+}
+
+std::vector<LoadPort> load_ports(const std::vector<std::unique_ptr<ParallelPipe>>& pipes) {
+    std::vector<LoadPort> ports;
+    for (const auto& pipe : pipes) ports.push_back({&pipe->fifos.load_words, &pipe->fifos.object_loaded});
+    return ports;
+}
+
+std::vector<DmaPort> dma_ports(BoardTop& board) {
+    if (board.single) return {{&board.single->host_reads, &board.single->host_words}};
+    std::vector<DmaPort> ports;
+    for (const auto& pipe : board.parallel->pipes) ports.push_back({&pipe->fifos.host_reads, &pipe->fifos.host_words});
+    return ports;
 }
 
 }  // namespace
@@ -94,29 +130,52 @@ Pipe::Pipe(const RegisterFile& registers, bool coded_pictures)
     }
 }
 
+SingleBoard::SingleBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
+                         Fifo<Done>& object_loaded)
+    : sdram(config.memory.shape, config.memory.timing),
+      pipe(registers, config.limits.coded_pictures),
+      memory("memory_controller", config.memory, sdram, read_ports(*this), pipe.fifos.image_writes,
+             pipe.fifos.view_written, load_words, object_loaded) {}
+
+ParallelBoard::ParallelBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
+                             Fifo<Done>& object_loaded)
+    : pipes(all_pipes(config, registers)),
+      view_fan(registers, jobs, fan_ports(pipes), view_written),
+      load_fan(load_words, load_ports(pipes), object_loaded) {}
+
 BoardTop::BoardTop(const BoardConfig& board_config, std::uint64_t shuffle_seed)
     : config(board_config),
       registers(register_file(config)),
-      sdram(config.memory.shape, config.memory.timing),
       object_ready("object_ready", 2, static_cast<int>(std::bit_width(registers.objects.size() - 1))),
-      pipe(registers, config.limits.coded_pictures),
-      render_control(config, registers, programs, commands, pipe.fifos.jobs, pipe.fifos.view_written, images_ready,
-                     buffer_free, object_ready),
-      memory("memory_controller", config.memory, sdram, read_ports(*this), pipe.fifos.image_writes,
-             pipe.fifos.view_written, load_words, object_loaded),
-      host_dma(registers, images_ready, host_reads, host_words, image_words, transferred, buffer_free),
+      single(config.pipes == 0 ? std::make_unique<SingleBoard>(config, registers, load_words, object_loaded) : nullptr),
+      parallel(config.pipes > 0 ? std::make_unique<ParallelBoard>(config, registers, load_words, object_loaded)
+                                : nullptr),
+      render_control(config, registers, programs, commands, parallel ? parallel->jobs : single->pipe.fifos.jobs,
+                     parallel ? parallel->view_written : single->pipe.fifos.view_written, images_ready, buffer_free,
+                     object_ready),
+      host_dma(registers, images_ready, dma_ports(*this), image_words, transferred, buffer_free),
       disk_controller(config.disk, registers, load_words, object_loaded, object_ready),
       host_bus(config.pci, programs, image_words, commands, transferred),
       simulator(simulator_options(config, shuffle_seed)) {
     simulator.add(Domain::board, render_control);
-    add_pipe(simulator, pipe);
-    for (Block* block : std::initializer_list<Block*>{&memory, &host_dma, &disk_controller}) {
-        simulator.add(Domain::board, *block);
+    if (single) {
+        add_pipe(simulator, single->pipe);
+        simulator.add(Domain::board, single->memory);
+    } else {
+        simulator.add(Domain::board, parallel->view_fan);
+        for (const auto& pipe : parallel->pipes) pipe->add_to(simulator);
     }
-    for (FifoState* fifo : std::initializer_list<FifoState*>{&images_ready, &buffer_free, &host_reads, &host_words,
-                                                             &load_words, &object_loaded, &object_ready}) {
-        simulator.add(Domain::board, *fifo);
+    simulator.add(Domain::board, host_dma);
+    if (parallel) simulator.add(Domain::board, parallel->load_fan);
+    simulator.add(Domain::board, disk_controller);
+    std::vector<FifoState*> fifos = {&images_ready, &buffer_free};
+    if (single) {
+        fifos.insert(fifos.end(), {&single->host_reads, &single->host_words});
+    } else {
+        fifos.insert(fifos.end(), {&parallel->jobs, &parallel->view_written});
     }
+    fifos.insert(fifos.end(), {&load_words, &object_loaded, &object_ready});
+    for (FifoState* fifo : fifos) simulator.add(Domain::board, *fifo);
     simulator.add(Domain::pci, host_bus);
     simulator.add_crossing(Domain::pci, commands);
     simulator.add_crossing(Domain::board, image_words);

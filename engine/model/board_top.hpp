@@ -9,6 +9,7 @@
 #include "engine/model/blocks/host_dma.hpp"
 #include "engine/model/blocks/image_writer.hpp"
 #include "engine/model/blocks/line_reader.hpp"
+#include "engine/model/blocks/load_fan.hpp"
 #include "engine/model/blocks/map_reader.hpp"
 #include "engine/model/blocks/memory_controller.hpp"
 #include "engine/model/blocks/raster_generator.hpp"
@@ -18,9 +19,13 @@
 #include "engine/model/blocks/sample_fetch.hpp"
 #include "engine/model/blocks/sample_select.hpp"
 #include "engine/model/blocks/vertical_compensation.hpp"
+#include "engine/model/blocks/view_fan.hpp"
 #include "engine/model/clock/simulator.hpp"
+#include "engine/model/parallel_pipe.hpp"
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 namespace rs::engine::model {
 
@@ -76,6 +81,28 @@ struct Pipe {
     ImageWriter image_writer;
 };
 
+// One pipe and one memory channel: the boards of 2000.
+struct SingleBoard {
+    SingleBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
+                Fifo<Done>& object_loaded);
+    Sdram sdram;
+    Fifo<MemoryRead> host_reads{"host_reads", 4, MemoryRead::kBits};
+    Fifo<MemoryWord> host_words{"host_words", 8, MemoryWord::kBits};
+    Pipe pipe;
+    MemoryController memory;
+};
+
+// Several, each pipe with a channel of its own: the parallel board.
+struct ParallelBoard {
+    ParallelBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
+                  Fifo<Done>& object_loaded);
+    Fifo<ViewJob> jobs{"jobs", 2, ViewJob::kBits};
+    Fifo<Done> view_written{"view_written", 2, Done::kBits};
+    std::vector<std::unique_ptr<ParallelPipe>> pipes;
+    ViewFan view_fan;
+    LoadFan load_fan;
+};
+
 struct BoardTop {
     explicit BoardTop(const BoardConfig& config, std::uint64_t shuffle_seed = 0);
     BoardTop(const BoardTop&) = delete;
@@ -83,7 +110,6 @@ struct BoardTop {
 
     const BoardConfig config;
     RegisterFile registers;
-    Sdram sdram;
     HostPrograms programs;
 
     CrossingFifo<StartCommand> commands{"commands", 4, StartCommand::kBits};
@@ -91,19 +117,25 @@ struct BoardTop {
     CrossingFifo<Done> transferred{"transferred", 2, Done::kBits};
     Fifo<Done> images_ready{"images_ready", 2, Done::kBits};
     Fifo<Done> buffer_free{"buffer_free", 2, Done::kBits};
-    Fifo<MemoryRead> host_reads{"host_reads", 4, MemoryRead::kBits};
-    Fifo<MemoryWord> host_words{"host_words", 8, MemoryWord::kBits};
     Fifo<MemoryWrite> load_words{"load_words", 64, MemoryWrite::kBits};
     Fifo<Done> object_loaded{"object_loaded", 2, Done::kBits};
     Fifo<Done> object_ready;
 
-    Pipe pipe;
+    std::unique_ptr<SingleBoard> single;  // one of the two
+    std::unique_ptr<ParallelBoard> parallel;
     RenderControl render_control;
-    MemoryController memory;
     HostDma host_dma;
     DiskController disk_controller;
     HostBus host_bus;
     Simulator simulator;
+
+    [[nodiscard]] int channels() const { return parallel ? static_cast<int>(parallel->pipes.size()) : 1; }
+    [[nodiscard]] const MemoryController& memory(int channel = 0) const {
+        return parallel ? parallel->pipes[static_cast<std::size_t>(channel)]->memory : single->memory;
+    }
+    [[nodiscard]] Sdram& sdram(int channel = 0) {
+        return parallel ? parallel->pipes[static_cast<std::size_t>(channel)]->sdram : single->sdram;
+    }
 };
 
 }  // namespace rs::engine::model

@@ -27,22 +27,27 @@ struct ColumnRay {
 // Ray position: where the ray meets the plane, and the cell of the RS map that answers (byte address).
 struct RayPoint {
     static constexpr int kBits = 4 + 1 + 4 + 23 + 29 + 30;
+    static constexpr int kBitsWithDirection = kBits + 30 + 31 + 32;
     int view = 0;
     bool has_ray = false;
     int plane = 0;
     std::int64_t x_q20 = 0;
     std::int64_t lambda_q20 = 0;
     std::uint64_t cell_byte = 0;
+    // Where objects may have a shape map: the slope u, and the direction (section 5).
+    std::int64_t u_q28 = 0, n_q28 = 0, t_q28 = 0;
 };
 
 struct MappedRay {
     static constexpr int kBits = 4 + 1 + 4 + 23 + 29 + 7;
+    static constexpr int kBitsWithDirection = kBits + 30 + 31 + 32;
     int view = 0;
     bool has_ray = false;
     int plane = 0;
     std::int64_t x_q20 = 0;
     std::int64_t lambda_q20 = 0;
     int picture = 0;
+    std::int64_t u_q28 = 0, n_q28 = 0, t_q28 = 0;
 };
 
 // Line reader: the picture's camera and its line of the plane.

@@ -2,6 +2,7 @@
 
 #include "engine/model/blocks/map_reader.hpp"
 #include "engine/model/coded_object_image.hpp"
+#include "engine/model/parallel_object_image.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 
 #include <algorithm>
@@ -55,7 +56,26 @@ MemorySegment map_and_lines(WordAddress address, const RaySpaceObject& object) {
     return segment;
 }
 
-// The pictures are there, as Y, U and V at half size, and alpha.
+void add_raw_pictures(const RaySpaceObject& object, const Placement& placement, ObjectRegisters& r,
+                      std::vector<MemorySegment>& segments) {
+    const auto at = [&](Region region) { return placement.first[static_cast<std::size_t>(region)]; };
+    r.luma_pitch = words_of(object.height, 8);
+    r.chroma_pitch = words_of(half_size(object.height), 4);
+    r.alpha_pitch = words_of(object.height, 32);
+    r.luma = at(Region::luma);
+    r.chroma = at(Region::chroma);
+    r.alpha = at(Region::alpha);
+    segments.push_back(
+        columns(r.alpha, object, object.width, object.height, 2,
+                [](const PlanarPicture& p, int x, int y) { return codec::level_of_alpha(p.a(x, y), kAlphaBits); }));
+    segments.push_back(columns(r.chroma, object, half_size(object.width), half_size(object.height), 16,
+                               [](const PlanarPicture& p, int x, int y) { return p.u(x, y) | p.v(x, y) << 8; }));
+    segments.push_back(columns(r.luma, object, object.width, object.height, 8,
+                               [](const PlanarPicture& p, int x, int y) { return p.y(x, y); }));
+}
+
+}  // namespace
+
 Status has_raw_pictures(const RaySpaceObject& object) {
     if (object.coded != nullptr) {
         return Error{object.name + ": its pictures are of profile " + codec::name_of(object.coded->profile) +
@@ -78,36 +98,19 @@ Status has_raw_pictures(const RaySpaceObject& object) {
     return {};
 }
 
-void add_raw_pictures(const RaySpaceObject& object, const Placement& placement, ObjectRegisters& r,
-                      std::vector<MemorySegment>& segments) {
-    const auto at = [&](Region region) { return placement.first[static_cast<std::size_t>(region)]; };
-    r.luma_pitch = words_of(object.height, 8);
-    r.chroma_pitch = words_of(half_size(object.height), 4);
-    r.alpha_pitch = words_of(object.height, 32);
-    r.luma = at(Region::luma);
-    r.chroma = at(Region::chroma);
-    r.alpha = at(Region::alpha);
-    segments.push_back(
-        columns(r.alpha, object, object.width, object.height, 2,
-                [](const PlanarPicture& p, int x, int y) { return codec::level_of_alpha(p.a(x, y), kAlphaBits); }));
-    segments.push_back(columns(r.chroma, object, half_size(object.width), half_size(object.height), 16,
-                               [](const PlanarPicture& p, int x, int y) { return p.u(x, y) | p.v(x, y) << 8; }));
-    segments.push_back(columns(r.luma, object, object.width, object.height, 8,
-                               [](const PlanarPicture& p, int x, int y) { return p.y(x, y); }));
-}
-
-}  // namespace
-
 Status drawable(const RaySpaceObject& object, const BoardLimits& limits) {
     if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
-    if (Status status = limits.coded_pictures ? has_board_pictures(object) : has_raw_pictures(object); !status) {
-        return status;
+    if (limits.any_object && object.coded != nullptr && object.coded->profile != codec::Profile::kBoard) {
+        return Error{object.name + ": its pictures are of profile " + codec::name_of(object.coded->profile) +
+                     ", and the board unpacks those of profile board; encode it with --profile board or --profile raw"};
     }
+    const bool coded = limits.any_object ? object.coded != nullptr : limits.coded_pictures;
+    if (Status status = coded ? has_board_pictures(object) : has_raw_pictures(object); !status) return status;
     if (Status status = fits_board(object, limits); !status) return status;
-    if (!object.rings.front().shape.empty()) {
+    if (!limits.any_object && !object.rings.front().shape.empty()) {
         return Error{object.name +
                      ": has a shape map, which the published board does not know (it takes objects to lie on "
-                     "their reference planes); encode it with --raymap plane"};
+                     "their reference planes); encode it with --raymap plane, or use parallel"};
     }
     return {};
 }
@@ -125,12 +128,13 @@ RaySpaceObject as_drawn_by_board(RaySpaceObject object, const BoardLimits& limit
     return limits.coded_pictures ? object : with_board_alpha(std::move(object));
 }
 
-std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object, bool coded_pictures) {
+std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object, const BoardLimits& limits) {
+    if (limits.any_object) return parallel_object_words(object);
     const std::uint64_t pictures = object.views.size();
     const Ring& ring = object.rings.front();
     const std::uint64_t tables =
         (ring.cells.size() + 7) / 8 + 2 * pictures * static_cast<std::uint64_t>(1 + ring.planes);
-    if (coded_pictures) {
+    if (limits.coded_pictures) {
         std::array<std::uint64_t, kObjectRegions> words = coded_words(*object.coded);
         words[static_cast<std::size_t>(Region::tables)] += tables;
         return words;
@@ -143,10 +147,8 @@ std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& obj
             columns_of(object.width, words_of(object.height, 32)), tables};
 }
 
-ObjectImage object_image(const RaySpaceObject& object, const Placement& placement, bool coded_pictures) {
+void set_map_registers(const RaySpaceObject& object, ObjectRegisters& r) {
     const Ring& ring = object.rings.front();
-    ObjectImage image;
-    ObjectRegisters& r = image.registers;
     r.width = object.width;
     r.height = object.height;
     r.pictures = static_cast<int>(object.views.size());
@@ -157,10 +159,18 @@ ObjectImage object_image(const RaySpaceObject& object, const Placement& placemen
     r.x_cells_per_unit_q12 = ring.x_cells_per_unit_q12;
     r.u_half_q28 = ring.u_half_q28;
     r.u_cells_per_unit_q12 = ring.u_cells_per_unit_q12;
+}
+
+ObjectImage object_image(const RaySpaceObject& object, const Placement& placement, const BoardLimits& limits) {
+    if (limits.any_object) return parallel_object_image(object, placement);
+    const Ring& ring = object.rings.front();
+    ObjectImage image;
+    ObjectRegisters& r = image.registers;
+    set_map_registers(object, r);
     r.map = placement.first[static_cast<std::size_t>(Region::tables)];
     r.lines = r.map + static_cast<WordAddress>((ring.cells.size() + 7) / 8);
     image.segments.push_back(map_and_lines(r.map, object));
-    if (coded_pictures) {
+    if (limits.coded_pictures) {
         const auto books = r.map + static_cast<WordAddress>(image.segments.back().words.size());
         add_coded_pictures(*object.coded, placement, books, r, image.segments);
     } else {

@@ -25,7 +25,13 @@ RaySpaceObject with_board_alpha(RaySpaceObject object);
 RaySpaceObject as_drawn_by_board(RaySpaceObject object, const BoardLimits& limits);
 
 // Words per region that the object takes.
-std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object, bool coded_pictures);
+std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object, const BoardLimits& limits);
+
+// The numbers of its RS map.
+void set_map_registers(const RaySpaceObject& object, ObjectRegisters& registers);
+
+// Fails where pictures are not there as Y, U and V at half size, and alpha.
+Status has_raw_pictures(const RaySpaceObject& object);
 
 struct ObjectImage {
     ObjectRegisters registers;
@@ -33,6 +39,6 @@ struct ObjectImage {
 };
 
 // `object` is drawable. Alpha of pictures that are not compressed is rounded to 2 bits.
-ObjectImage object_image(const RaySpaceObject& object, const Placement& placement, bool coded_pictures);
+ObjectImage object_image(const RaySpaceObject& object, const Placement& placement, const BoardLimits& limits);
 
 }  // namespace rs::engine::model

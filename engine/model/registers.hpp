@@ -24,6 +24,23 @@ struct BookCounts {
     bool alpha = false;
 };
 
+// Of an object with a shape map (RECONSTRUCTION.md, section 1), on a board that knows it.
+struct ShapeRegisters {
+    bool exists = false;
+    int p_cells = 0;  // 13 bits
+    int bands = 0;    // 9 bits
+    std::int32_t p_half_q20 = 0;
+    std::int32_t p_cells_per_unit_q12 = 0;
+    std::int32_t h_low_q20 = 0;
+    std::int32_t bands_per_unit_q12 = 0;
+    std::int32_t reference_distance_q20 = 0;
+    std::int32_t reference_height_q20 = 0;
+    std::int32_t depth_low_q20 = 0;
+    std::int32_t depth_step_q24 = 0;
+    int foot_d = 0;  // 8 bits
+    WordAddress cells = 0;
+};
+
 // Where an object lies and what section 1 of RECONSTRUCTION.md says of it. Widths: sizes 10 bits, addresses 27 bits,
 // fixed point as in RECONSTRUCTION.md.
 struct ObjectRegisters {
@@ -57,6 +74,13 @@ struct ObjectRegisters {
     std::uint32_t book_words = 0;  // 15 bits
     BookCounts book_counts;
     std::array<std::array<codec::RecordClass, codec::kBoardClasses>, 2> classes{};  // a byte each
+    // On a parallel board (parallel_layout.hpp).
+    bool coded = false;          // its pictures are those of profile `board`
+    WordAddress raw_blocks = 0;  // else
+    int block_columns = 0;       // of a raw picture, 7 bits
+    int block_rows = 0;
+    ShapeRegisters shape;
+
     std::uint32_t serial = 0;  // number of the load, from 1: tells apart the objects that a slot holds in turn
 };
 
@@ -90,8 +114,10 @@ struct RegisterFile {
     std::array<ViewBank, 2> banks{};
     int active = 0;                                  // the bank that is rendered, and the image buffer that is written
     std::array<std::vector<int>, 2> buffer_words{};  // [buffer][view]: kept until the host has the pictures
-    WordAddress images = 0;                          // both image buffers
-    int words_per_view = 0;                          // of the image buffer
+    std::array<std::vector<int>, 2> buffer_pitches{};  // words per column, likewise
+    WordAddress images = 0;                            // the first image buffer
+    WordAddress words_per_buffer = 0;                  // from there to the second
+    int words_per_view = 0;                            // of the image buffer
     int views_per_cycle = 15;
 
     [[nodiscard]] const BoardView& view(int number) const {
@@ -101,7 +127,8 @@ struct RegisterFile {
         return objects[static_cast<std::size_t>(view(view_number).object)];
     }
     [[nodiscard]] WordAddress image(int buffer, int view_number) const {
-        return images + static_cast<WordAddress>((buffer * views_per_cycle + view_number) * words_per_view);
+        return images + static_cast<WordAddress>(buffer) * words_per_buffer +
+               static_cast<WordAddress>(view_number * words_per_view);
     }
 };
 

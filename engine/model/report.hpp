@@ -23,14 +23,23 @@ struct BlockShare {
 struct Interval {
     double seconds = 0;
     std::uint64_t board_cycles = 0;
-    std::vector<BlockShare> blocks;
-    std::string limiting_block;  // the one that its own work and losses occupy most
+    std::vector<BlockShare> blocks;  // those that stand in every pipe are added up
+    std::string limiting_block;      // the one that its own work and losses occupy most
 };
 
 struct MemoryTraffic {
     std::string client;
     std::uint64_t words = 0;
     std::uint64_t nulls = 0;
+};
+
+// A memory channel. Its peak is a word of 8 bytes a cycle.
+struct ChannelReport {
+    std::uint64_t words = 0;  // that moved, since the board was made
+    std::vector<MemoryTraffic> clients;
+    MemoryController::Counters counters;
+    BlockShare rendering;  // its controller's cycles while rendering: busy is what moved, the rest what rows, turns of
+                           // the data bus and refresh cost
 };
 
 struct BoardReport {
@@ -46,8 +55,9 @@ struct BoardReport {
     double pixels_per_second = 0;     // while drawing
     double cycles_per_second = 0;     // drawn
     double arrivals_per_second = 0;   // rendering cycles that arrive at the host, in a row; 0 for fewer than two
-    std::vector<MemoryTraffic> memory;  // since the board was made
+    std::vector<MemoryTraffic> memory;  // of channel 0, since the board was made
     MemoryController::Counters counters;
+    std::vector<ChannelReport> channels;
     HostBus::Counters bus;
 };
 

@@ -76,7 +76,7 @@ Result<std::vector<Drawing>> asked_drawings(const std::vector<RaySpaceObject>& o
 void print_footprint(const RaySpaceObject& object, const model::Board& board) {
     const BoardLimits& limits = board.top().config.limits;
     if (!model::drawable(object, limits)) return;  // refused, with the reason, when it is loaded
-    const auto words = model::object_words(object, limits.coded_pictures);
+    const auto words = model::object_words(object, limits);
     std::uint64_t all = 0;
     for (const std::uint64_t n : words) all += 8 * n;
     std::printf("%s: %llu bytes of board memory; memory for %llu such objects, %d slots\n", object.name.c_str(),
@@ -133,6 +133,25 @@ void print_interval(const char* what, const model::Interval& interval) {
     }
 }
 
+// What each channel carried since the board was made, and how much of its time that took while rendering.
+void print_channels(const model::BoardReport& report) {
+    const double peak = report.clock_mhz * 8;
+    std::printf("\n");
+    for (std::size_t c = 0; c < report.channels.size(); ++c) {
+        const model::ChannelReport& channel = report.channels[c];
+        const double moved = channel.rendering.share(model::Activity::busy);
+        std::printf("memory channel %zu: %llu bytes; while rendering %.1f of %.0f MByte/s (%.1f%%), occupied %.1f%%\n",
+                    c, static_cast<unsigned long long>(channel.words * 8), moved * peak, peak, 100 * moved,
+                    100 * channel.rendering.occupied());
+    }
+    std::printf("memory channel 0:");
+    for (const model::MemoryTraffic& traffic : report.memory) {
+        if (traffic.words + traffic.nulls == 0) continue;
+        std::printf("  %s %llu bytes", traffic.client.c_str(), static_cast<unsigned long long>(traffic.words * 8));
+    }
+    std::printf("\n");
+}
+
 void print_report(const model::BoardReport& report) {
     std::printf("%s: %d rendering cycles, %d pictures, %lld pixels\n", report.config.c_str(), report.cycles,
                 report.pictures, static_cast<long long>(report.pixels));
@@ -143,12 +162,8 @@ void print_report(const model::BoardReport& report) {
     }
     print_interval("while rendering", report.rendering);
     print_interval("while delivering to the host's memory", report.delivering);
-    std::printf("\nmemory channel 0:");
-    for (const model::MemoryTraffic& traffic : report.memory) {
-        if (traffic.words + traffic.nulls == 0) continue;
-        std::printf("  %s %llu bytes", traffic.client.c_str(), static_cast<unsigned long long>(traffic.words * 8));
-    }
-    std::printf("\nhost bus: %llu bytes of pictures in %llu bursts, %llu retries, %llu register writes\n",
+    print_channels(report);
+    std::printf("host bus: %llu bytes of pictures in %llu bursts, %llu retries, %llu register writes\n",
                 static_cast<unsigned long long>(report.bus.image_bytes),
                 static_cast<unsigned long long>(report.bus.bursts), static_cast<unsigned long long>(report.bus.retries),
                 static_cast<unsigned long long>(report.bus.register_writes));
@@ -249,9 +264,10 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
         "simulate", "Draw views with the cycle-accurate model of the board, and say where its cycles went");
     command
         ->add_option("CONFIG", arguments->config,
-                     "prototype-2000, compressed-2000, or a JSON file with settings that differ from one of them")
+                     "prototype-2000, compressed-2000, parallel, or a JSON file with settings that differ from one of "
+                     "them")
         ->required();
-    command->add_option("OBJECT", arguments->objects, "ray-space objects without a shape map, .rso");
+    command->add_option("OBJECT", arguments->objects, "ray-space objects, .rso; with a shape map for parallel only");
     add_view_options(*command, arguments->views, false);
     command->add_flag("--upright", arguments->upright, "stand tilted cameras upright: the board draws no others");
     command
@@ -270,6 +286,7 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
         "Examples:\n  rs-engine simulate prototype-2000 vase.rso --orbit 15 --size 256x256 -o drawn --stats vase.json\n"
         "  rs-engine simulate prototype-2000 a.rso b.rso c.rso --orbit 12 --per-cycle 3 --chart cycles.svg\n"
         "  rs-engine simulate compressed-2000 vase-board.rso --orbit 15 --size 256x256 --stats vase.json\n"
+        "  rs-engine simulate parallel vase-shape.rso --orbit 4 --size 512x512 --upright\n"
         "  rs-engine simulate prototype-2000 --diagram");
     command->callback([arguments, &run] {
         const AskedViews& views = arguments->views;

@@ -2,22 +2,44 @@
 
 namespace rs::engine::model {
 
-HostDma::HostDma(const RegisterFile& registers, Fifo<Done>& images_ready, Fifo<MemoryRead>& requests,
-                 Fifo<MemoryWord>& answers, CrossingFifo<ImageWord>& words, CrossingFifo<Done>& transferred,
-                 Fifo<Done>& buffer_free)
+HostDma::HostDma(const RegisterFile& registers, Fifo<Done>& images_ready, std::vector<DmaPort> channels,
+                 CrossingFifo<ImageWord>& words, CrossingFifo<Done>& transferred, Fifo<Done>& buffer_free)
     : Block("host_dma", "a request and a word per cycle"),
       registers_(registers),
       images_ready_(reads(images_ready)),
-      requests_(writes(requests)),
-      answers_(reads(answers)),
+      channels_(declared(std::move(channels))),
       words_(writes(words)),
       transferred_(reads(transferred)),
       buffer_free_(writes(buffer_free)) {}
+
+std::vector<DmaPort> HostDma::declared(std::vector<DmaPort> channels) {
+    for (const DmaPort& channel : channels) {
+        writes(*channel.requests);
+        reads(*channel.answers);
+    }
+    return channels;
+}
 
 void HostDma::begin_view() {
     head_sent_ = false;
     to_ask_ = to_send_ = sizes_words()[static_cast<std::size_t>(view_)];
     address_ = registers_.image(buffer_, view_);
+    column_ = in_column_ = 0;
+}
+
+bool HostDma::ask() {
+    const auto channel = static_cast<std::size_t>(stripe_owner(view_, column_, static_cast<int>(channels_.size())));
+    if (channel != channel_ && to_ask_ < to_send_) return false;  // words of another one are on their way
+    if (!channels_[channel].requests->can_push()) return false;
+    channel_ = channel;
+    channels_[channel].requests->push({address_++, false});
+    --to_ask_;
+    const int pitch = registers_.buffer_pitches[static_cast<std::size_t>(buffer_)][static_cast<std::size_t>(view_)];
+    if (++in_column_ == pitch) {
+        in_column_ = 0;
+        ++column_;
+    }
+    return true;
 }
 
 Activity HostDma::tick(std::uint64_t) {
@@ -46,14 +68,12 @@ Activity HostDma::tick(std::uint64_t) {
         return Activity::busy;
     }
     Activity activity = to_ask_ > 0 ? Activity::memory_port : Activity::memory_data;
-    if (to_ask_ > 0 && requests_.can_push()) {
-        requests_.push({address_++, false});
-        --to_ask_;
-        activity = Activity::busy;
-    }
-    if (answers_.can_pop()) {
+    // Whose answers are to be taken is settled before the next request.
+    Fifo<MemoryWord>& answers = *channels_[channel_].answers;
+    if (to_ask_ > 0 && ask()) activity = Activity::busy;
+    if (answers.can_pop()) {
         if (!words_.can_push()) return activity == Activity::busy ? activity : Activity::output_full;
-        words_.push({answers_.pop().data, false, false});
+        words_.push({answers.pop().data, false, false});
         activity = Activity::busy;
         if (--to_send_ == 0) {
             ++view_;

@@ -12,7 +12,8 @@ MapReader::MapReader(Fifo<RayPoint>& in, Fifo<MemoryRead>& requests, Fifo<Memory
 Activity MapReader::tick(std::uint64_t) {
     if (!in_.can_pop()) return Activity::idle;
     const RayPoint& point = in_.front();
-    MappedRay ray{point.view, false, point.plane, point.x_q20, point.lambda_q20, 0};
+    MappedRay ray{point.view, false,       point.plane, point.x_q20, point.lambda_q20,
+                  0,          point.u_q28, point.n_q28, point.t_q28};
     if (point.has_ray) {
         if (!asked_) {
             if (!requests_.can_push()) return Activity::memory_port;

@@ -2,9 +2,11 @@
 
 namespace rs::engine::model {
 
-RasterGenerator::RasterGenerator(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<ColumnRay>& columns)
+RasterGenerator::RasterGenerator(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<ColumnRay>& columns,
+                                 const StripeShare& share)
     : Block("raster_generator", "a column in K + 1 cycles for K planes; 1 cycle to begin a view"),
       registers_(registers),
+      share_(share),
       jobs_(reads(jobs)),
       columns_(writes(columns)) {}
 
@@ -34,10 +36,11 @@ Activity RasterGenerator::tick(std::uint64_t) {
         ++plane_;
         return Activity::busy;
     }
-    if (!columns_.can_push()) return Activity::output_full;
+    const bool owns = share_.owns_column(view_, column_);
+    if (owns && !columns_.can_push()) return Activity::output_full;
     constexpr std::int64_t kMostEdgeOn_q28 = std::int64_t{1} << 24;
     best_.has_ray = view.planes[static_cast<std::size_t>(best_.plane)].c_q20 > 0 && best_.n_q28 >= kMostEdgeOn_q28;
-    columns_.push(best_);
+    if (owns) columns_.push(best_);
     plane_ = 0;
     if (++column_ == view.width) active_ = false;
     return Activity::busy;

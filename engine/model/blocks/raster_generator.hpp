@@ -9,6 +9,7 @@
 #include "engine/model/clock/block.hpp"
 #include "engine/model/messages.hpp"
 #include "engine/model/registers.hpp"
+#include "engine/model/stripes.hpp"
 
 #include <array>
 
@@ -16,11 +17,14 @@ namespace rs::engine::model {
 
 class RasterGenerator final : public Block {
 public:
-    RasterGenerator(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<ColumnRay>& columns);
+    // Hands on the columns of `share`, and steps over the others: its accumulators need every column's addition.
+    RasterGenerator(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<ColumnRay>& columns,
+                    const StripeShare& share = {});
     Activity tick(std::uint64_t now) override;
 
 private:
     const RegisterFile& registers_;
+    StripeShare share_;
     Fifo<ViewJob>& jobs_;
     Fifo<ColumnRay>& columns_;
     bool active_ = false;

@@ -33,6 +33,9 @@ int RayPosition::work(const ColumnRay& in, RayPoint& out) {
     out.has_ray = true;
     out.plane = in.plane;
     out.x_q20 = x_q20;
+    out.u_q28 = u_q28.value;
+    out.n_q28 = in.n_q28;
+    out.t_q28 = in.t_q28;
     out.lambda_q20 = lambda_q20.value;
     const std::int64_t cell = (std::int64_t{in.plane} * object.x_cells + xi) * object.u_cells + ui;
     out.cell_byte = std::uint64_t{object.map} * 8 + static_cast<std::uint64_t>(cell);

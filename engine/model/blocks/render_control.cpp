@@ -95,9 +95,12 @@ bool RenderControl::start_views(std::uint64_t now) {
     registers_.active = queue_.front().bank;
     buffer_busy_[registers_.active] = true;
     std::vector<int>& sizes = registers_.buffer_words[static_cast<std::size_t>(registers_.active)];
+    std::vector<int>& pitches = registers_.buffer_pitches[static_cast<std::size_t>(registers_.active)];
     sizes.clear();
+    pitches.clear();
     for (const BoardView& view : registers_.banks[static_cast<std::size_t>(registers_.active)].views) {
         sizes.push_back(view.words());
+        pitches.push_back(view.words_per_column());
     }
     rendering_ = true;
     next_view_ = written_views_ = 0;

@@ -17,6 +17,9 @@
 
 namespace rs::engine::model {
 
+// The arithmetic without the clock: the walk, and the cycles that it takes.
+int compensated(const RegisterFile& registers, const RayLine& in, ColumnWalk& out);
+
 class VerticalCompensation final : public SerialStage<RayLine, ColumnWalk> {
 public:
     static constexpr int kNoRayLatency = 2;
@@ -27,7 +30,7 @@ public:
     VerticalCompensation(const RegisterFile& registers, Fifo<RayLine>& in, Fifo<ColumnWalk>& out);
 
 private:
-    int work(const RayLine& in, ColumnWalk& out) override;
+    int work(const RayLine& in, ColumnWalk& out) override { return compensated(registers_, in, out); }
     const RegisterFile& registers_;
 };
 

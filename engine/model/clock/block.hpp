@@ -14,6 +14,14 @@
 
 namespace rs::engine::model {
 
+// The name of a block or FIFO without the number of the pipe that it belongs to ("_p" and digits at its end).
+inline std::string name_without_pipe(const std::string& name) {
+    const std::size_t digits = name.find_last_not_of("0123456789");
+    const bool has_pipe = digits != std::string::npos && digits >= 1 && digits + 1 < name.size() &&
+                          name[digits] == 'p' && name[digits - 1] == '_';
+    return has_pipe ? name.substr(0, digits - 1) : name;
+}
+
 struct Port {
     enum class Direction { in, out };
     Direction direction = Direction::in;
@@ -39,6 +47,8 @@ public:
     }
 
     [[nodiscard]] const std::string& name() const { return name_; }
+    // Of a block that stands several times: which of them it is.
+    void append_to_name(const std::string& suffix) { name_ += suffix; }
     [[nodiscard]] const std::string& timing() const { return timing_; }
     [[nodiscard]] const std::vector<Port>& ports() const { return ports_; }
     [[nodiscard]] const ActivityCounts& counts() const { return counts_; }

@@ -41,7 +41,7 @@ TEST(BoardConfig, WhatIsWrittenIsReadBack) {
 TEST(BoardConfig, RefusalsNameFileKeyAndBound) {
     EXPECT_NE(refusal("[]").find("board.json: not a JSON object"), std::string::npos);
     EXPECT_NE(refusal("{").find("not a JSON object"), std::string::npos);
-    EXPECT_NE(refusal(R"({"base": "parallel"})").find("\"parallel\" is no built-in"), std::string::npos);
+    EXPECT_NE(refusal(R"({"base": "parallel-2000"})").find("\"parallel-2000\" is no built-in"), std::string::npos);
     EXPECT_NE(refusal(R"({"memory": {"speed": 1}})").find("\"memory/speed\" is no setting"), std::string::npos);
     EXPECT_NE(refusal(R"({"memory": 3})").find("\"memory\" is no setting"), std::string::npos);
     EXPECT_NE(refusal(R"({"clock_mhz": "fast"})").find("\"clock_mhz\" is not a whole number"), std::string::npos);
@@ -76,6 +76,26 @@ TEST(BoardConfig, CompressedHasItsOwnSlotsAndRegions) {
               std::string::npos);
     EXPECT_NE(refusal(R"({"base": "compressed-2000", "memory": {"tile_table": {"first": 5}}})").find("share bank 5"),
               std::string::npos);
+}
+
+TEST(BoardConfig, ParallelHasPipesAndBanksForEachImageBuffer) {
+    const Result<BoardConfig> config =
+        parse_board_config(R"({"base": "parallel", "pipes": 5, "limits": {"shape_bands": 100}})", "f");
+    ASSERT_TRUE(config.ok()) << config.error().message;
+    EXPECT_EQ(config->pipes, 5);
+    EXPECT_TRUE(config->limits.any_object);
+    const Result<BoardConfig> again = parse_board_config(board_config_json(*config), "f");
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    EXPECT_EQ(board_config_json(*again), board_config_json(*config));
+    EXPECT_EQ(read_board_config("parallel")->pipes, 16);
+    EXPECT_NE(refusal(R"({"base": "parallel", "pipes": 33})").find("pipes is 33, outside 1..32"), std::string::npos);
+    EXPECT_NE(refusal(R"({"pipes": 2})").find("\"pipes\" is no setting"), std::string::npos);
+    EXPECT_NE(refusal(R"({"base": "parallel", "limits": {"shape_bands": 257}})").find("outside 1..256"),
+              std::string::npos);
+    EXPECT_NE(refusal(R"({"base": "parallel", "memory": {"images": {"count": 1}}})").find("is odd"), std::string::npos);
+    const BoardTop board(*config);
+    EXPECT_EQ(board.channels(), 5);
+    EXPECT_NE(board.registers.image(0, 0) >> 23U, board.registers.image(1, 0) >> 23U);  // banks
 }
 
 TEST(BoardConfig, IsReadFromAFile) {

@@ -178,7 +178,7 @@ TEST(PublishedFigures, LoadingRunsAtTwentyMegabytesAndDisturbsNothing) {
     }
     const Result<BoardRun> both = loading.render(cycles);
     ASSERT_TRUE(both.ok());
-    EXPECT_GT(loading.top().memory.counters().load_words, 1000U);
+    EXPECT_GT(loading.top().memory().counters().load_words, 1000U);
     for (std::size_t c = 0; c < cycles.size(); ++c) {
         EXPECT_EQ(both->cycles[c].started, alone->cycles[c].started);
         EXPECT_EQ(both->cycles[c].rendered, alone->cycles[c].rendered);

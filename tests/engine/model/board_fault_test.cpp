@@ -149,7 +149,7 @@ TEST(BoardFaults, BadRegistersRefuseTheWholeCycle) {
     ASSERT_FALSE(many.ok());
     EXPECT_NE(many.error().message.find("16 views, outside 1..15"), std::string::npos);
     EXPECT_TRUE(board.top().render_control.cycles().empty());
-    EXPECT_EQ(board.top().memory.counters().image_words, 0U);
+    EXPECT_EQ(board.top().memory().counters().image_words, 0U);
     const Result<BoardRun> run = board.render({{good}});  // and goes on
     ASSERT_TRUE(run.ok());
     expect_right(run->cycles[0].pictures[0], object, 0);

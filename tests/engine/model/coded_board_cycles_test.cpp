@@ -116,11 +116,11 @@ TEST(CodedBoardCycles, MemoryReadsAreThoseOfTheFormula) {
             }
         }
         const auto reads = [&](const std::string& client) {
-            const auto& ports = board.top().memory.read_ports();
+            const auto& ports = board.top().memory().read_ports();
             const auto port =
                 std::find_if(ports.begin(), ports.end(), [&](const ReadPort& p) { return p.client == client; });
             RS_CHECK(port != ports.end());
-            return board.top().memory.counters().words_read[static_cast<std::size_t>(port - ports.begin())];
+            return board.top().memory().counters().words_read[static_cast<std::size_t>(port - ports.begin())];
         };
         EXPECT_EQ(reads("book_lookup"), book_words(object.coded->board));
         for (std::size_t hop = 0; hop < kHops; ++hop) {

@@ -54,7 +54,7 @@ TEST(CodedBoardEqualityProperty, RandomTilesAndViews) {
                 ++pairs;
             }
         }
-        of_last_hop += board.top().pipe.block_decompression->fifos[3]->records.pushed_in_all();
+        of_last_hop += board.top().single->pipe.block_decompression->fifos[3]->records.pushed_in_all();
     }
     EXPECT_EQ(pairs, 2000);
     EXPECT_GT(shown, 100'000);

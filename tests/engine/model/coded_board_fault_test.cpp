@@ -49,7 +49,7 @@ TEST(CodedBoardFaults, AnObjectInThePlaceOfAnother) {
         ASSERT_TRUE(slot.ok());
         EXPECT_EQ(*slot, 0);
         expect_right(board, 0, object);
-        EXPECT_EQ(board.top().pipe.block_decompression->book_lookup.book_loads(), seed);
+        EXPECT_EQ(board.top().single->pipe.block_decompression->book_lookup.book_loads(), seed);
         ASSERT_TRUE(board.evict(0).ok());
     }
 }
@@ -67,13 +67,13 @@ TEST(CodedBoardFaults, BooksAreLoadedWhenTheObjectChangesAndOnlyThen) {
     const BoardView of_b = view(slot_b, b);
     const Result<BoardRun> run = board.render({{of_a, of_a, of_b, of_a}, {of_a, of_b}});
     ASSERT_TRUE(run.ok());
-    EXPECT_EQ(board.top().pipe.block_decompression->book_lookup.book_loads(), 4U);  // a, b, a, b
+    EXPECT_EQ(board.top().single->pipe.block_decompression->book_lookup.book_loads(), 4U);  // a, b, a, b
     const auto prepared = prepare_view(b, test::upright_at(0.4, 3.5, 0, 0.9, 33, 30));
     EXPECT_EQ(run->cycles[0].pictures[2], test::defined(b, *prepared));
     EXPECT_EQ(run->cycles[1].pictures[1], test::defined(b, *prepared));
-    const auto& ports = board.top().memory.read_ports();
+    const auto& ports = board.top().memory().read_ports();
     ASSERT_EQ(ports[3].client, "book_lookup");
-    EXPECT_EQ(board.top().memory.counters().words_read[3],
+    EXPECT_EQ(board.top().memory().counters().words_read[3],
               2 * (book_words(a.coded->board) + book_words(b.coded->board)));
 }
 

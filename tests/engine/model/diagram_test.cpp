@@ -58,6 +58,29 @@ TEST(Diagram, EveryFifoHasOneBlockAtEachEnd) {
     for (const std::string& name : built_in_configs()) expect_one_block_at_each_end(BoardTop(*read_board_config(name)));
 }
 
+// One pipe stands for all in the page, so all must declare the same.
+TEST(Diagram, AllPipesDeclareTheSame) {
+    const BoardTop board(*read_board_config("parallel"));
+    std::map<std::string, std::set<std::string>> declared;
+    std::map<std::string, int> counts;
+    for (const Block* block : board.simulator.parts(Domain::board).blocks) {
+        std::string all = block->timing();
+        for (const Port& port : block->ports()) {
+            if (name_without_pipe(block->name()) == block->name()) continue;
+            all += " " + name_without_pipe(port.fifo) + " " + std::to_string(port.depth) + "x" +
+                   std::to_string(port.width_bits);
+        }
+        declared[name_without_pipe(block->name())].insert(all);
+        ++counts[name_without_pipe(block->name())];
+    }
+    for (const auto& [name, kinds] : declared) EXPECT_EQ(kinds.size(), 1U) << name;
+    EXPECT_EQ(counts["texel_tags"], 16);
+    EXPECT_EQ(counts["view_fan"], 1);
+    EXPECT_EQ(name_without_pipe("tiles_0"), "tiles_0");
+    EXPECT_EQ(name_without_pipe("tiles_0_p12"), "tiles_0");
+    EXPECT_EQ(name_without_pipe("_p"), "_p");
+}
+
 struct SmallRun {
     SmallRun()
         : object(rs::test::ring_object({.views = 8, .planes = 4, .x_cells = 16, .u_cells = 16})),

@@ -2,7 +2,7 @@
 
 #include "rayspace/object_file.hpp"
 #include "rayspace/picture_io.hpp"
-#include "tests/engine/model/coded_test_objects.hpp"
+#include "tests/engine/model/parallel_test_objects.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -53,6 +53,32 @@ TEST(SimulateTool, DrawsCompressedPictures) {
         run_tool(scratch.path(), "rs-engine", {"simulate", "prototype-2000", file, "--orbit", "2", "--size", "40x32"});
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_NE(refused.err.find("use compressed-2000"), std::string::npos) << refused.err;
+}
+
+TEST(SimulateTool, DrawsShapeMapsOnTheParallelBoard) {
+    const rs::test::TemporaryFolder scratch;
+    const std::string file = (scratch / "balls.rso").string();
+    RaySpaceObject object = test::encoded_object(12, 64).coded;
+    object.rings.front().shape = rs::test::small_shape(object, 0);
+    ASSERT_TRUE(write_object(file, object).ok());
+    const std::string config = (scratch / "two.json").string();
+    std::ofstream(config) << R"({"base": "parallel", "pipes": 2})";
+    const ToolRun run = run_tool(scratch.path(), "rs-engine",
+                                 {"simulate", config, file, "--orbit", "2", "--size", "40x32", "--upright", "--stats",
+                                  (scratch / "stats.json").string()});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("2 of 2 pictures equal the definition bit for bit"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("memory channel 1: "), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find(" of 320 MByte/s"), std::string::npos) << run.out;
+    EXPECT_EQ(run.out.find("_p1"), std::string::npos) << "blocks of all pipes are added up";
+    std::ifstream stats(scratch / "stats.json");
+    const nlohmann::json json = nlohmann::json::parse(stats);
+    EXPECT_GT(json["memory_channel_1"]["bytes"], 1000);
+    EXPECT_TRUE(json["rendering"]["blocks"].contains("texel_cache"));
+    const ToolRun refused =
+        run_tool(scratch.path(), "rs-engine", {"simulate", "compressed-2000", file, "--orbit", "2", "--upright"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_NE(refused.err.find("or use parallel"), std::string::npos) << refused.err;
 }
 
 TEST(SimulateTool, SaysWhatIsWrong) {

@@ -1,0 +1,44 @@
+#pragma once
+// Band reader: gives a column its place in the stripe, hands its set-up to the three blocks that keep a part of it, and
+// asks for the cells of its ray, a word a cycle; the words go to cell_march. The cells' address takes two products of 9
+// cycles. The first column of a stripe waits until the stripe before the last is drawn, whose place it takes.
+
+#include "engine/model/arithmetic.hpp"
+#include "engine/model/clock/block.hpp"
+#include "engine/model/parallel_messages.hpp"
+#include "engine/model/registers.hpp"
+
+namespace rs::engine::model {
+
+class BandReader final : public Block {
+public:
+    BandReader(const RegisterFile& registers, const StripeShare& share, Fifo<ColumnSetup>& in, Fifo<Done>& stripe_free,
+               Fifo<MemoryRead>& requests, Fifo<ColumnSetup>& to_rise, Fifo<ColumnSetup>& to_march,
+               Fifo<ColumnSetup>& to_place);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override {
+        return "stripe " + std::to_string(stripe_) + " column " + std::to_string(column_) + ", words to ask " +
+               std::to_string(to_ask_) + ", free stripes " + std::to_string(free_stripes_);
+    }
+
+private:
+    Activity hand_over();
+    const RegisterFile& registers_;
+    StripeShare share_;
+    Fifo<ColumnSetup>& in_;
+    Fifo<Done>& stripe_free_;
+    Fifo<MemoryRead>& requests_;
+    Fifo<ColumnSetup>& to_rise_;
+    Fifo<ColumnSetup>& to_march_;
+    Fifo<ColumnSetup>& to_place_;
+    int free_stripes_ = kStripeSlots;
+    int stripe_ = kStripeNumbers - 1;
+    int column_ = 0;       // next of the stripe
+    int view_column_ = 0;  // next of the view
+    bool in_view_ = false;
+    int multiplying_ = 0;
+    int to_ask_ = 0;
+    WordAddress next_ = 0;
+};
+
+}  // namespace rs::engine::model

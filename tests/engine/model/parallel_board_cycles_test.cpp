@@ -1,0 +1,219 @@
+// Cycles and memory reads of the parallel board.
+
+#include "engine/core/fixed_point.hpp"
+#include "engine/core/plane_point.hpp"
+#include "engine/core/ray_setup.hpp"
+#include "engine/core/shape_setup.hpp"
+#include "engine/model/coded_layout.hpp"
+#include "engine/model/parallel_layout.hpp"
+#include "engine/model/report.hpp"
+#include "tests/engine/model/parallel_test_objects.hpp"
+
+namespace rs::engine::model {
+namespace {
+
+constexpr int kViews = 5;
+
+engine::ViewRegisters view_of(const RaySpaceObject& object, int v, int width, int height) {
+    return *prepare_view(object, test::upright_at(0.7 * v, 3.3, 0.1, 0.95, width, height));
+}
+
+Result<BoardRun> drawn(Board& board, const RaySpaceObject& object, int width, int height, int views = kViews) {
+    const Result<int> slot = board.place(object);
+    if (!slot) return slot.error();
+    std::vector<BoardView> cycle;
+    for (int v = 0; v < views; ++v) cycle.push_back(*board.view(*slot, view_of(object, v, width, height)));
+    return board.render({cycle});
+}
+
+std::uint64_t words_of(const Board& board, const std::string& client) {
+    std::uint64_t words = 0;
+    for (int c = 0; c < board.top().channels(); ++c) {
+        const MemoryController& memory = board.top().memory(c);
+        if (client == "image_writer") words += memory.counters().image_words;
+        for (std::size_t n = 0; n < memory.read_ports().size(); ++n) {
+            if (memory.read_ports()[n].client == client) words += memory.counters().words_read[n];
+        }
+    }
+    return words;
+}
+
+// Words read to set up the columns of a view, written down from the law and the layout alone.
+struct ColumnReads {
+    std::uint64_t map = 0, bracket = 0, lines = 0, bands = 0;
+
+    void count(const RaySpaceObject& object, const engine::ViewRegisters& view) {
+        const Ring& ring = object.rings.front();
+        for (int i = 0; i < view.width; ++i) {
+            const PlanePoint point = plane_point(ring, view, i, 0);
+            if (!point.exists) continue;
+            ++map;
+            const std::uint16_t answer = map_answer(ring, point);
+            if (answer == kNoPicture) continue;
+            if (ring.shape.empty()) {
+                lines += 4;
+                continue;
+            }
+            const bool found = count_bracket(ring, point, answer);
+            lines += found ? 10 : 5;
+            const ShapeSetup setup = set_up_shape(object, view, i, 0);
+            if (setup.cells == nullptr) continue;
+            const auto first = static_cast<std::uint64_t>(setup.cells - ring.shape.cells.data());
+            bands += (first + static_cast<std::uint64_t>(ring.shape.bands) + 1) / 2 - first / 2;
+        }
+    }
+
+    // A word for a gap's lines, a word for each crossing that was not known from the look before.
+    bool count_bracket(const Ring& ring, const PlanePoint& point, int answer) {
+        const int count = static_cast<int>(ring.views.size());
+        const auto crossing = [&](int n) {
+            const NormalLine& line = ring.shape.normal_lines[static_cast<std::size_t>(n * ring.planes + point.plane)];
+            return line.a_q20 + ((point.u_q28 * line.c_q20) >> 28);
+        };
+        int gap = static_cast<int>(std::find(ring.views.begin(), ring.views.end(), answer) - ring.views.begin());
+        ++bracket;
+        if (crossing(gap) > point.x_q20) gap = (gap + count - 1) % count;
+        for (int look = 0; look < count; ++look) {
+            ++bracket;
+            if (ring.shape.gaps[static_cast<std::size_t>(gap)].lines == 0) return false;
+            ++bracket;  // one of the two is known
+            if (point.x_q20 < crossing(gap)) {
+                gap = (gap + count - 1) % count;
+            } else if (point.x_q20 >= crossing((gap + 1) % count)) {
+                gap = (gap + 1) % count;
+            } else {
+                return true;
+            }
+        }
+        return false;
+    }
+};
+
+TEST(ParallelBoardCycles, MemoryReadsAreThoseOfTheFormula) {
+    constexpr int kWidth = 75;
+    constexpr int kHeight = 41;
+    for (int kind = 0; kind < 4; ++kind) {
+        const test::AnyObject any{.coded = kind % 2 == 1, .shape = kind >= 2};
+        const RaySpaceObject object = test::any_object(
+            {.views = 9, .width = 60, .height = 50, .planes = 5, .x_cells = 24, .u_cells = 24, .seed = 41}, any, true);
+        Board board(test::parallel(3));
+        ASSERT_TRUE(drawn(board, object, kWidth, kHeight).ok());
+        ColumnReads counted;
+        for (int v = 0; v < kViews; ++v) counted.count(object, view_of(object, v, kWidth, kHeight));
+        EXPECT_EQ(words_of(board, "map_reader"), counted.map);
+        EXPECT_EQ(words_of(board, "bracket_finder"), counted.bracket);
+        EXPECT_EQ(words_of(board, "picture_reader"), counted.lines);
+        EXPECT_EQ(words_of(board, "band_reader"), counted.bands);
+        EXPECT_EQ(words_of(board, "image_writer"), std::uint64_t{kViews} * kWidth * ((kHeight + 1) / 2));
+        EXPECT_EQ(words_of(board, "host_dma"), std::uint64_t{kViews} * kWidth * ((kHeight + 1) / 2));
+        EXPECT_EQ(counted.bands > 0, any.shape);
+        std::uint64_t fills = 0;
+        std::uint64_t asks = 0;
+        std::uint64_t texels = 0;
+        for (const auto& pipe : board.top().parallel->pipes) {
+            fills += pipe->texel_tags.fills_asked();
+            asks += pipe->chains.fifos[0]->asks.pushed_in_all();
+            texels += pipe->fifos.texels.pushed_in_all();
+        }
+        EXPECT_GT(fills, 50U);
+        EXPECT_EQ(texels, 64 * fills);
+        EXPECT_EQ(asks, any.coded ? 8 * fills : 0);
+        EXPECT_EQ(words_of(board, "fill_fetch"), any.coded ? 0 : kRawBlockWords * fills);
+        EXPECT_EQ(words_of(board, "twin_lookup"), any.coded ? 3 * book_words(object.coded->board) : 0);
+    }
+}
+
+TEST(ParallelBoardCycles, TickOrderChangesNeitherCyclesNorBits) {
+    for (const bool coded : {false, true}) {
+        const RaySpaceObject object = test::any_object({.views = 12, .width = 70, .height = 70, .fl_px = 90, .seed = 4},
+                                                       {.coded = coded, .shape = true});
+        Board reference(test::parallel(3));
+        const Result<BoardRun> expected = drawn(reference, object, 50, 40);
+        ASSERT_TRUE(expected.ok());
+        for (const std::uint64_t seed : {1, 2}) {
+            Board board(test::parallel(3), seed);
+            const Result<BoardRun> run = drawn(board, object, 50, 40);
+            ASSERT_TRUE(run.ok());
+            EXPECT_EQ(run->cycles[0].rendered, expected->cycles[0].rendered);
+            EXPECT_EQ(run->cycles[0].arrived, expected->cycles[0].arrived);
+            EXPECT_EQ(run->cycles[0].pictures, expected->cycles[0].pictures);
+            for (std::size_t b = 0; b < run->end.blocks.size(); ++b) {
+                EXPECT_EQ(run->end.blocks[b].cycles, expected->end.blocks[b].cycles) << board.blocks()[b]->name();
+            }
+        }
+    }
+}
+
+// 100 Mpixel/s with decompression, bands and blending on. The object is two balls over the drawn pictures, views that
+// it fills; the books' load is part of the first rendering cycle, so the second is measured.
+TEST(ParallelBoardCycles, OneHundredMpixelsASecondWithinItsMemory) {
+    RaySpaceObject object = test::encoded_object(20, 128).coded;
+    object.rings.front().shape = rs::test::small_shape(object, 0, {.p_cells = 40, .bands = 64, .lines = {2}});
+    Board board(*read_board_config("parallel"));
+    const Result<int> slot = board.place(object);
+    ASSERT_TRUE(slot.ok()) << slot.error().message;
+    std::vector<std::vector<BoardView>> cycles(2);
+    std::vector<engine::ViewRegisters> registers;
+    for (int v = 0; v < 2; ++v) {
+        registers.push_back(*prepare_view(object, test::upright_at(0.35 + v, 3.5, 0, 0.75, 512, 512)));
+        cycles[static_cast<std::size_t>(v)].push_back(*board.view(*slot, registers.back()));
+    }
+    const Result<BoardRun> run = board.render(cycles);
+    ASSERT_TRUE(run.ok()) << run.error().message;
+    EXPECT_EQ(run->cycles[1].pictures[0], test::defined(object, registers[1]));
+    const double mpixels = 40.0 * 512 * 512 / double(run->cycles[1].render_cycles());
+    EXPECT_GT(mpixels, 100);
+    const BoardReport report = make_report(board, *run);
+    ASSERT_EQ(report.channels.size(), 16U);
+    for (const ChannelReport& channel : report.channels) {
+        EXPECT_GT(channel.rendering.share(Activity::busy), 0.1);
+        EXPECT_LT(channel.rendering.occupied(), 0.95);
+    }
+}
+
+// While a view is drawn the books of the next one's object come.
+TEST(ParallelBoardCycles, BooksOfTheNextViewComeBesideThisOne) {
+    const RaySpaceObject a = test::any_object({.views = 6, .planes = 4, .x_cells = 16, .u_cells = 16, .seed = 5},
+                                              {.coded = true, .shape = true});
+    const RaySpaceObject b = test::any_object({.views = 6, .planes = 4, .x_cells = 16, .u_cells = 16, .seed = 6},
+                                              {.coded = true, .shape = true});
+    const auto cycles_of = [&](bool other, bool resident) {
+        Board board(test::parallel(2));
+        const int slots[] = {*board.place(a), *board.place(b)};
+        const auto view = [&](int n) {
+            return *board.view(slots[n], view_of(n == 0 ? a : b, 1, n == 0 ? 400 : 40, n == 0 ? 400 : 40));
+        };
+        if (resident) {
+            EXPECT_TRUE(board.render({{view(0), view(1)}}).ok());
+        }
+        const Result<BoardRun> run = board.render({other ? std::vector{view(0), view(1)} : std::vector{view(0)}});
+        EXPECT_TRUE(run.ok());
+        std::uint64_t loads = 0;
+        for (const auto& pipe : board.top().parallel->pipes) loads += pipe->twin_lookup.book_loads();
+        EXPECT_EQ(loads, other || resident ? 4U : 2U);
+        return run->cycles[0].render_cycles();
+    };
+    const std::uint64_t alone = cycles_of(false, false);
+    const std::uint64_t both = cycles_of(true, false);
+    EXPECT_LT(both - alone, std::uint64_t{book_words(b.coded->board)} / 2);
+    EXPECT_LT(cycles_of(true, true), both);  // both are there
+}
+
+// Written down once from a run whose parts had been checked; a change of any timing shows here.
+TEST(ParallelBoardCyclesGolden, AllKinds) {
+    const auto cycles_of = [](int kind, int pipes, int width, int height) {
+        Board board(test::parallel(pipes));
+        const RaySpaceObject object = test::any_object({.views = 12, .width = 70, .height = 70, .fl_px = 90, .seed = 9},
+                                                       {.coded = kind % 2 == 1, .shape = kind >= 2});
+        const Result<BoardRun> run = drawn(board, object, width, height);
+        return run ? run->cycles[0].render_cycles() : 0;
+    };
+    EXPECT_EQ(cycles_of(0, 8, 96, 64), 11'885U);
+    EXPECT_EQ(cycles_of(1, 8, 96, 64), 35'803U);
+    EXPECT_EQ(cycles_of(2, 8, 96, 64), 19'701U);
+    EXPECT_EQ(cycles_of(3, 8, 96, 64), 43'234U);
+    EXPECT_EQ(cycles_of(3, 3, 50, 33), 42'295U);
+}
+
+}  // namespace
+}  // namespace rs::engine::model

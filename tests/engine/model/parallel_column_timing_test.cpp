@@ -1,0 +1,237 @@
+// Latency and throughput of the blocks that set up a parallel board's columns: nothing a cycle early, the result on
+// time.
+
+#include "engine/core/fixed_point.hpp"
+#include "engine/model/arithmetic.hpp"
+#include "engine/model/blocks/band_reader.hpp"
+#include "engine/model/blocks/bracket_finder.hpp"
+#include "engine/model/blocks/column_setup.hpp"
+#include "engine/model/blocks/picture_reader.hpp"
+#include "engine/model/parallel_layout.hpp"
+#include "tests/engine/model/block_bench.hpp"
+#include "tests/engine/model/parallel_test_objects.hpp"
+
+namespace rs::engine::model {
+namespace {
+
+using test::Bench;
+
+struct Registers {
+    explicit Registers(bool shape, int width = 48)
+        : object(test::any_object({.views = 8, .planes = 4, .x_cells = 16, .u_cells = 16}, {.shape = shape})),
+          board(test::parallel(1)) {
+        if (shape) object.rings.front().shape = rs::test::small_shape(object, 0);
+        slot = *board.place(object);
+        file = board.top().registers;
+        file.banks[0].views = {*board.view(slot, *prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, width, 20)))};
+    }
+    RaySpaceObject object;
+    Board board;
+    RegisterFile file;
+    int slot = 0;
+};
+
+// Answers every request a cycle later, with word(address), and says when `out` has one more.
+template <class Word>
+int until_answered(Bench& bench, Block& block, Fifo<MemoryRead>& reads, Fifo<MemoryWord>& words, const FifoState& out,
+                   const Word& word) {
+    for (int n = 1; n < 400; ++n) {
+        const int before = out.count();
+        bench.step(block);
+        if (out.count() > before) return n;
+        if (reads.can_pop()) words.push({word(reads.pop().address)});
+        reads.commit();
+        words.commit();
+    }
+    return -1;
+}
+
+TEST(ParallelArithmetic, SquareRootsAreThoseOfTheLaw) {
+    std::mt19937_64 random(3);
+    for (int n = 0; n < 20'000; ++n) {
+        const std::uint64_t square = random() >> (1 + random() % 63);
+        EXPECT_EQ(square_root_serially(square), floor_square_root(static_cast<std::int64_t>(square))) << square;
+    }
+    const std::uint64_t most = (std::uint64_t{1} << 63) - 1;
+    EXPECT_EQ(square_root_serially(most), 3'037'000'499);
+    EXPECT_EQ(square_root_serially(0), 0);
+}
+
+TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
+    const Registers r(true);
+    Fifo<MappedRay> in("in", 4, 1);
+    Fifo<MemoryRead> reads("reads", 2, 1);
+    Fifo<MemoryWord> words("words", 2, 1);
+    Fifo<BracketedRay> out("out", 4, 1);
+    BracketFinder block(r.file, in, reads, words, out);
+    Bench bench({&in, &reads, &words, &out});
+    in.push({0, false, 0, 0, 0, 0, 0, 0, 0});
+    in.commit();
+    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(out.pop().kind, RayKind::none);
+    out.commit();
+    // The crossing of picture n is n * 1000 (u = 0), every gap has 3 lines from 3 n on.
+    const WordAddress lines = r.file.objects[0].lines;
+    const auto word = [&](WordAddress address) {
+        const auto n = static_cast<std::uint64_t>(address - lines) / static_cast<std::uint64_t>(record_words(4));
+        const auto at = static_cast<int>((address - lines) % static_cast<WordAddress>(record_words(4)));
+        return at == 2 ? std::uint64_t{3} | (3 * n) << 32U : n * 1000;
+    };
+    in.push({0, true, 1, 3400, 7, 3, 0, 1 << 28, 0});
+    in.commit();
+    // Crossing of 3: ask, take, 9; gap 3: ask, take; crossing of 4: ask, take, 9; decide.
+    EXPECT_EQ(until_answered(bench, block, reads, words, out, word), 11 + 2 + 11 + 1);
+    BracketedRay found = out.pop();
+    out.commit();
+    EXPECT_EQ(found.kind, RayKind::shape);
+    EXPECT_EQ(found.first, 3);
+    EXPECT_EQ(found.second, 4);
+    EXPECT_EQ(found.from_first_q20, 400);
+    EXPECT_EQ(found.width_q20, 1000);
+    EXPECT_EQ(found.lines, 3);
+    EXPECT_EQ(found.first_line, 9);
+    in.push(
+        {0, true, 1, 3400, 7, 5, 0, 1 << 28, 0});  // two gaps too far: the crossing of 5 serves as the second of gap 4
+    in.commit();
+    EXPECT_EQ(until_answered(bench, block, reads, words, out, word), 11 + (2 + 11 + 1) + (2 + 11 + 1));
+    found = out.pop();
+    out.commit();
+    EXPECT_EQ(found.first, 3);
+    in.push({0, true, 1, 3400, 7, 3, 0, 1 << 28, 0});
+    in.commit();
+    const auto no_lines = [&](WordAddress address) {
+        return word(address) == (3U | std::uint64_t{9} << 32U) ? 0 : word(address);
+    };
+    EXPECT_EQ(until_answered(bench, block, reads, words, out, no_lines), 11 + 2 + 1);
+    EXPECT_EQ(out.pop().kind, RayKind::foot);
+}
+
+TEST(ParallelColumnTiming, RaysOfPlaneObjectsPassTheBracketFinder) {
+    const Registers r(false);
+    Fifo<MappedRay> in("in", 4, 1);
+    Fifo<MemoryRead> reads("reads", 2, 1);
+    Fifo<MemoryWord> words("words", 2, 1);
+    Fifo<BracketedRay> out("out", 4, 1);
+    BracketFinder block(r.file, in, reads, words, out);
+    Bench bench({&in, &reads, &words, &out});
+    in.push({0, true, 1, 3400, 7, 3, 0, 0, 0});
+    in.commit();
+    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(out.front().kind, RayKind::plane);
+    EXPECT_EQ(out.front().first, 3);
+}
+
+TEST(ParallelColumnTiming, PictureReaderAsksAWordPerCycle) {
+    const Registers r(true);
+    Fifo<BracketedRay> in("in", 4, 1);
+    Fifo<MemoryRead> reads("reads", 2, 1);
+    Fifo<MemoryWord> words("words", 2, 1);
+    Fifo<LinedRay> out("out", 4, 1);
+    PictureReader block(r.file, in, reads, words, out);
+    Bench bench({&in, &reads, &words, &out});
+    const WordAddress lines = r.file.objects[0].lines;
+    const auto word = [&](WordAddress address) { return std::uint64_t{address - lines} * 0x100000001U; };
+    const std::pair<RayKind, int> kinds[] = {
+        {RayKind::none, 1}, {RayKind::plane, 9 + 4 + 2}, {RayKind::foot, 9 + 5 + 2}, {RayKind::shape, 9 + 10 + 2}};
+    for (const auto& [kind, cycles] : kinds) {
+        BracketedRay ray;
+        ray.kind = kind;
+        ray.plane = 2;
+        ray.first = 1;
+        ray.second = 5;
+        in.push(ray);
+        in.commit();
+        EXPECT_EQ(until_answered(bench, block, reads, words, out, word), cycles);
+        if (kind == RayKind::shape) {
+            EXPECT_EQ(out.front().picture[0].fl_y_q16, record_words(4) + 1);
+            EXPECT_EQ(out.front().picture[1].l2_q30, 5 * record_words(4) + plane_words(2) + 2);
+        }
+        out.pop();
+        out.commit();
+    }
+}
+
+TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
+    const Registers r(true);
+    Fifo<LinedRay> in("in", 4, 1);
+    Fifo<ColumnSetup> out("out", 4, 1);
+    ColumnSetupStage block(r.file, in, out);
+    Bench bench({&in, &out});
+    LinedRay ray;
+    in.push(ray);
+    in.commit();
+    EXPECT_EQ(bench.until(block, out), 2);  // no ray
+    ray.ray.kind = RayKind::shape;
+    ray.ray.n_q28 = 1 << 28;
+    ray.ray.t_q28 = 1 << 26;
+    ray.ray.from_first_q20 = 1000;
+    ray.ray.width_q20 = 4000;
+    ray.ray.lines = 2;
+    ray.ray.first_line = 5;
+    in.push(ray);
+    in.commit();
+    EXPECT_EQ(ColumnSetupStage::kShapeLatency, 159);
+    EXPECT_EQ(bench.until(block, out), 159);
+    out.pop();
+    out.commit();
+    EXPECT_EQ(out.front().weight, 64);
+    EXPECT_EQ(out.front().map_line, 5);
+    ray.ray.n_q28 = 1 << 24;  // the foot lies 2^9 radii away
+    ray.ray.t_q28 = 0;
+    RegisterFile far = r.file;
+    far.banks[0].views[0].planes[0].c_q20 = (1 << 28) - 1;
+    Fifo<LinedRay> far_in("in", 4, 1);
+    ColumnSetupStage far_block(far, far_in, out);
+    Bench far_bench({&far_in, &out});
+    far_in.push(ray);
+    far_in.commit();
+    EXPECT_EQ(far_bench.until(far_block, out), ColumnSetupStage::kTooFarLatency);
+    ray.ray.kind = RayKind::plane;
+    ray.picture[0].l0_q20 = 3 << 20;
+    ray.picture[0].fl_y_q16 = 60 << 16;
+    ray.picture[0].cx_q16 = 20 << 16;
+    in.push(ray);
+    in.commit();
+    EXPECT_EQ(bench.until(block, out), VerticalCompensation::kLatency);
+}
+
+TEST(ParallelColumnTiming, BandReaderAsksAWordPerCycleAndWaitsForAStripe) {
+    const Registers r(true);  // 48 columns
+    Fifo<ColumnSetup> in("in", 64, 1);
+    Fifo<Done> stripe_free("free", 2, 1);
+    Fifo<MemoryRead> reads("reads", 64, 1);
+    Fifo<ColumnSetup> rise("rise", 64, 1);
+    Fifo<ColumnSetup> march("march", 64, 1);
+    Fifo<ColumnSetup> place("place", 64, 1);
+    BandReader block(r.file, {}, in, stripe_free, reads, rise, march, place);
+    Bench bench({&in, &stripe_free, &reads, &rise, &march, &place});
+    ColumnSetup column;
+    column.kind = RayKind::shape;
+    column.map_line = 1;
+    column.map_place = 2;
+    in.push(column);
+    in.commit();
+    EXPECT_EQ(bench.until(block, march), 19);
+    EXPECT_EQ(rise.count(), 1);
+    EXPECT_EQ(place.count(), 1);
+    // 9 places of 7 bands: cell 77 is the second of a word, and 7 cells stand in 4 words.
+    EXPECT_TRUE(march.front().odd_cell);
+    EXPECT_EQ(march.front().band_words, 4);
+    for (int n = 0; n < 4; ++n) EXPECT_EQ(bench.until(block, reads), 1);
+    EXPECT_EQ(reads.front().address, r.file.objects[0].shape.cells + 38);
+    EXPECT_EQ(bench.until(block, reads, 5), -1);
+    column.kind = RayKind::none;
+    for (int n = 1; n < 48; ++n) {
+        in.push(column);
+        in.commit();
+    }
+    for (int n = 1; n < 32; ++n) EXPECT_EQ(bench.until(block, march), 1);
+    EXPECT_EQ(bench.until(block, march, 50), -1);  // two stripes are under way
+    stripe_free.push({});
+    stripe_free.commit();
+    EXPECT_EQ(bench.until(block, march), 1);
+    EXPECT_EQ(march.count(), 33);
+}
+
+}  // namespace
+}  // namespace rs::engine::model

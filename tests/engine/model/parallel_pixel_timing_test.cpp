@@ -1,0 +1,328 @@
+// Latency and throughput of the blocks that a parallel board's pixels pass: nothing a cycle early, the result on time.
+
+#include "engine/model/blocks/cell_march.hpp"
+#include "engine/model/blocks/layer_choice.hpp"
+#include "engine/model/blocks/patch_store.hpp"
+#include "engine/model/blocks/pixel_resolve.hpp"
+#include "engine/model/blocks/pixel_scan.hpp"
+#include "engine/model/blocks/ray_rise.hpp"
+#include "engine/model/blocks/sample_place.hpp"
+#include "engine/model/blocks/texel_filter.hpp"
+#include "engine/model/parallel_layout.hpp"
+#include "tests/engine/model/block_bench.hpp"
+#include "tests/engine/model/parallel_test_objects.hpp"
+
+namespace rs::engine::model {
+namespace {
+
+using test::Bench;
+
+// A view of 40x30 pixels; a shape map of 7 bands.
+struct Registers {
+    Registers()
+        : object(test::any_object({.views = 8, .planes = 4, .x_cells = 16, .u_cells = 16}, {})),
+          board(test::parallel(1)) {
+        object.rings.front().shape = rs::test::small_shape(object, 0);
+        slot = *board.place(object);
+        file = board.top().registers;
+        file.banks[0].views = {*board.view(slot, *prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, 40, 30)))};
+    }
+    RaySpaceObject object;
+    Board board;
+    RegisterFile file;
+    int slot = 0;
+};
+
+ScannedPixel pixel_of(int id) {
+    return {id, 0, 0, id / kStripeColumns, 0};
+}
+
+ColumnSetup column_of(RayKind kind, int column) {
+    ColumnSetup setup;
+    setup.kind = kind;
+    setup.column = column;
+    setup.weight = 100;
+    setup.lambda0_q20 = 3 << 20;
+    for (PictureSetup& picture : setup.pictures) {
+        picture.l0_q20 = 3 << 20;
+        picture.cx_q16 = 20 << 16;
+        picture.cy_q16 = 20 << 16;
+        picture.fl_y_q16 = 60 << 16;
+    }
+    return setup;
+}
+
+TEST(ParallelPixelTiming, PixelScanGivesAPixelPerCycleOfFourPatches) {
+    const Registers r;
+    Fifo<ViewJob> jobs("jobs", 4, 1);
+    Fifo<Done> patch_free("free", 4, 1);
+    Fifo<Done> view_done("done", 2, 1);
+    Fifo<PatchJob> patches("patches", 64, 1);
+    Fifo<ScannedPixel> out("out", 2048, 1);
+    PixelScan block(r.file, {}, jobs, patch_free, view_done, patches, out);
+    Bench bench({&jobs, &patch_free, &view_done, &patches, &out});
+    jobs.push({0});
+    jobs.commit();
+    EXPECT_EQ(bench.until(block, out), 2);
+    for (int n = 1; n < 16 * 30; ++n) EXPECT_EQ(bench.until(block, out), 1) << n;
+    EXPECT_EQ(patches.count(), 4);  // 8 + 8 + 8 + 6 rows
+    EXPECT_EQ(bench.until(block, out, 20), -1);
+    patch_free.push({});
+    patch_free.commit();
+    EXPECT_EQ(bench.until(block, out), 1);
+    for (int n = 0; n < 17; ++n) {
+        out.pop();
+        out.commit();
+    }
+    EXPECT_EQ(out.front().id, 17);  // the second row of the first patch
+    EXPECT_EQ(out.front().row, 1);
+    const BoardView& view = r.file.banks[0].views[0];
+    EXPECT_EQ(out.front().rise_q24, static_cast<std::int32_t>((view.s0_q32 + view.sy_q32) >> 8));
+}
+
+TEST(ParallelPixelTiming, PixelScanHasTwoViewsUnderWay) {
+    const Registers r;
+    RegisterFile file = r.file;
+    file.banks[0].views.resize(3, file.banks[0].views[0]);
+    for (BoardView& view : file.banks[0].views) view.width = view.height = 1;
+    Fifo<ViewJob> jobs("jobs", 4, 1);
+    Fifo<Done> patch_free("free", 4, 1);
+    Fifo<Done> view_done("done", 2, 1);
+    Fifo<PatchJob> patches("patches", 64, 1);
+    Fifo<ScannedPixel> out("out", 64, 1);
+    PixelScan block(file, {}, jobs, patch_free, view_done, patches, out);
+    Bench bench({&jobs, &patch_free, &view_done, &patches, &out});
+    for (int v = 0; v < 3; ++v) {
+        jobs.push({v});
+        jobs.commit();
+    }
+    EXPECT_EQ(bench.until(block, out), 2);
+    EXPECT_EQ(bench.until(block, out), 2);
+    EXPECT_EQ(bench.until(block, out, 20), -1);
+    view_done.push({});
+    view_done.commit();
+    EXPECT_EQ(bench.until(block, out), 2);
+    EXPECT_TRUE(patches.front().ends_view);
+}
+
+TEST(ParallelPixelTiming, RayRiseWaitsForItsColumnThenGivesAPixelPerCycle) {
+    const Registers r;
+    Fifo<ColumnSetup> columns("columns", 2, 1);
+    Fifo<ScannedPixel> in("in", 8, 1);
+    Fifo<RisenPixel> out("out", 8, 1);
+    RayRise block(r.file, columns, in, out);
+    Bench bench({&columns, &in, &out});
+    for (const int id : {0, 16, 1}) {
+        in.push(pixel_of(id));
+        in.commit();
+    }
+    EXPECT_EQ(bench.until(block, out, 60), -1);
+    columns.push(column_of(RayKind::shape, 0));
+    columns.commit();
+    EXPECT_EQ(bench.until(block, out), 1 + RayRise::kStages + 1);
+    EXPECT_EQ(RayRise::kStages, 25);
+    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.until(block, out, 60), -1);  // column 1 has not come
+}
+
+struct March {
+    March() {
+        columns.push(column_of(RayKind::none, 0));
+        columns.commit();
+        ColumnSetup shape = column_of(RayKind::shape, 1);
+        shape.band_words = 4;
+        columns.push(shape);
+        columns.commit();
+        for (int n = 0; n < 2; ++n) bench.step(block);
+        for (int word = 0; word < 4; ++word) {  // bands 2 and 6 have a surface at depth 100, band 2 up to 120
+            const std::uint64_t cell = packed_cell({{100, 0}, 120, 3});
+            words.push({word == 1 ? cell : word == 3 ? cell : 0});
+            words.commit();
+            bench.step(block);
+        }
+    }
+    void push(int id, std::int32_t foot_q12, std::int32_t per_d_q20) {
+        in.push({pixel_of(id), foot_q12, foot_q12, per_d_q20});
+        in.commit();
+    }
+    Registers r;
+    Fifo<ColumnSetup> columns{"columns", 4, 1};
+    Fifo<MemoryWord> words{"words", 4, 1};
+    Fifo<RisenPixel> in{"in", 4, 1};
+    Fifo<MarchAgain> again{"again", 4, 1};
+    Fifo<MetCell> met{"met", 4, 1};
+    Fifo<FinishedPixel> empty{"empty", 4, 1};
+    CellMarch block{r.file, columns, words, in, again, met, empty};
+    Bench bench{&columns, &words, &in, &again, &met, &empty};
+};
+
+TEST(ParallelPixelTiming, CellMarchTakesTwoLooksPerCycle) {
+    March m;
+    m.push(0, 0, 0);  // no ray
+    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
+    m.push(1, 5 << 12, 0);  // band 5 is empty
+    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
+    EXPECT_EQ(m.block.looks(), 1U);
+    m.push(1, 2 << 12, 0);  // band 2 at the foot, and at its depth
+    EXPECT_EQ(m.bench.until(m.block, m.met), 2);
+    EXPECT_TRUE(m.met.front().final);
+    EXPECT_EQ(m.met.pop().cell.depth[0], 100);
+    m.met.commit();
+    // A band in 64 depths: 9 steps of 28. Looks at depths 14, 42, 70 (band 2, but not so far yet), 98.
+    m.push(1, 1 << 12, 1 << 14);
+    EXPECT_EQ(m.bench.until(m.block, m.met), 2);
+    EXPECT_EQ(m.block.looks(), 3U + 4U);
+    EXPECT_FALSE(m.met.front().final);
+    EXPECT_EQ(m.met.front().next.begin, 112);
+    EXPECT_EQ(m.met.front().cell.depth[0], 100);
+}
+
+TEST(ParallelPixelTiming, CellMarchGoesOnWithPixelsThatComeBackFirst) {
+    March m;
+    m.push(1, 1 << 12, 1 << 14);
+    EXPECT_EQ(m.bench.until(m.block, m.met), 2);
+    m.push(17, 5 << 12, 0);
+    m.again.push({1, m.met.pop().next});
+    m.met.commit();
+    m.again.commit();
+    // The look behind 112 is at depth 126: the same cell, whose back is at 120.
+    EXPECT_EQ(m.bench.until(m.block, m.met), 1);
+    EXPECT_EQ(m.met.front().pixel.id, 1);
+    EXPECT_EQ(m.met.front().cell.depth[0], 112);
+    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
+    EXPECT_EQ(m.empty.front().id, 17);
+}
+
+TEST(ParallelPixelTiming, CellMarchWaitsForTheLastWordOfItsColumn) {
+    March m;
+    ColumnSetup shape = column_of(RayKind::shape, 2);
+    shape.band_words = 2;
+    m.columns.push(shape);
+    m.columns.commit();
+    m.push(2, 9 << 12, 0);
+    m.words.push({0});
+    m.words.commit();
+    EXPECT_EQ(m.bench.until(m.block, m.empty, 20), -1);
+    m.words.push({0});
+    m.words.commit();
+    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
+}
+
+TEST(ParallelPixelTiming, SamplePlaceGivesASamplePerCycleOfLatency53) {
+    const Registers r;
+    Fifo<ColumnSetup> columns("columns", 2, 1);
+    Fifo<MetCell> in("in", 4, 1);
+    Fifo<PlacedSample> out("out", 16, 1);
+    SamplePlace block(r.file, columns, in, out);
+    Bench bench({&columns, &in, &out});
+    columns.push(column_of(RayKind::shape, 0));
+    columns.commit();
+    bench.step(block);
+    MetCell met;
+    met.pixel = pixel_of(0);
+    met.cell.rays = 15;
+    in.push(met);
+    in.commit();
+    met.cell.rays = 0;
+    in.push(met);
+    in.commit();
+    EXPECT_EQ(bench.until(block, out), SamplePlace::kStages + 1);
+    EXPECT_EQ(SamplePlace::kStages + 1, 53);
+    for (int n = 1; n < 5; ++n) EXPECT_EQ(bench.until(block, out), 1);
+    for (int n = 0; n < 4; ++n) {
+        const PlacedSample sample = out.pop();
+        out.commit();
+        EXPECT_EQ(sample.head.layer, n / 2);
+        EXPECT_EQ(sample.head.second, n % 2 == 1);
+        EXPECT_EQ(sample.head.last, n == 3);
+        EXPECT_TRUE(sample.inside);
+        EXPECT_EQ(sample.left, 19);
+        EXPECT_EQ(sample.fx, 4);
+    }
+    EXPECT_FALSE(out.front().head.is_there);
+    EXPECT_TRUE(out.front().head.last);
+}
+
+TEST(ParallelPixelTiming, FilterChoiceAndResolveArePipelines) {
+    Fifo<TexelQuad> quads("quads", 4, 1);
+    Fifo<FilteredSample> filtered("filtered", 8, 1);
+    TexelFilter filter(quads, filtered);
+    Bench filter_bench({&quads, &filtered});
+    for (int n = 0; n < 2; ++n) {
+        TexelQuad quad;
+        quad.inside = quad.head.is_there = quad.head.sees = true;
+        quad.head.second = n == 1;
+        quad.head.last = n == 1;
+        quad.head.weight = 64;
+        quad.fx = 8 - 4 * (1 + n);
+        quad.rgba = {0xFF000000U + 100U * static_cast<unsigned>(n + 1), 0, 0xFF000000U, 0};
+        quads.push(quad);
+        quads.commit();
+    }
+    EXPECT_EQ(filter_bench.until(filter, filtered), 7);
+    EXPECT_EQ(filter_bench.until(filter, filtered), 1);
+    EXPECT_EQ(filtered.front().r, 32 * 255 * 100);
+
+    Fifo<ChosenPixel> chosen("chosen", 4, 1);
+    Fifo<MarchAgain> again("again", 4, 1);
+    LayerChoice choice(filtered, chosen, again);
+    Bench choice_bench({&filtered, &chosen, &again});
+    EXPECT_EQ(choice_bench.until(choice, chosen),
+              1 + LayerChoice::kStages + 1);  // the second sample completes the cell
+    EXPECT_EQ(LayerChoice::kStages, 8);
+    EXPECT_EQ(chosen.front().a, 64 * 255 * 256);
+    EXPECT_EQ(chosen.front().r, 32 * 255 * 100 * 192 + 64 * 255 * 200 * 64);
+    FilteredSample none;
+    none.head.last = true;
+    none.head.next.begin = 77;
+    filtered.push(none);
+    filtered.commit();
+    EXPECT_EQ(choice_bench.until(choice, again), 9);
+    EXPECT_EQ(again.front().state.begin, 77);
+
+    Fifo<FinishedPixel> resolved("resolved", 4, 1);
+    PixelResolve resolve(chosen, resolved);
+    Bench resolve_bench({&chosen, &resolved});
+    EXPECT_EQ(resolve_bench.until(resolve, resolved), 11);
+    EXPECT_EQ(resolved.front().rgba, 0xFF000058U);  // (50 * 192 + 200 * 64) / 256, rounded
+}
+
+TEST(ParallelPixelTiming, PatchStoreWritesAPatchWhenItsLastPixelIsThere) {
+    const Registers r;
+    Fifo<PatchJob> patches("patches", 4, 1);
+    Fifo<FinishedPixel> pixels("pixels", 8, 1);
+    Fifo<FinishedPixel> empty("empty", 8, 1);
+    Fifo<MemoryWrite> writes("writes", 8, 1);
+    Fifo<Done> patch_free("patch_free", 4, 1);
+    Fifo<Done> stripe_free("stripe_free", 2, 1);
+    Fifo<Done> done_scan("done_scan", 2, 1);
+    Fifo<Done> done_books("done_books", 2, 1);
+    PatchStore block(r.file, patches, pixels, empty, writes, patch_free, stripe_free, done_scan, done_books);
+    Bench bench({&patches, &pixels, &empty, &writes, &patch_free, &stripe_free, &done_scan, &done_books});
+    patches.push({0, 0, 32, 24, 2, 3, true, true});  // two columns of three rows
+    patches.commit();
+    for (const int id : {17, 0, 33, 1}) {
+        pixels.push({id, 1000U + static_cast<unsigned>(id)});
+        pixels.commit();
+    }
+    empty.push({32, 0});
+    empty.commit();
+    EXPECT_EQ(bench.until(block, writes, 40), -1);
+    EXPECT_EQ(pixels.count() + empty.count(), 0);
+    pixels.push({16, 1016});
+    pixels.commit();
+    EXPECT_EQ(bench.until(block, writes), 2);  // one to take it
+    for (int n = 1; n < 4; ++n) EXPECT_EQ(bench.until(block, writes), 1);
+    EXPECT_EQ(writes.front().address, r.file.image(0, 0) + 32U * 15U + 12U);
+    EXPECT_EQ(writes.pop().data, 1000U | std::uint64_t{1016} << 32U);
+    writes.commit();
+    EXPECT_EQ(writes.pop().data, 0U);  // a row below the view, and one of which nothing is seen
+    writes.commit();
+    EXPECT_EQ(writes.pop().data, 1001U | std::uint64_t{1017} << 32U);
+    writes.commit();
+    EXPECT_TRUE(writes.front().last);
+    for (const Fifo<Done>* done : {&patch_free, &stripe_free, &done_scan, &done_books}) EXPECT_EQ(done->count(), 1);
+}
+
+}  // namespace
+}  // namespace rs::engine::model

@@ -1,0 +1,204 @@
+// Latency and throughput of the blocks that bring texels to a parallel board's samples, and of those that join its
+// pipes.
+
+#include "engine/model/blocks/fill_fetch.hpp"
+#include "engine/model/blocks/texel_cache.hpp"
+#include "engine/model/blocks/texel_merge.hpp"
+#include "engine/model/blocks/texel_tags.hpp"
+#include "engine/model/parallel_layout.hpp"
+#include "tests/engine/model/block_bench.hpp"
+#include "tests/engine/model/parallel_registers.hpp"
+
+namespace rs::engine::model {
+namespace {
+
+using test::Bench;
+using Registers = test::ViewsOfThreeObjects;
+
+PlacedSample sample_at(int picture, int left, int top, int fx, int fy, int view = 0) {
+    PlacedSample sample;
+    sample.view = view;
+    sample.inside = true;
+    sample.picture = picture;
+    sample.left = left;
+    sample.top = top;
+    sample.fx = fx;
+    sample.fy = fy;
+    return sample;
+}
+
+struct Tags {
+    void push(const PlacedSample& sample) {
+        in.push(sample);
+        in.commit();
+    }
+    Registers r;
+    Fifo<PlacedSample> in{"in", 8, 1};
+    Fifo<TexelFill> fills{"fills", 32, 1};
+    Fifo<WaitingSample> out{"out", 32, 1};
+    TexelTags block{r.file, in, fills, out};
+    Bench bench{&in, &fills, &out};
+};
+
+TEST(ParallelTexelTiming, TexelTagsTakeACycleMoreForEachBlockThatIsNotThere) {
+    Tags t;
+    t.push(sample_at(1, 7, 15, 3, 5));  // four blocks
+    EXPECT_EQ(t.bench.until(t.block, t.out), 5);
+    EXPECT_EQ(t.fills.count(), 4);
+    EXPECT_EQ(t.out.front().fills, 4);
+    t.push(sample_at(1, 7, 15, 3, 5));
+    t.push(sample_at(1, 7, 15, 0, 0));
+    t.push(sample_at(1, 7, 16, 0, 0));  // weights of 0 need no blocks
+    for (int n = 0; n < 3; ++n) EXPECT_EQ(t.bench.until(t.block, t.out), 1);
+    EXPECT_EQ(t.fills.count(), 4);
+    t.push(sample_at(1, 7, 16, 0, 0, 1));  // another view of the same object
+    EXPECT_EQ(t.bench.until(t.block, t.out), 1);
+    t.push(sample_at(1, 7, 16, 0, 0, 3));  // another object
+    EXPECT_EQ(t.bench.until(t.block, t.out), 2);
+    PlacedSample outside;
+    t.push(outside);
+    EXPECT_EQ(t.bench.until(t.block, t.out), 1);
+    EXPECT_EQ(t.fills.count(), 5);
+}
+
+TEST(ParallelTexelTiming, TexelTagsReplaceTheOlderLineBehindItsLastReader) {
+    Tags t;
+    // Blocks 0, 4 and 8 of a row share a set.
+    for (const int block : {0, 4, 0, 8}) {
+        t.push(sample_at(2, 8 * block, 0, 0, 0));
+        EXPECT_EQ(t.bench.until(t.block, t.out), block == 0 && t.fills.count() == 2 ? 1 : 2);
+    }
+    ASSERT_EQ(t.fills.count(), 3);
+    const TexelFill first = t.fills.pop();
+    t.fills.commit();
+    const TexelFill second = t.fills.pop();
+    t.fills.commit();
+    EXPECT_NE(first.line, second.line);
+    EXPECT_EQ(t.fills.front().line, second.line);
+    EXPECT_EQ(t.fills.front().guard, 2U);  // the second sample read it last
+    t.push(sample_at(2, 0, 0, 0, 0));
+    EXPECT_EQ(t.bench.until(t.block, t.out), 1);  // still there
+}
+
+TEST(ParallelTexelTiming, FillFetchTakes64CyclesForACodedBlockAndAWordPerCycleForARawOne) {
+    Registers r;
+    Fifo<TexelFill> in("in", 4, 1);
+    Fifo<BlockAsk> asks("asks", 64, 1);
+    Fifo<CodedPixel> pixels("pixels", 256, 1);
+    Fifo<MemoryRead> raw("raw", 64, 1);
+    Fifo<FillKind> kinds("kinds", 4, 1);
+    Fifo<FillTarget> targets("targets", 4, 1);
+    FillFetch block(r.file, in, asks, pixels, raw, kinds, targets);
+    Bench bench({&in, &asks, &pixels, &raw, &kinds, &targets});
+    in.push({0, 2, 3, 1, 9, 0});
+    in.commit();
+    for (int n = 0; n < 64; ++n) EXPECT_EQ(bench.until(block, pixels), 1) << n;
+    ASSERT_EQ(asks.count(), 8);
+    EXPECT_TRUE(asks.front().first);
+    EXPECT_EQ(asks.front().column, 24);
+    EXPECT_EQ(asks.front().rows, 0xFFU);
+    EXPECT_EQ(targets.front().line, 9);
+    in.push({2, 2, 3, 1, 10, 0});
+    in.commit();
+    for (int n = 0; n < kRawBlockWords; ++n) EXPECT_EQ(bench.until(block, raw), 1) << n;
+    EXPECT_EQ(bench.until(block, raw, 9), -1);
+    const ObjectRegisters& object = r.file.objects[static_cast<std::size_t>(r.slots[1])];
+    EXPECT_EQ(raw.front().address, object.raw_blocks + static_cast<WordAddress>((2 * 10 + 3) * 9 + 1) * kRawBlockWords);
+    EXPECT_EQ(pixels.count(), 64);
+}
+
+TEST(ParallelTexelTiming, TexelMergeKeepsTheOrderOfTheBlocks) {
+    Fifo<FillKind> kinds("kinds", 4, 1);
+    Fifo<YuvaPixel> coded("coded", 64, 1);
+    Fifo<MemoryWord> words("words", 32, 1);
+    Fifo<YuvaPixel> out("out", 256, 1);
+    TexelMerge block(kinds, coded, words, out);
+    Bench bench({&kinds, &coded, &words, &out});
+    for (const bool is_coded : {false, true}) {
+        kinds.push({is_coded});
+        kinds.commit();
+    }
+    for (int n = 0; n < 64; ++n) {
+        coded.push({0, n, 1, 2, 3});
+        coded.commit();
+    }
+    EXPECT_EQ(bench.until(block, out, 9), -1);  // the raw block is first
+    for (std::uint64_t n = 0; n < kRawBlockWords; ++n) {
+        words.push({0x0101010101010101U * (n + 1)});
+        words.commit();
+    }
+    EXPECT_EQ(bench.until(block, out), 4);  // three words
+    EXPECT_EQ(out.front().u, 1);
+    EXPECT_EQ(out.front().y, 2);
+    EXPECT_EQ(out.front().alpha, 3);
+    for (int n = 1; n < 8; ++n) EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.until(block, out), 3);  // two words
+    for (int n = 9; n < 16; ++n) EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.until(block, out), 4);
+    for (int n = 17; n < 64; ++n) EXPECT_GE(bench.until(block, out), 1);
+    EXPECT_EQ(words.count(), 0);
+    EXPECT_EQ(bench.until(block, out), 2);  // one to begin the coded block
+    for (int n = 1; n < 64; ++n) EXPECT_EQ(bench.until(block, out), 1);
+}
+
+struct Cache {
+    void texels_of_a_block(int n, std::uint32_t value) {
+        for (int i = 0; i < n; ++i) {
+            texels.push({0, value});
+            texels.commit();
+        }
+    }
+    void wait_for(int line, int fills) {
+        WaitingSample sample;
+        sample.inside = true;
+        sample.line = {line, line, line, line};
+        sample.fills = fills;
+        in.push(sample);
+        in.commit();
+    }
+    Fifo<WaitingSample> in{"in", 8, 1};
+    Fifo<FillTarget> targets{"targets", 4, 1};
+    Fifo<RgbaPixel> texels{"texels", 256, 1};
+    Fifo<TexelQuad> out{"out", 8, 1};
+    TexelCache block{in, targets, texels, out};
+    Bench bench{&in, &targets, &texels, &out};
+};
+
+TEST(ParallelTexelTiming, TexelCacheReadsInTheCycleBehindTheLastTexel) {
+    Cache c;
+    c.wait_for(5, 1);
+    c.wait_for(5, 0);
+    c.targets.push({5, 0});
+    c.targets.commit();
+    c.texels_of_a_block(63, 7);
+    EXPECT_EQ(c.bench.until(c.block, c.out, 100), -1);
+    c.texels_of_a_block(1, 7);
+    EXPECT_EQ(c.bench.until(c.block, c.out), 2);
+    EXPECT_EQ(c.bench.until(c.block, c.out), 1);
+    EXPECT_EQ(c.out.front().rgba[3], 7U);
+}
+
+TEST(ParallelTexelTiming, TexelCacheWritesNoLineBeforeItsLastReaderHasRead) {
+    Cache c;
+    c.wait_for(5, 0);
+    c.wait_for(5, 1);  // waits for the block, and so does
+    c.wait_for(6, 1);  // this one, whose block comes into a line that the one before reads
+    c.targets.push({5, 1});
+    c.targets.commit();
+    c.targets.push({5, 2});
+    c.targets.commit();
+    c.texels_of_a_block(64, 8);
+    c.texels_of_a_block(64, 9);
+    EXPECT_EQ(c.bench.until(c.block, c.out), 1);
+    EXPECT_EQ(c.out.front().rgba[0], 0U);
+    // The guard of 1 is passed from the next cycle on: 64 texels, then the sample; its block is not the next one's.
+    EXPECT_EQ(c.bench.until(c.block, c.out), 65);
+    EXPECT_EQ(c.texels.count(), 64);
+    EXPECT_EQ(c.bench.until(c.block, c.out), 65);
+    c.out.pop();
+    c.out.commit();
+    EXPECT_EQ(c.out.front().rgba[0], 8U);
+}
+
+}  // namespace
+}  // namespace rs::engine::model
