@@ -2,6 +2,7 @@
 
 #include "encode/codec/board_alpha.hpp"
 #include "encode/codec/board_block.hpp"
+#include "encode/codec/board_classes.hpp"
 #include "encode/codec/board_stages.hpp"
 #include "encode/codec/fidelity.hpp"
 #include "encode/codec/motion_search.hpp"
@@ -24,24 +25,6 @@ using codec::RecordClass;
 
 constexpr std::size_t kTrainingBlocks = 24000;  // of one kind, at most
 constexpr int kReachDown_px = 6;
-
-// predicted, alpha, block stages, quarter stages
-constexpr std::array<RecordClass, codec::kBoardClasses> kFlatClasses = {{{},
-                                                                         {false, false, 1, 0},
-                                                                         {false, false, 1, 1},
-                                                                         {false, false, 1, 2},
-                                                                         {false, false, 1, 4},
-                                                                         {false, true, 1, 1},
-                                                                         {false, true, 1, 2},
-                                                                         {false, true, 1, 4}}};
-constexpr std::array<RecordClass, codec::kBoardClasses> kPredictedClasses = {{{},
-                                                                              {true, false, 2, 0},
-                                                                              {true, false, 2, 1},
-                                                                              {true, false, 2, 2},
-                                                                              {true, false, 2, 3},
-                                                                              {true, true, 2, 1},
-                                                                              {true, true, 2, 2},
-                                                                              {false, true, 1, 1}}};
 
 enum class Cover : std::uint8_t { kEmpty, kMixed, kFull };
 
@@ -76,11 +59,15 @@ public:
     }
 
     EncodedPictures encode() {
-        if (progress_ != nullptr) progress_->start("encoding", static_cast<std::int64_t>(2 * work_.size()));
         alpha_ = train_alpha(sources_, settings_.alpha_bits);
         coded_.board.alpha = alpha_.samples;
         const auto is_reference = [&](std::size_t v) { return coded_.pictures[v].head.references() == 0; };
         const auto is_predicted = [&](std::size_t v) { return !is_reference(v); };
+        if (progress_ != nullptr) {  // predicted ones twice: for their motion, and for their records
+            const auto head_is = [](const codec::CodedPicture& picture) { return picture.head.references() == 0; };
+            const auto references = std::count_if(coded_.pictures.begin(), coded_.pictures.end(), head_is);
+            progress_->start("encoding", 2 * static_cast<std::int64_t>(work_.size()) - references);
+        }
 
         books_[0] = train(is_reference, false, 1, 4);
         coded_.board.books[0] = stored_books(books_[0]);

@@ -13,6 +13,8 @@
 // that there is always something to decode; `cold_frame` decodes all that one frame needs. coded_random_pixel decodes
 // one tile with what it is predicted from, by one thread, nothing being there: items are pixels, `bytes` those read for
 // a pixel.
+//
+// astc_decode/BLOCK (astc_decode.cpp): how fast the command astcenc unpacks a whole picture of that ball.
 
 #include "encode/codec/board_encoder.hpp"
 #include "encode/codec/dense_encoder.hpp"
@@ -20,9 +22,9 @@
 #include "engine/core/renderer.hpp"
 #include "engine/core/sample_store.hpp"
 #include "rayspace/conventions.hpp"
+#include "tests/bench/ball_picture.hpp"
 #include "tests/support/ring_object.hpp"
 #include "tests/support/small_shape.hpp"
-#include "tests/support/sphere_object.hpp"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -106,27 +108,6 @@ void core_shape_near(benchmark::State& state) {
 }
 BENCHMARK(core_shape_near)->UseRealTime()->MinTime(1);
 
-// A ball with fine and coarse texture, lit from a side, that fills most of the picture.
-Image<Rgba8> ball_picture(const Camera& camera) {
-    const test::Sphere ball{{0, 0, 0}, 0.85};
-    Image<Rgba8> picture(camera.width, camera.height);
-    for (int y = 0; y < camera.height; ++y) {
-        for (int x = 0; x < camera.width; ++x) {
-            const glm::dvec3 ray = camera.ray(x + 0.5, y + 0.5);
-            const auto met = test::hit(ball, camera.centre(), ray);
-            if (!met) continue;
-            const glm::dvec3 p = camera.centre() + met->enters * ray;
-            const double fine = 18 * std::sin(61 * p.x + 9 * std::sin(23 * p.y)) * std::sin(53 * p.z + 31 * p.y);
-            const double light = 0.7 + 0.3 * glm::dot(glm::normalize(p), glm::normalize(camera.centre()));
-            const auto byte = [](double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0)); };
-            const double grey = test::grey_at(p) + fine;
-            picture(x, y) = {byte(grey * light), byte((0.8 * grey + 40 * std::sin(7 * p.z)) * light),
-                             byte((200 - 0.6 * grey) * light), 255};
-        }
-    }
-    return picture;
-}
-
 const RaySpaceObject& coded_object(codec::Profile profile) {
     static std::map<codec::Profile, RaySpaceObject> objects;
     const auto found = objects.find(profile);
@@ -134,7 +115,8 @@ const RaySpaceObject& coded_object(codec::Profile profile) {
     RaySpaceObject coded = object();
     const Rig rig = test::ring_rig(kRing);
     std::vector<encode::SourcePicture> sources;
-    for (const RigView& view : rig.views) sources.push_back(encode::source_picture(ball_picture(view.camera), 2));
+    for (const RigView& view : rig.views)
+        sources.push_back(encode::source_picture(bench::ball_picture(view.camera), 2));
     coded.coded = std::make_shared<const codec::CodedPictures>(profile == codec::Profile::kBoard
                                                                    ? encode::encode_board(coded, sources, {}).coded
                                                                    : encode::encode_dense(coded, sources, {}).coded);

@@ -1,0 +1,12 @@
+#pragma once
+// A picture that codecs have something to do with.
+
+#include "rayspace/camera.hpp"
+#include "rayspace/image.hpp"
+
+namespace rs::bench {
+
+// A ball with fine and coarse texture, lit from a side, that fills most of the picture.
+Image<Rgba8> ball_picture(const Camera& camera);
+
+}  // namespace rs::bench
