@@ -37,7 +37,8 @@ const int kLights = kDirectional + kPoints + kSpots;
 // Five for each light, directional ones first, then points, then spots:
 // colour; ambient, radius; location, cut-off angle; towards, beam width; attenuation
 uniform vec4 lights[5 * max(kLights, 1)];
-uniform vec4 material[3];    // diffuse, opacity; specular, exponent; emissive, ambient
+// diffuse, opacity; specular, exponent; emissive, ambient; ambient light of directional lights
+uniform vec4 material[4];
 layout(binding = 0) uniform sampler2D surface_picture;
 uniform vec3 eye;
 uniform vec3 headlight;      // its direction of travel
@@ -78,12 +79,12 @@ vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, v
             if (angle > beam) strength *= (cut_off - angle) / (cut_off - beam);
         }
     }
-    return strength * (lights[first + 1].rgb * diffuse * material[2].w +
-                       reflected(diffuse, n, to_eye, to_light, lights[first].rgb));
+    vec3 ambient = has_place ? lights[first + 1].rgb * diffuse * material[2].w : vec3(0.0);
+    return strength * (ambient + reflected(diffuse, n, to_eye, to_light, lights[first].rgb));
 }
 
 vec3 lit(vec3 diffuse, vec3 n, vec3 to_eye) {
-    vec3 sum = material[2].rgb;
+    vec3 sum = material[2].rgb + material[3].rgb * diffuse * material[2].w;
     if (kHeadlight) sum += reflected(diffuse, n, to_eye, -headlight, vec3(1.0));
     for (int i = 0; i < kDirectional; ++i) sum += from_light(5 * i, false, false, diffuse, n, to_eye);
     for (int i = kDirectional; i < kDirectional + kPoints; ++i) {

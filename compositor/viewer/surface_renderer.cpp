@@ -98,12 +98,13 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
             item.picture = uploads.picture(*node.material.texture);
             alpha = uploads.alpha(*node.material.texture);
         }
-        const std::vector<std::uint32_t> lights = lights_that_reach(scene, node, item.bounds);
-        auto program = uploads.program(kind_of(scene, node, alpha, lights));
+        const SurfaceLights lights = lights_of(scene, node, item.bounds);
+        auto program = uploads.program(kind_of(scene, node, alpha, lights.lights));
         if (!program) return program.error();
         item.program = std::move(*program);
         item.material = row_of(node.material);
-        item.lights = rows_of(scene, lights);
+        item.material.ambient_light = glm::vec4(lights.ambient, 0);
+        item.lights = rows_of(scene, lights.lights);
         item.texture_transform = node.material.texture_transform;
         item.transparent = node.material.opacity < 1 || alpha == AlphaUse::kBlend;
         item.two_sided = node.mesh->two_sided;
@@ -134,7 +135,7 @@ void SurfaceRenderer::draw(const Item& item, const FrameView& view, gl::DrawStat
     set("world_normal_from_node", glm::mat3(glm::transpose(glm::inverse(glm::dmat3(item.world_from_node)))));
     set("texture_transform", item.texture_transform);
     // Rows of vec4 without gaps: surface_tables.cpp asserts their sizes.
-    set("material", std::span(&item.material.diffuse_opacity, 3));
+    set("material", std::span(&item.material.diffuse_opacity, 4));
     if (!item.lights.empty()) set("lights", std::span(&item.lights.front().colour, 5 * item.lights.size()));
     if (item.picture) item.picture->bind(0);
     state.clockwise = item.mirrored;
@@ -160,10 +161,12 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
         return gl::DrawState{.culling = item.two_sided || wire_frame ? gl::Culling::kNone : gl::Culling::kBack,
                              .wire_frame = wire_frame};
     };
-    // The nearest first: what they hide is not lit.
+    // What hides first, so that what is hidden is not lit: by the farthest corner, for the floor and walls of a room
+    // are also near, but behind all that stands in it.
     const auto distance = [&](std::size_t i) {
         const BoundingBox& box = items_[i].bounds;
-        return glm::distance(glm::clamp(view.camera.centre(), box.lowest, box.highest), view.camera.centre());
+        const glm::dvec3& eye = view.camera.centre();
+        return glm::length(glm::max(glm::abs(box.lowest - eye), glm::abs(box.highest - eye)));
     };
     std::stable_sort(opaque.begin(), opaque.end(),
                      [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });

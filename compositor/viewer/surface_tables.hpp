@@ -28,11 +28,18 @@ struct MaterialRow {
     glm::vec4 diffuse_opacity;
     glm::vec4 specular_exponent;
     glm::vec4 emissive_ambient;
+    glm::vec4 ambient_light{0};  // of all directional lights that reach it; w unused
 };
 MaterialRow row_of(const Material& material);
-// The lights that can reach the box: those of `node.lights`, and of those everywhere all that are near enough.
-std::vector<std::uint32_t> lights_that_reach(const Scene& scene, const GeometryNode& node,
-                                             const BoundingBox& box_in_world);
+
+struct SurfaceLights {
+    std::vector<std::uint32_t> lights;  // of Scene::lights, that may be reflected somewhere on the surface
+    glm::vec3 ambient{0};               // of all directional lights, also of those that are not reflected
+};
+// The lights that reach a node: those of `node.lights`, and of those everywhere all that are near enough to the node's
+// box. Of a surface that is seen from its front only, lights that shine on its back everywhere are left out: a wall has
+// few lights, and a shader asks each of them at every pixel.
+SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world);
 
 // Their rows, directional ones first, then points, then spots.
 std::vector<LightRow> rows_of(const Scene& scene, const std::vector<std::uint32_t>& lights);
