@@ -4,6 +4,7 @@
 #include "rayspace/codec/decode_picture.hpp"
 #include "rayspace/container_layout.hpp"
 #include "rayspace/object_chunks.hpp"
+#include "rayspace/object_memory.hpp"
 #include "rayspace/shape_chunk.hpp"
 
 #include <algorithm>
@@ -49,7 +50,56 @@ public:
         return std::move(object_);
     }
 
+    // Nothing that is large is read. What is small is bounded by what its chunks take: the text of a rig, which is
+    // parsed, is the worst.
+    Result<ReadingMemory> measure() {
+        constexpr std::uint64_t kParsedOverText = 24;
+        constexpr std::uint64_t kSmallThings_bytes = 1U << 20;
+        if (const Status status = read_geometry(); !status) return status.error();
+        if (const Status status = check_chunks(); !status) return status.error();
+        if (const Status status = check_memory(); !status) return status.error();
+        std::uint64_t kept = kSmallThings_bytes + memory_of_geometry();
+        std::uint64_t shape_cells = 0;
+        std::uint64_t largest_chunk = 0;
+        std::uint64_t pictures = 0;
+        for (std::uint32_t r = 0; r < object_.rings.size(); ++r) {
+            const Ring& ring = object_.rings[r];
+            for (std::size_t n = 0; n < ring.views.size(); ++n) pictures += is_wanted(ring, n) ? 1 : 0;
+            const auto count_cells = [&](std::span<const std::byte> payload) -> Status {
+                const auto coded = parse_shape_head(payload, object_.rings[r]);
+                if (!coded) return coded.error();
+                shape_cells += coded->cells * sizeof(ShapeCell);
+                return {};
+            };
+            if (container_.find(kShape, r) == nullptr) continue;
+            if (const Status status = read_chunk({kShape, r}, count_cells); !status) return status.error();
+        }
+        for (const ChunkEntry& entry : container_.table()) {
+            largest_chunk = std::max(largest_chunk, entry.size_bytes);
+            if (coded_ && entry.name == kPicture) kept += entry.size_bytes;
+        }
+        const ChunkEntry* const rig = container_.find(kRig, 0);
+        const std::uint64_t passing = largest_chunk + (rig != nullptr ? kParsedOverText * rig->size_bytes : 0);
+        // Cells are unpacked from planes of bytes, one for each byte of a cell.
+        const std::uint64_t most = kept + needed_bytes_ + 2 * shape_cells + passing;
+        const std::uint64_t passing_planes = coded_ && options_.decode ? pictures * coded_planes_bytes() : 0;
+        ReadingMemory memory;
+        memory.most_bytes = static_cast<std::int64_t>(most);
+        memory.object_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + shape_cells - passing_planes);
+        memory.width = object_.width;
+        memory.height = object_.height;
+        memory.pictures = static_cast<std::int64_t>(pictures);
+        return memory;
+    }
+
 private:
+    [[nodiscard]] std::uint64_t memory_of_geometry() const {
+        std::uint64_t bytes = static_cast<std::uint64_t>(memory_of(object_));
+        for (const Ring& ring : object_.rings)
+            bytes += sizeof(NormalLine) * ring.views.size() * static_cast<std::uint64_t>(ring.planes);
+        return bytes;
+    }
+
     // parse(payload) of one chunk, which must be there.
     template <class Parse>
     Status read_chunk(ChunkKey key, Parse&& parse) {
@@ -175,10 +225,13 @@ private:
     // What a picture will take: a coded one is unpacked at full size, from planes that are a little larger.
     [[nodiscard]] std::uint64_t picture_bytes() const {
         if (!coded_) return raw_picture_bytes(object_.width, object_.height);
+        return codec::tile_table_bytes(*coded_) + (options_.decode ? 2 * coded_planes_bytes() : 0);
+    }
+
+    [[nodiscard]] std::uint64_t coded_planes_bytes() const {
         constexpr std::uint64_t kCodedPlanes = 4;
-        const std::uint64_t samples =
-            static_cast<std::uint64_t>(coded_->coded_width()) * static_cast<std::uint64_t>(coded_->coded_height());
-        return codec::tile_table_bytes(*coded_) + (options_.decode ? 2 * kCodedPlanes * samples : 0);
+        return kCodedPlanes * static_cast<std::uint64_t>(coded_->coded_width()) *
+               static_cast<std::uint64_t>(coded_->coded_height());
     }
 
     [[nodiscard]] Error too_large(std::uint64_t needed_bytes) const {
@@ -227,6 +280,10 @@ Result<RaySpaceObject> read_object(const std::filesystem::path& path, const Read
     const auto container = ContainerReader::open(path);
     if (!container) return container.error();
     return read_object(*container, options);
+}
+
+Result<ReadingMemory> memory_to_read(const ContainerReader& container, const ReadObjectOptions& options) {
+    return ObjectReader(container, options).measure();
 }
 
 std::vector<ChunkSummary> summarise_chunks(const ContainerReader& container) {

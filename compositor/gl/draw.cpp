@@ -49,6 +49,10 @@ void draw(const Program& program, const VertexArray& vertices, const DrawState& 
     }
 }
 
+void flush() {
+    glFlush();
+}
+
 void finish() {
     glFinish();
 }

@@ -7,21 +7,21 @@
 
 namespace rs::gl {
 
-Texture::Texture(int width, int height, int levels) : width_(width), height_(height) {
+Texture::Texture(int width, int height, TexelKind kind, int levels) : width_(width), height_(height) {
     RS_CHECK(width >= 1 && height >= 1);
     unsigned name = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &name);
     handle_ = Handle<Kind::kTexture>(name);
-    glTextureStorage2D(name, levels, GL_SRGB8_ALPHA8, width, height);
+    glTextureStorage2D(name, levels, kind == TexelKind::kFloat ? GL_R32F : GL_SRGB8_ALPHA8, width, height);
 }
 
-Texture::Texture(int width, int height) : Texture(width, height, 1) {
+Texture::Texture(int width, int height, TexelKind kind) : Texture(width, height, kind, 1) {
     glTextureParameteri(handle_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(handle_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
 Texture::Texture(ConstImageView<Rgba8> picture, const TextureWrap& wrap)
-    : Texture(picture.width(), picture.height(),
+    : Texture(picture.width(), picture.height(), TexelKind::kColour,
               std::bit_width(static_cast<unsigned>(std::max(picture.width(), picture.height())))) {
     upload(picture);
     const unsigned name = handle_.name();
@@ -33,11 +33,19 @@ Texture::Texture(ConstImageView<Rgba8> picture, const TextureWrap& wrap)
 }
 
 void Texture::upload(ConstImageView<Rgba8> picture) const {
-    RS_CHECK(picture.width() <= width_ && picture.height() <= height_);
-    if (picture.empty()) return;
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(picture.stride()));
-    glTextureSubImage2D(handle_.name(), 0, 0, 0, picture.width(), picture.height(), GL_RGBA, GL_UNSIGNED_BYTE,
-                        picture.data());
+    upload(picture.data(), picture.width(), picture.height(), picture.stride(), GL_RGBA, GL_UNSIGNED_BYTE);
+}
+
+void Texture::upload(ConstImageView<float> picture) const {
+    upload(picture.data(), picture.width(), picture.height(), picture.stride(), GL_RED, GL_FLOAT);
+}
+
+void Texture::upload(const void* texels, int width, int height, std::ptrdiff_t stride, unsigned format,
+                     unsigned type) const {
+    RS_CHECK(width <= width_ && height <= height_);
+    if (width == 0 || height == 0) return;
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(stride));
+    glTextureSubImage2D(handle_.name(), 0, 0, 0, width, height, format, type, texels);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A picture on the GPU: 8-bit sRGB with straight alpha, read by shaders as linear light.
+// A picture on the GPU: 8-bit sRGB with straight alpha, read by shaders as linear light, or one float per pixel.
 
 #include "compositor/gl/handle.hpp"
 #include "rayspace/image.hpp"
@@ -12,10 +12,12 @@ struct TextureWrap {
     bool repeat_t = true;
 };
 
+enum class TexelKind { kColour, kFloat };
+
 class Texture {
 public:
     // Content undefined; read without interpolation. Sides 1..kMaxPictureSide_px.
-    Texture(int width, int height);
+    Texture(int width, int height, TexelKind kind = TexelKind::kColour);
     // A picture that does not change, for surfaces: read with linear interpolation from levels of half the size each.
     Texture(ConstImageView<Rgba8> picture, const TextureWrap& wrap);
     [[nodiscard]] int width() const { return width_; }
@@ -23,11 +25,13 @@ public:
 
     // Overwrites the top left corner; the picture must fit. Its first row becomes texel row 0.
     void upload(ConstImageView<Rgba8> picture) const;
+    void upload(ConstImageView<float> picture) const;  // into kFloat
     // To `uniform sampler2D` with layout(binding = unit).
     void bind(unsigned unit) const;
 
 private:
-    Texture(int width, int height, int levels);
+    Texture(int width, int height, TexelKind kind, int levels);
+    void upload(const void* texels, int width, int height, std::ptrdiff_t stride, unsigned format, unsigned type) const;
     Handle<Kind::kTexture> handle_;
     int width_ = 0;
     int height_ = 0;

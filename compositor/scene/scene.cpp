@@ -2,13 +2,29 @@
 
 namespace rs::compositor {
 
+namespace {
+
+void include(BoundingBox& all, const BoundingBox& box) {
+    if (box.empty()) return;
+    all.include(box.lowest);
+    all.include(box.highest);
+}
+
+}  // namespace
+
 BoundingBox bounds_of(const Scene& scene) {
+    return bounds_from(scene, 0, scene.objects.size());
+}
+
+BoundingBox bounds_from(const Scene& scene, std::size_t first_geometry, std::size_t first_object) {
     BoundingBox all;
-    for (const GeometryNode& node : scene.geometry) {
-        const BoundingBox box = bounds_of(*node.mesh).moved(node.world_from_node);
-        if (box.empty()) continue;
-        all.include(box.lowest);
-        all.include(box.highest);
+    for (std::size_t i = first_geometry; i < scene.geometry.size(); ++i) {
+        const GeometryNode& node = scene.geometry[i];
+        include(all, bounds_of(*node.mesh).moved(node.world_from_node));
+    }
+    for (std::size_t i = first_object; i < scene.objects.size(); ++i) {
+        const Similarity place = world_from_node(scene.objects[i].chain);
+        include(all, {place.translation - glm::dvec3(place.scale), place.translation + glm::dvec3(place.scale)});
     }
     return all;
 }

@@ -43,6 +43,14 @@ struct RaySpaceNode {
     bool standing = true;  // the origin of the chain is the object's foot instead of the middle of its captured frame
     std::string description;
     bool required = false;  // without it there is nothing to show; others are left out with a warning
+    std::optional<std::size_t> room =
+        {};  // of Scene::rooms, the innermost; objects of none are always wanted in memory
+};
+
+// A part of the scene whose objects are in memory while a visitor is in it or near.
+struct Room {
+    std::string description;
+    BoundingBox box;  // in scene coordinates; empty where nothing is known of it
 };
 
 struct Scene {
@@ -53,6 +61,7 @@ struct Scene {
                                .towards = glm::normalize(glm::dvec3(-0.45, -1, -0.6))}};
     std::vector<GeometryNode> geometry;
     std::vector<RaySpaceNode> objects;
+    std::vector<Room> rooms;
     std::optional<Fog> fog;
     std::vector<Viewpoint> viewpoints;  // the first is where a visit begins
     Navigation navigation;
@@ -62,5 +71,9 @@ struct Scene {
 
 // Of all geometry, in scene coordinates; empty where there is none.
 BoundingBox bounds_of(const Scene& scene);
+
+// Of the geometry and the objects from these numbers on, objects with their radius about them: the box of a room that
+// does not tell it.
+BoundingBox bounds_from(const Scene& scene, std::size_t first_geometry, std::size_t first_object);
 
 }  // namespace rs::compositor

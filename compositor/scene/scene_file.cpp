@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
+#include <utility>
 
 namespace rs::compositor {
 namespace {
@@ -65,13 +67,15 @@ private:
         const bool is_object = node.has("object");
         const bool is_box = node.has("box");
         const bool is_group = node.has("group");
-        if (is_object + is_box + is_group != 1) {
-            throw node.wrong("must have exactly one of the keys object, box and group");
+        const bool is_room = node.has("room");
+        if (is_object + is_box + is_group + is_room != 1) {
+            throw node.wrong("must have exactly one of the keys object, box, group and room");
         }
         chain_.push_back(take_transform(node));
         if (is_object) read_object_node(node);
         if (is_box) read_box(node);
         if (is_group) read_list(node.take("group"));
+        if (is_room) read_room(node);
         chain_.pop_back();
         node.expect_all_taken();
     }
@@ -80,8 +84,28 @@ private:
         RaySpaceNode object;
         object.file = folder_ / node.take("object").text();
         object.chain = chain_;
+        object.room = room_;
         if (node.has("standing")) object.standing = node.take("standing").boolean();
         scene_.objects.push_back(std::move(object));
+    }
+
+    void read_room(JsonObject& node) {
+        const std::size_t room = scene_.rooms.size();
+        const std::size_t geometry = scene_.geometry.size();
+        const std::size_t objects = scene_.objects.size();
+        scene_.rooms.push_back({node.has("description") ? node.take("description").text() : "", {}});
+        const std::optional<std::size_t> outer = std::exchange(room_, room);
+        read_list(node.take("room"));
+        room_ = outer;
+        if (!node.has("bounds")) {
+            scene_.rooms[room].box = bounds_from(scene_, geometry, objects);
+            return;
+        }
+        JsonObject bounds(node.take("bounds"));
+        const glm::dvec3 centre = take_position(bounds, "centre");
+        const glm::dvec3 half = bounds.take("size").triple(kSmallest, kFarthest) * 0.5;
+        bounds.expect_all_taken();
+        scene_.rooms[room].box = BoundingBox{centre - half, centre + half}.moved(world_from_node(chain_).matrix());
     }
 
     void read_box(JsonObject& node) {
@@ -96,6 +120,7 @@ private:
     Scene& scene_;
     std::filesystem::path folder_;
     TransformChain chain_;
+    std::optional<std::size_t> room_;
     std::size_t nodes_ = 0;
 };
 

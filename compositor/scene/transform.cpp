@@ -2,6 +2,8 @@
 
 #include "rayspace/check.hpp"
 
+#include <glm/gtc/quaternion.hpp>
+
 #include <cmath>
 
 namespace rs::compositor {
@@ -22,6 +24,20 @@ Similarity operator*(const Similarity& c_from_b, const Similarity& b_from_a) {
             c_from_b.scale * b_from_a.scale};
 }
 
+NodeTransform NodeTransform::of(const glm::dmat3& orthogonal, double scale) {
+    NodeTransform node;
+    node.scale = scale;
+    node.mirrored = glm::determinant(orthogonal) < 0;
+    glm::dmat3 rotation = orthogonal;
+    if (node.mirrored) rotation[0] = -rotation[0];
+    const glm::dquat turn = glm::normalize(glm::quat_cast(rotation));
+    const glm::dvec3 along(turn.x, turn.y, turn.z);
+    // The angle itself, not its cosine: a small turn keeps its digits.
+    if (glm::length(along) > 0) node.axis = along;
+    node.angle_rad = 2 * std::atan2(glm::length(along), turn.w);
+    return node;
+}
+
 Similarity NodeTransform::parent_from_node() const {
     RS_CHECK(scale > 0 && glm::length(axis) > 0);
     // Rodrigues' formula, column by column. A turn about Y leaves exact zeros, so that upright cameras stay upright.
@@ -31,7 +47,7 @@ Similarity NodeTransform::parent_from_node() const {
     const auto turned = [&](const glm::dvec3& v) {
         return v * c + glm::cross(n, v) * s + n * (glm::dot(n, v) * (1 - c));
     };
-    return {glm::dmat3(turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})), translation, scale};
+    return {glm::dmat3(turned({mirrored ? -1 : 1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})), translation, scale};
 }
 
 Similarity world_from_node(const TransformChain& chain) {

@@ -1,13 +1,20 @@
 #pragma once
 // Scenes from VRML97 files (.wrl, plain or gzip): vrml/clean_vrml.hpp tells what is read and what is left out.
 //
-// Besides the nodes of VRML97 there is one for objects made of pictures:
+// Besides the nodes of VRML97 there are one for objects made of pictures and one for rooms, whose objects are in memory
+// while a visitor is in them or near (viewer/room_plan.hpp):
 //
 //     RaySpace {
 //         exposedField MFString url          []     # the .rso file; the first counts
 //         exposedField SFFloat  size         1      # the object's radius in the units of the node, above 0
 //         exposedField SFBool   standing     TRUE   # its foot stands at the origin; else the middle of its capture
 //         exposedField SFString description  ""
+//     }
+//     RaySpaceRoom {
+//         exposedField MFNode   children     []
+//         exposedField SFString description  ""
+//         field        SFVec3f  bboxCenter   0 0 0
+//         field        SFVec3f  bboxSize     -1 -1 -1   # -1: of what it holds
 //     }
 
 #include "compositor/scene/scene.hpp"

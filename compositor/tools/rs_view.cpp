@@ -3,10 +3,13 @@
 #include "compositor/gl/context.hpp"
 #include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/scene_file.hpp"
+#include "compositor/tools/asked_cameras.hpp"
+#include "compositor/tools/view_arguments.hpp"
 #include "compositor/viewer/frame_compositor.hpp"
 #include "compositor/viewer/frame_times.hpp"
-#include "compositor/viewer/framing.hpp"
+#include "compositor/viewer/showroom.hpp"
 #include "compositor/window/visit.hpp"
+#include "engine/model/simulated_board.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/picture_io.hpp"
 #include "rayspace/progress.hpp"
@@ -16,32 +19,17 @@
 #include "rayspace/write_file.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <tuple>
+#include <memory>
+#include <string_view>
+#include <thread>
 
 namespace rs::compositor {
 namespace {
 
 constexpr double kRowSpacing = 2.2;  // between objects without a place of their own, object radii
-
-struct ViewArguments {
-    std::string scene;
-    std::vector<std::string> objects;
-    std::string output;
-    std::string eye;
-    std::string at;
-    std::string size = "1280x720";
-    double fov_deg = 0;
-    double frames_per_second = 30;
-    int orbit = 0;
-    int samples = FrameOptions{}.samples;
-    std::string viewpoint;
-    std::string stats;
-    std::string path;
-    bool wire_frame = false;
-    bool quiet = false;
-};
 
 Result<Scene> asked_scene(const ViewArguments& arguments) {
     Scene scene;
@@ -69,72 +57,6 @@ Result<Scene> asked_scene(const ViewArguments& arguments) {
     return scene;
 }
 
-// The viewpoint that the command line names, or the first.
-Result<const Viewpoint*> asked_viewpoint(const ViewArguments& arguments, const Scene& scene) {
-    if (arguments.viewpoint.empty()) return scene.viewpoints.empty() ? nullptr : &scene.viewpoints.front();
-    std::string known;
-    for (const Viewpoint& viewpoint : scene.viewpoints) {
-        if (viewpoint.description == arguments.viewpoint) return &viewpoint;
-        known += (known.empty() ? "" : ", ") + ("'" + viewpoint.description + "'");
-    }
-    return Error{"--viewpoint " + arguments.viewpoint + ": the scene has no viewpoint of this description; it has " +
-                 (known.empty() ? "none" : known)};
-}
-
-CameraPose pose_that_shows_all(const Scene& scene, const std::vector<PlacedObject>& objects, double fov_x_rad,
-                               double aspect) {
-    const BoundingBox bounds = bounds_of(scene);
-    if (!objects.empty() || bounds.empty()) return framing_pose(objects, fov_x_rad, aspect);
-    return framing_pose(bounds, fov_x_rad, aspect);
-}
-
-// What the command line says about the camera outranks the scene's path, that its viewpoint, and that the framing of
-// all that there is.
-Result<std::vector<Camera>> asked_cameras(const ViewArguments& arguments, const Scene& scene,
-                                          const std::vector<PlacedObject>& objects, PixelSize size) {
-    const Result<const Viewpoint*> viewpoint = asked_viewpoint(arguments, scene);
-    if (!viewpoint) return viewpoint.error();
-    const bool looks_elsewhere = !arguments.eye.empty() || !arguments.at.empty();
-    const bool at_viewpoint = *viewpoint != nullptr && (!scene.camera || !arguments.viewpoint.empty());
-    if (at_viewpoint && !looks_elsewhere && arguments.orbit == 0) {
-        Viewpoint here = **viewpoint;
-        if (arguments.fov_deg > 0) {
-            const double half_x = std::tan(radians(arguments.fov_deg) / 2);
-            here.field_of_view_rad = 2 * std::atan(half_x * std::min(size.width, size.height) / size.width);
-        }
-        return std::vector<Camera>{camera_at(here, size.width, size.height)};
-    }
-    CameraPath path = at_viewpoint ? CameraPath{} : scene.camera.value_or(CameraPath{});
-    if (arguments.fov_deg > 0) path.fov_x_rad = radians(arguments.fov_deg);
-    if (at_viewpoint) path.keys = {pose_at(**viewpoint, bounds_of(scene))};
-    if (path.keys.empty()) {
-        const double aspect = static_cast<double>(size.width) / size.height;
-        path.keys = {pose_that_shows_all(scene, objects, path.fov_x_rad, aspect)};
-    }
-    if (looks_elsewhere) {
-        CameraPose pose = path.keys.front();
-        for (const auto& [text, option, point] :
-             {std::tuple{&arguments.eye, "--eye", &pose.eye}, std::tuple{&arguments.at, "--at", &pose.at}}) {
-            if (text->empty()) continue;
-            const Result<Triple> given = parse_triple(*text, option);
-            if (!given) return given.error();
-            *point = {given->x, given->y, given->z};
-        }
-        path.keys = {pose};
-        path.frames = 1;
-    }
-    const std::vector<CameraPose> poses =
-        arguments.orbit > 0 ? poses_around(path.keys.front(), arguments.orbit) : poses_along(path);
-    std::vector<Camera> cameras;
-    for (const CameraPose& pose : poses) {
-        if (glm::distance(pose.eye, pose.at) < 1e-6) {
-            return Error{"the eye and the point looked at are the same; move --eye or --at"};
-        }
-        cameras.push_back(look_at_camera(pose.eye, pose.at, path.fov_x_rad, size.width, size.height));
-    }
-    return cameras;
-}
-
 // The frames with the cameras that saw them, as a set of pictures that other tools can open.
 Status write_folder(const std::function<Result<Image<Rgba8>>(const Camera&)>& compose,
                     const std::vector<Camera>& cameras, const ViewArguments& arguments, Progress& progress) {
@@ -151,21 +73,46 @@ Status write_folder(const std::function<Result<Image<Rgba8>>(const Camera&)>& co
     return staged->commit();
 }
 
+Result<std::unique_ptr<engine::BoardDevice>> asked_board(const ViewArguments& arguments, std::string& name) {
+    constexpr std::string_view kBoard = "board:";
+    name = "software core";
+    if (arguments.executor == "core") return std::unique_ptr<engine::BoardDevice>();
+    if (!arguments.executor.starts_with(kBoard)) {
+        return Error{"--executor " + arguments.executor + ": must be core or board:CONFIG"};
+    }
+    const auto config = engine::model::read_board_config(arguments.executor.substr(kBoard.size()));
+    if (!config) return config.error();
+    name = "board " + config->name;
+    return engine::model::make_simulated_board(*config, true);
+}
+
+ObjectDepth asked_depth(const ViewArguments& arguments) {
+    return arguments.object_depth == "pixel" ? ObjectDepth::kPixel : ObjectDepth::kPlane;
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) std::fprintf(stderr, "rs-view: warning: %s\n", warning.c_str());
+}
+
 // In a window: beginning where the first camera is, then at the scene's viewpoints.
-Status run_visit(const ViewArguments& arguments, const Scene& scene, const std::vector<PlacedObject>& objects,
-                 const Camera& first, PixelSize size) {
+Status run_visit(const ViewArguments& arguments, const Scene& scene, std::unique_ptr<Showroom> showroom,
+                 const std::string& executor, const Camera& first, PixelSize size) {
     VisitOptions options;
     options.window.title = arguments.scene.empty() ? "rs-view" : arguments.scene;
     options.window.width = size.width;
     options.window.height = size.height;
     options.wire_frame = arguments.wire_frame;
     options.samples = arguments.samples;
+    options.executor = executor;
+    options.object_depth = asked_depth(arguments);
+    options.object_samples = arguments.object_samples;
+    options.warn = print_warnings;
     Viewpoint begin;
     begin.world_from_camera = first.world_from_camera;
     begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
     options.viewpoints.push_back(begin);
     options.viewpoints.insert(options.viewpoints.end(), scene.viewpoints.begin(), scene.viewpoints.end());
-    return visit(scene, objects, options);
+    return visit(scene, std::move(showroom), options);
 }
 
 Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::vector<Camera>& cameras,
@@ -187,15 +134,20 @@ Status run_view(const ViewArguments& arguments) {
     if (!size) return size.error();
     Result<Scene> scene = asked_scene(arguments);
     if (!scene) return scene.error();
-    ProgressBar progress(arguments.quiet);
-    const Result<std::vector<PlacedObject>> objects = load_objects(*scene, &progress);
-    if (!objects) return objects.error();
-    for (const std::string& warning : scene->warnings) {
-        std::fprintf(stderr, "rs-view: warning: %s\n", warning.c_str());
-    }
-    const Result<std::vector<Camera>> cameras = asked_cameras(arguments, *scene, *objects, *size);
+    print_warnings(scene->warnings);
+    std::string executor;
+    Result<std::unique_ptr<engine::BoardDevice>> board = asked_board(arguments, executor);
+    if (!board) return board.error();
+    const bool waits = !in_window && !arguments.streaming;
+    auto showroom = std::make_unique<Showroom>(
+        *scene, ShowroomOptions{.memory_bytes = arguments.memory_mib << 20, .waits = waits}, std::move(*board));
+    const auto objects_to_frame = [&]() -> Result<std::vector<PlacedObject>> {
+        if (const Status status = showroom->wait_for_all({0, 0, 0}); !status) return status.error();
+        return showroom->placed();
+    };
+    const Result<std::vector<Camera>> cameras = asked_cameras(arguments, *scene, objects_to_frame, *size);
     if (!cameras) return cameras.error();
-    if (in_window) return run_visit(arguments, *scene, *objects, cameras->front(), *size);
+    if (in_window) return run_visit(arguments, *scene, std::move(showroom), executor, cameras->front(), *size);
     if (*kind == OutputKind::picture && cameras->size() != 1) {
         return Error{arguments.output + ": " + std::to_string(cameras->size()) +
                      " frames do not fit one picture; give a folder or an .mp4 to -o"};
@@ -203,21 +155,41 @@ Status run_view(const ViewArguments& arguments) {
 
     Result<gl::Context> context = gl::Context::create_surfaceless();
     if (!context) return context.error();
-    Result<FrameCompositor> compositor = FrameCompositor::create(*scene, *objects,
+    const bool upright = arguments.upright || arguments.streaming || arguments.executor != "core";
+    Result<FrameCompositor> compositor = FrameCompositor::create(*scene, showroom->engine(), showroom->nodes(),
                                                                  {.width = size->width,
                                                                   .height = size->height,
                                                                   .samples = arguments.samples,
                                                                   .wire_frame = arguments.wire_frame,
+                                                                  .object_depth = asked_depth(arguments),
+                                                                  .object_samples = arguments.object_samples,
+                                                                  .upright_pictures = upright,
                                                                   .time_parts = !arguments.stats.empty()});
     if (!compositor) return compositor.error();
+    ProgressBar progress(arguments.quiet);
     FrameTimes times;
+    const double frame_s = 1 / arguments.frames_per_second;
+    const auto begin = std::chrono::steady_clock::now();
+    int missing = 0;
     const auto compose = [&](const Camera& camera) -> Result<Image<Rgba8>> {
-        if (Status status = times.draw(*compositor, camera); !status) return status.error();
+        if (arguments.streaming) {
+            std::this_thread::sleep_until(
+                begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                            std::chrono::duration<double>(frame_s * static_cast<double>(times.frames()))));
+        }
+        if (Status status = times.draw(*showroom, *compositor, camera, frame_s); !status) return status.error();
+        print_warnings(showroom->take_warnings());
+        missing = std::max(missing, compositor->statistics().nodes_missing);
         return compositor->picture();
     };
     progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
     if (Status status = write_frames(arguments, *kind, *cameras, compose, progress); !status) return status;
-    return arguments.stats.empty() ? Status() : write_file(arguments.stats, times.to_json());
+    progress.finish();
+    if (waits && missing > 0) {
+        print_warnings({std::to_string(missing) + " objects in view do not fit into --memory " +
+                        std::to_string(arguments.memory_mib) + " and are shown as placeholders"});
+    }
+    return arguments.stats.empty() ? Status() : write_file(arguments.stats, times.to_json(*showroom));
 }
 
 }  // namespace
@@ -249,6 +221,20 @@ int main(int argc, char** argv) {
     app.add_option("--path", arguments.path, "walk along the camera path of a JSON scene file, in place of the scene's")
         ->type_name("FILE.json");
     app.add_flag("--wire-frame", arguments.wire_frame, "only the edges of the geometry's triangles");
+    app.add_option("--object-depth", arguments.object_depth,
+                   "how deep objects are: one plane each, or every pixel by itself, so that objects, and objects and "
+                   "geometry, reach into each other; with --executor core only")
+        ->type_name("plane|pixel")
+        ->check(CLI::IsMember({"plane", "pixel"}))
+        ->capture_default_str();
+    app.add_option("--object-samples", arguments.object_samples,
+                   "across a pixel, at most, where an object is so far that its captured pixels are smaller than the "
+                   "frame's; fewer are faster and show distant objects grainy")
+        ->check(CLI::Range(1, kMostSamplesAcross))
+        ->capture_default_str();
+    app.add_flag("--upright", arguments.upright,
+                 "draw objects for level cameras and look them up in that: much faster, a touch softer where objects "
+                 "are far; windows, --streaming and boards always do");
     app.add_option("--size", arguments.size, "size of the frames, WxH")->capture_default_str();
     app.add_option("--orbit", arguments.orbit, "N frames once around the point looked at")
         ->check(CLI::Range(1, 100000));
@@ -260,6 +246,18 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--stats", arguments.stats, "with -o: also write the frames' times, by part, as JSON")
         ->type_name("FILE.json");
+    app.add_option("--executor", arguments.executor,
+                   "who draws the objects: core, or board:CONFIG, the model of the hardware board (rs-engine simulate "
+                   "--help), with the core for what the board cannot draw")
+        ->type_name("core|board:CONFIG")
+        ->capture_default_str();
+    app.add_option("--memory", arguments.memory_mib,
+                   "MiB that objects may take; room by room they come and go (half of the machine's memory)")
+        ->type_name("MIB")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 30));
+    app.add_flag("--streaming", arguments.streaming,
+                 "with -o: walk in real time, objects come when they are read, as a visitor sees it; else every frame "
+                 "waits for its objects");
     app.add_flag("-q,--quiet", arguments.quiet, "no progress bar");
     app.footer(
         "Lengths are in the scene's units; an object of scale 1 has radius 1. Y is up.\n"
@@ -273,6 +271,12 @@ int main(int argc, char** argv) {
     app.callback([&] {
         if (arguments.scene.empty() && arguments.objects.empty()) {
             throw CLI::ValidationError("nothing to show; give a scene file or --object FILE.rso");
+        }
+        if (arguments.object_depth == "pixel" && arguments.executor != "core") {
+            throw CLI::ValidationError("--object-depth pixel: boards tell no depths; leave out --executor");
+        }
+        if (arguments.streaming && arguments.output.empty()) {
+            throw CLI::ValidationError("--streaming is for -o; in a window objects always come while you walk");
         }
         if (headless && arguments.output.empty()) {
             throw CLI::ValidationError("--headless needs -o: the picture, video or folder to write");

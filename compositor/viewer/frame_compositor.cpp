@@ -1,8 +1,9 @@
 #include "compositor/viewer/frame_compositor.hpp"
 
 #include "compositor/gl/draw.hpp"
+#include "compositor/viewer/engine_views.hpp"
 #include "compositor/viewer/shaders.hpp"
-#include "engine/core/view_registers.hpp"
+#include "engine/core/depth_picture.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -37,42 +38,53 @@ private:
 
 }  // namespace
 
-Result<FrameCompositor> FrameCompositor::create(const Scene& scene, std::vector<PlacedObject> objects,
-                                                const FrameOptions& options) {
+Result<FrameCompositor> FrameCompositor::create(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+                                                std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options) {
     auto background = BackgroundRenderer::create(scene.background);
     if (!background) return background.error();
     auto surfaces = SurfaceRenderer::create(scene);
     if (!surfaces) return surfaces.error();
     auto floor = gl::Program::create("floor", shaders::kFloorVertex, shaders::kFloorFragment);
     if (!floor) return floor.error();
-    auto object = gl::Program::create("object", shaders::kObjectVertex, shaders::kObjectFragment);
-    if (!object) return object.error();
+    auto objects = ObjectRenderer::create(nodes->size(), options.object_depth);
+    if (!objects) return objects.error();
+    auto placeholders = PlaceholderRenderer::create();
+    if (!placeholders) return placeholders.error();
     auto frame = gl::Framebuffer::create(options.width, options.height, options.samples);
     if (!frame) return frame.error();
     auto resolved = gl::Framebuffer::create(options.width, options.height, 1);
     if (!resolved) return resolved.error();
-    return FrameCompositor(scene, std::move(objects), {std::move(*floor), std::move(*object)}, std::move(*background),
-                           std::move(*surfaces), std::move(*frame), std::move(*resolved), options);
+    return FrameCompositor(scene, std::move(engine), std::move(nodes),
+                           {std::move(*floor), std::move(*objects), std::move(*placeholders), std::move(*background),
+                            std::move(*surfaces), std::move(*frame), std::move(*resolved)},
+                           options);
 }
 
-FrameCompositor::FrameCompositor(const Scene& scene, std::vector<PlacedObject> objects, Programs programs,
-                                 BackgroundRenderer background, SurfaceRenderer surfaces, gl::Framebuffer frame,
-                                 gl::Framebuffer resolved, const FrameOptions& options)
+Result<FrameCompositor> FrameCompositor::create(const Scene& scene, const std::vector<PlacedObject>& objects,
+                                                const FrameOptions& options) {
+    const auto engine = std::make_shared<engine::DataModule>(limits_of_viewer());
+    Result<std::shared_ptr<const ShownNodes>> nodes = show_all(objects, *engine);
+    if (!nodes) return nodes.error();
+    return create(scene, engine, std::move(*nodes), options);
+}
+
+FrameCompositor::FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+                                 std::shared_ptr<const ShownNodes> nodes, Renderers renderers,
+                                 const FrameOptions& options)
     : floor_(scene.floor),
       floor_background_(background_colour(scene.background, {0, 0, -1})),
       fog_(scene.fog),
-      objects_(std::move(objects)),
-      programs_(std::move(programs)),
-      background_(std::move(background)),
-      surfaces_(std::move(surfaces)),
+      engine_(std::move(engine)),
+      nodes_(std::move(nodes)),
+      turns_rad_(nodes_->size()),
+      renderers_(std::move(renderers)),
       wire_frame_(options.wire_frame),
       time_parts_(options.time_parts),
       samples_(options.samples),
-      frame_(std::move(frame)),
-      resolved_(std::move(resolved)),
-      rectangle_(4),
-      textures_(objects_.size()) {
-    for (const PlacedObject& placed : objects_) first_places_.push_back(placed.world_from_object);
+      object_depth_(options.object_depth),
+      object_samples_(options.object_samples),
+      upright_pictures_(options.upright_pictures),
+      rectangle_(4) {
     for (const Light& light : scene.lights) {
         if (light.kind != LightKind::kDirectional || !light.everywhere) continue;
         floor_light_ += light.ambient + light.colour * static_cast<float>(std::max(-light.towards.y, 0.0));
@@ -84,47 +96,91 @@ Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {
     return picture();
 }
 
+std::optional<ObjectView> FrameCompositor::view_of_node(std::size_t index, const Camera& camera) const {
+    const ShownNode& node = (*nodes_)[index];
+    if (!node.object) return std::nullopt;
+    PlacedObject placed = *node.object;
+    const double angle = placed.world_from_object.mirrors() ? -turns_rad_[index] : turns_rad_[index];
+    placed.world_from_object = placed.world_from_object * NodeTransform{.angle_rad = angle}.parent_from_node();
+    return view_of_object(placed, camera, {object_samples_, upright_pictures_});
+}
+
+std::vector<FrameCompositor::SeenNode> FrameCompositor::seen_nodes(const Camera& camera) const {
+    std::vector<SeenNode> seen;
+    for (std::size_t i = 0; i < nodes_->size(); ++i) {
+        if (auto view = view_of_node(i, camera)) seen.push_back({i, *view, {}});
+    }
+    return seen;
+}
+
 Status FrameCompositor::draw(const Camera& camera) {
-    RS_CHECK(camera.width == frame_.width() && camera.height == frame_.height());
+    RS_CHECK(camera.width == width() && camera.height == height());
     const FrameView view = view_of_frame(camera);
     statistics_ = {};
-    statistics_.nodes.resize(objects_.size());
+    statistics_.nodes.resize(nodes_->size());
     camera_ = camera;
     PartClock clock(time_parts_);
-    frame_.begin(background_.zenith());
-    if (!background_.plain()) background_.draw(camera);
-    const std::vector<SurfaceRenderer::Transparent> transparent = surfaces_.draw_opaque(view, wire_frame_);
-    statistics_.geometry_in_view = surfaces_.nodes_in_view();
+    for (std::size_t i = 0; i < nodes_->size(); ++i) {
+        if (!(*nodes_)[i].object) renderers_.objects.release(i);
+    }
+    std::vector<SeenNode> seen = seen_nodes(camera);
+    statistics_.nodes_not_seen = static_cast<int>(nodes_->size() - seen.size());
+    std::vector<engine::ViewRequest> requests;
+    for (const SeenNode& node : seen) {
+        requests.push_back({(*nodes_)[node.index].handle, node.view.camera, object_depth_ == ObjectDepth::kPixel});
+    }
+    EngineViews views(*engine_);
+    if (const Status status = views.submit(std::move(requests)); !status) return status.error();
+
+    renderers_.frame.begin(renderers_.background.zenith());
+    if (!renderers_.background.plain()) renderers_.background.draw(camera);
+    const auto transparent = renderers_.surfaces.draw_opaque(view, wire_frame_);
+    statistics_.geometry_in_view = renderers_.surfaces.nodes_in_view();
     if (floor_) draw_floor(view);
+    gl::flush();
     statistics_.geometry_s = clock.lap();
 
-    std::vector<std::pair<std::size_t, ObjectView>> seen;
-    for (std::size_t i = 0; i < objects_.size(); ++i) {
-        if (auto object = view_of_object(objects_[i], camera)) seen.emplace_back(i, *object);
+    Result<std::vector<engine::DrawnView>> drawn = views.retrieve();
+    if (!drawn) return drawn.error();
+    statistics_.engine_wait_s = clock.lap();
+    for (std::size_t n = 0; n < seen.size(); ++n) {
+        seen[n].drawn = std::move((*drawn)[n]);
+        upload(seen[n]);
     }
-    statistics_.nodes_not_seen = static_cast<int>(objects_.size() - seen.size());
+    statistics_.upload_s = clock.lap();
+    draw_blended(transparent, seen, view);
+    renderers_.frame.resolve_to(renderers_.resolved);
+    statistics_.composite_s = clock.lap();
+    return {};
+}
 
-    // Everything that is blended, the farthest first; of the same distance geometry before objects.
+// Everything that is blended, the farthest first; of the same distance geometry before objects.
+void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparent>& surfaces,
+                                   const std::vector<SeenNode>& nodes, const FrameView& view) {
     struct Blended {
         double distance;
         const SurfaceRenderer::Transparent* surface;
-        const std::pair<std::size_t, ObjectView>* object;
+        const SeenNode* node;
+        const Placeholder* placeholder;
     };
     std::vector<Blended> blended;
-    for (const auto& surface : transparent) blended.push_back({surface.distance, &surface, nullptr});
-    for (const auto& object : seen) blended.push_back({object.second.plane_distance, nullptr, &object});
+    for (const auto& surface : surfaces) blended.push_back({surface.distance, &surface, nullptr, nullptr});
+    for (const SeenNode& node : nodes) blended.push_back({node.view.plane_distance, nullptr, &node, nullptr});
+    for (std::size_t i = 0; i < nodes_->size(); ++i) {
+        const auto& placeholder = (*nodes_)[i].placeholder;
+        if (!placeholder || !may_be_seen(bounds_of(*placeholder), view)) continue;
+        statistics_.nodes[i].missing = !(*nodes_)[i].object;
+        statistics_.nodes_missing += statistics_.nodes[i].missing ? 1 : 0;
+        const double distance = glm::distance(placeholder->world_from_object.translation, view.camera.centre());
+        blended.push_back({distance, nullptr, nullptr, &*placeholder});
+    }
     std::stable_sort(blended.begin(), blended.end(),
                      [](const Blended& a, const Blended& b) { return a.distance > b.distance; });
     for (const Blended& item : blended) {
-        if (item.surface != nullptr) {
-            surfaces_.draw_transparent(*item.surface, view, wire_frame_);
-        } else if (const Status status = draw_object(item.object->first, item.object->second); !status) {
-            return status.error();
-        }
+        if (item.surface != nullptr) renderers_.surfaces.draw_transparent(*item.surface, view, wire_frame_);
+        if (item.node != nullptr) draw_object(*item.node);
+        if (item.placeholder != nullptr) renderers_.placeholders.draw(*item.placeholder, view);
     }
-    frame_.resolve_to(resolved_);
-    statistics_.composite_s = clock.lap() - statistics_.engine_s - statistics_.upload_s;
-    return {};
 }
 
 Status FrameCompositor::resize(int width, int height) {
@@ -132,40 +188,47 @@ Status FrameCompositor::resize(int width, int height) {
     if (!frame) return frame.error();
     auto resolved = gl::Framebuffer::create(width, height, 1);
     if (!resolved) return resolved.error();
-    frame_ = std::move(*frame);
-    resolved_ = std::move(*resolved);
+    renderers_.frame = std::move(*frame);
+    renderers_.resolved = std::move(*resolved);
     camera_.reset();
     return {};
 }
 
 void FrameCompositor::turn_object(std::size_t index, double angle_rad) {
-    objects_[index].world_from_object = first_places_[index] * NodeTransform{.angle_rad = angle_rad}.parent_from_node();
+    turns_rad_[index] = angle_rad;
 }
 
 std::optional<double> FrameCompositor::distance_ahead() const {
-    const float depth = frame_.depth_at(frame_.width() / 2, frame_.height() / 2, resolved_);
+    const float depth =
+        renderers_.frame.depth_at(renderers_.frame.width() / 2, renderers_.frame.height() / 2, renderers_.resolved);
     if (!(depth > 0)) return std::nullopt;
     return kNear / depth;
 }
 
 std::optional<std::size_t> FrameCompositor::object_at(int x, int y) const {
     if (!camera_ || x < 0 || y < 0 || x >= width() || y >= height()) return std::nullopt;
-    const double geometry = frame_.depth_at(x, y, resolved_);  // kNear / distance, 0 where there is none
+    const double geometry =
+        renderers_.frame.depth_at(x, y, renderers_.resolved);  // kNear / distance, 0 where there is none
     const glm::dvec3 position(x + 0.5, y + 0.5, 1);
     std::optional<std::size_t> nearest;
     double nearest_distance = 0;
-    for (std::size_t i = 0; i < objects_.size(); ++i) {
-        const auto view = view_of_object(objects_[i], *camera_);
+    for (std::size_t i = 0; i < nodes_->size(); ++i) {
+        const auto view = view_of_node(i, *camera_);
         if (!view || (nearest && view->plane_distance >= nearest_distance)) continue;
         const ScreenRectangle& area = view->rectangle;
         if (x < area.x || y < area.y || x >= area.x + area.width || y >= area.y + area.height) continue;
         if (glm::dot(view->inverse_depth_facing, position) * kNear < geometry) continue;  // hidden
-        const engine::Renderer& renderer = objects_[i].object->renderer;
-        const auto registers = engine::prepare_view(renderer.object(), view->camera);
-        if (!registers) continue;
-        Image<Rgba8> shown(area.width, area.height);
-        renderer.render(*registers, shown);
-        if (shown(x - area.x, y - area.y).a < 128) continue;
+        const auto at = view->picture_pixel(x, y);
+        if (!at) continue;
+        Camera pixel = view->camera;
+        pixel.cx -= at->x;
+        pixel.cy -= at->y;
+        pixel.width = 1;
+        pixel.height = 1;
+        EngineViews views(*engine_);
+        if (!views.submit({{(*nodes_)[i].handle, pixel}})) continue;
+        const Result<std::vector<engine::DrawnView>> drawn = views.retrieve();
+        if (!drawn || drawn->front().picture(0, 0).a < 128) continue;
         nearest = i;
         nearest_distance = view->plane_distance;
     }
@@ -173,7 +236,7 @@ std::optional<std::size_t> FrameCompositor::object_at(int x, int y) const {
 }
 
 void FrameCompositor::draw_floor(const FrameView& view) const {
-    const gl::Program& program = programs_.floor;
+    const gl::Program& program = renderers_.floor;
     program.set("clip_from_world", glm::mat4(view.clip_from_world));
     program.set("height", static_cast<float>(floor_->height));
     program.set("radius", static_cast<float>(floor_->radius));
@@ -184,43 +247,29 @@ void FrameCompositor::draw_floor(const FrameView& view) const {
     gl::draw(program, rectangle_, {});
 }
 
-Status FrameCompositor::draw_object(std::size_t index, const ObjectView& view) {
-    const PlacedObject& placed = objects_[index];
-    const engine::Renderer& renderer = placed.object->renderer;
-    const Result<engine::ViewRegisters> registers = engine::prepare_view(renderer.object(), view.camera);
-    if (!registers) return Error{renderer.object().name + ": " + registers.error().message};
-    const ScreenRectangle& area = view.rectangle;
-    if (picture_.width() < area.width || picture_.height() < area.height) {
-        picture_ = Image<Rgba8>(std::max(picture_.width(), area.width), std::max(picture_.height(), area.height));
+void FrameCompositor::upload(const SeenNode& node) {
+    const engine::DrawnView& drawn = node.drawn;
+    Image<float> depths;
+    if (object_depth_ == ObjectDepth::kPixel) {
+        const RaySpaceObject& object = (*nodes_)[node.index].object->object->renderer.object();
+        depths = engine::depth_picture(object, node.view.camera, drawn.depth_q20);
     }
-    const ImageView<Rgba8> shown = picture_.view().crop(0, 0, area.width, area.height);
-    PartClock clock(time_parts_);
-    renderer.render(*registers, shown);
-    const double engine_s = clock.lap();
-    statistics_.nodes[index] = {true, area.width, area.height, engine_s};
-    statistics_.engine_s += engine_s;
+    renderers_.objects.upload(node.index, drawn.picture, depths);
+    const int width = drawn.picture.width();
+    const int height = drawn.picture.height();
+    statistics_.nodes[node.index] = {true, width, height, drawn.seconds, drawn.by_board};
+    statistics_.engine_s += drawn.seconds;
     statistics_.nodes_rendered += 1;
-    statistics_.pixels_rendered += std::int64_t{area.width} * area.height;
+    statistics_.nodes_by_board += drawn.by_board ? 1 : 0;
+    statistics_.pixels_rendered += std::int64_t{width} * height;
+}
 
-    std::optional<gl::Texture>& texture = textures_[index];
-    if (!texture || texture->width() < area.width || texture->height() < area.height) {
-        texture.emplace(std::max(texture ? texture->width() : 0, area.width),
-                        std::max(texture ? texture->height() : 0, area.height));
-    }
-    texture->upload(shown);
-    texture->bind(0);
-    statistics_.upload_s += clock.lap();
-
-    const gl::Program& program = programs_.object;
-    program.set("rectangle", glm::vec4(area.x, area.y, area.width, area.height));
-    program.set("screen", glm::vec2(frame_.width(), frame_.height()));
-    program.set("first_pixel", glm::ivec2(area.x, area.y));
-    program.set("facing_depth", glm::vec3(view.inverse_depth_facing * kNear));
-    program.set("foot_depth", glm::vec3(view.inverse_depth_foot * kNear));
-    program.set("from_above", view.from_above ? 1 : 0);
-    program.set("fog", glm::vec4(fog_ ? fog_->colour : glm::vec3(0), kept_in_fog(fog_, view.plane_distance)));
-    gl::draw(program, rectangle_, {.depth_write = false, .blending = gl::Blending::kOverPremultiplied});
-    return {};
+void FrameCompositor::draw_object(const SeenNode& node) const {
+    renderers_.objects.draw(node.index, node.view,
+                            {.screen_px = {width(), height()},
+                             .fog = fog_ ? fog_->colour : glm::vec3(0),
+                             .own_light = kept_in_fog(fog_, node.view.plane_distance),
+                             .opacity = (*nodes_)[node.index].opacity});
 }
 
 }  // namespace rs::compositor

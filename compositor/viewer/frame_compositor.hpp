@@ -2,28 +2,32 @@
 // Composites frames: the scene's geometry with a depth buffer, and the pictures that the engine reconstructs of its
 // ray-space nodes, each at the depth of its reference plane.
 //
-// A frame:  background -> opaque geometry -> floor -> transparent geometry and each node that can be seen, the farthest
-//           first; for a node:
-//               camera into the node's coordinates (equation 3) -> engine, only for the pixels that the node can cover
-//               -> texture -> rectangle at the depth of its planes (object_view.hpp), tested against the geometry,
-//               blended over.
+// A frame:  views of the nodes that can be seen: camera into the node's coordinates (equation 3), only the pixels that
+//           the node can cover -> engine, which draws them while
+//           background -> opaque geometry -> floor  are drawn
+//           -> transparent geometry and the engine's pictures, the farthest first: texture -> rectangle at the depth of
+//           its planes (object_view.hpp), tested against the geometry, blended over.
 //
 // Nodes do not hide each other by depth (half-transparent rims would cut holes) but by their order.
 
 #include "compositor/gl/framebuffer.hpp"
 #include "compositor/gl/program.hpp"
-#include "compositor/gl/texture.hpp"
 #include "compositor/gl/vertex_array.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/background_renderer.hpp"
 #include "compositor/viewer/frustum.hpp"
+#include "compositor/viewer/object_renderer.hpp"
 #include "compositor/viewer/object_view.hpp"
 #include "compositor/viewer/placed_object.hpp"
+#include "compositor/viewer/placeholder_renderer.hpp"
+#include "compositor/viewer/shown_node.hpp"
 #include "compositor/viewer/surface_renderer.hpp"
+#include "engine/driver/data_module.hpp"
 #include "rayspace/image.hpp"
 #include "rayspace/result.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -34,6 +38,12 @@ struct FrameOptions {
     int height = 720;
     int samples = 4;          // per pixel, for the edges of geometry
     bool wire_frame = false;  // of the geometry, floor excepted
+    ObjectDepth object_depth = ObjectDepth::kPlane;
+    int object_samples =
+        kUsualSamplesAcross;  // across a pixel, at most, where objects are far (object_view.hpp); from 1
+    // Objects are drawn for a level camera in the same place and looked up (upright_picture.hpp): faster, and a board
+    // can do it; a touch softer.
+    bool upright_pictures = false;
     // Waits for the drawing of each part, so that the times of FrameStatistics are its own. Slower.
     bool time_parts = false;
 };
@@ -44,24 +54,34 @@ struct NodeStatistics {
     int width = 0;  // of the picture that the engine drew, px
     int height = 0;
     double engine_s = 0;
+    bool by_board = false;
+    bool missing = false;  // a placeholder is in view
 };
 
 struct FrameStatistics {
     int nodes_rendered = 0;            // by the engine
-    int nodes_not_seen = 0;            // off the screen or too small
+    int nodes_by_board = 0;            // of them
+    int nodes_not_seen = 0;            // off the screen, too small, or not there
+    int nodes_missing = 0;             // placeholders in view
     std::int64_t pixels_rendered = 0;  // by the engine
     int geometry_in_view = 0;          // geometry nodes that were drawn
     double geometry_s = 0;             // background, geometry, floor
-    double engine_s = 0;
-    double upload_s = 0;     // of the engine's pictures
-    double composite_s = 0;  // blending, transparent geometry, averaging of samples
+    double engine_s = 0;               // of drawing the views, at the same time as the geometry
+    double engine_wait_s = 0;          // the part of it that the frame waited for
+    double upload_s = 0;               // of the engine's pictures
+    double composite_s = 0;            // blending, transparent geometry, averaging of samples
     std::vector<NodeStatistics> nodes;
 };
 
 // Needs a gl::Context that is current, and outlives it; one thread. Move-only.
 class FrameCompositor {
 public:
-    static Result<FrameCompositor> create(const Scene& scene, std::vector<PlacedObject> objects,
+    // `nodes` may change from frame to frame, but not in number; their objects are loaded in `engine`, to which nobody
+    // else submits while a frame is drawn.
+    static Result<FrameCompositor> create(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+                                          std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options = {});
+    // Of objects that are there from the beginning on, drawn by the software core.
+    static Result<FrameCompositor> create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                           const FrameOptions& options = {});
 
     // The camera in scene coordinates; its size must be that of the options. The picture is opaque. Fails where the
@@ -70,8 +90,8 @@ public:
 
     // The same in two steps: draw() leaves the frame with the context's device, for show_in_window() or picture().
     Status draw(const Camera& camera);
-    [[nodiscard]] Image<Rgba8> picture() const { return resolved_.read_picture(); }
-    void show_in_window(int width, int height) const { resolved_.show_in_window(width, height); }
+    [[nodiscard]] Image<Rgba8> picture() const { return renderers_.resolved.read_picture(); }
+    void show_in_window(int width, int height) const { renderers_.resolved.show_in_window(width, height); }
 
     // Of the last draw() or compose().
     [[nodiscard]] const FrameStatistics& statistics() const { return statistics_; }
@@ -80,8 +100,8 @@ public:
     // How far geometry is along the middle pixel's ray in the last frame, scene units; nothing where there is none.
     [[nodiscard]] std::optional<double> distance_ahead() const;
 
-    [[nodiscard]] int width() const { return frame_.width(); }
-    [[nodiscard]] int height() const { return frame_.height(); }
+    [[nodiscard]] int width() const { return renderers_.frame.width(); }
+    [[nodiscard]] int height() const { return renderers_.frame.height(); }
     // Frames of another size from now on. Fails, with nothing changed, where the driver cannot.
     Status resize(int width, int height);
     void set_wire_frame(bool wire_frame) { wire_frame_ = wire_frame; }
@@ -89,35 +109,47 @@ public:
     void turn_object(std::size_t index, double angle_rad);
 
 private:
-    struct Programs {
+    struct Renderers {
         gl::Program floor;
-        gl::Program object;
+        ObjectRenderer objects;
+        PlaceholderRenderer placeholders;
+        BackgroundRenderer background;
+        SurfaceRenderer surfaces;
+        gl::Framebuffer frame;
+        gl::Framebuffer resolved;
     };
-    FrameCompositor(const Scene& scene, std::vector<PlacedObject> objects, Programs programs,
-                    BackgroundRenderer background, SurfaceRenderer surfaces, gl::Framebuffer frame,
-                    gl::Framebuffer resolved, const FrameOptions& options);
+    FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+                    std::shared_ptr<const ShownNodes> nodes, Renderers renderers, const FrameOptions& options);
 
+    struct SeenNode {
+        std::size_t index = 0;
+        ObjectView view;
+        engine::DrawnView drawn;
+    };
+    [[nodiscard]] std::optional<ObjectView> view_of_node(std::size_t index, const Camera& camera) const;
+    [[nodiscard]] std::vector<SeenNode> seen_nodes(const Camera& camera) const;
     void draw_floor(const FrameView& view) const;
-    Status draw_object(std::size_t index, const ObjectView& view);
+    void upload(const SeenNode& node);
+    void draw_object(const SeenNode& node) const;
+    void draw_blended(const std::vector<SurfaceRenderer::Transparent>& surfaces, const std::vector<SeenNode>& nodes,
+                      const FrameView& view);
 
     std::optional<Floor> floor_;
     glm::vec3 floor_light_{0};       // that falls on it from above
     glm::vec3 floor_background_{0};  // into which it fades
     std::optional<Fog> fog_;
-    std::vector<PlacedObject> objects_;
-    std::vector<Similarity> first_places_;  // [object]: as the scene has put it
-    std::optional<Camera> camera_;          // of the last frame
-    Programs programs_;
-    BackgroundRenderer background_;
-    SurfaceRenderer surfaces_;
+    std::shared_ptr<engine::DataModule> engine_;
+    std::shared_ptr<const ShownNodes> nodes_;
+    std::vector<double> turns_rad_;  // [node]: by which the visitor has turned it
+    std::optional<Camera> camera_;   // of the last frame
+    Renderers renderers_;
     bool wire_frame_;
     bool time_parts_;
     int samples_;
-    gl::Framebuffer frame_;
-    gl::Framebuffer resolved_;
+    ObjectDepth object_depth_;
+    int object_samples_;
+    bool upright_pictures_;
     gl::VertexArray rectangle_;
-    std::vector<std::optional<gl::Texture>> textures_;  // [object]
-    Image<Rgba8> picture_;                              // what the engine rendered last
     FrameStatistics statistics_;
 };
 

@@ -1,10 +1,12 @@
 #pragma once
-// How long frames take, all in all and by part.
+// How long frames take, all in all and by part, and how long objects were missing in them.
 
 #include "compositor/viewer/frame_compositor.hpp"
+#include "compositor/viewer/showroom.hpp"
 #include "rayspace/camera.hpp"
 #include "rayspace/result.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,21 +15,43 @@ namespace rs::compositor {
 
 class FrameTimes {
 public:
-    // Draws a frame and takes its time. Parts are its own only with FrameOptions::time_parts.
-    Status draw(FrameCompositor& compositor, const Camera& camera);
+    // Brings the showroom to where the camera is, `seconds` after the frame before, draws, and takes the time. Parts
+    // are their own only with FrameOptions::time_parts.
+    Status draw(Showroom& showroom, FrameCompositor& compositor, const Camera& camera, double seconds);
 
-    // {"frames", "median_ms", "p95_ms", "longest_ms", "median_parts_ms": {"geometry", "engine", "upload", "composite"},
-    // "objects_per_frame", "engine_pixels_per_frame"}
-    [[nodiscard]] std::string to_json() const;
+    [[nodiscard]] std::size_t frames() const { return frames_ms_.size(); }
+    [[nodiscard]] double median_ms() const;
+    [[nodiscard]] double longest_ms() const;
+
+    // A node that was in view without its object.
+    struct Missing {
+        std::size_t node = 0;
+        double seconds = 0;  // at a stretch, from frame to frame
+    };
+    [[nodiscard]] std::vector<Missing> missing() const;
+
+    // {"frames", "median_ms", "p95_ms", "longest_ms", "median_parts_ms": {"geometry", "engine", "engine_wait",
+    // "upload", "composite"}, "objects_per_frame", "engine_pixels_per_frame", "views_by_core", "views_by_board",
+    // "missing":
+    // {"times", "longest_ms"}, "memory": {"loads", "evictions", "failures", "budget_bytes", "peak_bytes",
+    // "longest_load_ms"}}
+    [[nodiscard]] std::string to_json(const Showroom& showroom) const;
 
 private:
+    void note_missing(const FrameStatistics& statistics);
+
     std::vector<double> frames_ms_;
     std::vector<double> geometry_ms_;
     std::vector<double> engine_ms_;
+    std::vector<double> engine_wait_ms_;
     std::vector<double> upload_ms_;
     std::vector<double> composite_ms_;
     std::int64_t pixels_ = 0;
     std::int64_t nodes_ = 0;
+    std::int64_t nodes_by_board_ = 0;
+    using Clock = std::chrono::steady_clock;
+    std::vector<Clock::time_point> missing_since_;  // [node]; epoch: it is not missing
+    std::vector<Missing> missing_;                  // that have ended
 };
 
 }  // namespace rs::compositor

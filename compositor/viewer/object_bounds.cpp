@@ -1,5 +1,7 @@
 #include "compositor/viewer/object_bounds.hpp"
 
+#include "rayspace/conventions.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,12 +51,114 @@ struct PictureScale {
     [[nodiscard]] double height_at(double row, double depth) const {
         return height + (principal_row - row) * depth / focal_px;
     }
+    [[nodiscard]] double row_of(double at_height, double depth) const {
+        return principal_row - (at_height - height) * focal_px / depth;
+    }
 
     double axis_depth;
     double focal_px;
     double principal_row;
     double height;
 };
+
+// One picture that shows something.
+struct Outline {
+    std::size_t view;
+    RowRange rows;  // solid ones
+    double azimuth_rad;
+    double left;  // how far the foot reaches to either side of the axis, object radii
+    double right;
+};
+
+// From which side the camera looks at the axis: 0 is +Z, growing towards +X.
+double azimuth_of(const CapturedView& view) {
+    const double step = 2 * kPi / static_cast<double>(view.lines.size());
+    const double x = std::ldexp(view.lines[0].l1_q30, -30);  // forward . tangent of planes 0 and 1
+    const double along_next = std::ldexp(view.lines[1].l1_q30, -30);
+    const double z = (x * std::cos(step) - along_next) / std::sin(step);
+    return std::atan2(-x, -z);
+}
+
+// The outlines of the ring whose cameras are nearest to the height of the foot: they see it most nearly from the side.
+std::vector<Outline> outlines_of_lowest_ring(const RaySpaceObject& object) {
+    const auto lowest = std::min_element(object.rings.begin(), object.rings.end(), [](const Ring& a, const Ring& b) {
+        return std::abs(a.elevation_udeg) < std::abs(b.elevation_udeg);
+    });
+    std::vector<Outline> outlines;
+    for (const std::uint16_t view : lowest->views) {
+        if (object.pictures[view].empty()) continue;
+        const RowRange rows = occupied_rows(object.pictures[view].a, kSolid);
+        if (rows.begin < rows.end) outlines.push_back({view, rows, azimuth_of(object.views[view]), 0, 0});
+    }
+    return outlines;
+}
+
+// Measures how far the object reaches to either side where a foot at this height would be seen, and below.
+void measure_sides(const RaySpaceObject& object, double foot, Outline& outline) {
+    const Image<std::uint8_t>& alpha = object.pictures[outline.view].a;
+    const CapturedView& view = object.views[outline.view];
+    const PictureScale scale(view);
+    const double axis_column = std::ldexp(view.cx_q16, -16) + std::ldexp(view.lines[0].q0_q16, -16) / scale.axis_depth;
+    const int some = std::max((outline.rows.end - outline.rows.begin) / 24, 1);
+    const auto begin = static_cast<int>(std::clamp(scale.row_of(foot, scale.axis_depth) - some,
+                                                   static_cast<double>(outline.rows.begin),
+                                                   static_cast<double>(outline.rows.end - some)));
+    double first = axis_column;
+    double last = axis_column;
+    for (int y = begin; y < outline.rows.end; ++y) {
+        for (int x = 0; x < alpha.width(); ++x) {
+            if (alpha(x, y) < kSolid) continue;
+            first = std::min(first, static_cast<double>(x));
+            last = std::max(last, x + 1.0);
+        }
+    }
+    outline.left = std::min((axis_column - first) * scale.axis_depth / scale.focal_px, 1.0);
+    outline.right = std::min((last - axis_column) * scale.axis_depth / scale.focal_px, 1.0);
+}
+
+// How far the foot reaches towards the camera of an outline: what the outlines seen from a quarter turn to either side
+// say, or half its own width where there are none.
+double reach_towards(const std::vector<Outline>& outlines, const Outline& outline) {
+    constexpr double kNearlyAQuarter_rad = kPi / 12;
+    double sum = 0;
+    int count = 0;
+    for (const double side : {-1.0, 1.0}) {
+        const Outline* nearest = nullptr;
+        double nearest_error = kNearlyAQuarter_rad;
+        for (const Outline& other : outlines) {
+            const double turn = other.azimuth_rad - outline.azimuth_rad - side * kPi / 2;
+            const double error = std::abs(std::remainder(turn, 2 * kPi));
+            if (error >= nearest_error) continue;
+            nearest = &other;
+            nearest_error = error;
+        }
+        if (nearest == nullptr) continue;
+        sum += side < 0 ? nearest->right : nearest->left;
+        ++count;
+    }
+    return count > 0 ? sum / count : (outline.left + outline.right) / 2;
+}
+
+// Where the foot is, begun at a first guess: its height tells where in the pictures its sides are, and these how far
+// before the axis the lowest point of each picture is.
+double foot_of(const RaySpaceObject& object, double foot) {
+    std::vector<Outline> outlines = outlines_of_lowest_ring(object);
+    if (outlines.empty()) return foot;
+    for (int i = 0; i < 3; ++i) {
+        for (Outline& outline : outlines) measure_sides(object, foot, outline);
+        std::vector<double> heights;
+        for (const Outline& outline : outlines) {
+            const PictureScale scale(object.views[outline.view]);
+            const bool beyond_horizon = outline.rows.end < scale.principal_row;
+            const double reach = reach_towards(outlines, outline);
+            heights.push_back(scale.height_at(outline.rows.end, scale.axis_depth + (beyond_horizon ? reach : -reach)));
+        }
+        const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+        std::nth_element(heights.begin(), middle, heights.end());
+        foot = *middle;
+    }
+    return foot;
+}
 
 }  // namespace
 
@@ -105,7 +209,7 @@ UprightExtent estimated_extent(const RaySpaceObject& object) {
         std::nth_element(values.begin(), middle, values.end());
         return *middle;
     };
-    return {median(bottoms), median(tops)};
+    return {foot_of(object, median(bottoms)), median(tops)};
 }
 
 }  // namespace rs::compositor

@@ -4,11 +4,10 @@
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/object_bounds.hpp"
 #include "engine/core/renderer.hpp"
-#include "rayspace/progress.hpp"
 #include "rayspace/result.hpp"
 
+#include <cstdint>
 #include <memory>
-#include <vector>
 
 namespace rs::compositor {
 
@@ -17,6 +16,9 @@ struct ViewableObject {
     engine::Renderer renderer;
     BoundingCylinder bounds;
     UprightExtent extent;
+    std::shared_ptr<const RaySpaceObject> for_board = nullptr;  // as engine::PreparedObject
+
+    [[nodiscard]] std::int64_t memory_bytes() const;
 };
 // The object has passed validate_object (as read_object's have).
 Result<ViewableObject> make_viewable(RaySpaceObject object);
@@ -26,9 +28,5 @@ struct PlacedObject {
     Similarity world_from_object;  // object radii to scene units
 };
 PlacedObject place(std::shared_ptr<const ViewableObject> object, const RaySpaceNode& node);
-
-// Reads the files of the scene's ray-space nodes, each file once, and places them in the order of scene.objects. A node
-// whose file cannot be shown is taken out of the scene, with a warning for the file; fails where it is required.
-Result<std::vector<PlacedObject>> load_objects(Scene& scene, Progress* progress = nullptr);
 
 }  // namespace rs::compositor

@@ -34,7 +34,8 @@ void main() {
     result = vec4(mix(checker, background, smoothstep(0.15, 1.0, away)), 1.0);
 })";
 
-// A ray-space node: its rectangle of the screen, pixel for pixel without resampling, at the depth of its two planes.
+// A ray-space node: its rectangle of the screen, each pixel the mean of samples_across * samples_across samples of the
+// picture, at the depth of its two planes or of its pixels (object_view.hpp).
 inline constexpr const char* kObjectVertex = R"(#version 450 core
 uniform vec4 rectangle;  // x, y, width, height in pixels
 uniform vec2 screen;     // width, height in pixels
@@ -42,22 +43,61 @@ void main() {
     vec2 p = rectangle.xy + vec2(gl_VertexID & 1, gl_VertexID >> 1) * rectangle.zw;
     gl_Position = vec4(p.x / screen.x * 2.0 - 1.0, 1.0 - p.y / screen.y * 2.0, 0.0, 1.0);
 })";
-inline constexpr const char* kObjectFragment = R"(#version 450 core
+// Behind "#version" and the constants kPixelDepth, kSamplesAcross and kSmooth (a sample lies between the nearest four
+// texels): drawn on a CPU, loops that are unrolled cost half.
+inline constexpr const char* kObjectFragment = R"(
 layout(binding = 0) uniform sampler2D picture;
-uniform ivec2 first_pixel;
-uniform vec3 facing_depth;  // value in the depth buffer = dot(_, (x, y, 1))
+layout(binding = 1) uniform sampler2D depths;  // where kPixelDepth: axial, 0 where there is nothing
+uniform ivec2 picture_size;  // the rest of the texture is of other pictures
+uniform mat3 picture_from_screen;
+uniform vec3 facing_depth;   // value in the depth buffer = dot(_, (x, y, 1))
 uniform vec3 foot_depth;
 uniform int from_above;
+uniform float near_of_depths;  // value in the depth buffer = near_of_depths / depth
+uniform vec2 alphas;         // only pixels of at least the first and less than the second are drawn
 uniform vec4 fog;            // colour; w: how much of the object's own light is left
+uniform float opacity;       // times that of the picture
 out vec4 result;
+vec4 sum = vec4(0.0);      // premultiplied
+float nearness = 0.0;      // 1 / depth, weighed as sum.a
+void add(ivec2 at, float weight, float depth_of_picture) {
+    ivec2 inside = clamp(at, ivec2(0), picture_size - 1);
+    vec4 straight = texelFetch(picture, inside, 0);
+    float a = inside == at ? straight.a * weight : 0.0;
+    sum += vec4(straight.rgb * a, a);
+    if (kPixelDepth) {
+        float depth = texelFetch(depths, inside, 0).r;
+        if (depth > 0.0) nearness += a * depth_of_picture / depth;
+    }
+}
 void main() {
-    vec4 straight = texelFetch(picture, ivec2(gl_FragCoord.xy) - first_pixel, 0);
-    if (straight.a == 0.0) discard;
+    for (int j = 0; j < kSamplesAcross; ++j) {
+        for (int i = 0; i < kSamplesAcross; ++i) {
+            vec2 part = (vec2(i, j) + 0.5) / float(kSamplesAcross) - 0.5;
+            vec3 p = picture_from_screen * vec3(gl_FragCoord.xy + part, 1.0);
+            vec2 at = p.xy / p.z;
+            if (kSmooth) {
+                vec2 first = floor(at - 0.5);
+                vec2 f = at - 0.5 - first;
+                ivec2 t = ivec2(first);
+                add(t, (1.0 - f.x) * (1.0 - f.y), p.z);
+                add(t + ivec2(1, 0), f.x * (1.0 - f.y), p.z);
+                add(t + ivec2(0, 1), (1.0 - f.x) * f.y, p.z);
+                add(t + ivec2(1, 1), f.x * f.y, p.z);
+            } else {
+                add(ivec2(floor(at)), 1.0, p.z);
+            }
+        }
+    }
+    float alpha = sum.a / float(kSamplesAcross * kSamplesAcross);
+    if (alpha == 0.0 || alpha < alphas.x || alpha >= alphas.y) discard;
     vec3 place = vec3(gl_FragCoord.xy, 1.0);
-    float facing = dot(facing_depth, place);
+    float depth = dot(facing_depth, place);
+    if (kPixelDepth && nearness > 0.0) depth = near_of_depths * nearness / sum.a;
     float foot = dot(foot_depth, place);
-    gl_FragDepth = clamp(from_above != 0 ? max(facing, foot) : min(facing, foot), 0.0, 1.0);
-    result = vec4(mix(fog.rgb, straight.rgb, fog.w) * straight.a, straight.a);
+    gl_FragDepth = clamp(from_above != 0 ? max(depth, foot) : min(depth, foot), 0.0, 1.0);
+    alpha *= opacity;
+    result = vec4(mix(fog.rgb, sum.rgb / sum.a, fog.w) * alpha, alpha);
 })";
 
 }  // namespace rs::compositor::shaders

@@ -46,6 +46,8 @@ void draw_figures(const PanelState& state) {
     ImGui::Text("%.1f ms a frame, %.0f frames/s", state.frame_ms, state.frame_ms > 0 ? 1000 / state.frame_ms : 0.0);
     ImGui::Text("geometry %.1f  engine %.1f  upload %.1f  composite %.1f ms", state.geometry_ms, state.engine_ms,
                 state.upload_ms, state.composite_ms);
+    ImGui::Text("views by core %d, by board %d; objects %.0f of %.0f MiB", state.views_by_core, state.views_by_board,
+                state.memory_mib, state.budget_mib);
     ImGui::TextDisabled("%s; %s", state.executor.c_str(), state.device.c_str());
 }
 
@@ -71,7 +73,7 @@ void draw_objects(PanelState& state) {
         if (object.in_view) {
             ImGui::Text("%dx%d", object.width, object.height);
         } else {
-            ImGui::TextDisabled("out of view");
+            ImGui::TextDisabled("%s", object.absence.empty() ? "out of view" : object.absence.c_str());
         }
         ImGui::TableNextColumn();
         if (object.in_view) ImGui::Text("%.2f", object.milliseconds);

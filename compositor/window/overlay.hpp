@@ -15,6 +15,7 @@ struct ObjectLine {
     int width = 0;  // of the picture that the engine drew, px
     int height = 0;
     double milliseconds = 0;  // of the engine
+    std::string absence;      // why it is not there; empty where it is
 };
 
 // What the panel shows, and what the visitor changes in it.
@@ -33,6 +34,10 @@ struct PanelState {
     double upload_ms = 0;
     double composite_ms = 0;
     std::string executor;
+    int views_by_core = 0;  // in the last frame
+    int views_by_board = 0;
+    double memory_mib = 0;  // that objects take
+    double budget_mib = 0;  // that they may take
     std::string device;
     std::vector<ObjectLine> objects;
     int picked = -1;      // of `objects`

@@ -31,8 +31,10 @@ double middle_one(std::vector<double> values) {
 
 }  // namespace
 
-Visit::Visit(Window window, FrameCompositor compositor, const Scene& scene, const VisitOptions& options)
+Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor compositor, const Scene& scene,
+             const VisitOptions& options)
     : window_(std::move(window)),
+      showroom_(std::move(showroom)),
       compositor_(std::move(compositor)),
       overlay_(std::make_unique<Overlay>(window_)),
       options_(options),
@@ -47,7 +49,7 @@ Visit::Visit(Window window, FrameCompositor compositor, const Scene& scene, cons
     panel_.mode = mode_of(scene.navigation);
     panel_.speed = navigation_.speed;
     panel_.wire_frame = options.wire_frame;
-    panel_.executor = "software core";
+    panel_.executor = options.executor;
     panel_.device = window_.context().device_name();
     tell("press H for help");
 }
@@ -56,16 +58,22 @@ Visit::~Visit() {
     if (video_) static_cast<void>(video_->finish());
 }
 
-Result<std::unique_ptr<Visit>> Visit::create(const Scene& scene, std::vector<PlacedObject> objects,
+Result<std::unique_ptr<Visit>> Visit::create(const Scene& scene, std::unique_ptr<Showroom> showroom,
                                              const VisitOptions& options) {
     RS_CHECK(!options.viewpoints.empty());
     Result<Window> window = Window::create(options.window);
     if (!window) return window.error();
     const glm::ivec2 size = glm::max(window->framebuffer_px(), glm::ivec2(1));
-    Result<FrameCompositor> compositor = FrameCompositor::create(
-        scene, std::move(objects), {.width = size.x, .height = size.y, .samples = options.samples});
+    Result<FrameCompositor> compositor = FrameCompositor::create(scene, showroom->engine(), showroom->nodes(),
+                                                                 {.width = size.x,
+                                                                  .height = size.y,
+                                                                  .samples = options.samples,
+                                                                  .object_depth = options.object_depth,
+                                                                  .object_samples = options.object_samples,
+                                                                  .upright_pictures = true});
     if (!compositor) return compositor.error();
-    return std::unique_ptr<Visit>(new Visit(std::move(*window), std::move(*compositor), scene, options));
+    return std::unique_ptr<Visit>(
+        new Visit(std::move(*window), std::move(showroom), std::move(*compositor), scene, options));
 }
 
 Camera Visit::camera() const {
@@ -189,9 +197,22 @@ void Visit::refresh_panel(double seconds) {
     panel_.objects.resize(names_.size());
     for (std::size_t i = 0; i < names_.size(); ++i) {
         const NodeStatistics& node = statistics.nodes[i];
-        panel_.objects[i] = {names_[i], node.in_view, node.width, node.height, 1e3 * node.engine_s};
+        panel_.objects[i] = {names_[i], node.in_view, node.width, node.height, 1e3 * node.engine_s, {}};
+        if (!node.in_view && !(*showroom_->nodes())[i].object) panel_.objects[i].absence = showroom_->absence(i);
     }
+    panel_.views_by_board = statistics.nodes_by_board;
+    panel_.views_by_core = statistics.nodes_rendered - statistics.nodes_by_board;
+    const StoreStatistics store = showroom_->statistics();
+    panel_.memory_mib = static_cast<double>(store.used_bytes) / (1 << 20);
+    panel_.budget_mib = static_cast<double>(store.budget_bytes) / (1 << 20);
     if ((news_seconds_ -= seconds) <= 0) panel_.news.clear();
+}
+
+void Visit::hear_showroom() {
+    const std::vector<std::string> warnings = showroom_->take_warnings();
+    if (warnings.empty()) return;
+    if (options_.warn) options_.warn(warnings);
+    tell(warnings.back());
 }
 
 Result<bool> Visit::step(std::optional<double> seconds) {
@@ -231,6 +252,9 @@ Result<bool> Visit::step(std::optional<double> seconds) {
         turns_rad_[picked] = panel_.turn_rad;
         compositor_.turn_object(picked, panel_.turn_rad);
     }
+    const std::optional<glm::dvec3> destination = travel_ ? std::optional(travel_->to.eye) : std::nullopt;
+    if (Status status = showroom_->update(visitor_.eye, passed, destination); !status) return status.error();
+    hear_showroom();
     if (Status status = compositor_.draw(camera()); !status) return status.error();
     if (const auto click = input_.click()) pick(*click);
     if (Status status = take_pictures(); !status) return status.error();
@@ -246,8 +270,8 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     return true;
 }
 
-Status visit(const Scene& scene, std::vector<PlacedObject> objects, const VisitOptions& options) {
-    const Result<std::unique_ptr<Visit>> made = Visit::create(scene, std::move(objects), options);
+Status visit(const Scene& scene, std::unique_ptr<Showroom> showroom, const VisitOptions& options) {
+    const Result<std::unique_ptr<Visit>> made = Visit::create(scene, std::move(showroom), options);
     if (!made) return made.error();
     for (;;) {
         const Result<bool> goes_on = (*made)->step();

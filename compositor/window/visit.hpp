@@ -1,12 +1,12 @@
 #pragma once
 // A visit to a scene in a window: walk, fly, look around, pick and turn objects, take pictures home.
 //
-// For the main thread only. The scene and its objects are loaded before.
+// For the main thread only. The scene is read before; objects come while the visit goes on.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/frame_compositor.hpp"
 #include "compositor/viewer/navigation.hpp"
-#include "compositor/viewer/placed_object.hpp"
+#include "compositor/viewer/showroom.hpp"
 #include "compositor/window/overlay.hpp"
 #include "compositor/window/visitor_input.hpp"
 #include "compositor/window/window.hpp"
@@ -15,8 +15,10 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace rs::compositor {
@@ -27,11 +29,15 @@ struct VisitOptions {
     std::filesystem::path pictures = ".";  // where screenshots and recordings go
     int samples = 4;
     bool wire_frame = false;
+    ObjectDepth object_depth = ObjectDepth::kPlane;
+    int object_samples = FrameOptions{}.object_samples;
+    std::string executor = "software core";                     // of the engine, for the panel
+    std::function<void(const std::vector<std::string>&)> warn;  // of objects that cannot be shown; may be empty
 };
 
 class Visit {
 public:
-    static Result<std::unique_ptr<Visit>> create(const Scene& scene, std::vector<PlacedObject> objects,
+    static Result<std::unique_ptr<Visit>> create(const Scene& scene, std::unique_ptr<Showroom> showroom,
                                                  const VisitOptions& options);
     ~Visit();  // finishes a recording
 
@@ -46,7 +52,8 @@ public:
     [[nodiscard]] Image<Rgba8> picture() const { return compositor_.picture(); }
 
 private:
-    Visit(Window window, FrameCompositor compositor, const Scene& scene, const VisitOptions& options);
+    Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor compositor, const Scene& scene,
+          const VisitOptions& options);
 
     Status obey(Key command);
     void go_to_viewpoint(std::size_t number);
@@ -55,10 +62,12 @@ private:
     Status take_pictures();
     Status record();
     void refresh_panel(double seconds);
+    void hear_showroom();
     void tell(const std::string& news);
     [[nodiscard]] Camera camera() const;
 
     Window window_;
+    std::unique_ptr<Showroom> showroom_;
     FrameCompositor compositor_;
     std::unique_ptr<Overlay> overlay_;
     VisitOptions options_;
@@ -84,6 +93,6 @@ private:
 };
 
 // Until the visitor leaves.
-Status visit(const Scene& scene, std::vector<PlacedObject> objects, const VisitOptions& options);
+Status visit(const Scene& scene, std::unique_ptr<Showroom> showroom, const VisitOptions& options);
 
 }  // namespace rs::compositor

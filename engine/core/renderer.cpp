@@ -4,6 +4,7 @@
 #include "engine/core/ray_setup.hpp"
 #include "engine/core/shape_pixel.hpp"
 #include "engine/core/shape_walk.hpp"
+#include "rayspace/object_memory.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -138,6 +139,10 @@ Result<Renderer> Renderer::create(RaySpaceObject object, const RendererOptions& 
     object.pictures.clear();
     object.pictures.shrink_to_fit();
     return Renderer(std::move(object), std::move(*texels));
+}
+
+std::int64_t Renderer::memory_bytes() const {
+    return memory_of(object_) + texels_.memory_bytes();
 }
 
 void Renderer::render(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20) const {

@@ -37,6 +37,9 @@ public:
     // The object without its unpacked pictures.
     [[nodiscard]] const RaySpaceObject& object() const { return object_; }
 
+    // What it takes in memory, the object included; grows and shrinks with what is decoded of coded pictures.
+    [[nodiscard]] std::int64_t memory_bytes() const;
+
     // `out` has the view's size; straight RGBA, every pixel is written. `lambda_q20`, where not empty, has that size
     // too and receives the axial depth of what is shown, 0 where alpha is 0 (as reconstruct_scalar says). `registers`
     // come from prepare_view on object(). Uses the threads of the calling tbb arena; may be called from several threads

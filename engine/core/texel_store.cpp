@@ -63,4 +63,17 @@ Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t
     return store;
 }
 
+std::int64_t TexelStore::bytes_of_pictures(int width, int height, std::int64_t count) {
+    const std::int64_t texels = (std::int64_t{width} + 2) * (std::int64_t{height} + 2);
+    const std::int64_t per_picture = texels * std::int64_t{sizeof(Rgba8)} + width * std::int64_t{sizeof(RowSpan)} +
+                                     std::int64_t{sizeof(std::int32_t)};
+    return count * per_picture;
+}
+
+std::int64_t TexelStore::memory_bytes() const {
+    const std::size_t fixed = texels_.capacity() * sizeof(Rgba8) + spans_.capacity() * sizeof(RowSpan) +
+                              layout_.picture_start.capacity() * sizeof(std::int32_t);
+    return static_cast<std::int64_t>(fixed) + (coded_ != nullptr ? coded_->decoded_bytes() : 0);
+}
+
 }  // namespace rs::engine

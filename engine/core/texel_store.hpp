@@ -34,6 +34,11 @@ public:
     // or coded pictures cannot be decoded. Pictures that are not loaded take no room and must not be asked for.
     static Result<TexelStore> create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes);
 
+    // What unpacked pictures of a size take.
+    static std::int64_t bytes_of_pictures(int width, int height, std::int64_t count);
+    // What this store takes now.
+    [[nodiscard]] std::int64_t memory_bytes() const;
+
     // Texels are read while a Reading lives; several may, in any threads.
     class Reading {
     public:

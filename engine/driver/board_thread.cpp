@@ -44,6 +44,11 @@ void BoardThread::want(const std::vector<std::uint32_t>& numbers) {
     changed_.notify_all();
 }
 
+void BoardThread::wait_for_loads() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !loading_ && !next_to_load(); });
+}
+
 bool BoardThread::reserve() {
     const std::lock_guard lock(mutex_);
     if (loading_) return false;
@@ -158,6 +163,7 @@ void BoardThread::load_one(std::unique_lock<std::mutex>& lock) {
         evict_slot(lock, freed);
     }
     loading_ = false;
+    changed_.notify_all();
 }
 
 void BoardThread::work() {

@@ -44,6 +44,9 @@ public:
     // The objects are asked for now: those in the board's memory stay there; those that are not are loaded soon.
     void want(const std::vector<std::uint32_t>& numbers);
 
+    // Waits until what is wanted is in the board's memory, or does not go there.
+    void wait_for_loads();
+
     // Keeps the board from loading until draw(). False, and nothing is kept, where it is loading already.
     [[nodiscard]] bool reserve();
     // Whether the object is in the board's memory.

@@ -13,6 +13,7 @@
 // Thread-safety: every member function may be called from any thread.
 
 #include "engine/driver/board_thread.hpp"
+#include "engine/driver/cycle_executor.hpp"
 #include "rayspace/camera.hpp"
 #include "rayspace/image.hpp"
 #include "rayspace/ray_space_object.hpp"
@@ -32,7 +33,8 @@ struct ObjectHandle {
 
 struct ViewRequest {
     ObjectHandle object;
-    Camera camera;  // in the units of the object's rig
+    Camera camera;       // in the units of the object's rig
+    bool depth = false;  // axial depth is wanted too; only the core has it
 };
 
 struct CycleHandle {
@@ -45,9 +47,11 @@ struct DataModuleLimits {
     int cycles_in_flight = 2;  // queued, being rendered, or rendered and not yet retrieved: double buffering
 };
 
-enum class Sharing : std::uint8_t {
-    kBoardFirst,  // the board draws all that it can
-    kBalanced,    // as many views as let both be done at the same time, by the speeds seen so far
+// An object that costs nothing more to load: made beforehand, on whatever thread, for objects that must not keep one
+// waiting.
+struct PreparedObject {
+    std::shared_ptr<const Renderer> renderer;         // not null
+    std::shared_ptr<const RaySpaceObject> for_board;  // of the same object, DataModule::as_board_draws(); or null
 };
 
 struct DataModuleStatistics {
@@ -68,9 +72,21 @@ public:
     // Reads, checks and prepares an object. Fails when the file does, or when too many are loaded.
     Result<ObjectHandle> load(const std::filesystem::path& path);
     Result<ObjectHandle> load(RaySpaceObject object);
+    Result<ObjectHandle> load(PreparedObject object);
+
+    // For a PreparedObject: where the module's board takes the object, a copy for it, and `object` becomes as the board
+    // draws it; else null. The object has passed validate_object.
+    [[nodiscard]] std::shared_ptr<const RaySpaceObject> as_board_draws(RaySpaceObject& object) const;
+
+    [[nodiscard]] const DataModuleLimits& limits() const;
+    [[nodiscard]] bool has_board() const;
 
     // The object takes no new views; its memory goes when the cycles that use it are done.
     Status evict(ObjectHandle object);
+
+    // Waits until the objects are in the board's memory, as far as they go there: for those who want to see what it
+    // draws from the first picture on. Without a board, nothing happens. While nobody else submits.
+    void load_on_board(const std::vector<ObjectHandle>& objects);
 
     // The object without its pictures, while it is loaded.
     Result<std::shared_ptr<const RaySpaceObject>> describe(ObjectHandle object) const;
@@ -83,12 +99,15 @@ public:
     [[nodiscard]] bool ready(CycleHandle cycle) const;
 
     // Waits for a cycle and hands out its pictures, one per view in the order of submit(). Each cycle once.
+    Result<std::vector<DrawnView>> retrieve_views(CycleHandle cycle);
+    // The pictures alone.
     Result<std::vector<Image<Rgba8>>> retrieve(CycleHandle cycle);
 
     [[nodiscard]] DataModuleStatistics statistics() const;
 
 private:
     struct State;
+    Result<ObjectHandle> load_checked(RaySpaceObject object);
     std::unique_ptr<State> state_;
 };
 

@@ -1,11 +1,14 @@
 // rs-view as a user runs it: scenes of all kinds, without a display.
 
+#include "rayspace/object_file.hpp"
 #include "rayspace/picture_io.hpp"
 #include "tests/support/run_tool.hpp"
+#include "tests/support/small_object.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -27,6 +30,7 @@ protected:
 
     test::TemporaryFolder work_;
     test::TemporaryFolder scratch_;
+    test::ToolRun run_;
 };
 
 constexpr const char* kWorld =
@@ -97,6 +101,59 @@ TEST_F(View, AWalkIsTakenFromItsFile) {
     const test::ToolRun none = view({in("hall.wrl"), "--path", in("empty.json"), "-o", in("x.png")});
     EXPECT_EQ(none.exit_code, 1);
     EXPECT_THAT(none.err, HasSubstr("has no camera path"));
+}
+
+// Two rooms, each with an object of its own.
+TEST_F(View, RoomsAreWalkedThroughWithinABudget) {
+    test::SmallObjectOptions options;
+    options.width = 256;
+    options.height = 256;
+    for (const char* name : {"a.rso", "b.rso"}) ASSERT_TRUE(write_object(work_ / name, test::small_object(options)));
+    write("rooms.json",
+          R"({"nodes": [{"room": [{"object": "a.rso"}], "bounds": {"centre": [0, 1, 0], "size": [8, 4, 8]}},
+                        {"room": [{"object": "b.rso"}], "bounds": {"centre": [0, 1, 0], "size": [8, 4, 8]},
+                         "translate": [0, 0, -40]}],
+              "camera": {"path": [{"eye": [0, 1, 3.9], "at": [0, 1, 0]}, {"eye": [0, 1, -36.1], "at": [0, 1, -40]}],
+                         "frames": 6}})");
+    const auto stats_of = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {in("rooms.json"), "-o",        in("frames"), "--stats",
+                                              in("s.json"),     "--samples", "1"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        std::filesystem::remove_all(in("frames"));
+        run_ = view(arguments);
+        std::ifstream file(in("s.json"));
+        return run_.exit_code == 0 ? nlohmann::json::parse(file) : nlohmann::json();
+    };
+    const nlohmann::json all = stats_of({});
+    if (run_.exit_code != 0 && run_.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run_.err;
+    ASSERT_EQ(run_.exit_code, 0) << run_.err;
+    EXPECT_EQ(all["memory"]["loads"], 2);
+    EXPECT_EQ(all["memory"]["evictions"], 0);
+    EXPECT_EQ(all["missing"]["times"], 0);
+    EXPECT_GT(all["views_by_core"], 5);
+    const auto last = read_picture(in("frames/0005.png"));
+    ASSERT_TRUE(last);
+    // An object takes 2 MiB, and some 5 while it is read: 6 do not hold one and the reading of the other.
+    const nlohmann::json one = stats_of({"--memory", "6"});
+    ASSERT_EQ(run_.exit_code, 0) << run_.err;
+    EXPECT_EQ(one["memory"]["evictions"], 1) << one;
+    EXPECT_LE(one["memory"]["peak_bytes"], 6 << 20);
+    EXPECT_EQ(*read_picture(in("frames/0005.png")), *last) << "each room is complete when it is seen";
+    const nlohmann::json streamed = stats_of({"--streaming", "--fps", "10"});
+    ASSERT_EQ(run_.exit_code, 0) << run_.err;
+    EXPECT_GE(streamed["memory"]["loads"], 1);
+    EXPECT_EQ(streamed["frames"], 6);
+    const nlohmann::json board = stats_of({"--executor", "board:prototype-2000"});
+    ASSERT_EQ(run_.exit_code, 0) << run_.err;
+    EXPECT_GT(board["views_by_board"], 0) << board;
+    stats_of({"--executor", "board:none"});
+    EXPECT_EQ(run_.exit_code, 1);
+    stats_of({"--executor", "fpga"});
+    EXPECT_THAT(run_.err, HasSubstr("must be core or board:CONFIG"));
+    EXPECT_EQ(view({in("rooms.json"), "--streaming"}).exit_code, 2);
+    stats_of({"--memory", "1"});
+    EXPECT_EQ(run_.exit_code, 0);
+    EXPECT_THAT(run_.err, HasSubstr("more than the budget of 1 MiB"));
 }
 
 TEST_F(View, WhatIsNoSceneIsRefusedOnOneLine) {

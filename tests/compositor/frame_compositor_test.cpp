@@ -4,6 +4,7 @@
 
 #include "compositor/gl/context.hpp"
 #include "engine/core/view_registers.hpp"
+#include "engine/model/simulated_board.hpp"
 #include "rayspace/linear_light.hpp"
 #include "tests/compositor/objects.hpp"
 
@@ -226,6 +227,98 @@ TEST_F(Compositing, FramesOfGrowingObjectsFollowEachOther) {
         ASSERT_TRUE(frame) << frame.error().message;
         EXPECT_EQ(*frame, compose({}, objects, camera)) << distance;
     }
+}
+
+// More nodes than a few rendering cycles hold.
+TEST_F(Compositing, ManyNodesTakeSeveralCycles) {
+    const auto object = test::drum(kRed);
+    std::vector<PlacedObject> objects;
+    for (int n = 0; n < 50; ++n)
+        objects.push_back(
+            test::placed_at(object, {{0.45 * (n % 10) - 2.0, 0.7 * (n / 10) - 1.4, -n * 0.01}, {0, 1, 0}, 0, 0.2}));
+    const Image<Rgba8> all = compose({}, objects);
+    EXPECT_EQ(statistics_.nodes_rendered, 50);
+    EXPECT_EQ(statistics_.nodes_by_board, 0);
+    // Each by itself, at its place.
+    for (const std::size_t n : {0U, 17U, 49U}) {
+        const Image<Rgba8> one = compose({}, {objects[n]});
+        int red = 0;
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                if (!is_colour(one(x, y), kRed)) continue;
+                ++red;
+                EXPECT_TRUE(is_colour(all(x, y), kRed)) << n << " at " << x << ", " << y;
+            }
+        }
+        EXPECT_GT(red, 20) << n;
+    }
+}
+
+TEST_F(Compositing, APlaceholderStandsWhereTheObjectWillBe) {
+    const auto engine = std::make_shared<engine::DataModule>(limits_of_viewer());
+    const auto nodes = std::make_shared<ShownNodes>(1);
+    Result<FrameCompositor> compositor =
+        FrameCompositor::create({}, engine, nodes, {.width = kWidth, .height = kHeight});
+    ASSERT_TRUE(compositor);
+    const Image<Rgba8> empty = *compositor->compose(kFront);
+    nodes->front().placeholder = Placeholder{};
+    const Image<Rgba8> waiting = *compositor->compose(kFront);
+    EXPECT_GT(count_different(empty, waiting, 3), 200);
+    EXPECT_TRUE(compositor->statistics().nodes[0].missing);
+    EXPECT_EQ(compositor->object_at(kWidth / 2, kHeight / 2), std::nullopt);
+    nodes->front().placeholder->progress = 0.5F;
+    const Image<Rgba8> half = *compositor->compose(kFront);
+    EXPECT_EQ(half(kWidth / 2, kHeight / 2 - 10), waiting(kWidth / 2, kHeight / 2 - 10)) << "above";
+    EXPECT_NE(half(kWidth / 2, kHeight / 2 + 10), waiting(kWidth / 2, kHeight / 2 + 10)) << "below";
+    // Half faded in, then wholly.
+    const auto object = test::drum(kRed);
+    const Result<engine::ObjectHandle> handle = engine->load(prepared(object));
+    ASSERT_TRUE(handle);
+    ShownNode& node = nodes->front();
+    node.placeholder.reset();
+    node.object = test::placed_at(object);
+    node.handle = *handle;
+    node.opacity = 0.5F;
+    const Rgba8 fading = middle(*compositor->compose(kFront));
+    node.opacity = 1;
+    EXPECT_FALSE(is_colour(fading, kRed));
+    EXPECT_GT(fading.r, 190);
+    EXPECT_TRUE(is_colour(middle(*compositor->compose(kFront)), kRed));
+    EXPECT_EQ(compositor->object_at(kWidth / 2, kHeight / 2), 0U);
+    EXPECT_FALSE(compositor->statistics().nodes[0].missing);
+    // And away again.
+    node = {};
+    ASSERT_TRUE(engine->evict(*handle));
+    EXPECT_EQ(*compositor->compose(kFront), empty);
+}
+
+TEST_F(Compositing, ABoardDrawsTheSameBits) {
+    const auto config = engine::model::read_board_config("prototype-2000");
+    ASSERT_TRUE(config);
+    const auto engine =
+        std::make_shared<engine::DataModule>(limits_of_viewer(), engine::model::make_simulated_board(*config, true));
+    RaySpaceObject object = test::drum_object();
+    const std::shared_ptr<const RaySpaceObject> for_board = engine->as_board_draws(object);
+    ASSERT_TRUE(for_board);
+    Result<ViewableObject> viewable = make_viewable(std::move(object));
+    ASSERT_TRUE(viewable);
+    viewable->for_board = for_board;
+    const auto shared = std::make_shared<const ViewableObject>(std::move(*viewable));
+    const std::vector<PlacedObject> objects = {test::placed_at(shared), test::placed_at(shared, {{1.5, 0, -1}})};
+    const auto nodes = show_all(objects, *engine);
+    ASSERT_TRUE(nodes);
+    engine->load_on_board({nodes->get()->front().handle});
+    Result<FrameCompositor> compositor = FrameCompositor::create(
+        {}, engine, *nodes, {.width = kWidth, .height = kHeight, .samples = 4, .object_samples = 1});
+    ASSERT_TRUE(compositor);
+    const Image<Rgba8> by_board = *compositor->compose(kFront);
+    EXPECT_EQ(compositor->statistics().nodes_by_board, 2);
+    EXPECT_TRUE(compositor->statistics().nodes[1].by_board);
+    Result<FrameCompositor> core =
+        FrameCompositor::create({}, objects, {.width = kWidth, .height = kHeight, .samples = 4, .object_samples = 1});
+    ASSERT_TRUE(core);
+    EXPECT_EQ(*core->compose(kFront), by_board);
+    EXPECT_EQ(core->statistics().nodes_by_board, 0);
 }
 
 TEST_F(Compositing, APictureTooLargeForTheDriverIsRefused) {

@@ -83,6 +83,20 @@ TEST_F(ModelFile, ExtrasStandForObjects) {
     EXPECT_LT(glm::distance(world_from_node(object.chain).point({0, 1, 2}), glm::dvec3(4, 1, 0)), 1e-6);
 }
 
+TEST_F(ModelFile, ExtrasStandForRooms) {
+    const auto scene = read(gltf(
+        R"({"children": [1], "translation": [1, 0, 0],
+            "extras": {"RaySpaceRoom": {"centre": [0, 1, 0], "size": [4, 2, 4], "description": "hall"}}},
+           {"mesh": 0, "extras": {"RaySpace": {"url": "vase.rso"}}})",
+        kMaterial));
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->rooms.size(), 1U);
+    EXPECT_EQ(scene->rooms[0].description, "hall");
+    EXPECT_EQ(scene->rooms[0].box.lowest, glm::dvec3(-1, 0, -2));
+    ASSERT_EQ(scene->objects.size(), 1U);
+    EXPECT_EQ(scene->objects[0].room, 0U);
+}
+
 TEST_F(ModelFile, AFaultInExtrasIsAnErrorThatNamesItsPlace) {
     for (const auto& [extras, expected] :
          {std::pair{R"({"RaySpace": {"size": 1}})", "nodes[0].extras.RaySpace: url is missing"},

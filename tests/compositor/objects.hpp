@@ -1,6 +1,7 @@
 #pragma once
 // Viewable objects made in memory, for the compositor's tests.
 
+#include "compositor/viewer/object_source.hpp"
 #include "compositor/viewer/placed_object.hpp"
 #include "tests/support/ring_object.hpp"
 
@@ -10,7 +11,7 @@
 namespace rs::test {
 
 // A drum of radius 1, from about -1 to 1 in height: noise with alpha of all sizes, or opaque in one colour.
-inline std::shared_ptr<const compositor::ViewableObject> drum(std::optional<Rgba8> colour = std::nullopt) {
+inline RaySpaceObject drum_object(std::optional<Rgba8> colour = std::nullopt) {
     RingObjectOptions options;
     options.views = 24;
     options.x_cells = 64;
@@ -30,10 +31,28 @@ inline std::shared_ptr<const compositor::ViewableObject> drum(std::optional<Rgba
             object.pictures[i] = planar_from_rgba(picture);
         }
     }
-    Result<compositor::ViewableObject> viewable = compositor::make_viewable(std::move(object));
+    return object;
+}
+
+inline std::shared_ptr<const compositor::ViewableObject> drum(std::optional<Rgba8> colour = std::nullopt) {
+    Result<compositor::ViewableObject> viewable = compositor::make_viewable(drum_object(colour));
     RS_CHECK(viewable.ok());
     return std::make_shared<const compositor::ViewableObject>(std::move(*viewable));
 }
+
+// A drum for every file.
+class ObjectsInMemory final : public compositor::ObjectSource {
+public:
+    explicit ObjectsInMemory(std::optional<Rgba8> colour = std::nullopt) : colour_(colour) {}
+    Result<std::int64_t> most_bytes(const std::filesystem::path& /*file*/) override { return std::int64_t{8} << 20; }
+    Result<compositor::ViewableObject> read(const std::filesystem::path& /*file*/, std::int64_t /*most_bytes*/,
+                                            const Tell& /*tell*/) override {
+        return compositor::make_viewable(drum_object(colour_));
+    }
+
+private:
+    std::optional<Rgba8> colour_;
+};
 
 inline compositor::PlacedObject placed_at(std::shared_ptr<const compositor::ViewableObject> object,
                                           const compositor::NodeTransform& transform = {}) {

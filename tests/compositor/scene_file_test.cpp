@@ -22,6 +22,28 @@ std::string error_of(const std::string& text) {
     return scene ? "no error" : scene.error().message;
 }
 
+TEST(SceneFile, RoomsHaveTheirObjectsAndBoxes) {
+    const Result<Scene> scene = scene_from_json(R"({"nodes": [
+        {"room": [{"object": "a.rso", "translate": [1, 0, 0]}, {"group": [{"object": "b.rso"}]}],
+         "description": "hall", "bounds": {"centre": [0, 1, 0], "size": [4, 2, 4]}, "translate": [5, 0, 0]},
+        {"room": [{"box": [2, 2, 2]}, {"object": "c.rso", "translate": [0, 4, 0]}]},
+        {"object": "d.rso"}]})",
+                                                "rooms/hall.json");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->rooms.size(), 2U);
+    EXPECT_EQ(scene->rooms[0].description, "hall");
+    EXPECT_EQ(scene->rooms[0].box.lowest, glm::dvec3(3, 0, -2));
+    EXPECT_EQ(scene->rooms[0].box.highest, glm::dvec3(7, 2, 2));
+    EXPECT_EQ(scene->rooms[1].box.highest, glm::dvec3(1, 5, 1)) << "of what it holds";
+    ASSERT_EQ(scene->objects.size(), 4U);
+    EXPECT_EQ(scene->objects[0].room, 0U);
+    EXPECT_EQ(scene->objects[1].room, 0U);
+    EXPECT_EQ(scene->objects[2].room, 1U);
+    EXPECT_FALSE(scene->objects[3].room);
+    EXPECT_THAT(error_of(R"({"nodes": [{"room": [], "bounds": {"centre": [0, 0, 0], "size": [1, 0, 1]}}]})"),
+                HasSubstr("nodes[0].bounds.size"));
+}
+
 TEST(SceneFile, ReadsEveryKey) {
     const Result<Scene> scene = scene_from_json(R"({
         "background": [1, 1, 1],

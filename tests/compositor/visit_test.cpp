@@ -30,7 +30,11 @@ protected:
         wall.mesh = std::make_shared<const Mesh>(box_mesh({4, 4, 0.1}));
         wall.world_from_node[3] = glm::dvec4(0, 0, -4, 1);
         scene.geometry.push_back(wall);
-        scene.objects.push_back({"drum.rso", {}, true, "a red drum"});
+        RaySpaceNode drum;
+        drum.file = "drum.rso";
+        drum.standing = false;
+        drum.description = "a red drum";
+        scene.objects.push_back(drum);
         VisitOptions options;
         options.window = {.title = "test", .width = 320, .height = 240, .debug = true, .wait_for_screen = false};
         Viewpoint front;
@@ -41,7 +45,9 @@ protected:
         options.viewpoints = {front, side};
         options.pictures = work_.path();
         options.samples = 1;
-        auto visit = Visit::create(scene, {test::placed_at(test::drum(kRed))}, options);
+        auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true}, nullptr,
+                                                   std::make_unique<test::ObjectsInMemory>(kRed));
+        auto visit = Visit::create(scene, std::move(showroom), options);
         ASSERT_TRUE(visit.ok()) << visit.error().message;
         visit_ = std::move(*visit);
         ASSERT_TRUE(step());

@@ -75,6 +75,29 @@ TEST(VrmlFile, ARaySpaceNodeHasItsChainOfTransforms) {
     EXPECT_LT(glm::distance(world_from_node(scene.objects[1].chain).point({0, 2, 0}), glm::dvec3(0, 8, 0)), 1e-6);
 }
 
+TEST(VrmlFile, RoomsHaveTheirObjectsAndBoxes) {
+    const Scene scene = scene_of(
+        "RaySpace { url \"fountain.rso\" }\n"
+        "Transform { translation 10 0 0 children RaySpaceRoom { description \"hall\" bboxCenter 0 1 0 bboxSize 4 2 6 "
+        "children [ RaySpace { url \"a.rso\" } DEF Cabinet RaySpaceRoom { children [ Shape { geometry Box { } } "
+        "Transform { translation 0 3 0 children RaySpace { url \"b.rso\" size 0.5 } } ] } ] } }\n"
+        "RaySpace { url \"c.rso\" }");
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    ASSERT_EQ(scene.rooms.size(), 2U);
+    ASSERT_EQ(scene.objects.size(), 4U);
+    EXPECT_FALSE(scene.objects[0].room);
+    EXPECT_EQ(scene.objects[1].room, 0U);
+    EXPECT_EQ(scene.objects[2].room, 1U);
+    EXPECT_FALSE(scene.objects[3].room);
+    EXPECT_EQ(scene.rooms[0].description, "hall");
+    EXPECT_EQ(scene.rooms[0].box.lowest, glm::dvec3(8, 0, -3));
+    EXPECT_EQ(scene.rooms[0].box.highest, glm::dvec3(12, 2, 3));
+    EXPECT_EQ(scene.rooms[1].description, "Cabinet");
+    EXPECT_EQ(scene.rooms[1].box.lowest, glm::dvec3(9, -1, -1)) << "of what it holds";
+    EXPECT_EQ(scene.rooms[1].box.highest, glm::dvec3(11, 3.5, 1));
+    EXPECT_EQ(scene.geometry.size(), 1U);
+}
+
 TEST(VrmlFile, ARaySpaceNodeThatCannotBeShownIsSaid) {
     const Scene scene = scene_of(
         "RaySpace { }\nRaySpace { url \"a.rso\" size 0 }\nRaySpace { url \"http://a/b.rso\" }\n"

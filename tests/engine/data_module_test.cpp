@@ -32,6 +32,51 @@ TEST(DataModule, HandsOutTheViewsInTheOrderAsked) {
     EXPECT_FALSE(module.retrieve(*cycle).ok());  // each cycle once
 }
 
+TEST(DataModule, TellsDepthAndCostOfAView) {
+    const RaySpaceObject object = test::ring_object(kSmall);
+    DataModule module;
+    const Result<ObjectHandle> handle = module.load(object);
+    ASSERT_TRUE(handle.ok());
+    const Result<CycleHandle> cycle = module.submit({{*handle, pose(3), true}, {*handle, pose(3)}});
+    ASSERT_TRUE(cycle.ok());
+    const Result<std::vector<DrawnView>> views = module.retrieve_views(*cycle);
+    ASSERT_TRUE(views.ok());
+    Image<Rgba8> picture(40, 40);
+    Image<std::int32_t> depth(40, 40);
+    const Result<Renderer> renderer = Renderer::create(object);
+    renderer->render(*prepare_view(object, pose(3)), picture, depth);
+    EXPECT_EQ((*views)[0].picture, picture);
+    EXPECT_EQ((*views)[0].depth_q20, depth);
+    EXPECT_EQ((*views)[1].picture, picture);
+    EXPECT_TRUE((*views)[1].depth_q20.empty());
+    for (const DrawnView& view : *views) {
+        EXPECT_GT(view.seconds, 0);
+        EXPECT_FALSE(view.by_board);
+    }
+}
+
+TEST(DataModule, APreparedObjectIsSharedNotCopied) {
+    const auto renderer = std::make_shared<const Renderer>(Renderer::create(test::ring_object(kSmall)).value());
+    DataModule module;
+    const Result<ObjectHandle> handle = module.load(PreparedObject{renderer, nullptr});
+    ASSERT_TRUE(handle.ok());
+    EXPECT_EQ(module.describe(*handle)->get(), &renderer->object());
+    ASSERT_TRUE(module.retrieve(*module.submit({{*handle, pose(1)}})).ok());
+    ASSERT_TRUE(module.evict(*handle).ok());
+    EXPECT_EQ(renderer.use_count(), 1);
+    EXPECT_FALSE(module.has_board());
+}
+
+TEST(DataModule, AViewThatIsRefusedNamesItsObject) {
+    DataModule module;
+    const Result<ObjectHandle> handle = module.load(test::ring_object(kSmall));
+    Camera without_focus = pose(0);
+    without_focus.fl_x = 0;
+    const Result<CycleHandle> cycle = module.submit({{*handle, without_focus}});
+    ASSERT_FALSE(cycle.ok());
+    EXPECT_EQ(cycle.error().message.rfind("ring: ", 0), 0U) << cycle.error().message;
+}
+
 TEST(DataModule, HoldsTwoCyclesAndRefusesAThird) {
     DataModule module;
     const Result<ObjectHandle> handle = module.load(test::ring_object(kSmall));

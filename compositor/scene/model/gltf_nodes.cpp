@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace rs::compositor::model {
@@ -86,24 +87,20 @@ private:
             constexpr std::array<double, 16> kOne = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
             matrix = glm::make_mat4(numbers<16>(node, "matrix", kOne).data());
         }
-        NodeTransform result;
         const glm::dmat3 linear(matrix);
-        const double determinant = glm::determinant(linear);
+        const double scale = std::cbrt(std::abs(glm::determinant(linear)));
+        NodeTransform result;
         result.translation = glm::dvec3(matrix[3]);
-        result.scale = std::cbrt(std::abs(determinant));
-        if (!(result.scale > 1e-9)) {
+        if (!(scale > 1e-9)) {
             result.scale = 1e-9;
             even = false;
             return result;
         }
-        const glm::dmat3 rotation = linear / (determinant < 0 ? -result.scale : result.scale);
-        const glm::dmat3 defect = glm::transpose(rotation) * rotation - glm::dmat3(1.0);
-        double largest = determinant < 0 ? 1 : 0;
-        for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(defect[i / 3][i % 3]));
-        even = even && largest < 1e-3;
-        const glm::dquat q = glm::normalize(glm::quat_cast(rotation));
-        if (glm::length(glm::axis(q)) > 0) result.axis = glm::axis(q);
-        result.angle_rad = glm::angle(q);
+        const glm::dmat3 orthogonal = linear / scale;
+        const glm::dmat3 defect = glm::transpose(orthogonal) * orthogonal - glm::dmat3(1.0);
+        for (int i = 0; i < 9; ++i) even = even && std::abs(defect[i / 3][i % 3]) < 1e-3;
+        result = NodeTransform::of(orthogonal, scale);
+        result.translation = glm::dvec3(matrix[3]);
         return result;
     }
 
@@ -117,6 +114,7 @@ private:
         if (height > kMaxHeight || ++visited_ > kMaxNodes) {
             throw wrong("nodes[" + std::to_string(i) + "]", "its nodes stand too deep or in a ring; flatten them");
         }
+        const std::optional<std::size_t> outer_room = room_;
         bool even = true;
         glm::dmat4 matrix(1.0);
         chain.push_back(transform_of(node, matrix, even));
@@ -124,10 +122,12 @@ private:
         const bool was_even = std::exchange(even_, even_ && even);
         if (node.is_object()) {
             if (node.contains("extras")) read_extras(node, i, chain);
+            if (node.contains("extras")) begin_room(node, i, world_from_node);
             if (node.contains("camera")) read_camera(node, world_from_node);
             if (node.contains("extensions")) read_light(node, world_from_node);
         }
         for (const json& child : list(node, "children")) walk(child, world_from_node, chain, height + 1);
+        room_ = outer_room;
         even_ = was_even;
     }
 
@@ -140,6 +140,7 @@ private:
         const auto file = local_path(fields.take("url").text(), path_.parent_path());
         if (!file) throw wrong(place, "url is no file on this machine");
         object.file = *file;
+        object.room = room_;
         NodeTransform size;
         if (fields.has("size")) size.scale = fields.take("size").number(1e-6, 1e6);
         if (fields.has("standing")) object.standing = fields.take("standing").boolean();
@@ -152,9 +153,25 @@ private:
         object.chain = std::move(chain);
         if (!even_) {
             scene_.warnings.push_back(path_.string() + ": " + place +
-                                      ": is mirrored or stretched more along one axis; shown without");
+                                      ": is stretched more along one axis; shown without");
         }
         scene_.objects.push_back(std::move(object));
+    }
+
+    // What stands below the node belongs to the room.
+    void begin_room(const json& node, std::size_t i, const glm::dmat4& world_from_node) {
+        const json& extras = node["extras"];
+        if (!extras.is_object() || !extras.contains("RaySpaceRoom")) return;
+        const std::string place = "nodes[" + std::to_string(i) + "].extras.RaySpaceRoom";
+        JsonObject fields(JsonValue(extras["RaySpaceRoom"], path_.string(), place));
+        const glm::dvec3 centre = fields.take("centre").triple(-kFarthest, kFarthest);
+        const glm::dvec3 half = fields.take("size").triple(0, kFarthest) * 0.5;
+        Room room;
+        if (fields.has("description")) room.description = fields.take("description").text();
+        fields.expect_all_taken();
+        room.box = BoundingBox{centre - half, centre + half}.moved(world_from_node);
+        room_ = scene_.rooms.size();
+        scene_.rooms.push_back(std::move(room));
     }
 
     void read_camera(const json& node, const glm::dmat4& world_from_node) {
@@ -216,6 +233,7 @@ private:
     Scene& scene_;
     std::size_t visited_ = 0;
     bool even_ = true;
+    std::optional<std::size_t> room_;
 };
 
 }  // namespace

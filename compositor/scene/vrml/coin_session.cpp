@@ -54,6 +54,27 @@ protected:
     ~RsRaySpace() override = default;
 };
 
+class RsRaySpaceRoom : public SoNode {
+    SO_NODE_HEADER(RsRaySpaceRoom);
+
+public:
+    static void initClass() { SO_NODE_INIT_CLASS(RsRaySpaceRoom, SoNode, "Node"); }
+    RsRaySpaceRoom() {
+        SO_NODE_CONSTRUCTOR(RsRaySpaceRoom);
+        SO_NODE_ADD_EMPTY_MFIELD(children);
+        SO_NODE_ADD_FIELD(bboxCenter, (0, 0, 0));
+        SO_NODE_ADD_FIELD(bboxSize, (-1, -1, -1));
+        SO_NODE_ADD_FIELD(description, (""));
+    }
+    SoMFNode children;
+    SoSFVec3f bboxCenter;
+    SoSFVec3f bboxSize;
+    SoSFString description;
+
+protected:
+    ~RsRaySpaceRoom() override = default;
+};
+
 class RsImageTexture : public SoNode {
     SO_NODE_HEADER(RsImageTexture);
 
@@ -75,6 +96,7 @@ protected:
 
 SO_NODE_SOURCE(RsInline)
 SO_NODE_SOURCE(RsRaySpace)
+SO_NODE_SOURCE(RsRaySpaceRoom)
 SO_NODE_SOURCE(RsImageTexture)
 
 namespace {
@@ -95,6 +117,7 @@ CoinSession::CoinSession() : lock_(coin_lock) {
         SoDebugError::setHandlerCallback(note_error, nullptr);
         RsInline::initClass();
         RsRaySpace::initClass();
+        RsRaySpaceRoom::initClass();
         RsImageTexture::initClass();
         return true;
     }();

@@ -83,6 +83,8 @@ private:
             if (node.flag("load")) include(node, place);
         } else if (type == "RaySpace") {
             add_object(node, place);
+        } else if (type == "RaySpaceRoom") {
+            walk_room(node, place);
         } else if (type == "PointLight" || type == "SpotLight") {
             if (node.flag("on")) scene_.lights.push_back(light_of(node, place));
         } else if (node.fields.contains("children")) {
@@ -120,8 +122,24 @@ private:
         size.scale = node.number("size");
         object.chain.push_back(size);
         object.standing = node.flag("standing");
+        object.room = place.room;
         object.description = node.text("description").empty() ? node.source.name : node.text("description");
         scene_.objects.push_back(std::move(object));
+    }
+
+    void walk_room(const Node& node, Place place) {
+        const std::size_t room = scene_.rooms.size();
+        const std::size_t geometry = scene_.geometry.size();
+        const std::size_t objects = scene_.objects.size();
+        scene_.rooms.push_back({node.text("description").empty() ? node.source.name : node.text("description"), {}});
+        place.room = room;
+        walk_children(node.field("children").nodes, place);
+        const glm::dvec3 size = node.triple("bboxSize");
+        const glm::dvec3 centre = node.triple("bboxCenter");
+        const bool told = size.x >= 0 && size.y >= 0 && size.z >= 0;
+        scene_.rooms[room].box =
+            told ? BoundingBox{centre - size * 0.5, centre + size * 0.5}.moved(place.world_from_node)
+                 : bounds_from(scene_, geometry, objects);
     }
 
     void add_bindable(const Node& node, const Place& place) {

@@ -11,7 +11,7 @@ namespace rs::compositor::vrml {
 namespace {
 
 // Type, group, "named" or "-", the type's name for Coin, then fields: name, type, and for nodes the group they must be
-// of. Inline, ImageTexture and RaySpace are node classes of our own there: Coin's own would open files.
+// of. Inline, ImageTexture and those of ray space are node classes of our own there: Coin's own would open files.
 constexpr const char* kNodes[] = {
     "Group child - Group children MFNode child bboxCenter SFVec3f bboxSize SFVec3f",
     "Transform child - Transform children MFNode child center SFVec3f rotation SFRotation scale SFVec3f "
@@ -26,6 +26,8 @@ constexpr const char* kNodes[] = {
     "Inline child named RsInline url MFString load SFBool bboxCenter SFVec3f bboxSize SFVec3f",
     "InlineLoadControl child named RsInline url MFString load SFBool bboxCenter SFVec3f bboxSize SFVec3f",
     "RaySpace child named RsRaySpace url MFString size SFFloat standing SFBool description SFString",
+    "RaySpaceRoom child named RsRaySpaceRoom children MFNode child bboxCenter SFVec3f bboxSize SFVec3f "
+    "description SFString",
     "Shape child - Shape appearance SFNode appearance geometry SFNode geometry",
     "Appearance appearance - Appearance material SFNode material texture SFNode texture "
     "textureTransform SFNode textureTransform",

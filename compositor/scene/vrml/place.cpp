@@ -55,15 +55,21 @@ bool descend(const Node& transform, Place& place) {
         !std::isfinite(glm::length(glm::dvec3(place.world_from_node[3])))) {
         return false;
     }
-    if (scale.x * scale.y * scale.z < 0) place.unlike = "is mirrored, which pictures cannot be";
-    if (std::max({scale.x, scale.y, scale.z}) > smallest * 1.0001) place.unlike = "is stretched more along one axis";
+    const glm::dvec3 sizes = glm::abs(scale);
+    if (std::max({sizes.x, sizes.y, sizes.z}) > smallest * 1.0001) place.unlike = "is stretched more along one axis";
 
     NodeTransform node;
     node.translation = translation + centre;
     if (glm::length(glm::dvec3(turn)) > 0) node.axis = glm::dvec3(turn);
     node.angle_rad = turn.w;
-    node.scale = std::cbrt(std::abs(scale.x * scale.y * scale.z));
+    node.scale = std::cbrt(sizes.x * sizes.y * sizes.z);
     place.chain.push_back(node);
+    if (scale != sizes) {
+        const glm::dmat3 axes(stretch);
+        const glm::dvec3 signs = glm::sign(scale);
+        const glm::dmat3 mirror(signs.x, 0, 0, 0, signs.y, 0, 0, 0, signs.z);
+        place.chain.push_back(NodeTransform::of(axes * mirror * glm::transpose(axes), 1));
+    }
     if (centre != glm::dvec3(0)) {
         NodeTransform back;
         back.translation = -centre;

@@ -4,7 +4,9 @@
 #include "compositor/scene/transform.hpp"
 #include "compositor/scene/vrml/graph.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,15 +14,16 @@ namespace rs::compositor::vrml {
 
 struct Place {
     glm::dmat4 world_from_node{1.0};
-    TransformChain chain;               // the same as far as a chain can tell it: even scales without mirrors
+    TransformChain chain;               // the same as far as a chain can tell it: even scales
     std::string unlike;                 // how the chain differs; empty where it does not
     std::vector<std::uint32_t> lights;  // directional ones that shine below here only
+    std::optional<std::size_t> room;    // of the scene, that this is in
     bool inlined = false;               // in a file that another one includes
     int height = 0;                     // nodes above
 
     // The mean factor by which lengths grow.
     [[nodiscard]] double scale() const;
-    // Rotation only: axes at right angles, right-handed.
+    // Rotation only: axes at right angles, right-handed, whatever is mirrored.
     [[nodiscard]] glm::dmat3 rotation() const;
     [[nodiscard]] glm::dvec3 point(const glm::dvec3& p) const { return glm::dvec3(world_from_node * glm::dvec4(p, 1)); }
 };

@@ -1,0 +1,21 @@
+#pragma once
+// The cameras that the command line asks for.
+
+#include "compositor/scene/scene.hpp"
+#include "compositor/tools/view_arguments.hpp"
+#include "compositor/viewer/placed_object.hpp"
+#include "rayspace/result.hpp"
+#include "rayspace/tool_main.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace rs::compositor {
+
+// What the command line says about the camera outranks the scene's path, that its viewpoint, and that the framing of
+// all that there is. Only for the latter `objects` is called: they have to be read.
+using ObjectsToFrame = std::function<Result<std::vector<PlacedObject>>()>;
+Result<std::vector<Camera>> asked_cameras(const ViewArguments& arguments, const Scene& scene,
+                                          const ObjectsToFrame& objects, PixelSize size);
+
+}  // namespace rs::compositor

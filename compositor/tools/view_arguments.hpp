@@ -1,0 +1,37 @@
+#pragma once
+// What was asked of rs-view.
+
+#include "compositor/viewer/frame_compositor.hpp"
+#include "compositor/viewer/showroom.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rs::compositor {
+
+struct ViewArguments {
+    std::string scene;
+    std::vector<std::string> objects;
+    std::string output;
+    std::string eye;
+    std::string at;
+    std::string size = "1280x720";
+    double fov_deg = 0;
+    double frames_per_second = 30;
+    int orbit = 0;
+    int samples = FrameOptions{}.samples;
+    std::string viewpoint;
+    std::string stats;
+    std::string path;
+    std::string executor = "core";
+    std::string object_depth = "plane";
+    int object_samples = FrameOptions{}.object_samples;
+    std::int64_t memory_mib = usual_memory_budget() >> 20;
+    bool upright = false;
+    bool streaming = false;
+    bool wire_frame = false;
+    bool quiet = false;
+};
+
+}  // namespace rs::compositor

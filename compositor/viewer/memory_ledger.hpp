@@ -1,0 +1,48 @@
+#pragma once
+// A budget of memory that cannot be exceeded: whoever wants memory takes a lease first, and it is back when the lease
+// dies. Thread-safe.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace rs::compositor {
+
+// Bytes taken from a ledger until it is destroyed. Move-only; empty after a move.
+class MemoryLease {
+public:
+    MemoryLease() = default;
+    MemoryLease(MemoryLease&& other) noexcept;
+    MemoryLease& operator=(MemoryLease&& other) noexcept;
+    ~MemoryLease();
+
+    [[nodiscard]] std::int64_t bytes() const { return bytes_; }
+    // Gives back what is above `bytes`, 0 .. bytes().
+    void shrink(std::int64_t bytes);
+
+private:
+    friend class MemoryLedger;
+    struct Account;
+    MemoryLease(std::shared_ptr<Account> account, std::int64_t bytes);
+    std::shared_ptr<Account> account_;
+    std::int64_t bytes_ = 0;
+};
+
+// Leases may outlive it.
+class MemoryLedger {
+public:
+    explicit MemoryLedger(std::int64_t budget_bytes);
+
+    // Nothing where the budget would be exceeded.
+    [[nodiscard]] std::optional<MemoryLease> reserve(std::int64_t bytes);
+
+    [[nodiscard]] std::int64_t budget_bytes() const { return budget_bytes_; }
+    [[nodiscard]] std::int64_t used_bytes() const;
+    [[nodiscard]] std::int64_t peak_bytes() const;  // most that was used at a time
+
+private:
+    std::int64_t budget_bytes_;
+    std::shared_ptr<MemoryLease::Account> account_;
+};
+
+}  // namespace rs::compositor

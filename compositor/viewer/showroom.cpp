@@ -1,0 +1,176 @@
+#include "compositor/viewer/showroom.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+constexpr double kFade_s = 0.4;
+constexpr std::size_t kObjectsOfBoard = 20;
+constexpr double kAhead_s = 2;        // how far ahead of the visitor is looked
+constexpr double kSteadying_s = 0.3;  // over which speed is averaged
+
+}  // namespace
+
+std::int64_t usual_memory_budget() {
+    return std::int64_t{sysconf(_SC_PHYS_PAGES)} / 2 * sysconf(_SC_PAGESIZE);
+}
+
+Showroom::Showroom(const Scene& scene, const ShowroomOptions& options, std::unique_ptr<engine::BoardDevice> board,
+                   std::unique_ptr<ObjectSource> source)
+    : plan_(scene),
+      waits_(options.waits),
+      engine_(std::make_shared<engine::DataModule>(limits_of_viewer(), std::move(board))),
+      nodes_(std::make_shared<ShownNodes>(scene.objects.size())),
+      handles_(plan_.files().size()),
+      store_(plan_.files(), source ? std::move(source) : object_files(engine_, !options.waits), options.memory_bytes) {
+    for (const RaySpaceNode& node : scene.objects) scene_nodes_.push_back({node, std::nullopt, false});
+}
+
+Placeholder Showroom::placeholder_of(std::size_t node) const {
+    const Node& of_scene = scene_nodes_[node];
+    Placeholder placeholder;
+    placeholder.world_from_object = world_from_node(of_scene.description.chain);
+    if (of_scene.extent) {
+        placeholder.bottom = of_scene.extent->bottom;
+        placeholder.top = of_scene.extent->top;
+    }
+    if (of_scene.description.standing) {
+        placeholder.top -= placeholder.bottom;
+        placeholder.bottom = 0;
+    }
+    placeholder.progress = store_.progress(plan_.file_of_node(node));
+    return placeholder;
+}
+
+Status Showroom::arrive(StoreEvent event) {
+    const Result<engine::ObjectHandle> handle = engine_->load(prepared(event.object));
+    if (!handle) return handle.error();
+    handles_[event.file] = *handle;
+    for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
+        if (plan_.file_of_node(i) != event.file) continue;
+        ShownNode& node = (*nodes_)[i];
+        scene_nodes_[i].extent = event.object->extent;
+        node.object = place(event.object, scene_nodes_[i].description);
+        node.handle = *handle;
+        node.opacity = waits_ ? 1 : 0;
+    }
+    return {};
+}
+
+void Showroom::leave(StoreEvent event) {
+    for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
+        if (plan_.file_of_node(i) != event.file) continue;
+        (*nodes_)[i].object.reset();
+        (*nodes_)[i].handle = {};
+    }
+    static_cast<void>(engine_->evict(std::exchange(handles_[event.file], {})));
+    store_.give_back(std::move(event.object));
+}
+
+Status Showroom::fail(const StoreEvent& event) {
+    warnings_.push_back(event.why + "; shown without this object");
+    for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
+        if (plan_.file_of_node(i) != event.file) continue;
+        scene_nodes_[i].failed = true;
+        if (scene_nodes_[i].description.required) return Error{event.why};
+    }
+    return {};
+}
+
+Status Showroom::take_events() {
+    for (StoreEvent& event : store_.events()) {
+        Status status;
+        if (event.kind == StoreEvent::Kind::kArrived)
+            status = arrive(std::move(event));
+        else if (event.kind == StoreEvent::Kind::kLeaves)
+            leave(std::move(event));
+        else
+            status = fail(event);
+        if (!status) return status;
+    }
+    return {};
+}
+
+Status Showroom::wait() {
+    while (!store_.settled()) {
+        store_.wait_for_events();
+        if (Status status = take_events(); !status) return status;
+    }
+    return {};
+}
+
+Status Showroom::wait_for_all(const glm::dvec3& eye) {
+    store_.want(plan_.wishes({eye, eye}));
+    return wait();
+}
+
+// What a visitor at `eye` wants most, as many as boards hold.
+void Showroom::load_on_board(const glm::dvec3& eye) {
+    if (!engine_->has_board()) return;
+    const std::vector<Wish> wishes = plan_.wishes({eye, eye});
+    std::vector<std::size_t> files;
+    for (std::size_t file = 0; file < handles_.size(); ++file) {
+        if (handles_[file].number != 0) files.push_back(file);
+    }
+    std::stable_sort(files.begin(), files.end(), [&](auto a, auto b) { return wishes[a] < wishes[b]; });
+    files.resize(std::min(files.size(), kObjectsOfBoard));
+    std::vector<engine::ObjectHandle> wanted;
+    for (const std::size_t file : files) wanted.push_back(handles_[file]);
+    engine_->load_on_board(wanted);
+}
+
+void Showroom::fade(double seconds) {
+    for (std::size_t i = 0; i < nodes_->size(); ++i) {
+        ShownNode& node = (*nodes_)[i];
+        if (node.object) node.opacity = std::min(node.opacity + static_cast<float>(seconds / kFade_s), 1.0F);
+        const bool hidden = scene_nodes_[i].failed || (node.object && node.opacity >= 1);
+        if (hidden) {
+            node.placeholder.reset();
+        } else {
+            node.placeholder = placeholder_of(i);
+            if (node.object) node.placeholder->opacity = 1 - node.opacity;
+        }
+    }
+}
+
+Status Showroom::update(const glm::dvec3& eye, double seconds, const std::optional<glm::dvec3>& destination) {
+    if (eye_ && seconds > 0) {
+        velocity_ += ((eye - *eye_) / seconds - velocity_) * (1 - std::exp(-seconds / kSteadying_s));
+    }
+    eye_ = eye;
+    const glm::dvec3 soon = destination.value_or(eye + velocity_ * kAhead_s);
+    if (waits_) {
+        store_.want(plan_.wishes({eye, eye}));
+    } else {
+        static_cast<void>(store_.try_want(plan_.wishes({eye, soon})));
+    }
+    const Status status = waits_ ? wait() : take_events();
+    if (waits_) load_on_board(eye);
+    fade(seconds);
+    return status;
+}
+
+std::string Showroom::absence(std::size_t node) const {
+    if (scene_nodes_[node].failed) return "cannot be shown";
+    const float progress = store_.progress(plan_.file_of_node(node));
+    return progress > 0 ? "being read" : "not in memory";
+}
+
+std::vector<PlacedObject> Showroom::placed() const {
+    std::vector<PlacedObject> all;
+    for (const ShownNode& node : *nodes_) {
+        if (node.object) all.push_back(*node.object);
+    }
+    return all;
+}
+
+std::vector<std::string> Showroom::take_warnings() {
+    return std::exchange(warnings_, {});
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,128 @@
+#include "engine/driver/cycle_executor.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace rs::engine {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+DrawnView drawn_by_core(const PreparedView& view) {
+    const auto begin = std::chrono::steady_clock::now();
+    DrawnView drawn;
+    drawn.picture = Image<Rgba8>(view.registers.width, view.registers.height);
+    if (view.depth) drawn.depth_q20 = Image<std::int32_t>(view.registers.width, view.registers.height);
+    view.renderer->render(view.registers, drawn.picture, drawn.depth_q20);
+    drawn.seconds = seconds_since(begin);
+    return drawn;
+}
+
+}  // namespace
+
+void Pace::saw(std::int64_t pixels, double seconds) {
+    if (pixels <= 0) return;
+    const double now = seconds / static_cast<double>(pixels);
+    per_pixel_ = per_pixel_ == 0 ? now : 0.8 * per_pixel_ + 0.2 * now;
+}
+
+CycleExecutor::CycleExecutor(std::unique_ptr<BoardDevice> board, Sharing sharing) : sharing_(sharing) {
+    if (board) board_ = std::make_unique<BoardThread>(std::move(board));
+}
+
+// The views, by their places in the cycle, that the board is to draw. The board is reserved.
+std::vector<std::size_t> CycleExecutor::share_of_board(const std::vector<PreparedView>& views) const {
+    std::vector<std::size_t> share;
+    std::int64_t by_board = 0;
+    std::int64_t by_core = 0;
+    for (const PreparedView& view : views) by_core += view.pixels();
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (!views[v].board_draws || !board_->holds(views[v].object)) continue;
+        if (share.size() == static_cast<std::size_t>(board_->device().views_per_cycle())) break;
+        const std::int64_t pixels = views[v].pixels();
+        if (sharing_ == Sharing::kBalanced && !share.empty() &&
+            board_pace_.of(by_board + pixels) > core_pace_.of(by_core - pixels)) {
+            continue;
+        }
+        share.push_back(v);
+        by_board += pixels;
+        by_core -= pixels;
+    }
+    return share;
+}
+
+// Whatever is not on the board is loaded behind the cycle that it draws now.
+void CycleExecutor::want_objects(const std::vector<PreparedView>& views) {
+    std::vector<std::uint32_t> wanted;
+    for (const PreparedView& view : views) {
+        if (view.board_draws) wanted.push_back(view.object);
+    }
+    board_->want(wanted);
+}
+
+bool CycleExecutor::take_from_board(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share,
+                                    double seconds, std::vector<DrawnView>& drawn,
+                                    Result<std::vector<Image<Rgba8>>> pictures) {
+    if (!pictures) return false;
+    std::int64_t all = 0;
+    for (const std::size_t v : share) all += views[v].pixels();
+    for (std::size_t n = 0; n < share.size(); ++n) {
+        DrawnView& view = drawn[share[n]];
+        const double part =
+            static_cast<double>(views[share[n]].pixels()) / static_cast<double>(std::max(all, std::int64_t{1}));
+        view.picture = std::move((*pictures)[n]);
+        view.seconds = seconds * part;
+        view.by_board = true;
+    }
+    return true;
+}
+
+Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedView>& views) {
+    const bool reserved = board_ && board_->reserve();
+    const std::vector<std::size_t> share = reserved ? share_of_board(views) : std::vector<std::size_t>();
+    std::vector<bool> of_board(views.size());
+    std::vector<BoardThread::Asked> asked;
+    std::int64_t board_pixels = 0;
+    for (const std::size_t v : share) {
+        of_board[v] = true;
+        asked.push_back({views[v].object, views[v].registers});
+        board_pixels += views[v].pixels();
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    if (reserved) board_->draw(std::move(asked));
+    if (board_) want_objects(views);
+    std::vector<DrawnView> drawn(views.size());
+    std::int64_t core_pixels = 0;
+    std::optional<Error> failure;
+    const auto draw_by_core = [&](std::size_t v) {
+        try {
+            if (!failure) drawn[v] = drawn_by_core(views[v]);
+        } catch (const std::exception& escaped) {  // such as std::bad_alloc for fifteen very large views
+            failure = Error{std::string("the cycle could not be rendered: ") + escaped.what()};
+        }
+    };
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (of_board[v]) continue;
+        draw_by_core(v);
+        core_pixels += views[v].pixels();
+    }
+    core_pace_.saw(core_pixels, seconds_since(begin));
+    if (!share.empty()) {
+        Result<std::vector<Image<Rgba8>>> pictures = board_->wait();
+        const double seconds = seconds_since(begin);
+        board_pace_.saw(board_pixels, seconds);
+        if (!take_from_board(views, share, seconds, drawn, std::move(pictures))) {
+            for (const std::size_t v : share) draw_by_core(v);  // stands in
+        }
+    }
+    if (failure) return *failure;
+    return drawn;
+}
+
+}  // namespace rs::engine

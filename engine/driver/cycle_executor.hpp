@@ -1,0 +1,72 @@
+#pragma once
+// Draws rendering cycles: what the board holds and can draw on the board, at the same time the rest on the software
+// core (data_module.hpp).
+
+#include "engine/core/renderer.hpp"
+#include "engine/driver/board_thread.hpp"
+#include "rayspace/image.hpp"
+#include "rayspace/result.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace rs::engine {
+
+enum class Sharing : std::uint8_t {
+    kBoardFirst,  // the board draws all that it can
+    kBalanced,    // as many views as let both be done at the same time, by the speeds seen so far
+};
+
+// A view as an executor has drawn it.
+struct DrawnView {
+    Image<Rgba8> picture;
+    Image<std::int32_t> depth_q20;  // axial, 0 where alpha is 0; empty where nobody asked for it
+    // It took the core; of a view that the board drew, its share of the cycle by its pixels.
+    double seconds = 0;
+    bool by_board = false;
+};
+
+struct PreparedView {
+    std::uint32_t object = 0;
+    std::shared_ptr<const Renderer> renderer;
+    ViewRegisters registers;
+    bool depth = false;        // is wanted
+    bool board_draws = false;  // if it holds the object
+    [[nodiscard]] std::int64_t pixels() const { return std::int64_t{registers.width} * registers.height; }
+};
+
+// Seconds per pixel of an executor, as seen lately.
+class Pace {
+public:
+    void saw(std::int64_t pixels, double seconds);
+    [[nodiscard]] double of(std::int64_t pixels) const { return per_pixel_ * static_cast<double>(pixels); }
+
+private:
+    double per_pixel_ = 0;
+};
+
+class CycleExecutor {
+public:
+    CycleExecutor(std::unique_ptr<BoardDevice> board, Sharing sharing);
+
+    // Null where the core draws everything. May be used from any thread.
+    [[nodiscard]] BoardThread* board() const { return board_.get(); }
+
+    // From one thread. One result for each view, in their order; fails as a whole where there is no memory.
+    Result<std::vector<DrawnView>> draw(const std::vector<PreparedView>& views);
+
+private:
+    [[nodiscard]] std::vector<std::size_t> share_of_board(const std::vector<PreparedView>& views) const;
+    void want_objects(const std::vector<PreparedView>& views);
+    // False where the board has failed.
+    bool take_from_board(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share, double seconds,
+                         std::vector<DrawnView>& drawn, Result<std::vector<Image<Rgba8>>> pictures);
+
+    std::unique_ptr<BoardThread> board_;
+    Sharing sharing_;
+    Pace board_pace_;
+    Pace core_pace_;
+};
+
+}  // namespace rs::engine
