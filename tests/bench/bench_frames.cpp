@@ -12,6 +12,7 @@
 #include "rayspace/conventions.hpp"
 #include "rayspace/object_file.hpp"
 #include "rayspace/tool_main.hpp"
+#include "rayspace/view_output.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -151,8 +152,9 @@ double median(std::vector<double> values) {
 struct Options {
     std::vector<std::string> files;
     int frames = 60;
-    int width = 1280;
-    int height = 720;
+    std::string size = "1280x720";
+    int width = 0;
+    int height = 0;
     int object_samples = compositor::kUsualSamplesAcross;
     bool direct = false;
 };
@@ -204,13 +206,18 @@ Result<Times> timed(const Scene& scene, const std::vector<PlacedObject>& objects
     return times;
 }
 
-Status run(const Options& options) {
+Status run(Options options) {
+    const Result<PixelSize> size = parse_size(options.size);
+    if (!size) return size.error();
+    options.width = size->width;
+    options.height = size->height;
     auto context = gl::Context::create_surfaceless();
     if (!context) return context.error();
     std::vector<std::shared_ptr<const compositor::ViewableObject>> objects;
     for (const std::string& file : options.files) {
         Result<RaySpaceObject> object = read_object(file);
         if (!object) return object.error();
+        object->coded.reset();  // unpacked by now, as the viewer has it
         auto viewable = compositor::make_viewable(std::move(*object));
         if (!viewable) return viewable.error();
         objects.push_back(std::make_shared<const compositor::ViewableObject>(std::move(*viewable)));
@@ -247,6 +254,7 @@ int main(int argc, char** argv) {
     app.add_option("--frames", options.frames, "for each row of the table")
         ->capture_default_str()
         ->check(CLI::Range(1, 10000));
+    app.add_option("--size", options.size, "of the frames, WxH")->capture_default_str();
     app.add_option("--object-samples", options.object_samples, "across a pixel, at most, where objects are far")
         ->capture_default_str()
         ->check(CLI::Range(1, rs::compositor::kMostSamplesAcross));
