@@ -146,7 +146,8 @@ std::string vrml_text(const World& world, const std::string& objects) {
             "  groundColor [ 0.45 0.43 0.41, 0.62 0.60 0.57, 0.80 0.79 0.77 ]\n  groundAngle [ 1.3, 1.57 ]\n}\n";
     for (const WorldView& view : world.viewpoints) write_viewpoint(text, view);
     for (const Room& room : world.rooms) {
-        text << "\n# The " << room.name << "\nGroup {\n  children [\n";
+        text << "\nRaySpaceRoom {\n  description \"" << room.name << "\"\n  bboxCenter "
+             << 0.5F * (room.low + room.high) << "\n  bboxSize " << room.high - room.low << "\n  children [\n";
         for (const WorldLight& light : room.lights) write_light(text, light);
         for (const auto& [name, look] : world.looks) {
             for (const WorldPart& part : world.parts) {
