@@ -146,8 +146,9 @@ Status Showroom::update(const glm::dvec3& eye, double seconds, const std::option
     const glm::dvec3 soon = destination.value_or(eye + velocity_ * kAhead_s);
     if (waits_) {
         store_.want(plan_.wishes({eye, eye}));
+        wishes_heard_ = true;
     } else {
-        static_cast<void>(store_.try_want(plan_.wishes({eye, soon})));
+        wishes_heard_ = store_.try_want(plan_.wishes({eye, soon}));
     }
     const Status status = waits_ ? wait() : take_events();
     if (waits_) load_on_board(eye);
