@@ -2,6 +2,7 @@
 
 #include "compositor/gl/draw.hpp"
 #include "compositor/viewer/frustum.hpp"
+#include "compositor/viewer/shader_constants.hpp"
 #include "compositor/viewer/shaders.hpp"
 
 #include <algorithm>
@@ -14,10 +15,6 @@ namespace {
 
 constexpr float kSolid = 0.5F;  // alpha from which a pixel hides what is behind it
 constexpr float kBeyondOpaque = 2;
-
-std::string truth(bool value) {
-    return value ? "true" : "false";
-}
 
 // A texture that holds at least width x height texels.
 gl::Texture& large_enough(std::optional<gl::Texture>& texture, int width, int height, gl::TexelKind kind) {
@@ -34,9 +31,8 @@ Result<ObjectRenderer> ObjectRenderer::create(std::size_t nodes, ObjectDepth dep
     std::vector<gl::Program> programs;
     for (int samples = 0; samples <= kMostSamplesAcross; ++samples) {
         const std::string constants =
-            "#version 450 core\nconst bool kPixelDepth = " + truth(depth == ObjectDepth::kPixel) +
-            ";\nconst int kSamplesAcross = " + std::to_string(std::max(samples, 1)) +
-            ";\nconst bool kSmooth = " + truth(samples == 0) + ";\n";
+            "#version 450 core\n" + shader_constant("kPixelDepth", depth == ObjectDepth::kPixel) +
+            shader_constant("kSamplesAcross", std::max(samples, 1)) + shader_constant("kSmooth", samples == 0);
         auto program = gl::Program::create("object", shaders::kObjectVertex, constants + shaders::kObjectFragment);
         if (!program) return program.error();
         programs.push_back(std::move(*program));

@@ -34,14 +34,13 @@ struct ObjectPicture {
 };
 
 // The rectangle as the camera sees it, with so many pixels for one of its own.
-ObjectPicture direct_picture(const Camera& camera, const ScreenRectangle& area, int samples_across) {
+ObjectPicture direct_picture(const Camera& camera, const ScreenRectangle& area, int samples_across, bool mirrored) {
     ObjectPicture made{camera, glm::dmat3(1.0)};
     made.camera.cx -= area.x;
     made.camera.cy -= area.y;
     double right = samples_across;
     double left_edge = area.x;
-    if (rotation_error(camera) >=
-        1) {  // left-handed, which engines do not take: its mirror image shows the mirror image
+    if (mirrored) {  // left-handed, which engines do not take: its mirror image shows the mirror image
         made.camera.world_from_camera[0] = -made.camera.world_from_camera[0];
         made.camera.cx = area.width - made.camera.cx;
         right = -right;
@@ -91,8 +90,9 @@ std::optional<ObjectView> view_of_object(const PlacedObject& placed, const Camer
         upright = upright_picture(camera, *rectangle, bounds, wanted);
     }
     view.smooth = upright && view.samples_across == 1;
-    const ObjectPicture picture = upright ? ObjectPicture{upright->camera, upright->picture_from_screen}
-                                          : direct_picture(camera, *rectangle, view.samples_across);
+    const ObjectPicture picture =
+        upright ? ObjectPicture{upright->camera, upright->picture_from_screen}
+                : direct_picture(camera, *rectangle, view.samples_across, placed.world_from_object.mirrors());
     view.camera = picture.camera;
     view.picture_from_screen = picture.picture_from_screen;
     view.camera.world_from_camera[3] = glm::dvec4(eye * object.units_per_radius, 1);

@@ -1,5 +1,7 @@
 #include "compositor/viewer/surface_kind.hpp"
 
+#include "compositor/viewer/shader_constants.hpp"
+
 namespace rs::compositor {
 
 SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha,
@@ -24,17 +26,12 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
 }
 
 std::string constants_of(const SurfaceKind& kind) {
-    const auto whole = [](const char* name, int value) {
-        return std::string("const int ") + name + " = " + std::to_string(value) + ";\n";
-    };
-    const auto truth = [](const char* name, bool value) {
-        return std::string("const bool ") + name + (value ? " = true;\n" : " = false;\n");
-    };
-    return "#version 450 core\n" + whole("kDirectional", kind.directional) + whole("kPoints", kind.points) +
-           whole("kSpots", kind.spots) + truth("kHeadlight", kind.headlight) + truth("kLit", kind.lit) +
-           truth("kShiny", kind.shiny) + whole("kPicture", kind.picture) +
-           whole("kPictureAlpha", static_cast<int>(kind.picture_alpha)) + truth("kColours", kind.colours) +
-           whole("kFog", kind.fog);
+    return "#version 450 core\n" + shader_constant("kDirectional", kind.directional) +
+           shader_constant("kPoints", kind.points) + shader_constant("kSpots", kind.spots) +
+           shader_constant("kHeadlight", kind.headlight) + shader_constant("kLit", kind.lit) +
+           shader_constant("kShiny", kind.shiny) + shader_constant("kPicture", kind.picture) +
+           shader_constant("kPictureAlpha", static_cast<int>(kind.picture_alpha)) +
+           shader_constant("kColours", kind.colours) + shader_constant("kFog", kind.fog);
 }
 
 }  // namespace rs::compositor
