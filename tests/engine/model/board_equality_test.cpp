@@ -7,20 +7,6 @@
 namespace rs::engine::model {
 namespace {
 
-double in(std::mt19937_64& random, double low, double high) {
-    return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11), -53);
-}
-
-Camera random_upright(std::mt19937_64& random) {
-    const double azimuth = in(random, 0, 2 * kPi);
-    const double distance = in(random, 1.2, 12);
-    const double height = in(random, -1, 1);
-    const double half_extent = in(random, 0.3, 1.6);
-    const int width = static_cast<int>(in(random, 1, 80));
-    const int view_height = static_cast<int>(in(random, 1, 80));
-    return test::upright_at(azimuth, distance, height, half_extent, width, view_height);
-}
-
 TEST(BoardEqualityProperty, RandomObjectsAndViews) {
     constexpr std::uint64_t kSeed = 20261121;
     std::mt19937_64 random(kSeed);
@@ -30,12 +16,12 @@ TEST(BoardEqualityProperty, RandomObjectsAndViews) {
         const RaySpaceObject object = rs::test::ring_object({.views = 5 + static_cast<int>(random() % 30),
                                                              .width = 8 + static_cast<int>(random() % 70),
                                                              .height = 8 + static_cast<int>(random() % 70),
-                                                             .distance = in(random, 2, 5),
-                                                             .fl_px = in(random, 30, 120),
+                                                             .distance = test::in(random, 2, 5),
+                                                             .fl_px = test::in(random, 30, 120),
                                                              .planes = 3 + static_cast<int>(random() % 10),
                                                              .x_cells = 32,
                                                              .u_cells = 48,
-                                                             .camera_height = in(random, -0.3, 0.5),
+                                                             .camera_height = test::in(random, -0.3, 0.5),
                                                              .seed = random()});
         const RaySpaceObject stored = with_board_alpha(object);
         Board board(test::prototype());
@@ -44,7 +30,7 @@ TEST(BoardEqualityProperty, RandomObjectsAndViews) {
         std::vector<engine::ViewRegisters> registers;
         std::vector<std::vector<BoardView>> cycles(2);
         for (int v = 0; v < 20; ++v) {
-            const Result<engine::ViewRegisters> prepared = prepare_view(object, random_upright(random));
+            const Result<engine::ViewRegisters> prepared = prepare_view(object, test::random_upright(random, 80));
             ASSERT_TRUE(prepared.ok()) << prepared.error().message;
             const Result<BoardView> view = board.view(*slot, *prepared);
             ASSERT_TRUE(view.ok()) << view.error().message;

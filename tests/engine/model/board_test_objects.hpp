@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace rs::engine::model::test {
 
@@ -24,6 +25,22 @@ inline Camera upright_at(double azimuth, double distance, double height, double 
     Camera camera = upright_camera(look_at_camera(eye, {0, height, 0}, fov_x, width, view_height));
     camera.cy -= camera.fl_y * height / distance;
     return camera;
+}
+
+// Evenly between the two.
+inline double in(std::mt19937_64& random, double low, double high) {
+    return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11), -53);
+}
+
+// From anywhere around an object, of sides of less than `most_px`.
+inline Camera random_upright(std::mt19937_64& random, int most_px) {
+    const double azimuth = in(random, 0, 2 * kPi);
+    const double distance = in(random, 1.2, 12);
+    const double height = in(random, -1, 1);
+    const double half_extent = in(random, 0.3, 1.6);
+    const int width = static_cast<int>(in(random, 1, most_px));
+    const int view_height = static_cast<int>(in(random, 1, most_px));
+    return upright_at(azimuth, distance, height, half_extent, width, view_height);
 }
 
 inline BoardConfig prototype() {

@@ -6,15 +6,6 @@
 namespace rs::engine::model {
 namespace {
 
-double in(std::mt19937_64& random, double low, double high) {
-    return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11), -53);
-}
-
-Camera random_upright(std::mt19937_64& random) {
-    return test::upright_at(in(random, 0, 2 * kPi), in(random, 1.2, 12), in(random, -1, 1), in(random, 0.3, 1.6),
-                            static_cast<int>(in(random, 1, 60)), static_cast<int>(in(random, 1, 60)));
-}
-
 TEST(CodedBoardEqualityProperty, RandomTilesAndViews) {
     constexpr std::uint64_t kSeed = 20261122;
     std::mt19937_64 random(kSeed);
@@ -25,12 +16,12 @@ TEST(CodedBoardEqualityProperty, RandomTilesAndViews) {
         const RaySpaceObject object = test::random_coded_object({.views = 2 + static_cast<int>(random() % 30),
                                                                  .width = 8 + static_cast<int>(random() % 110),
                                                                  .height = 8 + static_cast<int>(random() % 110),
-                                                                 .distance = in(random, 2, 5),
-                                                                 .fl_px = in(random, 30, 160),
+                                                                 .distance = test::in(random, 2, 5),
+                                                                 .fl_px = test::in(random, 30, 160),
                                                                  .planes = 3 + static_cast<int>(random() % 10),
                                                                  .x_cells = 32,
                                                                  .u_cells = 48,
-                                                                 .camera_height = in(random, -0.3, 0.5),
+                                                                 .camera_height = test::in(random, -0.3, 0.5),
                                                                  .seed = random()});
         Board board(test::compressed());
         const Result<int> slot = board.place(object);
@@ -38,7 +29,7 @@ TEST(CodedBoardEqualityProperty, RandomTilesAndViews) {
         std::vector<engine::ViewRegisters> registers;
         std::vector<std::vector<BoardView>> cycles(2);
         for (int v = 0; v < 20; ++v) {
-            const Result<engine::ViewRegisters> prepared = prepare_view(object, random_upright(random));
+            const Result<engine::ViewRegisters> prepared = prepare_view(object, test::random_upright(random, 60));
             ASSERT_TRUE(prepared.ok()) << prepared.error().message;
             registers.push_back(*prepared);
             cycles[static_cast<std::size_t>(v >= 7)].push_back(*board.view(*slot, *prepared));
