@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything, runs all tests. Can be run again.
 #
-#   ./test.sh                     the release build and all tests, then the tools that read files under ASan + UBSan
+#   ./test.sh                     the release build and all tests, then what reads files under ASan + UBSan
 #   ./test.sh --no-sanitizers     the release build and its tests only
+#   ./test.sh --sanitize-all      all tests under ASan + UBSan as well: half an hour more
 #   ./test.sh -R NAME             further arguments go to ctest
 set -euo pipefail
 cd "$(dirname "$0")"
 . .ci/setup.sh
 
-SANITIZERS=yes
-if [ "${1:-}" = --no-sanitizers ]; then
-  SANITIZERS=no
-  shift
-fi
+SANITIZE=readers
+case "${1:-}" in
+  --no-sanitizers) SANITIZE=none; shift ;;
+  --sanitize-all) SANITIZE=all; shift ;;
+esac
 BEGUN=$SECONDS
 JOBS=$(nproc)
 
@@ -25,15 +26,21 @@ cmake --build build/release -j "$JOBS"
 say "Testing (release)"
 ctest --test-dir build/release --output-on-failure -j "$JOBS" "$@"
 
-if [ "$SANITIZERS" = yes ]; then
-  say "Building with AddressSanitizer and UndefinedBehaviorSanitizer"
+if [ "$SANITIZE" != none ]; then
+  if [ "$SANITIZE" = all ]; then
+    TARGETS=(all)
+    SELECTED=(-LE lint)
+  else
+    TARGETS=(test_rayspace test_codec test_reference test_conformance test_fuzz_replay test_compositor)
+    SELECTED=(-L '^(bytes|fuzz-replay|gl)$')
+  fi
+  say "Building with AddressSanitizer and UndefinedBehaviorSanitizer: ${TARGETS[*]}"
   configure build/asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DRAYSPACE_SANITIZE=address,undefined -DRAYSPACE_BENCH=OFF
-  cmake --build build/asan -j "$JOBS"
-  say "Testing under the sanitizers (all but the procedural objects, which read nothing from outside, and whole turns of real
-   photographs, which take the same ways as drawn ones; both take long)"
+  cmake --build build/asan -j "$JOBS" --target "${TARGETS[@]}"
+  say "Testing under the sanitizers"
   # Leaks inside of the drivers and libraries that we load are not ours to report.
   ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
-    ctest --test-dir build/asan --output-on-failure -j "$JOBS" -LE 'lint|procedural' -E '^RealPhotos' "$@"
+    ctest --test-dir build/asan --output-on-failure -j "$JOBS" "${SELECTED[@]}" "$@"
 fi
 
 say "All tests passed in $((SECONDS - BEGUN)) s"

@@ -45,7 +45,7 @@ configure() {
   shift
   mkdir -p "$folder"
   log=$folder/configure.log
-  cmake -S . -B "$folder" -G Ninja "$@" >"$log" 2>&1 || {
+  cmake -S . -B "$folder" -G Ninja -DRAYSPACE_UNITY=ON "$@" >"$log" 2>&1 || {
     cat "$log" >&2
     fail "the build could not be configured"
   }

@@ -25,14 +25,9 @@ using capture::Mesh;
 using glm::vec2;
 using glm::vec3;
 
-constexpr float kPiF = static_cast<float>(kPi);
 constexpr float kGoldenAngle_rad = 2.3999632F;
 constexpr float kSoilHeight = 0.53F;
 constexpr int kPetalColours = 4;
-
-vec3 around(float angle_rad, float radius, float height) {
-    return {radius * portable::sin(angle_rad), height, radius * portable::cos(angle_rad)};
-}
 
 struct FlowerParameters {
     int blooms, petals, leaves;
@@ -92,7 +87,7 @@ private:
         for (int j = 0; j <= kRows; ++j) {
             const float radius = 0.39F * (1.0F - static_cast<float>(j) / kRows);
             for (int i = 0; i <= kColumns; ++i) {
-                vec3 p = around(2.0F * kPiF * static_cast<float>(i) / kColumns, radius, 0.0F);
+                vec3 p = portable::around(2.0F * portable::kPi * static_cast<float>(i) / kColumns, radius, 0.0F);
                 p.y = kSoilHeight + 0.02F * (1.0F - radius / 0.39F) +
                       0.05F * layered_noise(p * 9.0F + vec3{0.0F, 4.5F, 0.0F}, 4, static_cast<std::uint32_t>(seed_));
                 soil.positions[soil.index(i, j)] = p;
@@ -102,9 +97,9 @@ private:
         append_grid(soil_, std::move(soil));
         for (int k = 0; k < 70; ++k) {
             // One draw to a statement, here and everywhere: the order of arguments is the compiler's own.
-            const float angle_rad = random.uniform(0.0F, 2.0F * kPiF);
+            const float angle_rad = random.uniform(0.0F, 2.0F * portable::kPi);
             const float reach = 0.36F * std::sqrt(random.uniform());
-            const vec3 centre = around(angle_rad, reach, kSoilHeight + 0.018F);
+            const vec3 centre = portable::around(angle_rad, reach, kSoilHeight + 0.018F);
             const float size = random.uniform(0.006F, 0.02F);
             const vec3 radii{size * random.uniform(0.8F, 1.4F), size * 0.7F, size};
             const vec3 up = random.direction();
@@ -123,11 +118,12 @@ private:
             const float angle_rad = kGoldenAngle_rad * static_cast<float>(k) + 0.2F * random.bell();
             const float reach = parameters_.spread * 1.15F * share;
             const float height = 1.98F - 0.78F * share * share + 0.07F * random.bell();
-            const vec3 tip = around(angle_rad, reach, height);
-            const vec3 root = around(angle_rad, 0.05F + 0.12F * share, kSoilHeight - 0.02F);
+            const vec3 tip = portable::around(angle_rad, reach, height);
+            const vec3 root = portable::around(angle_rad, 0.05F + 0.12F * share, kSoilHeight - 0.02F);
             vec3 knee = glm::mix(root, tip, 0.55F) + 0.04F * random.direction();
             knee.y += 0.10F * share;
-            const vec3 facing = glm::normalize(around(angle_rad + 0.3F * random.bell(), 0.35F + 0.75F * share, 0.75F));
+            const vec3 facing =
+                glm::normalize(portable::around(angle_rad + 0.3F * random.bell(), 0.35F + 0.75F * share, 0.75F));
             const std::vector<vec3> controls{root, glm::mix(root, knee, 0.5F) + vec3{0.0F, 0.05F, 0.0F}, knee,
                                              tip - facing * 0.10F, tip};
             const std::vector<vec3> path = smooth_curve<vec3>(controls, 9);
@@ -149,13 +145,13 @@ private:
                               float width_share) {
             for (int k = 0; k < count; ++k) {
                 const float turn = (static_cast<float>(k) + 0.12F * random.bell()) / static_cast<float>(count);
-                const vec3 outwards = frame.direction(around(2.0F * kPiF * turn, 1.0F, 0.0F));
+                const vec3 outwards = frame.direction(portable::around(2.0F * portable::kPi * turn, 1.0F, 0.0F));
                 const vec3 axis = frame.axes[1];
                 const float lift = lift_rad + 0.10F * random.bell();
                 const vec3 along = outwards * portable::cos(lift) + axis * portable::sin(lift);
                 PetalShape shape;
                 shape.length = length * random.uniform(0.92F, 1.08F);
-                shape.width = width_share * 2.0F * kPiF * length / static_cast<float>(count);
+                shape.width = width_share * 2.0F * portable::kPi * length / static_cast<float>(count);
                 shape.base_width = 0.32F;
                 shape.widest_at = 0.66F;
                 shape.pointedness = 0.25F;
@@ -163,7 +159,7 @@ private:
                 shape.cup = 0.20F + 0.08F * random.bell();
                 shape.ripple = 0.14F;
                 shape.ripple_waves = random.uniform(1.5F, 2.6F);
-                shape.ripple_phase_rad = random.uniform(0.0F, 2.0F * kPiF);
+                shape.ripple_phase_rad = random.uniform(0.0F, 2.0F * portable::kPi);
                 // Every other petal lies a little higher, so that neighbours overlap instead of cutting each other.
                 const float level = height + (k % 2 == 0 ? 0.0F : 0.012F);
                 append_petal(mesh, frame_facing(frame.origin + axis * level + outwards * 0.05F, along, axis), shape);
@@ -179,8 +175,8 @@ private:
         constexpr int kFlorets = 120;
         for (int k = 0; k < kFlorets; ++k) {
             const float share = std::sqrt((static_cast<float>(k) + 0.5F) / kFlorets);
-            const vec3 on_dome =
-                around(kGoldenAngle_rad * static_cast<float>(k), share, std::sqrt(1.0F - 0.92F * share * share));
+            const vec3 on_dome = portable::around(kGoldenAngle_rad * static_cast<float>(k), share,
+                                                  std::sqrt(1.0F - 0.92F * share * share));
             const vec3 p = frame.point(vec3{0.0F, 0.01F, 0.0F} + on_dome * vec3{heart, 0.6F * heart, heart});
             const vec3 out = glm::normalize(frame.direction(on_dome * vec3{1.0F, 1.8F, 1.0F}));
             const float r = 0.0075F * random.uniform(0.8F, 1.2F);
@@ -201,7 +197,8 @@ private:
         append_tube(stems_, smooth_curve<vec3>(controls, 6), {&radius, 1}, {.sides = 8});
         const Frame frame = frame_facing(to, out, random.direction());
         for (int k = 0; k < 6; ++k) {
-            const vec3 side = frame.direction(around(kPiF / 3.0F * static_cast<float>(k), 1.0F, 0.0F));
+            const vec3 side =
+                frame.direction(portable::around(portable::kPi / 3.0F * static_cast<float>(k), 1.0F, 0.0F));
             const Frame base = frame_facing(to + side * 0.012F, out + 0.35F * side, -side);
             PetalShape petal{
                 .length = 0.13F, .width = 0.075F, .base_width = 0.4F, .widest_at = 0.45F, .pointedness = 0.5F};
@@ -220,7 +217,7 @@ private:
             const float t = 0.22F + 0.55F * (static_cast<float>(k) + random.uniform()) / static_cast<float>(count);
             const auto i = static_cast<std::size_t>(t * static_cast<float>(stem.size() - 2));
             const vec3 up = glm::normalize(stem[i + 1] - stem[i]);
-            const vec3 out = around(kGoldenAngle_rad * static_cast<float>(k + 3 * number) * 1.7F, 1.0F, 0.0F);
+            const vec3 out = portable::around(kGoldenAngle_rad * static_cast<float>(k + 3 * number) * 1.7F, 1.0F, 0.0F);
             leaf(stem[i], glm::normalize(out + 0.75F * up), up, random.uniform(0.30F, 0.44F), random);
         }
     }
@@ -230,8 +227,8 @@ private:
         const int count = parameters_.leaves - parameters_.leaves * 2 / 3;
         for (int k = 0; k < count; ++k) {
             const float angle_rad = kGoldenAngle_rad * static_cast<float>(k) + 0.2F * random.bell();
-            const vec3 out = around(angle_rad, 1.0F, random.uniform(0.7F, 1.5F));
-            const vec3 base = around(angle_rad, random.uniform(0.06F, 0.2F), kSoilHeight);
+            const vec3 out = portable::around(angle_rad, 1.0F, random.uniform(0.7F, 1.5F));
+            const vec3 base = portable::around(angle_rad, random.uniform(0.06F, 0.2F), kSoilHeight);
             leaf(base, glm::normalize(out), vec3{0, 1, 0}, random.uniform(0.42F, 0.60F), random);
         }
     }
@@ -247,7 +244,7 @@ private:
         shape.cup = 0.28F;
         shape.ripple = 0.16F;
         shape.ripple_waves = 2.5F;
-        shape.ripple_phase_rad = random.uniform(0.0F, 2.0F * kPiF);
+        shape.ripple_phase_rad = random.uniform(0.0F, 2.0F * portable::kPi);
         shape.rows = 18;
         append_petal(leaves_, frame_facing(base, along, up), shape);
     }

@@ -56,12 +56,12 @@ void append_arc(Mesh& mesh, vec3 from, vec3 to, float sphere_radius, float tube_
 
 // Enamel: a barber's-pole spiral of two colours with thin gold lines, chipped a little.
 capture::Texture paint_enamel(vec3 colour, vec3 second, std::uint32_t seed) {
-    constexpr int kSide_px = 256;
-    Canvas canvas(kSide_px, kSide_px, vec3{0.0F});
-    canvas.shade({0, 0}, vec2{kSide_px}, [&](vec2 p, vec3) {
-        const float phase = p.x / kSide_px + p.y / kSide_px;
+    constexpr int kEnamel_px = 256;
+    Canvas canvas(kEnamel_px, kEnamel_px, vec3{0.0F});
+    canvas.shade({0, 0}, vec2{kEnamel_px}, [&](vec2 p, vec3) {
+        const float phase = p.x / kEnamel_px + p.y / kEnamel_px;
         const float t = phase - std::floor(phase);
-        const float cloud = layered_noise({p.x / 32.0F, p.y / 32.0F, 0.0F}, 3, seed, kSide_px / 32);
+        const float cloud = layered_noise({p.x / 32.0F, p.y / 32.0F, 0.0F}, 3, seed, kEnamel_px / 32);
         if (std::abs(t - 0.02F) < 0.025F || std::abs(t - 0.38F) < 0.025F) return srgb(0xD9B45A);
         return (t > 0.02F && t < 0.38F ? second : colour) * (1.0F + 0.22F * cloud);
     });

@@ -6,6 +6,10 @@
 // rounds exactly (the project is compiled with -ffp-contract=off). Absolute error below 1e-13 for |x| < 300 (tested).
 // Thread-safe; no errors.
 
+#include "rayspace/conventions.hpp"
+
+#include <glm/vec3.hpp>
+
 namespace rs::synthetic::portable {
 
 double sin(double x_rad);
@@ -21,6 +25,13 @@ inline float cos(float x_rad) {
 }
 inline float atan2(float y, float x) {
     return static_cast<float>(atan2(static_cast<double>(y), static_cast<double>(x)));
+}
+
+inline constexpr float kPi = static_cast<float>(rs::kPi);
+
+// The point at an angle about the upright axis, from the z axis towards x.
+inline glm::vec3 around(float angle_rad, float radius, float height) {
+    return {radius * sin(angle_rad), height, radius * cos(angle_rad)};
 }
 
 }  // namespace rs::synthetic::portable

@@ -39,7 +39,7 @@ struct CornerResidual {
 };
 
 // What lenses are like, as one weak observation each (the priors of bundle.hpp; the focal length within a factor e).
-struct LensPrior {
+struct BoardLensPrior {
     double f_px = 1, cx = 0, cy = 0, principal_px = 1;
 
     template <class T>
@@ -100,9 +100,9 @@ void pose_problem(ceres::Problem& problem, Unknowns& unknowns, const Lens& lens,
                                  loss, unknowns.lens.data(), unknowns.pose.data(), unknowns.board.data(), angle);
         if (!common && (free.angles == AngleFreedom::kHeld || one.view == 0)) problem.SetParameterBlockConstant(angle);
     }
-    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LensPrior, 5, 5>(
-                                 new LensPrior{1.3 * std::max(lens.width, lens.height), 0.5 * lens.width,
-                                               0.5 * lens.height, kPriorPrincipalPoint * lens.width}),
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<BoardLensPrior, 5, 5>(
+                                 new BoardLensPrior{1.3 * std::max(lens.width, lens.height), 0.5 * lens.width,
+                                                    0.5 * lens.height, kPriorPrincipalPoint * lens.width}),
                              nullptr, unknowns.lens.data());
     const std::array<bool, 5> lens_free{free.f, free.principal_point, free.principal_point, free.k1, free.k2};
     const std::array<bool, 3> pose_free{free.pan, free.tilt, free.roll};

@@ -19,7 +19,7 @@ constexpr double kLeastScatter_px = 0.1;
 constexpr int kRounds = 20;
 constexpr int kMoves = 3;
 constexpr double kBelievedApart = 2;  // deviations of the outlines
-constexpr double kHalf = 127.5;
+constexpr double kHalfCover = 127.5;
 
 // One row of the picture rectified about the axis.
 struct RimRow {
@@ -55,8 +55,8 @@ Extent extent_of(ConstImageView<std::uint8_t> covered, int reduction, const Turn
     };
     for (int y = 0; y < covered.height(); ++y) {
         int first = 0, last = covered.width() - 1;
-        while (first <= last && covered(first, y) < kHalf) ++first;
-        while (last > first && covered(last, y) < kHalf) --last;
+        while (first <= last && covered(first, y) < kHalfCover) ++first;
+        while (last > first && covered(last, y) < kHalfCover) --last;
         if (first > last) continue;
         include(first, y);
         include(last, y);
@@ -77,9 +77,9 @@ public:
         std::optional<double> before = at(from);
         for (double u = from + towards; u * from > -from * from; u += towards) {
             const std::optional<double> here = at(u);
-            if (here && *here >= kHalf) {
+            if (here && *here >= kHalfCover) {
                 if (!before) return std::nullopt;
-                return u - towards * (*here - kHalf) / (*here - *before);
+                return u - towards * (*here - kHalfCover) / (*here - *before);
             }
             before = here;
         }

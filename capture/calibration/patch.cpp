@@ -8,7 +8,7 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kHalf = kPatchHalf_px;
+constexpr int kHalfSide_px = kPatchHalf_px;
 constexpr std::size_t kSamples = kPatchSamples;
 constexpr double kLeastCorrelation = 0.85;
 constexpr double kFarthestMove_px = 3;      // from where the bundle expects the point
@@ -25,8 +25,8 @@ constexpr std::size_t kFewestSamples = 40;
 const std::array<double, kSamples> kWindow = [] {
     std::array<double, kSamples> window{};
     for (std::size_t n = 0; n < kSamples; ++n) {
-        const double i = static_cast<double>(n % kPatchSide_px) - kHalf;
-        const double j = static_cast<double>(n / kPatchSide_px) - kHalf;
+        const double i = static_cast<double>(n % kPatchSide_px) - kHalfSide_px;
+        const double j = static_cast<double>(n / kPatchSide_px) - kHalfSide_px;
         window[n] = std::exp(-0.5 * (i * i + j * j) / (kWindowDeviation_px * kWindowDeviation_px));
     }
     return window;
@@ -57,8 +57,8 @@ bool centre_is_inside(const Warp& warp, const Image<std::uint8_t>& alpha) {
 Patch cut(const Image<float>& picture, const Image<std::uint8_t>& alpha, const Warp& warp) {
     Patch patch;
     std::size_t n = 0;
-    for (int j = -kHalf; j <= kHalf; ++j) {
-        for (int i = -kHalf; i <= kHalf; ++i, ++n) {
+    for (int j = -kHalfSide_px; j <= kHalfSide_px; ++j) {
+        for (int i = -kHalfSide_px; i <= kHalfSide_px; ++i, ++n) {
             const glm::dvec2 p = warp.at(i, j);
             patch.counts[n] = is_inside(alpha, p.x, p.y);
             patch.value[n] = patch.counts[n] ? sample(picture, p.x, p.y) : 0.0F;
@@ -74,8 +74,8 @@ void level(Patch& patch) {
     Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
     const auto each = [&](auto&& visit) {
         std::size_t n = 0;
-        for (int j = -kHalf; j <= kHalf; ++j) {
-            for (int i = -kHalf; i <= kHalf; ++i, ++n) {
+        for (int j = -kHalfSide_px; j <= kHalfSide_px; ++j) {
+            for (int i = -kHalfSide_px; i <= kHalfSide_px; ++i, ++n) {
                 if (patch.counts[n]) visit(Eigen::Vector3d(1, i, j), patch.value[n]);
             }
         }
@@ -117,8 +117,8 @@ std::optional<Round> align_once(const Image<float>& picture, const Image<std::ui
     double squares = 0, texture = 0, weights = 0;
     std::size_t count = 0;
     std::size_t n = 0;
-    for (int j = -kHalf; j <= kHalf; ++j) {
-        for (int i = -kHalf; i <= kHalf; ++i, ++n) {
+    for (int j = -kHalfSide_px; j <= kHalfSide_px; ++j) {
+        for (int i = -kHalfSide_px; i <= kHalfSide_px; ++i, ++n) {
             if (!seen.counts[n] || !patch.counts[n]) continue;
             const glm::dvec2 p = warp.at(i, j);
             const double sx = 0.5 * static_cast<double>(sample(picture, p.x + 1, p.y) - sample(picture, p.x - 1, p.y));
@@ -228,7 +228,7 @@ std::optional<Alignment> align(const Image<float>& picture, const Image<std::uin
         }
         if (glm::distance(warp.centre, start.centre) > 2 * kFarthestMove_px) return std::nullopt;
         const double enough = curvature_is_known ? 0.003 : 0.02;  // px
-        if (step.head<2>().norm() < enough && step.tail<4>().norm() * kHalf < 3 * enough) break;
+        if (step.head<2>().norm() < enough && step.tail<4>().norm() * kHalfSide_px < 3 * enough) break;
     }
     if (round->correlation < kLeastCorrelation || !centre_is_inside(warp, alpha)) return std::nullopt;
     if (glm::distance(warp.centre, start.centre) > kFarthestMove_px) return std::nullopt;

@@ -9,13 +9,11 @@
 namespace rs::capture {
 namespace {
 
-constexpr std::size_t kCount = SilhouetteParameters::kCount;
-
 // Neighbouring points of an outline are off alike: a view is worth this many independent ones.
 constexpr double kIndependentPerView = 8;
 
 // For derivatives: wide enough to look past the steps of the distances, narrow enough for what is asked.
-constexpr std::array<double, kCount> kSteps = {0.3, 0.004, 0.002, 0.02, 0.002};
+constexpr std::array<double, SilhouetteParameters::kCount> kSteps = {0.3, 0.004, 0.002, 0.02, 0.002};
 
 // Weight of one ray's squared shortfall.
 double ray_weight(const SilhouetteProblem& problem, const RaySelection& rays, std::size_t count) {
@@ -27,7 +25,7 @@ double ray_weight(const SilhouetteProblem& problem, const RaySelection& rays, st
 
 double prior_cost(const SilhouetteProblem& problem, const SilhouetteParameters& at) {
     double cost = 0;
-    for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t i = 0; i < SilhouetteParameters::kCount; ++i) {
         const double z = at.value[i] / kSilhouettePriors[i];
         if (problem.free[i]) cost += z * z;
     }
@@ -123,7 +121,7 @@ double silhouette_cost(const SilhouetteProblem& problem, const SilhouetteParamet
 SilhouetteFit fit_silhouettes(const SilhouetteProblem& problem, const SilhouetteParameters& at,
                               const RaySelection& rays, int iterations) {
     std::vector<std::size_t> free;
-    for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t i = 0; i < SilhouetteParameters::kCount; ++i) {
         if (problem.free[i]) free.push_back(i);
     }
     SilhouetteFit fit{at, 0, {}};

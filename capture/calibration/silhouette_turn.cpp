@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kFewestViews = 6;
 constexpr int kWishedBox_px = 300;
 constexpr int kMargin_px = 24;
-constexpr float kHalf = 0.5F;
+constexpr float kHalfway = 0.5F;
 
 struct Box {
     int left = 1 << 30, right = 0, top = 1 << 30, bottom = 0;
@@ -52,7 +52,7 @@ Image<float> reduced(const Image<std::uint8_t>& mask, int reduction) {
 }
 
 bool solid(float coverage) {
-    return coverage >= kHalf;
+    return coverage >= kHalfway;
 }
 
 // A pixel that the outline crosses, or beside which it runs.
@@ -80,7 +80,7 @@ Image<float> signed_distance(ConstImageView<float> coverage) {
             if (far_from_edge(y, x) != 0) continue;
             const auto label = static_cast<std::size_t>(nearest(y, x));
             if (label >= within.size()) within.resize(label + 1);
-            within[label] = coverage(x, y) - kHalf;
+            within[label] = coverage(x, y) - kHalfway;
         }
     }
     Image<float> distance(coverage.width(), coverage.height());
@@ -102,7 +102,7 @@ std::vector<glm::dvec2> edge_points(ConstImageView<float> coverage, const glm::d
         const float a = coverage(x, y);
         const float b = coverage(x + dx, y + dy);
         if (solid(a) == solid(b)) return;
-        const double t = (kHalf - a) / (b - a);
+        const double t = (kHalfway - a) / (b - a);
         points.push_back(origin + glm::dvec2(x + 0.5 + t * dx, y + 0.5 + t * dy));
         middle += points.back();
     };

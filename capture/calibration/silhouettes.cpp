@@ -15,7 +15,6 @@ namespace rs::capture {
 namespace {
 
 using Parameters = SilhouetteParameters;
-constexpr std::size_t kCount = Parameters::kCount;
 
 constexpr std::array<double, 9> kAxisTries = {0, -0.03, 0.03, -0.06, 0.06, -0.1, 0.1, -0.15, 0.15};  // of the width
 constexpr std::array<double, 5> kTiltTries_deg = {0, 10, 20, 35, -10};                               // from the start
@@ -122,22 +121,23 @@ SilhouetteFit nearest_to_start(const SilhouetteFit& fit, double fit_cost, const 
 
 // How far each number is off if one of the fits along the tilts is the truth: all the way where that fit is as good,
 // less by the standard errors that it is worse; for a cost that is a parabola this is one standard deviation.
-std::array<double, kCount> valley(const SilhouetteFit& fit, double fit_cost, const std::vector<SilhouetteFit>& along) {
-    std::array<double, kCount> deviation{};
+std::array<double, Parameters::kCount> valley(const SilhouetteFit& fit, double fit_cost,
+                                              const std::vector<SilhouetteFit>& along) {
+    std::array<double, Parameters::kCount> deviation{};
     for (const SilhouetteFit& each : along) {
-        for (std::size_t k = 0; k < kCount; ++k) {
+        for (std::size_t k = 0; k < Parameters::kCount; ++k) {
             const double apart = std::abs(each.at.value[k] - fit.at.value[k]);
             deviation[k] = std::max(deviation[k], apart / std::sqrt(std::max(1.0, each.cost - fit_cost)));
         }
     }
-    for (std::size_t k = 0; k < kCount; ++k) {
+    for (std::size_t k = 0; k < Parameters::kCount; ++k) {
         if (deviation[k] > kToldNothing * kSilhouettePriors[k]) deviation[k] = std::numeric_limits<double>::infinity();
     }
     return deviation;
 }
 
 // Fits without each of a few interleaved groups of views: honest about errors that neighbouring points share.
-std::array<double, kCount> jackknife(const SilhouetteProblem& problem, const SilhouetteFit& fit) {
+std::array<double, Parameters::kCount> jackknife(const SilhouetteProblem& problem, const SilhouetteFit& fit) {
     const std::size_t views = problem.turn->views();
     const std::size_t groups = std::min(kGroups, views / 3);
     std::vector<Parameters> without;
@@ -146,9 +146,9 @@ std::array<double, kCount> jackknife(const SilhouetteProblem& problem, const Sil
         for (std::size_t i = 0; i < views; ++i) rays.left_out.push_back(i % groups == g ? 1 : 0);
         without.push_back(fit_silhouettes(problem, fit.at, rays, 3).at);
     }
-    std::array<double, kCount> deviation{};
+    std::array<double, Parameters::kCount> deviation{};
     const auto n = static_cast<double>(groups);
-    for (std::size_t k = 0; k < kCount; ++k) {
+    for (std::size_t k = 0; k < Parameters::kCount; ++k) {
         double mean = 0;
         for (const Parameters& each : without) mean += each.value[k] / n;
         double sum = 0;
@@ -158,7 +158,7 @@ std::array<double, kCount> jackknife(const SilhouetteProblem& problem, const Sil
     return deviation;
 }
 
-ModelDeviations deviations_of(const SilhouetteFit& fit, const std::array<double, kCount>& spread,
+ModelDeviations deviations_of(const SilhouetteFit& fit, const std::array<double, Parameters::kCount>& spread,
                               const TurntableModel& model, const KnownInputs& known, double picture_px) {
     const auto of = [&](Parameters::Name name) { return std::max(fit.deviation[name], spread[name]); };
     ModelDeviations deviations;
@@ -274,11 +274,11 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     calibration.method = CalibrationMethod::kSilhouettes;
     calibration.model = changed(problem.start, fit.at);
     calibration.model.lens = scaled(calibration.model.lens, picture_px);
-    std::array<double, kCount> spread = jackknife(problem, fit);
-    const std::array<double, kCount> open = valley(fit, best_cost, along);
+    std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
+    const std::array<double, Parameters::kCount> open = valley(fit, best_cost, along);
     // Outlines that fit worse than good ones should are surer of nothing.
     const double doubt = std::max(1.0, fit_rms / kSilhouetteError_px);
-    for (std::size_t k = 0; k < kCount; ++k) {
+    for (std::size_t k = 0; k < Parameters::kCount; ++k) {
         spread[k] = std::max(spread[k], doubt * open[k]);
         fit.deviation[k] *= doubt;
     }

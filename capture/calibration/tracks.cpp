@@ -2,6 +2,7 @@
 
 #include "capture/calibration/features.hpp"
 #include "rayspace/check.hpp"
+#include "rayspace/median.hpp"
 
 #include <tbb/parallel_for.h>
 #include <opencv2/calib3d.hpp>
@@ -18,12 +19,6 @@ constexpr double kRatio = 0.8;            // Lowe: best distance over second bes
 constexpr double kGuidedRatio = 0.9;      // among the few that the model allows
 constexpr double kEpipolarBand_px = 1.5;  // at 1000 px of the longer side; grows with the picture
 constexpr int kFewestMatches = 12;        // below, a pair says nothing
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
-}
 
 // Those that agree with one epipolar geometry (RANSAC with OpenCV's fixed seed).
 std::vector<FeatureMatch> consistent(const std::vector<FeatureMatch>& matches, const ViewFeatures& a,

@@ -1,6 +1,7 @@
 #include "capture/calibration/turn_diagnosis.hpp"
 
 #include "rayspace/conventions.hpp"
+#include "rayspace/median.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,13 +22,6 @@ constexpr double kStepWarning_deg = 0.5;
 constexpr double kRepeat = 0.1;  // of the median step
 constexpr double kGap = 1.6;
 constexpr double kAxesApart_px = 0.5;
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 std::string number(double value, int digits) {
     char text[64];

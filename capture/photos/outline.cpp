@@ -1,5 +1,7 @@
 #include "capture/photos/outline.hpp"
 
+#include "rayspace/median.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,12 +12,6 @@ namespace {
 constexpr int kVisible = 8;
 constexpr int kSolid = 128;
 constexpr std::size_t kMinRows = 8;
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 }  // namespace
 

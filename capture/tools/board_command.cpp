@@ -10,7 +10,7 @@
 namespace rs::capture {
 namespace {
 
-struct CommandLine {
+struct BoardCommandLine {
     std::filesystem::path output;
     std::string squares = "9x9";
     SheetOptions sheet;
@@ -25,7 +25,7 @@ CLI::Validator board_word(const std::string& key) {
             ""};
 }
 
-Status run_board(const CommandLine& given) {
+Status run_board(const BoardCommandLine& given) {
     if (Status written = write_board(given.output, given.sheet); !written) return written;
     const BoardDesign& design = given.sheet.design;
     std::printf("%s: %dx%d squares of %g mm (%g x %g mm); the same for import: --board %s\n",
@@ -37,7 +37,7 @@ Status run_board(const CommandLine& given) {
 }  // namespace
 
 void add_board_command(CLI::App& app, std::function<Status()>& run) {
-    auto given = std::make_shared<CommandLine>();
+    auto given = std::make_shared<BoardCommandLine>();
     BoardDesign& design = given->sheet.design;
     CLI::App* command = app.add_subcommand("board", "Prints a calibration board to lay on the turntable");
     command->add_option("-o,--output", given->output, "File to write: .pdf, .svg or .png")->required();

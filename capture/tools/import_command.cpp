@@ -20,7 +20,7 @@
 namespace rs::capture {
 namespace {
 
-struct CommandLine {
+struct ImportCommandLine {
     ImportOptions import;
     std::string backdrop = "auto";
     std::string board;
@@ -129,7 +129,7 @@ void print_summary(const std::string& output, const ImportReport& report) {
         found.deviations.axis_position_px);
 }
 
-Status run_import(const CommandLine& given) {
+Status run_import(const ImportCommandLine& given) {
     ImportOptions options = given.import;
     const Result<BackdropRequest> backdrop = parse_backdrop(given.backdrop);
     if (!backdrop) return backdrop.error();
@@ -180,7 +180,7 @@ Status run_import(const CommandLine& given) {
 }  // namespace
 
 void add_import_command(CLI::App& app, std::function<Status()>& run) {
-    auto given = std::make_shared<CommandLine>();
+    auto given = std::make_shared<ImportCommandLine>();
     CLI::App* command =
         app.add_subcommand("import", "Cuts the object out of turntable photographs and makes a capture set");
     command

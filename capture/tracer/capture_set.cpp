@@ -1,5 +1,6 @@
 #include "capture/tracer/capture_set.hpp"
 
+#include "capture/tracer/view_number.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/picture_io.hpp"
 
@@ -11,12 +12,6 @@
 namespace rs::capture {
 
 namespace {
-
-std::string view_number(std::size_t view) {
-    char text[24];
-    std::snprintf(text, sizeof text, "%03zu", view);
-    return text;
-}
 
 double coverage(ConstImageView<RgbaF> picture) {
     double sum = 0;

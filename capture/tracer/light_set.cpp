@@ -12,8 +12,6 @@ namespace rs::capture {
 
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 // By the mean of the texture, so that a mostly dark one draws few samples. Bilinear look-ups are 0 where the mean is.
 float brightness_of(const Material& material, const std::vector<Texture>& textures) {
     if (material.emission_texture < 0) return luminance(material.emission);
@@ -112,7 +110,8 @@ std::optional<LightSample> LightSet::sample(const glm::vec3& position, float u_s
             return sample_environment(source->probability, u);
         case SourceKind::directional: {
             const DirectionalLight& light = directional_[source->index];
-            return LightSample{-light.direction, kInfinity, light.irradiance, source->probability, true};
+            return LightSample{-light.direction, std::numeric_limits<float>::infinity(), light.irradiance,
+                               source->probability, true};
         }
         case SourceKind::point: {
             const PointLight& light = points_[source->index];
@@ -133,8 +132,8 @@ std::optional<LightSample> LightSet::sample(const glm::vec3& position, float u_s
 std::optional<LightSample> LightSet::sample_environment(float probability, const glm::vec2& u) const {
     const EnvironmentMap::Sample drawn = environment_.sample(u);
     if (!(drawn.pdf > 0.0F)) return std::nullopt;
-    return LightSample{drawn.direction, kInfinity, environment_.radiance(drawn.direction), probability * drawn.pdf,
-                       false};
+    return LightSample{drawn.direction, std::numeric_limits<float>::infinity(), environment_.radiance(drawn.direction),
+                       probability * drawn.pdf, false};
 }
 
 std::optional<LightSample> LightSet::sample_rectangle(const Rectangle& rectangle, const glm::vec3& position,

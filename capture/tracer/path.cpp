@@ -13,7 +13,6 @@ namespace rs::capture {
 
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kRouletteFrom = 3;
 
 // Interpolated normals may face away from the viewer near silhouettes: the normal is bent just far enough to face them.
@@ -91,7 +90,9 @@ bool PathTracer::trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, 
         if (const Material* medium = media.innermost(); hit && medium != nullptr) {
             throughput *= glm::pow(medium->colour, glm::vec3(point.distance));
         }
-        if (bounce > 0) radiance += throughput * lights_on_the_way(segment, hit ? point.distance : kInfinity);
+        if (bounce > 0)
+            radiance +=
+                throughput * lights_on_the_way(segment, hit ? point.distance : std::numeric_limits<float>::infinity());
         if (!hit) return true;
 
         const Material& material = scene_.materials[static_cast<std::size_t>(point.material)];
@@ -137,7 +138,7 @@ glm::vec3 PathTracer::lights_on_the_way(const Segment& segment, float distance) 
         const auto crossing = lights_.cross_rectangle(i, segment.origin, segment.direction, distance);
         if (crossing) sum += crossing->radiance * (segment.specular ? 1.0F : mis_weight(segment.pdf, crossing->pdf));
     }
-    if (distance == kInfinity && !lights_.environment().is_black()) {
+    if (distance == std::numeric_limits<float>::infinity() && !lights_.environment().is_black()) {
         const glm::vec3 radiance = lights_.environment().radiance(segment.direction);
         sum +=
             radiance * (segment.specular ? 1.0F : mis_weight(segment.pdf, lights_.environment_pdf(segment.direction)));

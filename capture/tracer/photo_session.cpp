@@ -6,6 +6,7 @@
 #include "capture/tracer/session_truth.hpp"
 #include "capture/tracer/still_backdrop.hpp"
 #include "capture/tracer/tracer.hpp"
+#include "capture/tracer/view_number.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/picture_io.hpp"
 
@@ -112,12 +113,6 @@ bool touches_edge(const Image<float>& shares) {
         }
     }
     return false;
-}
-
-std::string view_number(std::size_t view) {
-    char text[24];
-    std::snprintf(text, sizeof text, "%03zu", view);
-    return text;
 }
 
 // Everything that the views have in common.

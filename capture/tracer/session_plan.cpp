@@ -15,7 +15,7 @@ namespace {
 constexpr double kMargin = 0.03;  // of the picture's height, free around all that it should show
 constexpr double kFarthest = 1000;
 
-enum Purpose : std::uint64_t { kAim = 1, kAngles, kExposure };
+enum SessionPurpose : std::uint64_t { kAim = 1, kAngles, kExposure };
 
 // Steps with independent errors, the last of which leads back to the first view.
 std::vector<double> draw_angles(const SessionOptions& options) {

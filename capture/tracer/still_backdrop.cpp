@@ -13,7 +13,7 @@ namespace rs::capture {
 namespace {
 
 // Streams of the seed.
-enum Purpose : std::uint64_t { kGrain = 20, kMarks = 21, kPlaster = 30 };
+enum BackdropPurpose : std::uint64_t { kGrain = 20, kMarks = 21, kPlaster = 30 };
 
 double soft_step(double t) {
     const double c = std::clamp(0.5 + 0.5 * t, 0.0, 1.0);

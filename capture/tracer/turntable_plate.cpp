@@ -17,7 +17,7 @@ constexpr double kHair = 1e-4;  // against coinciding surfaces; a fortieth of a 
 constexpr int kSegments = 256;  // the plate's rim is true to 1e-4 of its radius
 constexpr int kTextureSide_px = 1024;
 
-enum Purpose : std::uint64_t { kSpeckles = 11, kBoard };
+enum PlatePurpose : std::uint64_t { kSpeckles = 11, kBoard };
 
 double lowest_vertex(const Scene& scene) {
     double lowest = std::numeric_limits<double>::infinity();

@@ -15,14 +15,14 @@
 namespace rs::compositor {
 namespace {
 
-constexpr std::uint64_t kMaxFile_bytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kMaxScene_bytes = std::uint64_t{64} << 20;
 constexpr std::size_t kMaxNodes = 4096;
-constexpr double kFarthest = 1e6;   // coordinates and lengths
-constexpr double kSmallest = 1e-6;  // what must be above 0
+constexpr double kFarthestCoordinate = 1e6;  // coordinates and lengths
+constexpr double kSmallest = 1e-6;           // what must be above 0
 constexpr double kBrightest = 100;
 
 glm::dvec3 take_position(JsonObject& object, const char* key) {
-    return object.take(key).triple(-kFarthest, kFarthest);
+    return object.take(key).triple(-kFarthestCoordinate, kFarthestCoordinate);
 }
 
 glm::vec3 colour(const JsonValue& value) {
@@ -32,7 +32,7 @@ glm::vec3 colour(const JsonValue& value) {
 
 glm::dvec3 take_direction(JsonObject& object, const char* key) {
     const JsonValue value = object.take(key);
-    const glm::dvec3 direction = value.triple(-kFarthest, kFarthest);
+    const glm::dvec3 direction = value.triple(-kFarthestCoordinate, kFarthestCoordinate);
     if (glm::length(direction) < kSmallest) throw value.wrong("must be a direction, not 0, 0, 0");
     return direction;
 }
@@ -40,7 +40,7 @@ glm::dvec3 take_direction(JsonObject& object, const char* key) {
 NodeTransform take_transform(JsonObject& node) {
     NodeTransform transform;
     if (node.has("translate")) transform.translation = take_position(node, "translate");
-    if (node.has("scale")) transform.scale = node.take("scale").number(kSmallest, kFarthest);
+    if (node.has("scale")) transform.scale = node.take("scale").number(kSmallest, kFarthestCoordinate);
     if (node.has("rotate")) {
         JsonObject rotate(node.take("rotate"));
         if (rotate.has("axis")) transform.axis = take_direction(rotate, "axis");
@@ -103,14 +103,14 @@ private:
         }
         JsonObject bounds(node.take("bounds"));
         const glm::dvec3 centre = take_position(bounds, "centre");
-        const glm::dvec3 half = bounds.take("size").triple(kSmallest, kFarthest) * 0.5;
+        const glm::dvec3 half = bounds.take("size").triple(kSmallest, kFarthestCoordinate) * 0.5;
         bounds.expect_all_taken();
         scene_.rooms[room].box = BoundingBox{centre - half, centre + half}.moved(world_from_node(chain_).matrix());
     }
 
     void read_box(JsonObject& node) {
         GeometryNode box;
-        box.mesh = std::make_shared<const Mesh>(box_mesh(node.take("box").triple(kSmallest, kFarthest)));
+        box.mesh = std::make_shared<const Mesh>(box_mesh(node.take("box").triple(kSmallest, kFarthestCoordinate)));
         box.material.diffuse = node.has("colour") ? colour(node.take("colour")) : glm::vec3(0.5F);
         box.material.ambient = 1;
         box.world_from_node = world_from_node(chain_).matrix();
@@ -131,9 +131,9 @@ std::string lower_case(std::string text) {
 
 Floor read_floor(JsonObject object) {
     Floor floor;
-    if (object.has("height")) floor.height = object.take("height").number(-kFarthest, kFarthest);
-    if (object.has("radius")) floor.radius = object.take("radius").number(kSmallest, kFarthest);
-    if (object.has("square")) floor.square = object.take("square").number(kSmallest, kFarthest);
+    if (object.has("height")) floor.height = object.take("height").number(-kFarthestCoordinate, kFarthestCoordinate);
+    if (object.has("radius")) floor.radius = object.take("radius").number(kSmallest, kFarthestCoordinate);
+    if (object.has("square")) floor.square = object.take("square").number(kSmallest, kFarthestCoordinate);
     if (object.has("colours")) {
         const JsonValue colours = object.take("colours");
         colours.list_size(2, 2);
@@ -207,7 +207,7 @@ Result<Scene> read_scene(const std::filesystem::path& path) {
     if (!is_one_of({".json"})) {
         return Error{path.string() + ": is no scene by its name; give a .wrl, .wrl.gz, .gltf, .glb, .obj or .json"};
     }
-    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxFile_bytes);
+    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxScene_bytes);
     if (!bytes) return bytes.error();
     return scene_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
 }

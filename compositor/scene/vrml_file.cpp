@@ -12,13 +12,13 @@
 namespace rs::compositor {
 namespace {
 
-constexpr std::uint64_t kMaxFile_bytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kMaxWorld_bytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kMaxFiles_bytes = std::uint64_t{256} << 20;
 
 Result<std::string> read_world_text(const std::filesystem::path& path) {
-    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxFile_bytes);
+    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxWorld_bytes);
     if (!bytes) return bytes.error();
-    if (is_gzip(*bytes)) return gunzip(*bytes, kMaxFile_bytes, path.string());
+    if (is_gzip(*bytes)) return gunzip(*bytes, kMaxWorld_bytes, path.string());
     return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
 }
 

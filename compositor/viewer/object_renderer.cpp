@@ -13,7 +13,7 @@ namespace rs::compositor {
 
 namespace {
 
-constexpr float kSolid = 0.5F;  // alpha from which a pixel hides what is behind it
+constexpr float kHidingAlpha = 0.5F;  // alpha from which a pixel hides what is behind it
 constexpr float kBeyondOpaque = 2;
 
 // A texture that holds at least width x height texels.
@@ -73,8 +73,8 @@ void ObjectRenderer::draw(std::size_t node, const ObjectView& view, const Appear
     program.set("near_of_depths", static_cast<float>(kNear / view.units_per_rig_unit));
     // What is still fading in hides nothing.
     const bool there = appearance.opacity >= 1;
-    draw_pixels(program, kSolid, kBeyondOpaque, there);
-    draw_pixels(program, 0, kSolid, false);
+    draw_pixels(program, kHidingAlpha, kBeyondOpaque, there);
+    draw_pixels(program, 0, kHidingAlpha, false);
 }
 
 void ObjectRenderer::draw_pixels(const gl::Program& program, float least_alpha, float alphas_end,

@@ -26,7 +26,7 @@ constexpr vec2 kSkyLow{-2.6F, -7.2F};  // x, z
 constexpr vec2 kSkyHigh{2.6F, -2.4F};
 constexpr float kGlass_m = 4.85F;
 
-struct Stand {
+struct Plinth {
     const char* name;
     vec2 place;  // x, z
     float width_m;
@@ -34,7 +34,7 @@ struct Stand {
     float object_height_m;
     float facing_deg;  // of the plinth's front
 };
-constexpr Stand kStands[] = {
+constexpr Plinth kStands[] = {
     {"lattice", {0.0F, -4.8F}, 0.72F, 0.98F, 0.74F, 0}, {"vase", {-3.4F, -2.4F}, 0.5F, 1.05F, 0.78F, 90},
     {"flower", {-3.4F, -5.4F}, 0.5F, 1.05F, 0.74F, 90}, {"lamp", {3.4F, -2.4F}, 0.5F, 1.05F, 0.84F, -90},
     {"doll", {3.4F, -5.4F}, 0.5F, 1.05F, 0.6F, -90},    {"blocks", {-2.2F, -8.1F}, 0.5F, 1.05F, 0.62F, 0},
@@ -43,7 +43,7 @@ constexpr Stand kStands[] = {
 
 std::vector<Footprint> floor_prints() {
     std::vector<Footprint> prints;
-    for (const Stand& stand : kStands) {
+    for (const Plinth& stand : kStands) {
         const float half = 0.5F * stand.width_m + 0.03F;
         prints.push_back({stand.place - half, stand.place + half, 0.22F, 0.55F});
     }
@@ -51,7 +51,7 @@ std::vector<Footprint> floor_prints() {
     return prints;
 }
 
-void floor_and_ceiling(RoomBuilder& room) {
+void museum_floor_and_ceiling(RoomBuilder& room) {
     const vec2 size{kHigh.x - kLow.x, kHigh.z - kLow.z};
     const std::vector<Footprint> prints = floor_prints();
     const WoodTone oak{srgb(0xA88B6A), srgb(0x735A42)};
@@ -129,7 +129,7 @@ void panels(RoomBuilder& room, float from_m, float to_m) {
     }
 }
 
-void walls(RoomBuilder& room) {
+void museum_walls(RoomBuilder& room) {
     const float width = kHigh.x - kLow.x;
     const float depth = kHigh.z - kLow.z;
     room.look("dado", {.diffuse = 0x55675F, .specular = 0x161616, .shininess = 0.3F});
@@ -230,12 +230,12 @@ void build_museum(World& world, float texture_scale) {
     };
     world.rooms.push_back(museum);
     RoomBuilder room(world, "museum", texture_scale);
-    floor_and_ceiling(room);
+    museum_floor_and_ceiling(room);
     skylight(room);
-    walls(room);
+    museum_walls(room);
     pictures(room);
     int number = 0;
-    for (const Stand& stand : kStands) {
+    for (const Plinth& stand : kStands) {
         room.stand_at({stand.place.x, 0, stand.place.y}, stand.facing_deg);
         plinth(room, "plinth" + std::to_string(number++), stand.name, stand.width_m, stand.height_m,
                stand.object_height_m);

@@ -17,8 +17,8 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
-constexpr vec3 kLow{-4.0F, 0.0F, 0.0F};
-constexpr vec3 kHigh{4.0F, 3.2F, 7.0F};
+constexpr vec3 kShopLow{-4.0F, 0.0F, 0.0F};
+constexpr vec3 kShopHigh{4.0F, 3.2F, 7.0F};
 constexpr vec2 kRugLow{-2.6F, 2.75F};  // x, z
 constexpr vec2 kRugHigh{0.0F, 4.85F};
 constexpr vec2 kTableLow{-2.0F, 3.35F};
@@ -28,7 +28,7 @@ constexpr vec2 kCounterLow{1.75F, 2.0F};
 constexpr vec2 kCounterHigh{2.4F, 4.5F};
 constexpr float kCounter_m = 0.95F;
 
-void floor_and_ceiling(RoomBuilder& room) {
+void shop_floor_and_ceiling(RoomBuilder& room) {
     const std::vector<Footprint> prints{
         {{-4.0F, 0.95F}, {-3.58F, 6.05F}, 0.3F, 0.6F},
         {{3.58F, 0.75F}, {4.0F, 4.45F}, 0.3F, 0.6F},
@@ -38,20 +38,20 @@ void floor_and_ceiling(RoomBuilder& room) {
         {{1.5F, 0.2F}, {2.0F, 0.7F}, 0.15F, 0.5F},
         {kRugLow, kRugHigh, 0.02F, 0.35F},
     };
-    const vec2 size{kHigh.x - kLow.x, kHigh.z - kLow.z};
+    const vec2 size{kShopHigh.x - kShopLow.x, kShopHigh.z - kShopLow.z};
     const WoodTone oak{srgb(0xC79C6A), srgb(0x8A5E36)};
-    room.painted_sheet("shop_floor", {{kLow.x, 0, kHigh.z}, {size.x, 0, 0}, {0, 0, -size.y}}, 120,
+    room.painted_sheet("shop_floor", {{kShopLow.x, 0, kShopHigh.z}, {size.x, 0, 0}, {0, 0, -size.y}}, 120,
                        [&](vec2 p) {
-                           const vec2 place{kLow.x + p.x, kHigh.z - p.y};
+                           const vec2 place{kShopLow.x + p.x, kShopHigh.z - p.y};
                            const float wall = light_in_corner(std::min(p.x, size.x - p.x), 0.4F, 0.3F);
                            return planks(p, 0.16F, 1.9F, oak, 31) * wall * light_beside(place, prints);
                        },
                        {.specular = 0x2A2622, .shininess = 0.3F});
-    room.painted_sheet("shop_ceiling", {{kLow.x, kHigh.y, kLow.z}, {size.x, 0, 0}, {0, 0, size.y}}, 40,
+    room.painted_sheet("shop_ceiling", {{kShopLow.x, kShopHigh.y, kShopLow.z}, {size.x, 0, 0}, {0, 0, size.y}}, 40,
                        plastered(size, srgb(0xF3E9D6), 32));
     for (int k = 0; k < 5; ++k) {
         const float z = 0.9F + 1.3F * static_cast<float>(k);
-        room.box("oak", {kLow.x, kHigh.y - 0.17F, z - 0.07F}, {kHigh.x, kHigh.y, z + 0.07F});
+        room.box("oak", {kShopLow.x, kShopHigh.y - 0.17F, z - 0.07F}, {kShopHigh.x, kShopHigh.y, z + 0.07F});
     }
 }
 
@@ -68,28 +68,28 @@ Painter shop_wall(vec2 size_m, vec3 colour, std::uint32_t seed) {
     };
 }
 
-void walls(RoomBuilder& room) {
-    const float width = kHigh.x - kLow.x;
-    const float depth = kHigh.z - kLow.z;
-    const float height = kHigh.y;
+void shop_walls(RoomBuilder& room) {
+    const float width = kShopHigh.x - kShopLow.x;
+    const float depth = kShopHigh.z - kShopLow.z;
+    const float height = kShopHigh.y;
     const vec3 cream = srgb(0xEBD9B7);
-    room.painted_sheet("shop_wall_left", {{kLow.x, 0, kHigh.z}, {0, 0, -depth}, {0, height, 0}}, 100,
+    room.painted_sheet("shop_wall_left", {{kShopLow.x, 0, kShopHigh.z}, {0, 0, -depth}, {0, height, 0}}, 100,
                        shop_wall({depth, height}, cream, 33));
-    room.painted_sheet("shop_wall_right", {{kHigh.x, 0, kLow.z}, {0, 0, depth}, {0, height, 0}}, 100,
+    room.painted_sheet("shop_wall_right", {{kShopHigh.x, 0, kShopLow.z}, {0, 0, depth}, {0, height, 0}}, 100,
                        shop_wall({depth, height}, cream, 34));
-    wall(room, "shop_wall_door", {{kLow.x, 0, 0}, {width, 0, 0}, {0, height, 0}}, 100,
+    wall(room, "shop_wall_door", {{kShopLow.x, 0, 0}, {width, 0, 0}, {0, height, 0}}, 100,
          shop_wall({width, height}, srgb(0xD9BC92), 35),
-         Opening{{-kLow.x - kDoorHalf_m, 0}, {-kLow.x + kDoorHalf_m, kDoorHeight_m}});
-    wall(room, "shop_wall_window", {{kHigh.x, 0, kHigh.z}, {-width, 0, 0}, {0, height, 0}}, 100,
+         Opening{{-kShopLow.x - kDoorHalf_m, 0}, {-kShopLow.x + kDoorHalf_m, kDoorHeight_m}});
+    wall(room, "shop_wall_window", {{kShopHigh.x, 0, kShopHigh.z}, {-width, 0, 0}, {0, height, 0}}, 100,
          shop_wall({width, height}, cream, 36), Opening{{0.5F, 0.5F}, {width - 0.5F, 2.6F}});
     const MouldingGap door{-kDoorHalf_m - 0.12F, kDoorHalf_m + 0.12F};
-    moulding(room, "walnut", kLow, {kHigh.x, 0.12F, kHigh.z}, 0.02F, door);
-    room.box("walnut", {kLow.x, kRail_m - 0.03F, 0}, {door.low_x, kRail_m + 0.02F, 0.025F});
-    room.box("walnut", {door.high_x, kRail_m - 0.03F, 0}, {kHigh.x, kRail_m + 0.02F, 0.025F});
+    moulding(room, "walnut", kShopLow, {kShopHigh.x, 0.12F, kShopHigh.z}, 0.02F, door);
+    room.box("walnut", {kShopLow.x, kRail_m - 0.03F, 0}, {door.low_x, kRail_m + 0.02F, 0.025F});
+    room.box("walnut", {door.high_x, kRail_m - 0.03F, 0}, {kShopHigh.x, kRail_m + 0.02F, 0.025F});
 }
 
 void shop_window(RoomBuilder& room) {
-    const float z = kHigh.z;
+    const float z = kShopHigh.z;
     for (const float x : {-3.5F, -2.0F, -0.55F, 0.55F, 2.0F, 3.5F}) {
         room.box("green_paint", {x - 0.04F, 0.5F, z - 0.05F}, {x + 0.04F, 2.6F, z + 0.05F});
     }
@@ -129,7 +129,7 @@ void shelves(RoomBuilder& room) {
                     {1, 1.86F, "lamp", 0.49F, 40},
                     {1, 3.12F, "doll", 0.38F, 0},
                     {1, 4.36F, "flower", 0.46F, 120}};
-    room.stand_at({kLow.x, 0, 6.0F}, 90);
+    room.stand_at({kShopLow.x, 0, 6.0F}, 90);
     shelf_unit(room, left);
     Random random(411);
     const float z = 0.2F;
@@ -152,7 +152,7 @@ void shelves(RoomBuilder& room) {
     right.bays = 3;
     right.seed = 42;
     right.objects = {{1, 0.6F, "lattice", 0.36F, 20}, {1, 1.8F, "blocks", 0.38F, 30}, {1, 3.0F, "vase", 0.44F, 90}};
-    room.stand_at({kHigh.x, 0, 0.8F}, -90);
+    room.stand_at({kShopHigh.x, 0, 0.8F}, -90);
     shelf_unit(room, right);
     books(room, {0.08F, 0.33F, 1.22F, z, 0.3F, 0.55F}, random);
     pottery(room, {2.1F, 2.42F, 1.22F, z, 0.3F, 0.55F}, random);
@@ -201,7 +201,7 @@ void table(RoomBuilder& room) {
         room.object(stand.name, {kTableLow.x + stand.place.x, kTable_m, kTableHigh.y - stand.place.y}, stand.turn_deg,
                     stand.height_m);
     }
-    pendant(room, {0.5F * (kTableLow.x + kTableHigh.x), kHigh.y, 0.5F * (kTableLow.y + kTableHigh.y)}, 2.1F);
+    pendant(room, {0.5F * (kTableLow.x + kTableHigh.x), kShopHigh.y, 0.5F * (kTableLow.y + kTableHigh.y)}, 2.1F);
     Random random(531);
     pottery(room,
             {kTableLow.x + size.x * 0.5F - 0.16F, kTableLow.x + size.x * 0.5F + 0.12F, kTable_m, kTableHigh.y - 0.2F,
@@ -258,7 +258,7 @@ void counter(RoomBuilder& room) {
                 {0.0F, 0.066F}},
                14, 0.7F);
     room.stand_at({0, 0, 0});
-    for (const float z : {2.65F, 3.85F}) pendant(room, {2.08F, kHigh.y, z}, 2.0F);
+    for (const float z : {2.65F, 3.85F}) pendant(room, {2.08F, kShopHigh.y, z}, 2.0F);
 }
 
 void corners(RoomBuilder& room) {
@@ -288,7 +288,7 @@ void corners(RoomBuilder& room) {
 }  // namespace
 
 void build_shop(World& world, float texture_scale) {
-    Room shop{"shop", kLow, kHigh, {}};
+    Room shop{"shop", kShopLow, kShopHigh, {}};
     shop.lights = {
         {WorldLightKind::directional, 0xFFEBD0, 0.58F, 0.48F, glm::normalize(vec3{-0.35F, -1.0F, -0.45F})},
         {WorldLightKind::directional, 0xFFE9D2, 0.30F, 0.0F, glm::normalize(vec3{0.9F, -0.15F, -0.5F})},
@@ -299,8 +299,8 @@ void build_shop(World& world, float texture_scale) {
     };
     world.rooms.push_back(shop);
     RoomBuilder room(world, "shop", texture_scale);
-    floor_and_ceiling(room);
-    walls(room);
+    shop_floor_and_ceiling(room);
+    shop_walls(room);
     shop_window(room);
     doorway(room);
     shelves(room);

@@ -9,11 +9,11 @@
 namespace rs::encode {
 namespace {
 
-constexpr int kSamples = 16;
+constexpr int kAlphaSamples = 16;
 constexpr std::size_t kTrainingQuarters = 40000;
 
 void alpha_vector(const SourcePicture& source, int alpha_bits, int x, int y, const WeightedVectors::Place& out) {
-    for (int i = 0; i < kSamples; ++i) {
+    for (int i = 0; i < kAlphaSamples; ++i) {
         const int level = source.alpha(x + i % 4, y + i / 4);
         out.values[i] = static_cast<std::int16_t>(codec::alpha_of_level(level, alpha_bits) - 128);
         out.weights[i] = 1;
@@ -22,7 +22,7 @@ void alpha_vector(const SourcePicture& source, int alpha_bits, int x, int y, con
 
 bool is_mixed(const SourcePicture& source, int x, int y) {
     const int first = source.alpha(x, y);
-    for (int i = 1; i < kSamples; ++i) {
+    for (int i = 1; i < kAlphaSamples; ++i) {
         if (source.alpha(x + i % 4, y + i / 4) != first) return true;
     }
     return false;
@@ -42,8 +42,8 @@ void for_mixed_quarters(const std::vector<SourcePicture>& sources, const Work& w
 }  // namespace
 
 unsigned AlphaBook::nearest(const SourcePicture& source, int x, int y) const {
-    std::int16_t values[kSamples];
-    std::int16_t weights[kSamples];
+    std::int16_t values[kAlphaSamples];
+    std::int16_t weights[kAlphaSamples];
     alpha_vector(source, alpha_bits, x, y, {values, weights});
     return static_cast<unsigned>(nearest_entry(book, values, weights).index);
 }
@@ -53,7 +53,7 @@ AlphaBook train_alpha(const std::vector<SourcePicture>& sources, int alpha_bits)
     for_mixed_quarters(sources, [&](const SourcePicture&, int, int) { ++count; });
     const std::size_t stride = std::max<std::size_t>(1, (count + kTrainingQuarters - 1) / kTrainingQuarters);
     WeightedVectors vectors;
-    vectors.dimensions = kSamples;
+    vectors.dimensions = kAlphaSamples;
     std::size_t number = 0;
     for_mixed_quarters(sources, [&](const SourcePicture& source, int x, int y) {
         if (number++ % stride == 0) alpha_vector(source, alpha_bits, x, y, vectors.add());
@@ -64,7 +64,7 @@ AlphaBook train_alpha(const std::vector<SourcePicture>& sources, int alpha_bits)
     alpha.samples.resize(alpha.book.entries.size());
     for (std::size_t i = 0; i < alpha.samples.size(); ++i) {
         int sample = std::clamp(alpha.book.entries[i] + 128, 0, 255);
-        if (i < 2 * kSamples) sample = i < kSamples ? 255 : 0;
+        if (i < 2 * kAlphaSamples) sample = i < kAlphaSamples ? 255 : 0;
         sample = codec::alpha_of_level(codec::level_of_alpha(sample, alpha_bits), alpha_bits);
         alpha.samples[i] = static_cast<std::uint8_t>(sample);
         alpha.book.entries[i] = static_cast<std::int16_t>(sample - 128);

@@ -34,16 +34,16 @@ struct Block {
     bool has_motion = false;
 };
 
-struct WorkPicture {
+struct BoardWorkPicture {
     codec::Planes shown;
     std::array<int, 2> reach_px = {0, 0};
     std::vector<Block> blocks;  // row by row, of the coded size
 };
 
-class Encoder {
+class BoardEncoder {
 public:
-    Encoder(const RaySpaceObject& object, const std::vector<SourcePicture>& sources, const BoardSettings& settings,
-            Progress* progress)
+    BoardEncoder(const RaySpaceObject& object, const std::vector<SourcePicture>& sources, const BoardSettings& settings,
+                 Progress* progress)
         : object_(object), sources_(sources), settings_(settings), progress_(progress), work_(object.views.size()) {
         coded_.profile = codec::Profile::kBoard;
         coded_.width = object.width;
@@ -316,7 +316,7 @@ private:
     const BoardSettings& settings_;
     Progress* progress_;
     codec::CodedPictures coded_;
-    std::vector<WorkPicture> work_;
+    std::vector<BoardWorkPicture> work_;
     double lambda_ = 0;                // what a byte is worth in squared errors
     std::array<StageBooks, 2> books_;  // [of flat blocks, of predicted ones]
     AlphaBook alpha_;
@@ -326,7 +326,7 @@ private:
 
 EncodedPictures encode_board(const RaySpaceObject& object, const std::vector<SourcePicture>& sources,
                              const BoardSettings& settings, Progress* progress) {
-    return Encoder(object, sources, settings, progress).encode();
+    return BoardEncoder(object, sources, settings, progress).encode();
 }
 
 }  // namespace rs::encode

@@ -7,6 +7,7 @@
 #include "encode/codec/source_picture.hpp"
 #include "encode/codec/tile_encoder.hpp"
 #include "rayspace/codec/decode_picture.hpp"
+#include "rayspace/median.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -21,24 +22,17 @@ using codec::CodedPicture;
 using codec::CodedPictures;
 using codec::MotionVector;
 
-struct WorkPicture {
+struct DenseWorkPicture {
     codec::Planes shown;
     std::vector<std::vector<Decision>> decisions;  // [tile]
     std::array<int, 2> reach = {0, 0};
     std::array<std::vector<std::vector<MotionVector>>, 2> motions;  // [reference][tile]
 };
 
-std::int16_t median(std::vector<std::int16_t> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-class Encoder {
+class DenseEncoder {
 public:
-    Encoder(const RaySpaceObject& object, const std::vector<SourcePicture>& sources, const DenseSettings& settings,
-            Progress* progress)
+    DenseEncoder(const RaySpaceObject& object, const std::vector<SourcePicture>& sources, const DenseSettings& settings,
+                 Progress* progress)
         : object_(object), sources_(sources), settings_(settings), progress_(progress), work_(object.views.size()) {
         coded_.width = object.width;
         coded_.height = object.height;
@@ -126,7 +120,7 @@ private:
     }
 
     void find_tiles(int view) {
-        WorkPicture& work = work_[static_cast<std::size_t>(view)];
+        DenseWorkPicture& work = work_[static_cast<std::size_t>(view)];
         CodedPicture& coded = coded_.pictures[static_cast<std::size_t>(view)];
         const auto tiles = static_cast<std::size_t>(coded_.tile_columns() * coded_.tile_rows());
         coded.tiles.resize(tiles);
@@ -190,7 +184,7 @@ private:
 
     void train() {
         std::vector<std::array<std::uint64_t, 2>> counts(codec::context::kCount + 1);
-        for (const WorkPicture& work : work_) {
+        for (const DenseWorkPicture& work : work_) {
             for (const auto& tile : work.decisions) {
                 for (const Decision d : tile) ++counts[d >> 1U][d & 1U];
             }
@@ -227,14 +221,14 @@ private:
     const DenseSettings& settings_;
     Progress* progress_;
     CodedPictures coded_;
-    std::vector<WorkPicture> work_;
+    std::vector<DenseWorkPicture> work_;
 };
 
 }  // namespace
 
 EncodedPictures encode_dense(const RaySpaceObject& object, const std::vector<SourcePicture>& sources,
                              const DenseSettings& settings, Progress* progress) {
-    return Encoder(object, sources, settings, progress).encode();
+    return DenseEncoder(object, sources, settings, progress).encode();
 }
 
 codec::CodedPictures encode_dense(const RaySpaceObject& object, const std::function<Image<Rgba8>(int)>& picture,

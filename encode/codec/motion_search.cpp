@@ -10,7 +10,7 @@ namespace {
 
 using codec::MotionVector;
 
-constexpr int kLargest = 16;
+constexpr int kLargestBlock = 16;
 
 template <int kSize>
 int differences(const std::uint8_t* target, const std::uint8_t* mask, const std::uint8_t* samples,
@@ -53,7 +53,7 @@ public:
 
     void try_exact(MotionVector vector) {
         if (std::abs(vector.x) > codec::kMaxMotion_q2 || std::abs(vector.y) > codec::kMaxMotion_q2) return;
-        std::uint8_t samples[kLargest * kLargest];
+        std::uint8_t samples[kLargestBlock * kLargestBlock];
         codec::predict_from_picture(search_.reference, search_.x, search_.y, vector, search_.size, samples,
                                     search_.size);
         take(vector, samples, search_.size);
@@ -68,7 +68,7 @@ private:
         };
         float cost = search_.bit_cost * static_cast<float>(bits_of(vector.x - from_.x) + bits_of(vector.y - from_.y));
         if (any_ && cost >= best_.cost) return;
-        std::uint8_t mixed[kLargest * kLargest];
+        std::uint8_t mixed[kLargestBlock * kLargestBlock];
         if (other_ != nullptr) {
             for (int y = 0; y < search_.size; ++y) {
                 for (int x = 0; x < search_.size; ++x) {
@@ -89,8 +89,8 @@ private:
     const MotionSearch& search_;
     MotionVector from_;
     const std::uint8_t* other_;
-    std::uint8_t target_[kLargest * kLargest] = {};
-    std::uint8_t mask_[kLargest * kLargest] = {};
+    std::uint8_t target_[kLargestBlock * kLargestBlock] = {};
+    std::uint8_t mask_[kLargestBlock * kLargestBlock] = {};
     FoundMotion best_;
     bool any_ = false;
 };

@@ -1,15 +1,12 @@
 #include "encode/raymap/captured_view.hpp"
 
+#include "encode/raymap/fixed_point.hpp"
 #include "rayspace/ray_space.hpp"
 
 #include <cmath>
 
 namespace rs::encode {
 namespace {
-
-std::int32_t fixed(double value, int fractional_bits) {
-    return static_cast<std::int32_t>(std::lround(std::ldexp(value, fractional_bits)));
-}
 
 bool is_below(double value, double limit) {
     return std::abs(value) < limit;
@@ -37,17 +34,17 @@ Result<CapturedView> captured_view(const Camera& camera, int planes) {
         return Error{"it is 256 object radii away or more; check the object radius"};
     }
     CapturedView view;
-    view.cx_q16 = fixed(camera.cx, 16);
-    view.cy_q16 = fixed(camera.cy, 16);
-    view.fl_y_q16 = fixed(camera.fl_y, 16);
-    view.height_q20 = fixed(camera.centre().y, 20);
+    view.cx_q16 = fixed_point(camera.cx, 16);
+    view.cy_q16 = fixed_point(camera.cy, 16);
+    view.fl_y_q16 = fixed_point(camera.fl_y, 16);
+    view.height_q20 = fixed_point(camera.centre().y, 20);
     for (int k = 0; k < planes; ++k) {
         const glm::dvec3 tangent = reference_plane(k, planes).tangent;
         CapturedLine line;
-        line.l0_q20 = fixed(depth, 20);
-        line.l1_q30 = fixed(glm::dot(tangent, camera.forward()), 30);
-        line.q0_q16 = fixed(lateral_px, 16);
-        line.q1_q16 = fixed(glm::dot(tangent, camera.right()) * camera.fl_x, 16);
+        line.l0_q20 = fixed_point(depth, 20);
+        line.l1_q30 = fixed_point(glm::dot(tangent, camera.forward()), 30);
+        line.q0_q16 = fixed_point(lateral_px, 16);
+        line.q1_q16 = fixed_point(glm::dot(tangent, camera.right()) * camera.fl_x, 16);
         view.lines.push_back(line);
     }
     return view;

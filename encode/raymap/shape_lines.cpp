@@ -1,6 +1,7 @@
 #include "encode/raymap/shape_lines.hpp"
 
 #include "encode/raymap/depth_range.hpp"
+#include "encode/raymap/fixed_point.hpp"
 #include "encode/raymap/semi_global.hpp"
 #include "rayspace/conventions.hpp"
 
@@ -14,10 +15,6 @@ namespace {
 
 constexpr double kHalfWidth = kDeepest;  // of p and of depth
 constexpr int kDepths = 256;
-
-std::int32_t fixed(double value, int fractional_bits) {
-    return static_cast<std::int32_t>(std::lround(std::ldexp(value, fractional_bits)));
-}
 
 double azimuth(const WorkView& view) {
     return std::atan2(view.centre.x, view.centre.y);
@@ -252,16 +249,16 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& 
     const HeightRange heights = height_range(ring, grid.distance, grid.height);
     const double cell = options.cell_px / scale;
     map.p_cells = std::clamp(static_cast<int>(std::ceil(2 * kHalfWidth / cell)), 1, 4096);
-    map.p_half_q20 = fixed(kHalfWidth, 20);
-    map.p_cells_per_unit_q12 = fixed(map.p_cells / (2 * kHalfWidth), 12);
+    map.p_half_q20 = fixed_point(kHalfWidth, 20);
+    map.p_cells_per_unit_q12 = fixed_point(map.p_cells / (2 * kHalfWidth), 12);
     map.bands = std::clamp(static_cast<int>(std::ceil((heights.high - heights.low) / cell)) + 2, 1, 4096);
-    map.h_low_q20 = fixed(heights.low - cell, 20);
-    map.bands_per_unit_q12 = fixed(1 / cell, 12);
-    map.reference_distance_q20 = fixed(grid.distance, 20);
-    map.reference_height_q20 = fixed(grid.height, 20);
+    map.h_low_q20 = fixed_point(heights.low - cell, 20);
+    map.bands_per_unit_q12 = fixed_point(1 / cell, 12);
+    map.reference_distance_q20 = fixed_point(grid.distance, 20);
+    map.reference_height_q20 = fixed_point(grid.height, 20);
     const double step = 2 * kHalfWidth / (kDepths - 1);
-    map.depth_low_q20 = fixed(-kHalfWidth, 20);
-    map.depth_step_q24 = fixed(step, 24);
+    map.depth_low_q20 = fixed_point(-kHalfWidth, 20);
+    map.depth_step_q24 = fixed_point(step, 24);
     grid.p_cells = map.p_cells;
     grid.bands = map.bands;
     grid.p_low = -kHalfWidth;

@@ -1,6 +1,7 @@
 #include "engine/core/shape_columns.hpp"
 
 #include "engine/core/fixed_point.hpp"
+#include "engine/core/shape_pixel.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,8 +11,7 @@ namespace {
 
 // Depths at which section 7's integers are within half a column of the quotient that they stand for: nearer ones are
 // not shown, from farther ones the reciprocal has too few bits.
-constexpr std::int64_t kNearest_q20 = std::int64_t{1} << 17;
-constexpr std::int64_t kFarthest_q20 = std::int64_t{1} << 26;
+constexpr std::int64_t kFarthestBracket_q20 = std::int64_t{1} << 26;
 constexpr std::int64_t kMostLateral_q12 = std::int64_t{1} << 30;
 
 // Bilinear reads take one column to either side; another is for rounding.
@@ -29,7 +29,7 @@ ColumnRange columns_read(const RaySpaceObject& object, const ShapePicture& pictu
     for (const int d : {0, 255}) {
         const std::int64_t l_q20 = picture.l0_q20 + ((std::int64_t{d} * picture.l1_q24) >> 4);
         const std::int64_t n_q12 = picture.n0_q12 + ((std::int64_t{d} * picture.n1_q14) >> 2);
-        if (l_q20 < kNearest_q20 || l_q20 > kFarthest_q20) return whole;
+        if (l_q20 < kNearest_q20 || l_q20 > kFarthestBracket_q20) return whole;
         if (n_q12 < -kMostLateral_q12 || n_q12 > kMostLateral_q12) return whole;
         const auto inverse_q20 = static_cast<std::int32_t>((std::int64_t{1} << 40) / l_q20);
         const std::int64_t column_q8 =

@@ -9,7 +9,7 @@ namespace rs::engine {
 namespace {
 
 constexpr std::int64_t kMostPerStep = std::int64_t{1} << 22;
-constexpr std::int64_t kFarthest_q20 = std::int64_t{1} << 29;
+constexpr std::int64_t kFarthestView_q20 = std::int64_t{1} << 29;
 
 // A ray of a vertical plane: through its foot, in direction (sine, -cosine) along (tangent, normal).
 struct VerticalPlaneRay {
@@ -99,7 +99,7 @@ ShapeSetup set_up_shape(const RaySpaceObject& object, const ViewRegisters& regis
     const PlaneRegisters& plane = registers.planes[static_cast<std::size_t>(point.plane)];
     const std::int64_t to_foot_q20 = (plane.c_q20 * ray.cosine_q30 - plane.a_q20 * ray.sine_q30) >> 30;
     const std::int64_t lambda_foot_q20 = floor_divide(to_foot_q20 * (std::int64_t{1} << 28), ray.r_q28);
-    if (lambda_foot_q20 <= -kFarthest_q20 || lambda_foot_q20 >= kFarthest_q20) return {};
+    if (lambda_foot_q20 <= -kFarthestView_q20 || lambda_foot_q20 >= kFarthestView_q20) return {};
 
     ShapeSetup setup;
     setup.has_ray = true;

@@ -3,6 +3,7 @@
 #include "engine/model/blocks/map_reader.hpp"
 #include "engine/model/coded_object_image.hpp"
 #include "engine/model/parallel_object_image.hpp"
+#include "engine/model/word_pair.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 
 #include <algorithm>
@@ -12,10 +13,6 @@ namespace {
 
 constexpr int words_of(int items, int items_per_word) {
     return (items + items_per_word - 1) / items_per_word;
-}
-
-std::uint64_t two(std::int32_t low, std::int32_t high) {
-    return std::uint64_t{static_cast<std::uint32_t>(low)} | std::uint64_t{static_cast<std::uint32_t>(high)} << 32U;
 }
 
 // Columns of a plane, `bits` to a sample; sample (x, y) is value(picture, x, y).
@@ -46,11 +43,11 @@ MemorySegment map_and_lines(WordAddress address, const RaySpaceObject& object) {
         segment.words[n / 8] |= cell << (8 * (n % 8));
     }
     for (const CapturedView& view : object.views) {
-        segment.words.push_back(two(view.cx_q16, view.cy_q16));
-        segment.words.push_back(two(view.fl_y_q16, view.height_q20));
+        segment.words.push_back(word_pair(view.cx_q16, view.cy_q16));
+        segment.words.push_back(word_pair(view.fl_y_q16, view.height_q20));
         for (const CapturedLine& line : view.lines) {
-            segment.words.push_back(two(line.l0_q20, line.l1_q30));
-            segment.words.push_back(two(line.q0_q16, line.q1_q16));
+            segment.words.push_back(word_pair(line.l0_q20, line.l1_q30));
+            segment.words.push_back(word_pair(line.q0_q16, line.q1_q16));
         }
     }
     return segment;

@@ -4,6 +4,7 @@
 #include "engine/model/coded_layout.hpp"
 #include "engine/model/coded_object_image.hpp"
 #include "engine/model/parallel_layout.hpp"
+#include "engine/model/word_pair.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -29,10 +30,6 @@ struct PictureOrder {
     std::vector<int> place_of;         // [view]
 };
 
-std::uint64_t two(std::int32_t low, std::int32_t high) {
-    return std::uint64_t{static_cast<std::uint32_t>(low)} | std::uint64_t{static_cast<std::uint32_t>(high)} << 32U;
-}
-
 std::uint64_t map_words(const Ring& ring) {
     return (ring.cells.size() + 7) / 8;
 }
@@ -51,19 +48,19 @@ void append_records(const RaySpaceObject& object, const PictureOrder& order, std
     const bool has_shape = !ring.shape.empty();
     for (std::size_t n = 0; n < ring.views.size(); ++n) {
         const CapturedView& view = object.views[order.view_at[n]];
-        out.push_back(two(view.cx_q16, view.cy_q16));
-        out.push_back(two(view.fl_y_q16, view.height_q20));
+        out.push_back(word_pair(view.cx_q16, view.cy_q16));
+        out.push_back(word_pair(view.fl_y_q16, view.height_q20));
         const ShapeGap gap = has_shape ? ring.shape.gaps[n] : ShapeGap{};
-        out.push_back(two(gap.lines, static_cast<std::int32_t>(gap.first_line)));
+        out.push_back(word_pair(gap.lines, static_cast<std::int32_t>(gap.first_line)));
         out.push_back(0);
         for (std::size_t k = 0; k < static_cast<std::size_t>(ring.planes); ++k) {
             const CapturedLine& line = view.lines[k];
             const NormalLine normal =
                 has_shape ? ring.shape.normal_lines[n * static_cast<std::size_t>(ring.planes) + k] : NormalLine{};
-            out.push_back(two(line.l0_q20, line.l1_q30));
-            out.push_back(two(line.q0_q16, line.q1_q16));
-            out.push_back(two(normal.l2_q30, normal.q2_q16));
-            out.push_back(two(normal.a_q20, normal.c_q20));
+            out.push_back(word_pair(line.l0_q20, line.l1_q30));
+            out.push_back(word_pair(line.q0_q16, line.q1_q16));
+            out.push_back(word_pair(normal.l2_q30, normal.q2_q16));
+            out.push_back(word_pair(normal.a_q20, normal.c_q20));
         }
     }
 }

@@ -10,6 +10,7 @@
 #include "compositor/gl/context.hpp"
 #include "compositor/viewer/frame_compositor.hpp"
 #include "rayspace/conventions.hpp"
+#include "rayspace/median.hpp"
 #include "rayspace/object_file.hpp"
 #include "rayspace/tool_main.hpp"
 #include "rayspace/view_output.hpp"
@@ -142,11 +143,6 @@ std::vector<PlacedObject> placed_objects(const std::vector<std::shared_ptr<const
         placed.push_back({next(), standing(n % 10 - 4.5, 1, 6 + n / 10, 0.3 * n, 0.29)});
     }
     return placed;
-}
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
 }
 
 struct Options {

@@ -18,7 +18,7 @@ CleanVrml cleaned(const std::string& body) {
     return clean ? *clean : CleanVrml{};
 }
 
-std::string error_of(const std::string& body) {
+std::string cleaning_error(const std::string& body) {
     const Result<CleanVrml> clean = clean_vrml("#VRML V2.0 utf8\n" + body, "hall.wrl");
     return clean ? "no error" : clean.error().message;
 }
@@ -111,7 +111,8 @@ TEST(CleanVrml, RefusesWithTheLine) {
         {"PROTO P [ field SFFloat r 1 field SFFloat r 1 ] { Group { } }", "two fields 'r'"},
     };
     for (const auto& [body, expected] : cases) {
-        EXPECT_THAT(error_of(body), AllOf(HasSubstr("hall.wrl: "), HasSubstr(expected), Not(HasSubstr("\n")))) << body;
+        EXPECT_THAT(cleaning_error(body), AllOf(HasSubstr("hall.wrl: "), HasSubstr(expected), Not(HasSubstr("\n"))))
+            << body;
     }
 }
 
@@ -131,9 +132,9 @@ std::string repeated(const std::string& text, int times) {
 }
 
 TEST(CleanVrml, RefusesWhatNestsOrUnfoldsTooFar) {
-    EXPECT_THAT(error_of(repeated("Group { children ", 300)), HasSubstr("deep"));
-    EXPECT_THAT(error_of(repeated("PROTO P [ ] { ", 300)), HasSubstr("deep"));
-    EXPECT_EQ(error_of("Vendor { x " + repeated("[", 100000) + repeated("]", 100000) + " }"), "no error");
+    EXPECT_THAT(cleaning_error(repeated("Group { children ", 300)), HasSubstr("deep"));
+    EXPECT_THAT(cleaning_error(repeated("PROTO P [ ] { ", 300)), HasSubstr("deep"));
+    EXPECT_EQ(cleaning_error("Vendor { x " + repeated("[", 100000) + repeated("]", 100000) + " }"), "no error");
     // Each doubles the one before.
     std::string doubling = "DEF N0 Group { } ";
     std::string prototypes = "PROTO P0 [ ] { Group { } } ";
@@ -145,14 +146,14 @@ TEST(CleanVrml, RefusesWhatNestsOrUnfoldsTooFar) {
         prototypes += "PROTO P" + now + " [ ] { Group { children [ P" + before + " { } P" + before + " { } ] } }\n";
         deep += "DEF D" + now + " " + repeated("Group { children ", 50) + "USE D" + before + repeated(" }", 50) + "\n";
     }
-    EXPECT_THAT(error_of(doubling), HasSubstr("unfold to too much"));
-    EXPECT_THAT(error_of(prototypes + "P63 { }"), HasSubstr("unfold to too much"));
-    EXPECT_THAT(error_of(deep), HasSubstr("more than 1000 deep"));
+    EXPECT_THAT(cleaning_error(doubling), HasSubstr("unfold to too much"));
+    EXPECT_THAT(cleaning_error(prototypes + "P63 { }"), HasSubstr("unfold to too much"));
+    EXPECT_THAT(cleaning_error(deep), HasSubstr("more than 1000 deep"));
     // A large list that each instance of a PROTO would copy.
     const std::string list = "PROTO L [ ] { Shape { geometry PointSet { coord Coordinate { point [ " +
                              repeated("1 2 3 ", 100000) + "] } } } }\n";
-    EXPECT_EQ(error_of(list + repeated("L { } ", 10)), "no error");
-    EXPECT_THAT(error_of(list + repeated("L { } ", 200)), HasSubstr("unfold to too much"));
+    EXPECT_EQ(cleaning_error(list + repeated("L { } ", 10)), "no error");
+    EXPECT_THAT(cleaning_error(list + repeated("L { } ", 200)), HasSubstr("unfold to too much"));
 }
 
 TEST(CleanVrml, CountsTheWarningsThatItDoesNotShow) {

@@ -17,11 +17,11 @@
 namespace rs::compositor {
 namespace {
 
-constexpr int kWidth = 120;
-constexpr int kHeight = 90;
+constexpr int kFrameWidth = 120;
+constexpr int kFrameHeight = 90;
 constexpr Rgba8 kRed{220, 40, 40, 255};
 constexpr Rgba8 kBlue{40, 40, 220, 255};
-const Camera kFront = look_at_camera({0, 0, 5}, {0, 0, 0}, radians(50), kWidth, kHeight);
+const Camera kFront = look_at_camera({0, 0, 5}, {0, 0, 0}, radians(50), kFrameWidth, kFrameHeight);
 
 // The way through YUV costs a little; anything that is not the colour differs by far more.
 bool is_colour(Rgba8 pixel, Rgba8 colour) {
@@ -89,8 +89,8 @@ TEST_F(Compositing, ErrorsOfOpenGlAreSeen) {
 
 TEST_F(Compositing, TheFirstRowIsTheTop) {
     const Image<Rgba8> frame = compose(with_box({1, 1, 1}, {0, 1.5, 0}), {});
-    EXPECT_GT(frame(kWidth / 2, 10).g, frame(kWidth / 2, 10).b);
-    EXPECT_LT(frame(kWidth / 2, kHeight - 10).g, frame(kWidth / 2, kHeight - 10).b);
+    EXPECT_GT(frame(kFrameWidth / 2, 10).g, frame(kFrameWidth / 2, 10).b);
+    EXPECT_LT(frame(kFrameWidth / 2, kFrameHeight - 10).g, frame(kFrameWidth / 2, kFrameHeight - 10).b);
 }
 
 TEST_F(Compositing, AWallInFrontHidesTheObjectAndOneBehindDoesNot) {
@@ -110,11 +110,11 @@ TEST_F(Compositing, ThePlaneThroughTheAxisDecidesNotTheCylinder) {
 TEST_F(Compositing, APillarHidesHalf) {
     const std::vector<PlacedObject> objects = {test::placed_at(test::drum(kRed))};
     const Image<Rgba8> frame = compose(with_box({2, 6, 0.2}, {-1, 0, 1.5}), objects);
-    EXPECT_FALSE(is_colour(frame(kWidth / 2 - 8, kHeight / 2), kRed));
-    EXPECT_TRUE(is_colour(frame(kWidth / 2 + 8, kHeight / 2), kRed));
+    EXPECT_FALSE(is_colour(frame(kFrameWidth / 2 - 8, kFrameHeight / 2), kRed));
+    EXPECT_TRUE(is_colour(frame(kFrameWidth / 2 + 8, kFrameHeight / 2), kRed));
     // The object hides the same pillar when that stands behind.
     const Image<Rgba8> behind = compose(with_box({2, 6, 0.2}, {-1, 0, -1.5}), objects);
-    EXPECT_TRUE(is_colour(behind(kWidth / 2 - 8, kHeight / 2), kRed));
+    EXPECT_TRUE(is_colour(behind(kFrameWidth / 2 - 8, kFrameHeight / 2), kRed));
 }
 
 TEST_F(Compositing, TheNearerObjectIsInFrontHoweverTheyAreListed) {
@@ -122,9 +122,9 @@ TEST_F(Compositing, TheNearerObjectIsInFrontHoweverTheyAreListed) {
     const PlacedObject blue = test::placed_at(test::drum(kBlue), {{0.7, 0, -2}});
     const Image<Rgba8> frame = compose({}, {red, blue});
     EXPECT_TRUE(is_colour(middle(frame), kRed));
-    EXPECT_TRUE(is_colour(frame(kWidth / 2 + 29, kHeight / 2), kBlue));
+    EXPECT_TRUE(is_colour(frame(kFrameWidth / 2 + 29, kFrameHeight / 2), kBlue));
     EXPECT_EQ(frame, compose({}, {blue, red}));
-    const Camera back = look_at_camera({0.35, 0, -7}, {0.35, 0, 0}, radians(50), kWidth, kHeight);
+    const Camera back = look_at_camera({0.35, 0, -7}, {0.35, 0, 0}, radians(50), kFrameWidth, kFrameHeight);
     EXPECT_TRUE(is_colour(middle(compose({}, {red, blue}, back)), kBlue));
 }
 
@@ -136,7 +136,7 @@ TEST_F(Compositing, WhatIsOffTheScreenIsNotRendered) {
     EXPECT_EQ(statistics_.pixels_rendered, 0);
     compose({}, {test::placed_at(object), test::placed_at(object, {{40, 0, 0}})});
     EXPECT_EQ(statistics_.nodes_rendered, 1);
-    EXPECT_LT(statistics_.pixels_rendered, kWidth * kHeight * 2 / 3);
+    EXPECT_LT(statistics_.pixels_rendered, kFrameWidth * kFrameHeight * 2 / 3);
 }
 
 // The engine's picture of the whole screen, laid over the background in linear light.
@@ -162,9 +162,9 @@ Image<Rgba8> expected_over(const Scene& scene, const PlacedObject& placed, const
 TEST_F(Compositing, AnUnoccludedObjectIsTheEnginesPicture) {
     const Scene scene;
     const auto object = test::drum();
-    const Camera pitched = look_at_camera({1, 2, 5}, {0, 0, 0}, radians(50), kWidth, kHeight);
+    const Camera pitched = look_at_camera({1, 2, 5}, {0, 0, 0}, radians(50), kFrameWidth, kFrameHeight);
     // Rays of its lower corners run away from the object's plane.
-    const Camera steep = look_at_camera({0.4, 1.4, 1.9}, {0, -0.4, 0.3}, radians(90), kWidth, kHeight);
+    const Camera steep = look_at_camera({0.4, 1.4, 1.9}, {0, -0.4, 0.3}, radians(90), kFrameWidth, kFrameHeight);
     const NodeTransform aslant{{0.3, -0.2, 0.5}, {0.3, 1, -0.2}, 0.9, 0.8};
     for (const Camera& camera : {kFront, pitched, steep}) {
         for (const NodeTransform& transform :
@@ -194,7 +194,7 @@ TEST_F(Compositing, AnObjectDoesNotSinkIntoWhatItStandsOn) {
     floor.floor = Floor{};
     const Scene table = with_box({3, 0.1, 3}, {0, -0.05, 0});
     for (const double height : {0.1, 1.0, 3.0}) {
-        const Camera camera = look_at_camera({1, height, 4}, {0, 0.5, 0}, radians(60), kWidth, kHeight);
+        const Camera camera = look_at_camera({1, height, 4}, {0, 0.5, 0}, radians(60), kFrameWidth, kFrameHeight);
         const int whole = count_red(compose({}, objects, camera, 1));
         EXPECT_GT(whole, 500);
         EXPECT_EQ(count_red(compose(floor, objects, camera, 1)), whole) << height;
@@ -208,21 +208,22 @@ TEST_F(Compositing, AFloorHidesWhatIsBeyondIt) {
     const auto object = test::drum(kRed);
     Scene scene;
     scene.floor = Floor{};
-    const Camera from_below = look_at_camera({0, -1, 4}, {0, 0.5, 0}, radians(60), kWidth, kHeight);
+    const Camera from_below = look_at_camera({0, -1, 4}, {0, 0.5, 0}, radians(60), kFrameWidth, kFrameHeight);
     EXPECT_GT(count_red(compose({}, {place(object, node)}, from_below)), 500);
     EXPECT_EQ(count_red(compose(scene, {place(object, node)}, from_below)), 0);
     node.chain = {{{0, -3, 0}}};
-    const Camera from_above = look_at_camera({0, 1, 5}, {0, -1.5, 0}, radians(60), kWidth, kHeight);
+    const Camera from_above = look_at_camera({0, 1, 5}, {0, -1.5, 0}, radians(60), kFrameWidth, kFrameHeight);
     EXPECT_GT(count_red(compose({}, {place(object, node)}, from_above)), 200);
     EXPECT_EQ(count_red(compose(scene, {place(object, node)}, from_above)), 0);
 }
 
 TEST_F(Compositing, FramesOfGrowingObjectsFollowEachOther) {
     const std::vector<PlacedObject> objects = {test::placed_at(test::drum())};
-    Result<FrameCompositor> compositor = FrameCompositor::create({}, objects, {.width = kWidth, .height = kHeight});
+    Result<FrameCompositor> compositor =
+        FrameCompositor::create({}, objects, {.width = kFrameWidth, .height = kFrameHeight});
     ASSERT_TRUE(compositor);
     for (const double distance : {9.0, 4.0, 6.0, 1.5, 0.5, 30.0}) {
-        const Camera camera = look_at_camera({0, 0, distance}, {0.1, 0, 0}, radians(50), kWidth, kHeight);
+        const Camera camera = look_at_camera({0, 0, distance}, {0.1, 0, 0}, radians(50), kFrameWidth, kFrameHeight);
         const Result<Image<Rgba8>> frame = compositor->compose(camera);
         ASSERT_TRUE(frame) << frame.error().message;
         EXPECT_EQ(*frame, compose({}, objects, camera)) << distance;
@@ -243,8 +244,8 @@ TEST_F(Compositing, ManyNodesTakeSeveralCycles) {
     for (const std::size_t n : {0U, 17U, 49U}) {
         const Image<Rgba8> one = compose({}, {objects[n]});
         int red = 0;
-        for (int y = 0; y < kHeight; ++y) {
-            for (int x = 0; x < kWidth; ++x) {
+        for (int y = 0; y < kFrameHeight; ++y) {
+            for (int x = 0; x < kFrameWidth; ++x) {
                 if (!is_colour(one(x, y), kRed)) continue;
                 ++red;
                 EXPECT_TRUE(is_colour(all(x, y), kRed)) << n << " at " << x << ", " << y;
@@ -258,18 +259,18 @@ TEST_F(Compositing, APlaceholderStandsWhereTheObjectWillBe) {
     const auto engine = std::make_shared<engine::DataModule>(limits_of_viewer());
     const auto nodes = std::make_shared<ShownNodes>(1);
     Result<FrameCompositor> compositor =
-        FrameCompositor::create({}, engine, nodes, {.width = kWidth, .height = kHeight});
+        FrameCompositor::create({}, engine, nodes, {.width = kFrameWidth, .height = kFrameHeight});
     ASSERT_TRUE(compositor);
     const Image<Rgba8> empty = *compositor->compose(kFront);
     nodes->front().placeholder = Placeholder{};
     const Image<Rgba8> waiting = *compositor->compose(kFront);
     EXPECT_GT(count_different(empty, waiting, 3), 200);
     EXPECT_TRUE(compositor->statistics().nodes[0].missing);
-    EXPECT_EQ(compositor->object_at(kWidth / 2, kHeight / 2), std::nullopt);
+    EXPECT_EQ(compositor->object_at(kFrameWidth / 2, kFrameHeight / 2), std::nullopt);
     nodes->front().placeholder->progress = 0.5F;
     const Image<Rgba8> half = *compositor->compose(kFront);
-    EXPECT_EQ(half(kWidth / 2, kHeight / 2 - 10), waiting(kWidth / 2, kHeight / 2 - 10)) << "above";
-    EXPECT_NE(half(kWidth / 2, kHeight / 2 + 10), waiting(kWidth / 2, kHeight / 2 + 10)) << "below";
+    EXPECT_EQ(half(kFrameWidth / 2, kFrameHeight / 2 - 10), waiting(kFrameWidth / 2, kFrameHeight / 2 - 10)) << "above";
+    EXPECT_NE(half(kFrameWidth / 2, kFrameHeight / 2 + 10), waiting(kFrameWidth / 2, kFrameHeight / 2 + 10)) << "below";
     // Half faded in, then wholly.
     const auto object = test::drum(kRed);
     const Result<engine::ObjectHandle> handle = engine->load(prepared(object));
@@ -284,7 +285,7 @@ TEST_F(Compositing, APlaceholderStandsWhereTheObjectWillBe) {
     EXPECT_FALSE(is_colour(fading, kRed));
     EXPECT_GT(fading.r, 190);
     EXPECT_TRUE(is_colour(middle(*compositor->compose(kFront)), kRed));
-    EXPECT_EQ(compositor->object_at(kWidth / 2, kHeight / 2), 0U);
+    EXPECT_EQ(compositor->object_at(kFrameWidth / 2, kFrameHeight / 2), 0U);
     EXPECT_FALSE(compositor->statistics().nodes[0].missing);
     // And away again.
     node = {};
@@ -309,13 +310,13 @@ TEST_F(Compositing, ABoardDrawsTheSameBits) {
     ASSERT_TRUE(nodes);
     engine->load_on_board({nodes->get()->front().handle});
     Result<FrameCompositor> compositor = FrameCompositor::create(
-        {}, engine, *nodes, {.width = kWidth, .height = kHeight, .samples = 4, .object_samples = 1});
+        {}, engine, *nodes, {.width = kFrameWidth, .height = kFrameHeight, .samples = 4, .object_samples = 1});
     ASSERT_TRUE(compositor);
     const Image<Rgba8> by_board = *compositor->compose(kFront);
     EXPECT_EQ(compositor->statistics().nodes_by_board, 2);
     EXPECT_TRUE(compositor->statistics().nodes[1].by_board);
-    Result<FrameCompositor> core =
-        FrameCompositor::create({}, objects, {.width = kWidth, .height = kHeight, .samples = 4, .object_samples = 1});
+    Result<FrameCompositor> core = FrameCompositor::create(
+        {}, objects, {.width = kFrameWidth, .height = kFrameHeight, .samples = 4, .object_samples = 1});
     ASSERT_TRUE(core);
     EXPECT_EQ(*core->compose(kFront), by_board);
     EXPECT_EQ(core->statistics().nodes_by_board, 0);

@@ -24,8 +24,8 @@
 namespace rs::compositor {
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
+constexpr int kGoldenWidth = 160;
+constexpr int kGoldenHeight = 120;
 constexpr int kTolerance = 6;
 constexpr double kMayDiffer = 0.01;       // share of the pixels
 constexpr double kUprightMayLose_db = 1;  // by looking up in the picture of a level camera
@@ -33,7 +33,7 @@ constexpr glm::vec3 kWall{0.7F, 0.66F, 0.55F};
 constexpr glm::vec3 kGreen{0.1F, 0.5F, 0.2F};
 
 Camera seen(const glm::dvec3& eye, const glm::dvec3& at = {0, 0, 0}, double fov_deg = 40) {
-    return look_at_camera(eye, at, radians(fov_deg), kWidth, kHeight);
+    return look_at_camera(eye, at, radians(fov_deg), kGoldenWidth, kGoldenHeight);
 }
 
 double share_different(const Image<Rgba8>& a, const Image<Rgba8>& b) {
@@ -85,7 +85,8 @@ protected:
     static Image<Rgba8> compose(const Scene& scene, const std::vector<PlacedObject>& objects, const Camera& camera,
                                 ObjectDepth depth = ObjectDepth::kPlane, bool upright = false) {
         Result<FrameCompositor> compositor = FrameCompositor::create(
-            scene, objects, {.width = kWidth, .height = kHeight, .object_depth = depth, .upright_pictures = upright});
+            scene, objects,
+            {.width = kGoldenWidth, .height = kGoldenHeight, .object_depth = depth, .upright_pictures = upright});
         RS_CHECK(compositor.ok());
         Result<Image<Rgba8>> frame = compositor->compose(camera);
         RS_CHECK(frame.ok());
@@ -127,7 +128,7 @@ protected:
         }
         const Result<Image<Rgba8>> golden = read_picture(file);
         ASSERT_TRUE(golden) << golden.error().message;
-        ASSERT_TRUE(golden->width() == kWidth && golden->height() == kHeight);
+        ASSERT_TRUE(golden->width() == kGoldenWidth && golden->height() == kGoldenHeight);
         EXPECT_LE(share_different(frame, *golden), kMayDiffer) << made.name;
     }
 

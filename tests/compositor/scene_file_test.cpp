@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string error_of(const std::string& text) {
+std::string scene_error(const std::string& text) {
     const Result<Scene> scene = scene_from_json(text, "rooms/hall.json");
     return scene ? "no error" : scene.error().message;
 }
@@ -40,7 +40,7 @@ TEST(SceneFile, RoomsHaveTheirObjectsAndBoxes) {
     EXPECT_EQ(scene->objects[1].room, 0U);
     EXPECT_EQ(scene->objects[2].room, 1U);
     EXPECT_FALSE(scene->objects[3].room);
-    EXPECT_THAT(error_of(R"({"nodes": [{"room": [], "bounds": {"centre": [0, 0, 0], "size": [1, 0, 1]}}]})"),
+    EXPECT_THAT(scene_error(R"({"nodes": [{"room": [], "bounds": {"centre": [0, 0, 0], "size": [1, 0, 1]}}]})"),
                 HasSubstr("nodes[0].bounds.size"));
 }
 
@@ -138,7 +138,7 @@ TEST(SceneFile, ErrorsNameTheFileAndTheKey) {
         {std::string(200, '[') + std::string(200, ']'), "nests brackets"},
     };
     for (const auto& [text, expected] : cases) {
-        EXPECT_THAT(error_of(text), AllOf(HasSubstr("rooms/hall.json: "), HasSubstr(expected), Not(HasSubstr("\n"))))
+        EXPECT_THAT(scene_error(text), AllOf(HasSubstr("rooms/hall.json: "), HasSubstr(expected), Not(HasSubstr("\n"))))
             << text;
     }
 }

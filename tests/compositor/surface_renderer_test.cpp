@@ -15,7 +15,7 @@
 namespace rs::compositor {
 namespace {
 
-constexpr int kSide = 65;  // odd: the middle pixel's middle is the picture's
+constexpr int kPicture_px = 65;  // odd: the middle pixel's middle is the picture's
 const glm::dvec3 kEye(0, 0, 5);
 
 glm::dvec3 linear(const glm::dvec3& srgb) {
@@ -40,15 +40,16 @@ protected:
         RS_CHECK(scene.ok());
         EXPECT_THAT(scene->warnings, ::testing::IsEmpty());
         auto compositor = FrameCompositor::create(
-            *scene, {}, {.width = kSide, .height = kSide, .samples = 4, .wire_frame = wire_frame});
+            *scene, {}, {.width = kPicture_px, .height = kPicture_px, .samples = 4, .wire_frame = wire_frame});
         RS_CHECK(compositor.ok());
-        Result<Image<Rgba8>> picture = compositor->compose(look_at_camera(eye, {0, 0, 0}, radians(60), kSide, kSide));
+        Result<Image<Rgba8>> picture =
+            compositor->compose(look_at_camera(eye, {0, 0, 0}, radians(60), kPicture_px, kPicture_px));
         RS_CHECK(picture.ok());
         statistics_ = compositor->statistics();
         return std::move(*picture);
     }
 
-    static Rgba8 middle(const Image<Rgba8>& picture) { return picture(kSide / 2, kSide / 2); }
+    static Rgba8 middle(const Image<Rgba8>& picture) { return picture(kPicture_px / 2, kPicture_px / 2); }
 
     static void expect_colour(Rgba8 pixel, const glm::dvec3& light, const std::string& what) {
         const auto code = [](double l) { return int{srgb8_from_linear(static_cast<float>(l))}; };
@@ -191,12 +192,12 @@ TEST_F(Surfaces, PicturesStandUprightAndRepeat) {
     // Red below green.
     const std::string picture = "texture PixelTexture { image 1 2 3 0xff0000 0x00ff00 repeatT ";
     const auto upright = picture_of(square(picture + "FALSE }"));
-    EXPECT_GT(upright(kSide / 2, kSide / 4).g, 200);
-    EXPECT_GT(upright(kSide / 2, kSide * 3 / 4).r, 200);
+    EXPECT_GT(upright(kPicture_px / 2, kPicture_px / 4).g, 200);
+    EXPECT_GT(upright(kPicture_px / 2, kPicture_px * 3 / 4).r, 200);
     // Moved up by one half and repeated, the colours change places; without repetition the border goes on.
     const std::string moved = "textureTransform TextureTransform { translation 0 0.5 }";
-    EXPECT_GT(picture_of(square(picture + "TRUE }" + moved))(kSide / 2, kSide * 2 / 5).r, 200);
-    EXPECT_GT(picture_of(square(picture + "FALSE }" + moved))(kSide / 2, kSide * 2 / 5).g, 200);
+    EXPECT_GT(picture_of(square(picture + "TRUE }" + moved))(kPicture_px / 2, kPicture_px * 2 / 5).r, 200);
+    EXPECT_GT(picture_of(square(picture + "FALSE }" + moved))(kPicture_px / 2, kPicture_px * 2 / 5).g, 200);
 }
 
 TEST_F(Surfaces, TransparentOnesAreBlendedFromBehindInLinearLight) {
@@ -216,8 +217,8 @@ TEST_F(Surfaces, TransparentOnesAreBlendedFromBehindInLinearLight) {
 TEST_F(Surfaces, AlphaOfPicturesCutsHoles) {
     const std::string hole = "texture PixelTexture { image 2 1 4 0xff0000ff 0x00ff0000 repeatS FALSE }";
     const Image<Rgba8> picture = picture_of(square(hole));
-    EXPECT_EQ(picture(kSide / 5, kSide / 2), (Rgba8{255, 0, 0, 255}));
-    EXPECT_EQ(picture(kSide * 4 / 5, kSide / 2), (Rgba8{0, 0, 0, 255}));
+    EXPECT_EQ(picture(kPicture_px / 5, kPicture_px / 2), (Rgba8{255, 0, 0, 255}));
+    EXPECT_EQ(picture(kPicture_px * 4 / 5, kPicture_px / 2), (Rgba8{0, 0, 0, 255}));
 }
 
 TEST_F(Surfaces, FogHidesWhatIsFar) {
@@ -235,12 +236,12 @@ TEST_F(Surfaces, TheBackgroundIsAGradientFromZenithToNadir) {
     const Image<Rgba8> level = picture_of(sky, ahead);
     expect_colour(middle(level), {0, 1, 0}, "horizon");
     // The ray of the topmost row's middle.
-    const double up = std::atan(std::tan(radians(30)) * (kSide - 1) / kSide);
+    const double up = std::atan(std::tan(radians(30)) * (kPicture_px - 1) / kPicture_px);
     const double t = (kPi / 2 - up) / (kPi / 2);
-    expect_colour(level(kSide / 2, 0), {1 - t, t, 0}, "above");
+    expect_colour(level(kPicture_px / 2, 0), {1 - t, t, 0}, "above");
     const double from_nadir = kPi / 2 - up;
     const double g = from_nadir / 1.2;
-    expect_colour(level(kSide / 2, kSide - 1), {0, 0, 1 - g}, "below");
+    expect_colour(level(kPicture_px / 2, kPicture_px - 1), {0, 0, 1 - g}, "below");
 }
 
 TEST_F(Surfaces, WhatIsOutsideOfThePictureIsNotDrawn) {
@@ -269,7 +270,7 @@ TEST_F(Surfaces, AWireFrameHasEdgesOnly) {
     };
     const auto solid = lit_pixels(picture_of(square("")));
     const auto wire = lit_pixels(picture_of(square(""), kEye, true));
-    EXPECT_GT(wire, kSide);
+    EXPECT_GT(wire, kPicture_px);
     EXPECT_LT(wire, solid / 3);
 }
 

@@ -15,8 +15,8 @@
 namespace rs::test {
 namespace {
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 180;
+constexpr int kTruthWidth = 320;
+constexpr int kTruthHeight = 180;
 
 class Truth : public ::testing::Test {
 protected:
@@ -46,9 +46,9 @@ protected:
 };
 
 TEST_F(Truth, FramesAreNearIt) {
-    auto comparison = TruthComparison::create(scene_, placed_, traced_, {.width = kWidth, .height = kHeight});
+    auto comparison = TruthComparison::create(scene_, placed_, traced_, {.width = kTruthWidth, .height = kTruthHeight});
     ASSERT_TRUE(comparison) << comparison.error().message;
-    const std::vector<TruthViewpoint> walk = truth_walk(kWidth, kHeight);
+    const std::vector<TruthViewpoint> walk = truth_walk(kTruthWidth, kTruthHeight);
     int cuts = 0;
     for (const std::size_t i : {0, 1, 5}) {
         const Result<TruthDifference> found =
@@ -67,14 +67,14 @@ TEST_F(Truth, FramesAreNearIt) {
 
 // The comparison must notice what it is there for: an object out of place, and geometry that hides too much.
 TEST_F(Truth, ErrorsAreSeen) {
-    const Camera camera = truth_walk(kWidth, kHeight)[0].camera;
+    const Camera camera = truth_walk(kTruthWidth, kTruthHeight)[0].camera;
     const TruthOptions options{.samples = 8, .paths_per_sample = 1};
-    const compositor::FrameOptions frame{.width = kWidth, .height = kHeight};
+    const compositor::FrameOptions frame{.width = kTruthWidth, .height = kTruthHeight};
     auto right = TruthComparison::create(scene_, placed_, traced_, frame);
     ASSERT_TRUE(right);
     const double objects_db = right->compare(camera, options)->objects_db;
-    auto one_sample =
-        TruthComparison::create(scene_, placed_, traced_, {.width = kWidth, .height = kHeight, .object_samples = 1});
+    auto one_sample = TruthComparison::create(scene_, placed_, traced_,
+                                              {.width = kTruthWidth, .height = kTruthHeight, .object_samples = 1});
     ASSERT_TRUE(one_sample);
     EXPECT_LT(one_sample->compare(camera, options)->objects_db, objects_db - 1.5) << "far objects are averaged";
     for (TracedNode& node : traced_) node.world_from_object.translation.x += 0.015;  // some two pixels

@@ -16,14 +16,14 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::string error_of(const std::string& object, const nlohmann::json& parameters) {
+std::string parameter_error(const std::string& object, const nlohmann::json& parameters) {
     const Result<capture::Scene> result = generate(object, parameters, 1);
     return result.ok() ? std::string("no error") : result.error().message;
 }
 
 TEST(Parameters, UnknownNameIsAnErrorThatListsTheRanges) {
     for (const std::string& object : object_names()) {
-        const std::string message = error_of(object, {{"wobble", 1}});
+        const std::string message = parameter_error(object, {{"wobble", 1}});
         EXPECT_THAT(message, HasSubstr(object));
         EXPECT_THAT(message, HasSubstr("wobble"));
         EXPECT_THAT(message, HasSubstr(" to ")) << "the known ones with their ranges";
@@ -32,19 +32,20 @@ TEST(Parameters, UnknownNameIsAnErrorThatListsTheRanges) {
 }
 
 TEST(Parameters, OutOfRangeNamesParameterValueAndRange) {
-    EXPECT_EQ(error_of("vase", {{"belly", 3}}), "vase: parameter belly is 3; give a number, 0.5 to 0.8");
-    EXPECT_EQ(error_of("doll", {{"strands", 999}}),
+    EXPECT_EQ(parameter_error("vase", {{"belly", 3}}), "vase: parameter belly is 3; give a number, 0.5 to 0.8");
+    EXPECT_EQ(parameter_error("doll", {{"strands", 999}}),
               "doll: parameter strands is 999; give a whole number, 1000 to 140000");
-    EXPECT_EQ(error_of("blocks", {{"text", "Hi"}}), "blocks: parameter text is \"Hi\"; give 1 to 12 letters A to Z");
+    EXPECT_EQ(parameter_error("blocks", {{"text", "Hi"}}),
+              "blocks: parameter text is \"Hi\"; give 1 to 12 letters A to Z");
 }
 
 TEST(Parameters, WrongTypesAreErrors) {
-    EXPECT_THAT(error_of("vase", {{"belly", "wide"}}), HasSubstr("belly"));
-    EXPECT_THAT(error_of("vase", {{"flowers", 4.5}}), HasSubstr("flowers"));
-    EXPECT_THAT(error_of("vase", {{"flowers", 18446744073709551615ULL}}), HasSubstr("flowers"));
-    EXPECT_THAT(error_of("blocks", {{"text", ""}}), HasSubstr("text"));
-    EXPECT_THAT(error_of("blocks", {{"text", "ABCDEFGHIJKLM"}}), HasSubstr("text"));
-    EXPECT_THAT(error_of("lamp", nlohmann::json::array({1, 2})), HasSubstr("not a JSON object"));
+    EXPECT_THAT(parameter_error("vase", {{"belly", "wide"}}), HasSubstr("belly"));
+    EXPECT_THAT(parameter_error("vase", {{"flowers", 4.5}}), HasSubstr("flowers"));
+    EXPECT_THAT(parameter_error("vase", {{"flowers", 18446744073709551615ULL}}), HasSubstr("flowers"));
+    EXPECT_THAT(parameter_error("blocks", {{"text", ""}}), HasSubstr("text"));
+    EXPECT_THAT(parameter_error("blocks", {{"text", "ABCDEFGHIJKLM"}}), HasSubstr("text"));
+    EXPECT_THAT(parameter_error("lamp", nlohmann::json::array({1, 2})), HasSubstr("not a JSON object"));
 }
 
 TEST(Parameters, EndsOfTheRangesAreAllowed) {

@@ -9,6 +9,7 @@
 #include "rayspace/codec/decode_picture.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/ray_space.hpp"
+#include "tests/support/random.hpp"
 #include "tests/support/random_shape.hpp"
 #include "tests/support/ring_object.hpp"
 
@@ -24,17 +25,10 @@
 namespace rs::engine {
 namespace {
 
+using test::Random;
+
 constexpr std::int64_t kTinyBudget = 1;
 constexpr std::int64_t kPlenty = std::int64_t{1} << 30;
-
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : engine(seed) {}
-    double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
-    int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine); }
-
-    std::mt19937_64 engine;
-};
 
 // Waves of all colours that move a little from view to view, so that pictures are predicted from one another; an uneven
 // silhouette with a soft rim. It leaves tiles without a texel, and where `fills` is set touches the frame.
@@ -90,7 +84,7 @@ CodedObject coded_object(Random& random, bool with_shape) {
     return object;
 }
 
-Camera random_camera(Random& random, bool upright) {
+Camera coded_camera(Random& random, bool upright) {
     const double angle = random.real(0, 2 * kPi), distance = random.real(0.8, 9);
     const glm::dvec3 eye(distance * std::sin(angle), random.real(-1, 1), distance * std::cos(angle));
     const glm::dvec3 at(random.real(-0.4, 0.4), upright ? eye.y : random.real(-1, 1), random.real(-0.4, 0.4));
@@ -134,7 +128,7 @@ void expect_equal_views(bool with_shape, bool upright, std::uint64_t first_seed)
             const Result<Renderer> renderer = Renderer::create(object.coded, {.decoded_budget_bytes = budget});
             ASSERT_TRUE(renderer.ok());
             for (int v = 0; v < kViews; ++v) {
-                const Camera camera = random_camera(random, upright);
+                const Camera camera = coded_camera(random, upright);
                 const Result<ViewRegisters> registers = prepare_view(object.coded, camera);
                 if (!registers) continue;
                 ASSERT_EQ(registers->upright(), upright);
@@ -169,8 +163,7 @@ TEST(CodedRenderer, RendersFromSeveralThreadsAtOnce) {
         std::vector<ViewRegisters> views;
         std::vector<Rendered> expected;
         while (views.size() < 24) {
-            const Result<ViewRegisters> registers =
-                prepare_view(object.coded, random_camera(random, views.size() < 20));
+            const Result<ViewRegisters> registers = prepare_view(object.coded, coded_camera(random, views.size() < 20));
             if (!registers) continue;
             views.push_back(*registers);
             expected.push_back(render(*whole, *registers));
@@ -302,7 +295,7 @@ TEST(ShapeColumns, CoverEveryTexelThatIsRead) {
                                                    .planes = random.whole(3, 14)});
         object.rings[0].shape = test::random_shape(object, 0, random.engine, 0.2);
         for (int v = 0; v < 12; ++v) {
-            const Camera camera = random_camera(random, random.whole(0, 1) == 0);
+            const Camera camera = coded_camera(random, random.whole(0, 1) == 0);
             const Result<ViewRegisters> registers = prepare_view(object, camera);
             if (!registers) continue;
             for (int i = 0; i < camera.width; ++i) {
@@ -329,7 +322,7 @@ TEST(CodedRenderer, NeighboursStandInForPicturesThatAreNotLoaded) {
     ASSERT_TRUE(renderer.ok() && whole.ok());
     EXPECT_TRUE(renderer->object().rings[0].shape.empty());
     for (int v = 0; v < 20; ++v) {
-        const Result<ViewRegisters> registers = prepare_view(object.coded, random_camera(random, v % 2 == 0));
+        const Result<ViewRegisters> registers = prepare_view(object.coded, coded_camera(random, v % 2 == 0));
         if (!registers) continue;
         EXPECT_EQ(render(*renderer, *registers), render(*whole, *registers));
     }

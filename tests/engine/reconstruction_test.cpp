@@ -13,7 +13,7 @@
 namespace rs::engine {
 namespace {
 
-Image<Rgba8> rendered(const RaySpaceObject& object, const Camera& camera) {
+Image<Rgba8> reconstructed(const RaySpaceObject& object, const Camera& camera) {
     const Result<ViewRegisters> registers = prepare_view(object, camera);
     EXPECT_TRUE(registers.ok());
     Image<Rgba8> picture(camera.width, camera.height);
@@ -32,7 +32,7 @@ TEST_P(CapturedPose, GivesBackTheStoredPicture) {
         const Rig rig = test::ring_rig(options);
         for (std::size_t i = 0; i < rig.views.size(); ++i) {
             SCOPED_TRACE(i);
-            ASSERT_EQ(rendered(object, rig.views[i].camera), rgba_from_planar(object.pictures[i]));
+            ASSERT_EQ(reconstructed(object, rig.views[i].camera), rgba_from_planar(object.pictures[i]));
         }
     }
 }
@@ -95,7 +95,7 @@ TEST(Reconstruction, AViewFromInsideOrFromBeyondShowsNothingOrLittleButStaysDefi
     for (const glm::dvec3 eye : {glm::dvec3(0, 0, 0.001), glm::dvec3(0.1, 5, 0), glm::dvec3(0, -40, 0.5),
                                  glm::dvec3(1e3, 0, 0), glm::dvec3(0, 1e-7, 2.01)}) {
         const Camera camera = look_at_camera(eye, {0, 0, -0.5}, radians(50), 33, 17);
-        const Image<Rgba8> picture = rendered(object, camera);
+        const Image<Rgba8> picture = reconstructed(object, camera);
         for (const Rgba8& p : picture.pixels()) {
             if (p.a == 0) {
                 EXPECT_EQ(p, Rgba8{});
@@ -106,11 +106,11 @@ TEST(Reconstruction, AViewFromInsideOrFromBeyondShowsNothingOrLittleButStaysDefi
 
 TEST(Reconstruction, ADistantViewpointKeepsTheObjectsPicture) {
     const RaySpaceObject object = test::ring_object({.views = 36, .width = 96, .height = 96, .fl_px = 130});
-    // 190 radii are rendered as they are; at 1900, ten times the focal length shows the same, by way of 200 radii.
+    // 190 radii are reconstructed as they are; at 1900, ten times the focal length shows the same, by way of 200 radii.
     const auto at = [&](double distance) {
         Camera camera = look_at_camera({0, 0, distance}, {0.1, 0, 0}, radians(20), 64, 64);
         camera.fl_x = camera.fl_y = 25 * distance;
-        return rendered(object, camera);
+        return reconstructed(object, camera);
     };
     const Image<Rgba8> near = at(190), far = at(1900);
     int shown = 0, different = 0;

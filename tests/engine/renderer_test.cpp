@@ -5,6 +5,7 @@
 #include "engine/core/reconstruct.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/ray_space.hpp"
+#include "tests/support/random.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <gtest/gtest.h>
@@ -16,17 +17,9 @@
 namespace rs::engine {
 namespace {
 
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : engine_(seed) {}
-    double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-    int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
+using test::Random;
 
-private:
-    std::mt19937_64 engine_;
-};
-
-Camera random_camera(Random& random, bool upright) {
+Camera plane_camera(Random& random, bool upright) {
     const double angle = random.real(0, 2 * kPi), distance = random.real(0.3, 12);
     const glm::dvec3 eye(distance * std::sin(angle), random.real(-1, 1), distance * std::cos(angle));
     const glm::dvec3 at(random.real(-0.4, 0.4), upright ? eye.y : random.real(-1, 1), random.real(-0.4, 0.4));
@@ -61,7 +54,7 @@ void expect_equal_on_random_views(bool upright, std::uint64_t first_seed, int ob
         ASSERT_TRUE(renderer.ok());
         for (int v = 0; v < views; ++v) {
             SCOPED_TRACE(v);
-            const Camera camera = random_camera(random, upright);
+            const Camera camera = plane_camera(random, upright);
             const Result<ViewRegisters> registers = prepare_view(object, camera);
             if (!registers) continue;
             ASSERT_EQ(registers->upright(), upright);

@@ -8,6 +8,7 @@
 #include "rayspace/conventions.hpp"
 #include "rayspace/ray_space.hpp"
 #include "rayspace/shape_validate.hpp"
+#include "tests/support/random.hpp"
 #include "tests/support/random_shape.hpp"
 #include "tests/support/ring_object.hpp"
 
@@ -23,16 +24,9 @@
 namespace rs::engine {
 namespace {
 
+using test::Random;
+
 enum class Pose { on_ring, at_captured_view, upright, tilted };
-
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : engine(seed) {}
-    double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
-    int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine); }
-
-    std::mt19937_64 engine;
-};
 
 test::RingObjectOptions random_options(Random& random) {
     test::RingObjectOptions options;
@@ -58,7 +52,7 @@ RaySpaceObject random_object(Random& random, const test::RingObjectOptions& opti
     return object;
 }
 
-Camera random_camera(Random& random, const test::RingObjectOptions& options, Pose pose) {
+Camera shape_camera(Random& random, const test::RingObjectOptions& options, Pose pose) {
     constexpr std::array kWidths = {1, 2, 15, 16, 17, 31, 33, 48, 65};
     if (pose == Pose::at_captured_view) {
         return test::ring_rig(options).views[static_cast<std::size_t>(random.whole(0, options.views - 1))].camera;
@@ -84,17 +78,17 @@ Camera random_camera(Random& random, const test::RingObjectOptions& options, Pos
     return camera;
 }
 
-struct Rendered {
+struct CanvasPair {
     Image<Rgba8> colour;
     Image<std::int32_t> lambda;
-    bool operator==(const Rendered&) const = default;
+    bool operator==(const CanvasPair&) const = default;
 };
 
 // On a canvas with a border, to see that nothing else is written.
 template <class Render>
-Rendered on_canvas(const Camera& camera, int border, const Render& render) {
-    Rendered canvas{Image<Rgba8>(camera.width + 2 * border, camera.height + 2 * border, {1, 2, 3, 4}),
-                    Image<std::int32_t>(camera.width + 2 * border + 1, camera.height + 2 * border, -7)};
+CanvasPair on_canvas(const Camera& camera, int border, const Render& render) {
+    CanvasPair canvas{Image<Rgba8>(camera.width + 2 * border, camera.height + 2 * border, {1, 2, 3, 4}),
+                      Image<std::int32_t>(camera.width + 2 * border + 1, camera.height + 2 * border, -7)};
     render(canvas.colour.view().crop(border, border, camera.width, camera.height),
            canvas.lambda.view().crop(border, border, camera.width, camera.height));
     return canvas;
@@ -120,15 +114,15 @@ Seen expect_equal(Pose pose, std::uint64_t first_seed, int objects, int views) {
         EXPECT_TRUE(renderer.ok());
         for (int v = 0; v < views; ++v) {
             SCOPED_TRACE(v);
-            const Camera camera = random_camera(random, options, pose);
+            const Camera camera = shape_camera(random, options, pose);
             const Result<ViewRegisters> registers = prepare_view(object, camera);
             if (!registers) continue;
             EXPECT_EQ(registers->upright(), pose != Pose::tilted);
             const int border = random.whole(0, 3);
-            const Rendered defined = on_canvas(camera, border, [&](const auto& colour, const auto& lambda) {
+            const CanvasPair defined = on_canvas(camera, border, [&](const auto& colour, const auto& lambda) {
                 reconstruct_scalar(object, *registers, colour, lambda);
             });
-            const Rendered rendered = on_canvas(camera, border, [&](const auto& colour, const auto& lambda) {
+            const CanvasPair rendered = on_canvas(camera, border, [&](const auto& colour, const auto& lambda) {
                 renderer->render(*registers, colour, lambda);
             });
             EXPECT_EQ(rendered.colour, defined.colour);
@@ -231,8 +225,8 @@ TEST(Renderer, SaysHowFarTheReferencePlaneIs) {
         const Result<ViewRegisters> registers = prepare_view(object, camera);
         ASSERT_TRUE(registers.ok());
         EXPECT_EQ(registers->upright(), height == 0);
-        Rendered rendered{Image<Rgba8>(41, 33), Image<std::int32_t>(41, 33)};
-        Rendered defined = rendered;
+        CanvasPair rendered{Image<Rgba8>(41, 33), Image<std::int32_t>(41, 33)};
+        CanvasPair defined = rendered;
         renderer->render(*registers, rendered.colour, rendered.lambda);
         reconstruct_scalar(object, *registers, defined.colour, defined.lambda);
         EXPECT_EQ(rendered, defined);
@@ -260,7 +254,7 @@ TEST(DepthPicture, IsInTheRigsUnitsFromTheCamerasOwnCentre) {
         const Camera camera = look_at_camera({0, 0, radii * 2.5}, {0, 0, 0}, 2 * std::atan(1 / radii), 41, 33);
         const Result<ViewRegisters> registers = prepare_view(object, camera);
         ASSERT_TRUE(registers.ok());
-        Rendered rendered{Image<Rgba8>(41, 33), Image<std::int32_t>(41, 33)};
+        CanvasPair rendered{Image<Rgba8>(41, 33), Image<std::int32_t>(41, 33)};
         renderer->render(*registers, rendered.colour, rendered.lambda);
         const Image<float> depth = depth_picture(object, camera, rendered.lambda);
         int shown = 0;

@@ -26,7 +26,7 @@ std::string contents(const fs::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void put(const fs::path& path, const std::string& text) {
+void put_text(const fs::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
 }
 
@@ -53,7 +53,7 @@ TEST(StagedFile, AppearsOnCommitOnly) {
 
 TEST(StagedFile, DroppedItLeavesTheOldFileAndNothingElse) {
     const TemporaryFolder folder;
-    put(folder / "a.bin", "old");
+    put_text(folder / "a.bin", "old");
     {
         auto file = StagedFile::create(folder / "a.bin");
         ASSERT_TRUE(file.ok());
@@ -65,7 +65,7 @@ TEST(StagedFile, DroppedItLeavesTheOldFileAndNothingElse) {
 
 TEST(StagedFile, ReplacesAndMoves) {
     const TemporaryFolder folder;
-    put(folder / "a.bin", "old and longer");
+    put_text(folder / "a.bin", "old and longer");
     auto made = StagedFile::create(folder / "a.bin");
     auto other = StagedFile::create(folder / "b.bin");
     ASSERT_TRUE(made.ok() && other.ok());
@@ -96,7 +96,7 @@ TEST(StagedFile, TakesWhatALibraryPutUnderTheTemporaryName) {
     auto file = StagedFile::create(folder / "a.mp4");
     ASSERT_TRUE(file.ok());
     fs::remove(file->temporary_path());
-    put(file->temporary_path(), "by a library");
+    put_text(file->temporary_path(), "by a library");
     ASSERT_TRUE(file->commit().ok());
     EXPECT_EQ(contents(folder / "a.mp4"), "by a library");
 }
@@ -113,7 +113,7 @@ TEST(StagedFile, RefusesFoldersAndEmptyNames) {
     EXPECT_THAT(StagedFile::create(folder.path()).error().message, HasSubstr("is a folder"));
     EXPECT_THAT(StagedFile::create("").error().message, HasSubstr("names no file"));
     EXPECT_THAT(StagedFile::create("/dev/null").error().message, HasSubstr("no regular file"));
-    put(folder / "plain", "x");
+    put_text(folder / "plain", "x");
     EXPECT_THAT(StagedFile::create(folder.path() / "plain" / "a").error().message, HasSubstr("is not a folder"));
 }
 
@@ -142,7 +142,7 @@ TEST(StagedFolder, AppearsOnCommitOnly) {
     const TemporaryFolder root;
     {
         StagedFolder folder = open_folder(root.path() / "set" / "");  // a trailing slash
-        put(folder.temporary_path() / "marker.json", "1");
+        put_text(folder.temporary_path() / "marker.json", "1");
         EXPECT_FALSE(fs::exists(root / "set"));
         ASSERT_TRUE(folder.commit().ok());
     }
@@ -155,7 +155,7 @@ TEST(StagedFolder, DroppedItIsRemovedWithAllItHolds) {
     {
         const StagedFolder folder = open_folder(root / "set");
         fs::create_directory(folder.temporary_path() / "images");
-        put(folder.temporary_path() / "images" / "a", "1");
+        put_text(folder.temporary_path() / "images" / "a", "1");
     }
     EXPECT_TRUE(names_in(root.path()).empty());
 }
@@ -165,11 +165,11 @@ TEST(StagedFolder, ReplacesAFolderOfOursAsAWhole) {
     {
         StagedFolder folder = open_folder(root / "set");
         fs::create_directory(folder.temporary_path() / "images");
-        put(folder.temporary_path() / "images" / "old-picture", "old");
+        put_text(folder.temporary_path() / "images" / "old-picture", "old");
         ASSERT_TRUE(folder.commit().ok());
     }
     StagedFolder folder = open_folder(root / "set");
-    put(folder.temporary_path() / "new-picture", "new");
+    put_text(folder.temporary_path() / "new-picture", "new");
     ASSERT_TRUE(folder.commit().ok());
     EXPECT_EQ(names_in(root / "set"), (std::vector<std::string>{".rayspace-files", "new-picture"}));
     EXPECT_EQ(names_in(root.path()), std::vector<std::string>{"set"});
@@ -179,14 +179,14 @@ TEST(StagedFolder, KeepsWhatSomebodyAddedToAFolderOfOurs) {
     const TemporaryFolder root;
     {
         StagedFolder folder = open_folder(root / "set");
-        put(folder.temporary_path() / "picture", "ours");
+        put_text(folder.temporary_path() / "picture", "ours");
         ASSERT_TRUE(folder.commit().ok());
     }
     EXPECT_TRUE(StagedFolder::create(root / "set").ok());
-    put(root.path() / "set" / "picture", "retouched");
+    put_text(root.path() / "set" / "picture", "retouched");
     EXPECT_THAT(StagedFolder::create(root / "set").error().message, HasSubstr("picture"));
-    put(root.path() / "set" / "picture", "ours");
-    put(root.path() / "set" / "notes.txt", "mine");
+    put_text(root.path() / "set" / "picture", "ours");
+    put_text(root.path() / "set" / "notes.txt", "mine");
     EXPECT_THAT(StagedFolder::create(root / "set").error().message, HasSubstr("notes.txt"));
     EXPECT_EQ(contents(root.path() / "set" / "notes.txt"), "mine");
 }
@@ -195,7 +195,7 @@ TEST(StagedFolder, ReplacesAnEmptyFolder) {
     const TemporaryFolder root;
     fs::create_directory(root / "set");
     StagedFolder folder = open_folder(root / "set");
-    put(folder.temporary_path() / "a", "new");
+    put_text(folder.temporary_path() / "a", "new");
     ASSERT_TRUE(folder.commit().ok());
     EXPECT_EQ(names_in(root / "set"), (std::vector<std::string>{".rayspace-files", "a"}));
 }
@@ -203,11 +203,11 @@ TEST(StagedFolder, ReplacesAnEmptyFolder) {
 TEST(StagedFolder, LeavesOtherPeoplesFoldersAlone) {
     const TemporaryFolder root;
     fs::create_directory(root / "home");
-    put(root.path() / "home" / "thesis.tex", "years of work");
+    put_text(root.path() / "home" / "thesis.tex", "years of work");
     const auto folder = StagedFolder::create(root / "home");
     ASSERT_FALSE(folder.ok());
     EXPECT_THAT(folder.error().message, HasSubstr("thesis.tex"));
-    put(root / "file", "x");
+    put_text(root / "file", "x");
     EXPECT_THAT(StagedFolder::create(root / "file").error().message, HasSubstr("is not a folder"));
     EXPECT_THAT(StagedFolder::create(root.path() / "none" / "set").error().message, HasSubstr("create it first"));
     EXPECT_EQ(names_in(root.path()), (std::vector<std::string>{"file", "home"}));
@@ -217,14 +217,14 @@ TEST(StagedFolder, LooksAgainBeforeItReplaces) {
     const TemporaryFolder root;
     StagedFolder folder = open_folder(root / "set");
     fs::create_directory(root / "set");
-    put(root.path() / "set" / "thesis.tex", "put there meanwhile");
+    put_text(root.path() / "set" / "thesis.tex", "put there meanwhile");
     EXPECT_FALSE(folder.commit().ok());
     EXPECT_EQ(contents(root.path() / "set" / "thesis.tex"), "put there meanwhile");
 }
 
 TEST(ReadFile, ReadsUpToItsCap) {
     const TemporaryFolder folder;
-    put(folder / "a", std::string(1000, 'x'));
+    put_text(folder / "a", std::string(1000, 'x'));
     const auto whole = read_file(folder / "a", 1000);
     ASSERT_TRUE(whole.ok());
     EXPECT_EQ(whole->size(), 1000U);

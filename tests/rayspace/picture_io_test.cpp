@@ -32,13 +32,13 @@ Image<Rgba8> noise(int width, int height, unsigned seed = 1) {
     return image;
 }
 
-void put(const fs::path& path, std::span<const std::byte> bytes) {
+void put_bytes(const fs::path& path, std::span<const std::byte> bytes) {
     std::ofstream(path, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-void put(const fs::path& path, const std::string& text) {
-    put(path, std::as_bytes(std::span(text)));
+void put_bytes(const fs::path& path, const std::string& text) {
+    put_bytes(path, std::as_bytes(std::span(text)));
 }
 
 std::uint32_t crc32(std::span<const std::byte> bytes) {
@@ -60,7 +60,7 @@ void claim_size(std::vector<std::byte>& png, std::uint32_t width, std::uint32_t 
     put_big_endian(29, crc32(std::span(png).subspan(12, 17)));
 }
 
-std::string error_of(const fs::path& path) {
+std::string picture_error(const fs::path& path) {
     const auto picture = read_picture(path);
     EXPECT_FALSE(picture.ok());
     if (picture.ok()) return "";
@@ -148,7 +148,7 @@ TEST(PictureIo, ChannelIsExact) {
 
 TEST(PictureIo, GreySpreadsToRgb) {
     const TemporaryFolder folder;
-    put(folder / "a.pgm", std::string("P5\n2 1\n255\n\x40\xC8"));
+    put_bytes(folder / "a.pgm", std::string("P5\n2 1\n255\n\x40\xC8"));
     const auto picture = read_picture(folder / "a.pgm");
     ASSERT_TRUE(picture.ok()) << picture.error().message;
     EXPECT_EQ((*picture)(0, 0), (Rgba8{0x40, 0x40, 0x40, 255}));
@@ -162,7 +162,7 @@ TEST(PictureIo, GreySpreadsToRgb) {
 TEST(PictureIo, SixteenBitsAreRoundedToEight) {
     const TemporaryFolder folder;
     // 16-bit samples stand high byte first: 257 * 100, 257 * 100 + 128, 257 * 100 + 129, 65535.
-    put(folder / "a.ppm", std::string("P6\n2 1\n65535\n\x64\x64\x64\xE4\x64\xE5\xFF\xFF\x00\x00\x00\x81", 25));
+    put_bytes(folder / "a.ppm", std::string("P6\n2 1\n65535\n\x64\x64\x64\xE4\x64\xE5\xFF\xFF\x00\x00\x00\x81", 25));
     const auto picture = read_picture(folder / "a.ppm");
     ASSERT_TRUE(picture.ok()) << picture.error().message;
     EXPECT_EQ((*picture)(0, 0), (Rgba8{100, 100, 101, 255}));
@@ -175,13 +175,13 @@ TEST(PictureIo, TruncatedPngIsAnError) {
     const auto whole = read_file(folder / "a.png", 1 << 20);
     ASSERT_TRUE(whole.ok());
     for (const std::size_t eighths : {0, 1, 4, 7}) {
-        put(folder / "cut.png", std::span(*whole).first(whole->size() * eighths / 8));
+        put_bytes(folder / "cut.png", std::span(*whole).first(whole->size() * eighths / 8));
         EXPECT_FALSE(read_picture(folder / "cut.png").ok()) << eighths;
         EXPECT_FALSE(read_picture_linear(folder / "cut.png").ok()) << eighths;
         EXPECT_FALSE(read_channel(folder / "cut.png").ok()) << eighths;
     }
-    put(folder / "cut.png", std::span(*whole).first(whole->size() / 2));
-    EXPECT_THAT(error_of(folder / "cut.png"), HasSubstr("damaged or cut short"));
+    put_bytes(folder / "cut.png", std::span(*whole).first(whole->size() / 2));
+    EXPECT_THAT(picture_error(folder / "cut.png"), HasSubstr("damaged or cut short"));
 }
 
 TEST(PictureIo, DamagedPngIsAnError) {
@@ -192,9 +192,9 @@ TEST(PictureIo, DamagedPngIsAnError) {
     for (const std::size_t at : {bytes->size() / 4, bytes->size() / 2, bytes->size() * 3 / 4}) {
         auto damaged = *bytes;
         damaged[at] ^= std::byte{0x10};
-        put(folder / "bad.png", damaged);
+        put_bytes(folder / "bad.png", damaged);
         testing::internal::CaptureStderr();
-        EXPECT_THAT(error_of(folder / "bad.png"), HasSubstr("is damaged"));
+        EXPECT_THAT(picture_error(folder / "bad.png"), HasSubstr("is damaged"));
         EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "libraries do not print";
     }
 }
@@ -205,22 +205,22 @@ TEST(PictureIo, HugeHeadersAreRefusedBeforeAnythingIsAllocated) {
     auto bytes = read_file(folder / "a.png", 1 << 20);
     ASSERT_TRUE(bytes.ok());
     claim_size(*bytes, 60000, 60000);
-    put(folder / "bomb.png", *bytes);
+    put_bytes(folder / "bomb.png", *bytes);
     EXPECT_FALSE(read_picture_info(folder / "bomb.png").ok());
-    EXPECT_THAT(error_of(folder / "bomb.png"), HasSubstr("claims 60000x60000 pixels; each side must be 1..8192"));
+    EXPECT_THAT(picture_error(folder / "bomb.png"), HasSubstr("claims 60000x60000 pixels; each side must be 1..8192"));
     claim_size(*bytes, 8193, 8);
-    put(folder / "wide.png", *bytes);
-    EXPECT_THAT(error_of(folder / "wide.png"), HasSubstr("8193x8"));
+    put_bytes(folder / "wide.png", *bytes);
+    EXPECT_THAT(picture_error(folder / "wide.png"), HasSubstr("8193x8"));
 }
 
 TEST(PictureIo, WhatIsNoPictureIsNamed) {
     const TemporaryFolder folder;
-    EXPECT_THAT(error_of(folder / "none.png"), HasSubstr("does not exist"));
-    EXPECT_THAT(error_of(folder.path()), HasSubstr("is a folder"));
-    put(folder / "text.png", std::string("this is no picture, although it is called one"));
-    EXPECT_THAT(error_of(folder / "text.png"), HasSubstr("cannot be read as a picture"));
-    put(folder / "empty.png", std::string());
-    error_of(folder / "empty.png");
+    EXPECT_THAT(picture_error(folder / "none.png"), HasSubstr("does not exist"));
+    EXPECT_THAT(picture_error(folder.path()), HasSubstr("is a folder"));
+    put_bytes(folder / "text.png", std::string("this is no picture, although it is called one"));
+    EXPECT_THAT(picture_error(folder / "text.png"), HasSubstr("cannot be read as a picture"));
+    put_bytes(folder / "empty.png", std::string());
+    picture_error(folder / "empty.png");
 }
 
 TEST(PictureIo, SizesThatCannotBeWrittenAreRefused) {

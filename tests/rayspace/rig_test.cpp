@@ -22,7 +22,7 @@ std::string one_frame(const std::string& top, const std::string& frame) {
     return "{" + top + R"("frames":[{"file_path":"a.png","transform_matrix":)" + kIdentity + frame + "}]}";
 }
 
-std::string error_of(const std::string& text) {
+std::string rig_error(const std::string& text) {
     const auto rig = rig_from_json(text, "R");
     EXPECT_FALSE(rig.ok()) << text;
     if (rig.ok()) return "";
@@ -144,52 +144,52 @@ TEST(Rig, ThreeRowsMakeAMatrixToo) {
 
 TEST(Rig, ErrorsNamePlaceAndRemedy) {
     const std::string size = R"("w":8,"h":6,"fl_x":10,)";
-    EXPECT_THAT(error_of("{\n\n\"a\": nan}"), HasSubstr("R: is not valid JSON at line 3"));
-    EXPECT_THAT(error_of(""), HasSubstr("not valid JSON"));
-    EXPECT_THAT(error_of("[1]"), HasSubstr("must be an object"));
-    EXPECT_THAT(error_of("{}"), HasSubstr("frames is missing"));
-    EXPECT_THAT(error_of(R"({"frames":[]})"), HasSubstr("at least one frame"));
-    EXPECT_THAT(error_of(R"({"frames":{}})"), HasSubstr("at least one frame"));
-    EXPECT_THAT(error_of(R"({"frames":[7]})"), HasSubstr("R: frame 0: must be an object"));
-    EXPECT_THAT(error_of(R"({"frames":[{}]})"), HasSubstr("R: frame 0: file_path is missing"));
-    EXPECT_THAT(error_of(R"({"frames":[{"file_path":7}]})"), HasSubstr("file_path must be a string"));
-    EXPECT_THAT(error_of(R"({"frames":[{"file_path":"a\u0000b"}]})"), HasSubstr("zero character"));
-    EXPECT_THAT(error_of(R"({"frames":[{"file_path":"a"}]})"), HasSubstr("transform_matrix is missing"));
-    EXPECT_THAT(error_of(R"({"frames":[{"file_path":"a","transform_matrix":[[1,2],[3,4]]}]})"),
+    EXPECT_THAT(rig_error("{\n\n\"a\": nan}"), HasSubstr("R: is not valid JSON at line 3"));
+    EXPECT_THAT(rig_error(""), HasSubstr("not valid JSON"));
+    EXPECT_THAT(rig_error("[1]"), HasSubstr("must be an object"));
+    EXPECT_THAT(rig_error("{}"), HasSubstr("frames is missing"));
+    EXPECT_THAT(rig_error(R"({"frames":[]})"), HasSubstr("at least one frame"));
+    EXPECT_THAT(rig_error(R"({"frames":{}})"), HasSubstr("at least one frame"));
+    EXPECT_THAT(rig_error(R"({"frames":[7]})"), HasSubstr("R: frame 0: must be an object"));
+    EXPECT_THAT(rig_error(R"({"frames":[{}]})"), HasSubstr("R: frame 0: file_path is missing"));
+    EXPECT_THAT(rig_error(R"({"frames":[{"file_path":7}]})"), HasSubstr("file_path must be a string"));
+    EXPECT_THAT(rig_error(R"({"frames":[{"file_path":"a\u0000b"}]})"), HasSubstr("zero character"));
+    EXPECT_THAT(rig_error(R"({"frames":[{"file_path":"a"}]})"), HasSubstr("transform_matrix is missing"));
+    EXPECT_THAT(rig_error(R"({"frames":[{"file_path":"a","transform_matrix":[[1,2],[3,4]]}]})"),
                 HasSubstr("4 rows of 4 numbers"));
-    EXPECT_THAT(error_of(one_frame("", "")), HasSubstr("R: frame 0: has no w and h"));
-    EXPECT_THAT(error_of(one_frame(R"("w":8,"h":6,)", "")), HasSubstr("no fl_x or camera_angle_x"));
-    EXPECT_THAT(error_of(one_frame(R"("w":"8","h":6,"fl_x":1,)", "")), HasSubstr("R: w must be a number"));
-    EXPECT_THAT(error_of(one_frame(R"("w":8.5,"h":6,"fl_x":1,)", "")), HasSubstr("whole number of pixels"));
-    EXPECT_THAT(error_of(one_frame(R"("w":8193,"h":6,"fl_x":1,)", "")), HasSubstr("w is out of range"));
-    EXPECT_THAT(error_of(one_frame(R"("w":8,"h":0,"fl_x":1,)", "")), HasSubstr("h is out of range"));
-    EXPECT_THAT(error_of(one_frame(R"("w":8,"h":6,"fl_x":-1,)", "")), HasSubstr("fl_x is out of range"));
-    EXPECT_THAT(error_of(one_frame(R"("w":8,"h":6,"fl_x":1e999,)", "")), HasSubstr("out of range"));
-    EXPECT_THAT(error_of(one_frame(R"("w":8,"h":6,"camera_angle_x":4,)", "")),
+    EXPECT_THAT(rig_error(one_frame("", "")), HasSubstr("R: frame 0: has no w and h"));
+    EXPECT_THAT(rig_error(one_frame(R"("w":8,"h":6,)", "")), HasSubstr("no fl_x or camera_angle_x"));
+    EXPECT_THAT(rig_error(one_frame(R"("w":"8","h":6,"fl_x":1,)", "")), HasSubstr("R: w must be a number"));
+    EXPECT_THAT(rig_error(one_frame(R"("w":8.5,"h":6,"fl_x":1,)", "")), HasSubstr("whole number of pixels"));
+    EXPECT_THAT(rig_error(one_frame(R"("w":8193,"h":6,"fl_x":1,)", "")), HasSubstr("w is out of range"));
+    EXPECT_THAT(rig_error(one_frame(R"("w":8,"h":0,"fl_x":1,)", "")), HasSubstr("h is out of range"));
+    EXPECT_THAT(rig_error(one_frame(R"("w":8,"h":6,"fl_x":-1,)", "")), HasSubstr("fl_x is out of range"));
+    EXPECT_THAT(rig_error(one_frame(R"("w":8,"h":6,"fl_x":1e999,)", "")), HasSubstr("out of range"));
+    EXPECT_THAT(rig_error(one_frame(R"("w":8,"h":6,"camera_angle_x":4,)", "")),
                 HasSubstr("camera_angle_x is out of range"));
-    EXPECT_THAT(error_of(one_frame(size, R"(,"cy":true)")), HasSubstr("R: frame 0: cy must be a number"));
-    EXPECT_THAT(error_of(one_frame(size + R"("object_radius":-1,)", "")), HasSubstr("object_radius is out of range"));
+    EXPECT_THAT(rig_error(one_frame(size, R"(,"cy":true)")), HasSubstr("R: frame 0: cy must be a number"));
+    EXPECT_THAT(rig_error(one_frame(size + R"("object_radius":-1,)", "")), HasSubstr("object_radius is out of range"));
 }
 
 TEST(Rig, RefusesMatricesThatAreNotRigid) {
     const auto with_matrix = [](const std::string& rows) {
         return R"({"w":8,"h":8,"fl_x":9,"frames":[{"file_path":"a","transform_matrix":)" + rows + "}]}";
     };
-    EXPECT_THAT(error_of(with_matrix("[[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]]")), HasSubstr("remove the scale"));
-    EXPECT_THAT(error_of(with_matrix("[[-1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]")), HasSubstr("mirrors"));
-    EXPECT_THAT(error_of(with_matrix("[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,2]]")), HasSubstr("0 0 0 1"));
-    EXPECT_THAT(error_of(with_matrix("[[1,0,0,1e300],[0,1,0,0],[0,0,1,0],[0,0,0,1]]")), HasSubstr("out of range"));
-    EXPECT_THAT(error_of(with_matrix("[[1,0,0,null],[0,1,0,0],[0,0,1,0],[0,0,0,1]]")), HasSubstr("4 rows of 4"));
+    EXPECT_THAT(rig_error(with_matrix("[[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]]")), HasSubstr("remove the scale"));
+    EXPECT_THAT(rig_error(with_matrix("[[-1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]")), HasSubstr("mirrors"));
+    EXPECT_THAT(rig_error(with_matrix("[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,2]]")), HasSubstr("0 0 0 1"));
+    EXPECT_THAT(rig_error(with_matrix("[[1,0,0,1e300],[0,1,0,0],[0,0,1,0],[0,0,0,1]]")), HasSubstr("out of range"));
+    EXPECT_THAT(rig_error(with_matrix("[[1,0,0,null],[0,1,0,0],[0,0,1,0],[0,0,0,1]]")), HasSubstr("4 rows of 4"));
     // Within the tolerance of 1e-3: rounded by other tools.
     EXPECT_TRUE(rig_from_json(with_matrix("[[1.0004,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]"), "R").ok());
 }
 
 TEST(Rig, HostileTextIsRefused) {
-    EXPECT_THAT(error_of(std::string(1 << 20, '[')), HasSubstr("brackets"));
+    EXPECT_THAT(rig_error(std::string(1 << 20, '[')), HasSubstr("brackets"));
     std::string many = R"({"w":8,"h":8,"fl_x":9,"frames":[)";
     for (int i = 0; i <= kMaxViews; ++i) many += (i == 0 ? "{}" : ",{}");
-    EXPECT_THAT(error_of(many + "]}"), HasSubstr("4097 frames"));
-    EXPECT_THAT(error_of(R"({"frames":[{"file_path":")" + std::string(5000, 'a') + "\"}]}"), HasSubstr("too long"));
+    EXPECT_THAT(rig_error(many + "]}"), HasSubstr("4097 frames"));
+    EXPECT_THAT(rig_error(R"({"frames":[{"file_path":")" + std::string(5000, 'a') + "\"}]}"), HasSubstr("too long"));
     // Brackets in strings do not nest.
     EXPECT_TRUE(
         rig_from_json(one_frame(R"("w":8,"h":6,"fl_x":10,"x":"\")" + std::string(500, '[') + "\",", ""), "R").ok());

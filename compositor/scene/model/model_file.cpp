@@ -16,7 +16,7 @@
 namespace rs::compositor {
 namespace {
 
-constexpr std::uint64_t kMaxFile_bytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kMaxModel_bytes = std::uint64_t{64} << 20;
 constexpr std::size_t kMaxDraws = 100'000;
 constexpr int kMaxHeight = 500;
 
@@ -103,7 +103,7 @@ private:
 }  // namespace
 
 Result<Scene> read_model(const std::filesystem::path& path) {
-    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxFile_bytes);
+    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxModel_bytes);
     if (!bytes) return bytes.error();
     Scene scene;
     scene.lights.clear();

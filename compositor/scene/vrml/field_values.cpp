@@ -7,7 +7,7 @@ namespace {
 
 constexpr long kMaxSide = 8192;  // of a PixelTexture, px
 constexpr long kMaxPixels = 1L << 24;
-constexpr std::size_t kMaxText_bytes = 1 << 16;
+constexpr std::size_t kMaxString_bytes = 1 << 16;
 
 int numbers_in(FieldType type) {
     switch (type) {
@@ -87,7 +87,7 @@ private:
     void copy_text() {
         if (lexer_.peek().kind != TokenKind::text) throw wrong_type();
         const Token token = lexer_.take();
-        if (token.text.size() > kMaxText_bytes) {
+        if (token.text.size() > kMaxString_bytes) {
             throw lexer_.wrong(token.line, "a text of " + std::to_string(token.text.size()) + " bytes; shorten it");
         }
         ((out_ += " \"") += token.text) += '"';

@@ -19,7 +19,7 @@ struct Ball {
 };
 
 // Far from symmetrical: one arm, and a trunk beside the axis.
-std::vector<Ball> figure() {
+std::vector<Ball> balls() {
     return {{{0.03, -0.24, 0.02}, 0.07},
             {{0.05, -0.30, -0.01}, 0.09},
             {{0.12, -0.33, 0.03}, 0.05},
@@ -27,7 +27,7 @@ std::vector<Ball> figure() {
             {{-0.04, -0.46, -0.05}, 0.06}};
 }
 
-TurntableModel true_model(int views, double roll_rad = 0.01) {
+TurntableModel turn_of_outlines(int views, double roll_rad = 0.01) {
     TurntableModel model;
     model.lens = {400, 320, 620, 200, 160, -0.1, 0};
     model.pose = {0.03, radians(20), roll_rad};
@@ -44,7 +44,7 @@ Image<std::uint8_t> covered_of(const TurntableModel& model, int on_left_px = 0) 
             for (int x = 0; x < alpha.width(); ++x) {
                 const auto ray = table_ray(model.lens, model.pose, {x + 0.5, y + 0.5});
                 double inside_px = -1;
-                for (const Ball& ball : figure()) {
+                for (const Ball& ball : balls()) {
                     const glm::dvec3 to_centre = turned(ball.centre, angle) - glm::dvec3(0, 0, 1);
                     const double along = glm::dot(to_centre, *ray);
                     const double beside = std::sqrt(std::max(0.0, glm::dot(to_centre, to_centre) - along * along));
@@ -69,7 +69,7 @@ double error_px(const TurntableModel& truth, const AxisPlace& found) {
 }
 
 TEST(OutlineSymmetry, FindsTheAxisFromAStartBesideIt) {
-    const TurntableModel truth = true_model(36);
+    const TurntableModel truth = turn_of_outlines(36);
     const Image<std::uint8_t> covered = covered_of(truth);
     for (const double beside_rad : {-0.008, 0.0, 0.008}) {  // 5 px
         TurntableModel start = truth;
@@ -84,7 +84,7 @@ TEST(OutlineSymmetry, FindsTheAxisFromAStartBesideIt) {
 }
 
 TEST(OutlineSymmetry, FindsAnAxisThatLiesSideways) {
-    TurntableModel truth = true_model(36, 0.5 * kPi - 0.01);
+    TurntableModel truth = turn_of_outlines(36, 0.5 * kPi - 0.01);
     truth.pose.pan_rad = 0.01;
     std::swap(truth.lens.width, truth.lens.height);
     std::swap(truth.lens.cx, truth.lens.cy);
@@ -96,7 +96,7 @@ TEST(OutlineSymmetry, FindsAnAxisThatLiesSideways) {
 }
 
 TEST(OutlineSymmetry, CountsInPixelsOfThePhotographs) {
-    const TurntableModel truth = true_model(36);
+    const TurntableModel truth = turn_of_outlines(36);
     TurntableModel photographs = truth;
     for (double* number : {&photographs.lens.f_px, &photographs.lens.cx, &photographs.lens.cy}) *number *= 3;
     photographs.lens.width *= 3;
@@ -107,7 +107,7 @@ TEST(OutlineSymmetry, CountsInPixelsOfThePhotographs) {
 }
 
 TEST(OutlineSymmetry, IsLessSureOfFewerViewsAndSilentWithoutAFullTurn) {
-    const TurntableModel many = true_model(36), few = true_model(12);
+    const TurntableModel many = turn_of_outlines(36), few = turn_of_outlines(12);
     const auto of_many = axis_of_outlines(covered_of(many), 1, many);
     const auto of_few = axis_of_outlines(covered_of(few), 1, few);
     ASSERT_TRUE(of_many && of_few);
@@ -119,7 +119,7 @@ TEST(OutlineSymmetry, IsLessSureOfFewerViewsAndSilentWithoutAFullTurn) {
 }
 
 TEST(OutlineSymmetry, DoesNotUseRowsCutOffByThePicture) {
-    TurntableModel truth = true_model(36);
+    TurntableModel truth = turn_of_outlines(36);
     truth.pose.pan_rad = 0.235;  // the widest rows reach beyond the left border
     const Image<std::uint8_t> covered = covered_of(truth);
     int cut_off = 0;
@@ -132,7 +132,7 @@ TEST(OutlineSymmetry, DoesNotUseRowsCutOffByThePicture) {
 
 // What is lacking on one side is seen as an axis half as far beside: the sign of the measure.
 TEST(OutlineSymmetry, FollowsWhatTheCutOutsLack) {
-    const TurntableModel truth = true_model(36);
+    const TurntableModel truth = turn_of_outlines(36);
     const auto whole = axis_of_outlines(covered_of(truth), 1, truth);
     const auto lacking = axis_of_outlines(covered_of(truth, 4), 1, truth);
     ASSERT_TRUE(whole && lacking);
@@ -151,7 +151,7 @@ TEST(AgreedAxis, WeighsWhatAgreesAndBelievesOutlinesWhereTextureGlides) {
 }
 
 TEST(AgreedAxis, IsReachedByThePanAlone) {
-    const TurntableModel model = true_model(36);
+    const TurntableModel model = turn_of_outlines(36);
     const auto moved = with_axis_at(model, {200, 190, 0.1});
     ASSERT_TRUE(moved);
     EXPECT_NEAR(axis_position(moved->lens, moved->pose, 200).value(), 190, 1e-5);

@@ -31,7 +31,7 @@ std::vector<Ellipsoid> bottle() {
     return {{{0, -0.30, 0}, {0.09, 0.13, 0.09}}, {{0, -0.17, 0}, {0.035, 0.1, 0.035}}};
 }
 
-TurntableModel true_model(int views) {
+TurntableModel turn_of_figure(int views) {
     TurntableModel model;
     model.lens = {320, 240, 420, 160, 120, 0, 0};
     // The axis runs 12 px to the right of the picture's middle.
@@ -58,7 +58,7 @@ bool hits(const std::vector<Ellipsoid>& body, const glm::dvec3& origin, const gl
 }
 
 std::vector<Image<std::uint8_t>> drawn(const std::vector<Ellipsoid>& body, const TurntableModel& model) {
-    constexpr int kSamples = 3;  // per side of a pixel
+    constexpr int kMaskSamples = 3;  // per side of a pixel
     std::vector<Image<std::uint8_t>> masks;
     for (const double angle : model.angles_rad) {
         const glm::dvec3 origin = turned({0, 0, 1}, -angle);
@@ -66,12 +66,13 @@ std::vector<Image<std::uint8_t>> drawn(const std::vector<Ellipsoid>& body, const
         for (int y = 0; y < mask.height(); ++y) {
             for (int x = 0; x < mask.width(); ++x) {
                 int inside = 0;
-                for (int s = 0; s < kSamples * kSamples; ++s) {
-                    const glm::dvec2 p(x + (s % kSamples + 0.5) / kSamples, y + (s / kSamples + 0.5) / kSamples);
+                for (int s = 0; s < kMaskSamples * kMaskSamples; ++s) {
+                    const glm::dvec2 p(x + (s % kMaskSamples + 0.5) / kMaskSamples,
+                                       y + (s / kMaskSamples + 0.5) / kMaskSamples);
                     const auto ray = table_ray(model.lens, model.pose, p);
                     if (ray && hits(body, origin, turned(*ray, -angle))) ++inside;
                 }
-                mask(x, y) = static_cast<std::uint8_t>(inside * 255 / (kSamples * kSamples));
+                mask(x, y) = static_cast<std::uint8_t>(inside * 255 / (kMaskSamples * kMaskSamples));
             }
         }
         masks.push_back(std::move(mask));
@@ -91,12 +92,12 @@ double axis_error_px(const TurntableModel& found, const TurntableModel& truth) {
 }
 
 const std::vector<Image<std::uint8_t>>& figure_masks() {
-    static const auto kMasks = drawn(figure(), true_model(kViews));
+    static const auto kMasks = drawn(figure(), turn_of_figure(kViews));
     return kMasks;
 }
 
 TEST(Silhouettes, FindAxisTiltAndRollOfABodyWithoutSymmetry) {
-    const TurntableModel truth = true_model(kViews);
+    const TurntableModel truth = turn_of_figure(kViews);
     const auto found = calibrate_with_silhouettes(figure_masks(), level_start(truth), {});
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->method, CalibrationMethod::kSilhouettes);
@@ -121,7 +122,7 @@ TEST(Silhouettes, FindAxisTiltAndRollOfABodyWithoutSymmetry) {
 
 // With masks that are smaller than the photographs.
 TEST(Silhouettes, HoldWhatIsKnown) {
-    const TurntableModel truth = true_model(kViews);
+    const TurntableModel truth = turn_of_figure(kViews);
     TurntableModel start = level_start(truth);
     for (double* number : {&start.lens.f_px, &start.lens.cx, &start.lens.cy}) *number *= 4;
     start.lens.width *= 4;
@@ -145,7 +146,7 @@ TEST(Silhouettes, HoldWhatIsKnown) {
 }
 
 TEST(Silhouettes, DoNotPretendToKnowWhatABodyOfRevolutionHides) {
-    const TurntableModel truth = true_model(24);
+    const TurntableModel truth = turn_of_figure(24);
     TurntableModel one_view = truth;
     one_view.angles_rad = {0};
     const std::vector<Image<std::uint8_t>> masks(24, drawn(bottle(), one_view)[0]);
@@ -164,7 +165,7 @@ TEST(Silhouettes, DoNotPretendToKnowWhatABodyOfRevolutionHides) {
 }
 
 TEST(Silhouettes, RefuseOutlinesThatAreOfNoTurn) {
-    const TurntableModel truth = true_model(kViews);
+    const TurntableModel truth = turn_of_figure(kViews);
     auto shuffled = figure_masks();
     for (std::size_t i = 0; i < shuffled.size(); ++i) std::swap(shuffled[i], shuffled[(i * 11 + 5) % kViews]);
     const auto found = calibrate_with_silhouettes(shuffled, level_start(truth), {});
@@ -173,7 +174,7 @@ TEST(Silhouettes, RefuseOutlinesThatAreOfNoTurn) {
 }
 
 TEST(Silhouettes, RefuseInputsThatDoNotFitTogether) {
-    const TurntableModel truth = true_model(kViews);
+    const TurntableModel truth = turn_of_figure(kViews);
     const auto message = [&](std::vector<Image<std::uint8_t>> masks, const TurntableModel& start) {
         const auto found = calibrate_with_silhouettes(masks, start, {});
         return found.ok() ? std::string("accepted") : found.error().message;
@@ -196,7 +197,7 @@ TEST(Silhouettes, RefuseInputsThatDoNotFitTogether) {
 }
 
 TEST(Silhouettes, TheOtherSenseOfTurningIsNoticed) {
-    const TurntableModel truth = true_model(kViews);
+    const TurntableModel truth = turn_of_figure(kViews);
     TurntableModel start = level_start(truth);
     for (double& angle : start.angles_rad) angle = -angle;
     const auto found = calibrate_with_silhouettes(figure_masks(), start, {});

@@ -11,14 +11,14 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kWidth = 90;
-constexpr int kHeight = 60;
+constexpr int kExposedWidth = 90;
+constexpr int kExposedHeight = 60;
 constexpr int kObject_px = 30;  // the columns before this show something else
 
 Image<Rgba8> photo_of(const std::array<float, 3>& gain, std::uint8_t object) {
-    Image<Rgba8> photo(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+    Image<Rgba8> photo(kExposedWidth, kExposedHeight);
+    for (int y = 0; y < kExposedHeight; ++y) {
+        for (int x = 0; x < kExposedWidth; ++x) {
             const auto code = static_cast<std::uint8_t>(80 + x / 2 + y / 2);
             const auto exposed = [&](std::size_t i) { return srgb8_from_linear(gain[i] * linear_from_srgb8(code)); };
             photo(x, y) =
@@ -29,9 +29,9 @@ Image<Rgba8> photo_of(const std::array<float, 3>& gain, std::uint8_t object) {
 }
 
 Image<std::uint8_t> still_part() {
-    Image<std::uint8_t> still(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = kObject_px; x < kWidth; ++x) still(x, y) = 255;
+    Image<std::uint8_t> still(kExposedWidth, kExposedHeight);
+    for (int y = 0; y < kExposedHeight; ++y) {
+        for (int x = kObject_px; x < kExposedWidth; ++x) still(x, y) = 255;
     }
     return still;
 }
@@ -54,7 +54,7 @@ TEST(ExposureGain, IsFoundPerChannelWhereNothingMoves) {
 
 TEST(ExposureGain, IsKeptWithinItsBoundsAndIsOneWhereNothingCanBeMeasured) {
     EXPECT_FLOAT_EQ(exposure_gain(photo_of({2.6F, 1, 1}, 0), light_of(photo_of({1, 1, 1}, 0)), still_part()).r, 2);
-    const Image<Rgba8> clipped(kWidth, kHeight, Rgba8{255, 255, 20, 255});
+    const Image<Rgba8> clipped(kExposedWidth, kExposedHeight, Rgba8{255, 255, 20, 255});
     const LinearRgb gain = exposure_gain(clipped, light_of(photo_of({1, 1, 1}, 0)), still_part());
     EXPECT_FLOAT_EQ(gain.r, 1);
     EXPECT_FLOAT_EQ(gain.b, 1);
@@ -66,7 +66,7 @@ TEST(EvenedSamples, LookExposedAlikeAndKeepClippedValues) {
     EvenedSamples samples(photos);
     EXPECT_GT(std::abs(samples(0, 60, 30).g - samples(2, 60, 30).g), 10);
     samples.even_out(photo_of({1, 1, 1}, 255), still_part());
-    for (int x = kObject_px; x < kWidth; ++x) {
+    for (int x = kObject_px; x < kExposedWidth; ++x) {
         for (std::size_t i = 0; i < samples.count(); ++i) {
             ASSERT_NEAR(samples(i, x, 30).g, photos[1](x, 30).g, 2) << i << " at " << x;
         }

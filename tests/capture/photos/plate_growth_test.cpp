@@ -9,8 +9,8 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kWidth = 80;
-constexpr int kHeight = 48;
+constexpr int kPlateWidth = 80;
+constexpr int kPlateHeight = 48;
 constexpr int kSeedColumns = 12;  // at either side
 
 Rgba8 backdrop_at(int x, int y) {
@@ -25,10 +25,10 @@ std::vector<Image<Rgba8>> bars_and_a_post() {
     constexpr int kViews = 12;
     std::vector<Image<Rgba8>> samples;
     for (int i = 0; i < kViews; ++i) {
-        Image<Rgba8> sample(kWidth, kHeight);
+        Image<Rgba8> sample(kPlateWidth, kPlateHeight);
         const int bar = 16 + 4 * i;
-        for (int y = 0; y < kHeight; ++y) {
-            for (int x = 0; x < kWidth; ++x) {
+        for (int y = 0; y < kPlateHeight; ++y) {
+            for (int x = 0; x < kPlateWidth; ++x) {
                 const bool object = (x >= bar && x < bar + 6) || (x >= 36 && x < 44 && y >= 10);
                 sample(x, y) = object ? kObject : backdrop_at(x, y);
             }
@@ -39,15 +39,16 @@ std::vector<Image<Rgba8>> bars_and_a_post() {
 }
 
 Image<std::uint8_t> seeds(bool right = true) {
-    Image<std::uint8_t> mask(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kSeedColumns; ++x) mask(x, y) = mask(kWidth - 1 - (right ? x : kWidth - 1 - x), y) = 255;
+    Image<std::uint8_t> mask(kPlateWidth, kPlateHeight);
+    for (int y = 0; y < kPlateHeight; ++y) {
+        for (int x = 0; x < kSeedColumns; ++x)
+            mask(x, y) = mask(kPlateWidth - 1 - (right ? x : kPlateWidth - 1 - x), y) = 255;
     }
     return mask;
 }
 
 GrownPlate grown(const EvenedSamples& samples, const Image<Rgba8>& guess, const Image<std::uint8_t>& seeds,
-                 const Image<std::uint8_t>& barred = Image<std::uint8_t>(kWidth, kHeight)) {
+                 const Image<std::uint8_t>& barred = Image<std::uint8_t>(kPlateWidth, kPlateHeight)) {
     GrownPlate plate;
     grow_plate(samples, guess, seeds, barred, plate);
     return plate;
@@ -58,8 +59,8 @@ TEST(GrowPlate, FollowsTheBackdropBehindWhatMovesAndStopsAtWhatHidesIt) {
     const EvenedSamples samples(photos);
     const GrownPlate plate = grown(samples, photos[0], seeds());
     const Image<Rgba8> sharp = sharp_colours(samples, plate);
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kPlateHeight; ++y) {
+        for (int x = 0; x < kPlateWidth; ++x) {
             const bool post = x >= 36 && x < 44 && y >= 10;
             if (post) {
                 ASSERT_EQ(plate.witnesses(x, y), 0U) << x << "," << y;
@@ -76,7 +77,7 @@ TEST(GrowPlate, FollowsTheBackdropBehindWhatMovesAndStopsAtWhatHidesIt) {
 TEST(GrowPlate, KeepsOutOfWhatIsBarred) {
     const std::vector<Image<Rgba8>> photos = bars_and_a_post();
     const EvenedSamples samples(photos);
-    Image<std::uint8_t> barred(kWidth, kHeight);
+    Image<std::uint8_t> barred(kPlateWidth, kPlateHeight);
     for (int y = 20; y < 30; ++y) {
         for (int x = 20; x < 30; ++x) barred(x, y) = 255;
     }
@@ -87,10 +88,10 @@ TEST(GrowPlate, KeepsOutOfWhatIsBarred) {
 
 // The object's even colour differs from the backdrop's, but in two rows the one goes over into the other gently.
 TEST(GrowPlate, DoesNotPassThroughANarrowGap) {
-    std::vector<Image<Rgba8>> photos(6, Image<Rgba8>(kWidth, kHeight));
+    std::vector<Image<Rgba8>> photos(6, Image<Rgba8>(kPlateWidth, kPlateHeight));
     for (Image<Rgba8>& photo : photos) {
-        for (int y = 0; y < kHeight; ++y) {
-            for (int x = 0; x < kWidth; ++x) {
+        for (int y = 0; y < kPlateHeight; ++y) {
+            for (int x = 0; x < kPlateWidth; ++x) {
                 const bool gap = y == 23 || y == 24;
                 const int code = gap ? 120 + std::clamp(3 * (x - 30), 0, 40) : x < 37 ? 120 : 160;
                 const auto c = static_cast<std::uint8_t>(code);
@@ -106,7 +107,7 @@ TEST(GrowPlate, DoesNotPassThroughANarrowGap) {
 }
 
 TEST(ConfirmPlate, NeedsPatchesInThreePictures) {
-    std::vector<Image<Rgba8>> photos(5, Image<Rgba8>(kWidth, kHeight, kObject));
+    std::vector<Image<Rgba8>> photos(5, Image<Rgba8>(kPlateWidth, kPlateHeight, kObject));
     const Rgba8 behind{100, 110, 120, 255};
     for (std::size_t i = 0; i < photos.size(); ++i) {
         for (int y = 10; y < 20; ++y) {
@@ -115,11 +116,11 @@ TEST(ConfirmPlate, NeedsPatchesInThreePictures) {
                 if (i < 2) photos[i](x + 30, y) = behind;
             }
         }
-        for (int x = 0; x < kWidth; ++x) photos[i](x, 40) = behind;  // no patch, a line
+        for (int x = 0; x < kPlateWidth; ++x) photos[i](x, 40) = behind;  // no patch, a line
     }
     const EvenedSamples samples(photos);
-    const Image<Rgba8> guess(kWidth, kHeight, behind);
-    Image<std::uint8_t> asked(kWidth, kHeight, 255);
+    const Image<Rgba8> guess(kPlateWidth, kPlateHeight, behind);
+    Image<std::uint8_t> asked(kPlateWidth, kPlateHeight, 255);
     asked(16, 14) = 0;
     const Image<std::uint8_t> confirmed = confirm_plate(samples, guess, asked);
     EXPECT_EQ(confirmed(14, 14), 255);

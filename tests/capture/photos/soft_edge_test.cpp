@@ -12,7 +12,7 @@ namespace rs::capture {
 namespace {
 
 constexpr int kSide_px = 120;
-constexpr double kRadius_px = 40;
+constexpr double kEdgeRadius_px = 40;
 
 // A disc of wood grain before a backdrop of noise, both far from one colour.
 struct Grain {
@@ -21,7 +21,7 @@ struct Grain {
 };
 
 double distance_inside(int x, int y) {
-    return kRadius_px - std::hypot(x + 0.5 - kSide_px / 2.0, y + 0.5 - kSide_px / 2.0);
+    return kEdgeRadius_px - std::hypot(x + 0.5 - kSide_px / 2.0, y + 0.5 - kSide_px / 2.0);
 }
 
 Grain draw_grain() {

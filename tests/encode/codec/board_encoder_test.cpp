@@ -21,10 +21,10 @@
 namespace rs::encode {
 namespace {
 
-const test::SmallObjectOptions kSmall{.views_per_ring = 18, .width = 72, .height = 60};
+const test::SmallObjectOptions kSmallBoard{.views_per_ring = 18, .width = 72, .height = 60};
 
 RaySpaceObject board_object(const BoardSettings& settings, double* psnr_db = nullptr) {
-    RaySpaceObject object = test::small_object(kSmall);
+    RaySpaceObject object = test::small_object(kSmallBoard);
     for (PlanarPicture& picture : object.pictures) picture = {};
     std::vector<SourcePicture> sources;
     for (const Image<Rgba8>& picture : test::drawn_pictures(object)) {

@@ -14,12 +14,12 @@
 namespace rs::codec {
 namespace {
 
-const test::SmallObjectOptions kSmall{.views_per_ring = 9, .width = 40, .height = 36};
+const test::SmallObjectOptions kSmallFile{.views_per_ring = 9, .width = 40, .height = 36};
 
 class CodedFile : public testing::Test {
 protected:
     void SetUp() override {
-        object_ = test::coded_object(kSmall, {});
+        object_ = test::coded_object(kSmallFile, {});
         const Status written = write_object(file_, object_);
         ASSERT_TRUE(written.ok()) << written.error().message;
     }

@@ -21,7 +21,7 @@
 namespace rs::encode {
 namespace {
 
-const test::SmallObjectOptions kSmall{.views_per_ring = 11, .width = 150, .height = 90};
+const test::SmallObjectOptions kSmallDense{.views_per_ring = 11, .width = 150, .height = 90};
 
 std::vector<std::byte> bytes_of(const codec::CodedPictures& coded) {
     std::vector<std::byte> bytes = codec::code_payload(coded);
@@ -116,7 +116,7 @@ TEST(Transform, FewerRowsAndColumnsGiveTheSame) {
 
 TEST(DenseEncoder, TheDecoderShowsWhatTheEncoderMeasured) {
     for (const double step : {3.0, 12.0, 60.0}) {
-        RaySpaceObject object = test::small_object(kSmall);
+        RaySpaceObject object = test::small_object(kSmallDense);
         const std::vector<Image<Rgba8>> pictures = test::drawn_pictures(object);
         DenseSettings settings;
         settings.step = step;
@@ -140,7 +140,7 @@ TEST(DenseEncoder, TheDecoderShowsWhatTheEncoderMeasured) {
 }
 
 TEST(DenseEncoder, FinerStepsAreBetterAndLarger) {
-    const RaySpaceObject object = test::small_object(kSmall);
+    const RaySpaceObject object = test::small_object(kSmallDense);
     const std::vector<Image<Rgba8>> pictures = test::drawn_pictures(object);
     double last_db = 0;
     std::size_t last_bytes = 0;
@@ -162,7 +162,7 @@ TEST(DenseEncoder, FinerStepsAreBetterAndLarger) {
 
 TEST(DenseEncoder, PredictionFromOtherPicturesPays) {
     // The same picture in every view: all but the references cost next to nothing.
-    const RaySpaceObject object = test::small_object(kSmall);
+    const RaySpaceObject object = test::small_object(kSmallDense);
     const std::vector<Image<Rgba8>> still(object.views.size(), test::drawn_pictures(object)[0]);
     const codec::CodedPictures coded = test::code_pictures(object, still, {});
     ASSERT_EQ(coded.levels[0], 0);
@@ -171,7 +171,7 @@ TEST(DenseEncoder, PredictionFromOtherPicturesPays) {
 }
 
 TEST(DenseEncoder, AnyNumberOfThreadsGivesTheSameBytes) {
-    const RaySpaceObject object = test::small_object(kSmall);
+    const RaySpaceObject object = test::small_object(kSmallDense);
     const std::vector<Image<Rgba8>> pictures = test::drawn_pictures(object);
     std::vector<std::vector<std::byte>> results;
     for (const std::size_t threads : {1, 2, 4}) {
@@ -197,7 +197,7 @@ TEST(DenseEncoder, OddSizesOneViewAndNothingToSee) {
 }
 
 TEST(ByteAccount, AddsUpToTheChunks) {
-    const RaySpaceObject object = test::coded_object(kSmall, {});
+    const RaySpaceObject object = test::coded_object(kSmallDense, {});
     const auto entries = codec::account_bytes(*object.coded);
     double sum = 0;
     double rounding = 1e9;

@@ -9,8 +9,8 @@ namespace {
 using test::Bench;
 
 // A view of an object, in a register file.
-struct Registers {
-    Registers() : object(rs::test::ring_object({.views = 12, .planes = 12})), board(test::prototype()) {
+struct PlaneRegisters {
+    PlaneRegisters() : object(rs::test::ring_object({.views = 12, .planes = 12})), board(test::prototype()) {
         slot = *board.place(object);
         const auto prepared = prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, 9, 7));
         file = board.top().registers;
@@ -23,7 +23,7 @@ struct Registers {
 };
 
 TEST(BlockTiming, RasterGeneratorMakesAColumnInPlanesPlusOneCycles) {
-    const Registers r;
+    const PlaneRegisters r;
     Fifo<ViewJob> jobs("jobs", 2, 4);
     Fifo<ColumnRay> columns("columns", 20, 72);
     RasterGenerator block(r.file, jobs, columns);
@@ -71,7 +71,7 @@ std::vector<ColumnRay> columns_of(const RegisterFile& file) {
 }
 
 TEST(BlockTiming, RayPosition) {
-    const Registers r;
+    const PlaneRegisters r;
     const ColumnRay middle = columns_of(r.file)[4];
     ASSERT_TRUE(middle.has_ray);
     expect_latency<RayPosition, ColumnRay, RayPoint>(r.file, middle, 75, true);
@@ -82,7 +82,7 @@ TEST(BlockTiming, RayPosition) {
 }
 
 TEST(BlockTiming, VerticalCompensationAndColumnAddress) {
-    const Registers r;
+    const PlaneRegisters r;
     const CapturedView& view = r.object.views[0];
     RayLine line{0, true, 0, 3 << 20, 0, view.cx_q16, view.cy_q16, view.fl_y_q16, view.height_q20, 3 << 20, 0, 0, 0};
     expect_latency<VerticalCompensation, RayLine, ColumnWalk>(r.file, line, 65, true);
@@ -101,7 +101,7 @@ TEST(BlockTiming, VerticalCompensationAndColumnAddress) {
 }
 
 TEST(BlockTiming, RowScanGivesAPairEverySecondCycleAndOneMoreForAnOddRow) {
-    const Registers r;
+    const PlaneRegisters r;
     Fifo<PlacedColumn> in("in", 4, 1);
     Fifo<PixelPair> out("out", 8, 1);
     RowScan block(r.file, in, out);
@@ -161,7 +161,7 @@ TEST(BlockTiming, ColourConversionHasLatencyFiveAndAPixelPerCycle) {
 }
 
 TEST(BlockTiming, ImageWriterPacksTwoPixels) {
-    const Registers r;
+    const PlaneRegisters r;
     Fifo<RgbaPixel> in("in", 8, 1);
     Fifo<MemoryWrite> out("out", 8, 1);
     ImageWriter block(r.file, in, out);

@@ -5,7 +5,7 @@
 namespace rs::engine::model {
 namespace {
 
-RaySpaceObject small(std::uint64_t seed = 1) {
+RaySpaceObject small_plane(std::uint64_t seed = 1) {
     return rs::test::ring_object({.views = 12, .planes = 6, .x_cells = 32, .u_cells = 32, .seed = seed});
 }
 
@@ -22,7 +22,7 @@ void expect_right(const Image<Rgba8>& picture, const RaySpaceObject& object, dou
 }
 
 TEST(BoardFaults, BusRetriesCostClocksAndNoBits) {
-    const RaySpaceObject object = small();
+    const RaySpaceObject object = small_plane();
     std::uint64_t arrived[2] = {0, 0};
     for (const int retry_every : {0, 3}) {
         BoardConfig config = test::prototype();
@@ -45,7 +45,7 @@ TEST(BoardFaults, ADiskThatPausesDelaysTheObjectAndNothingElse) {
     config.disk.stall_after_bytes = 2048;
     config.disk.stall_cycles = 100'000;
     Board board(config);
-    const RaySpaceObject object = small();
+    const RaySpaceObject object = small_plane();
     const Result<int> slot = board.start_load(object);
     ASSERT_TRUE(slot.ok());
     ASSERT_TRUE(board.finish_loads().ok());
@@ -63,7 +63,7 @@ TEST(BoardFaults, ADiskThatStaysSilentFailsTheLoadAndFreesTheSlot) {
     config.disk.stall_cycles = 1'000'000'000;
     config.disk.timeout_cycles = 50'000;
     Board board(config);
-    const RaySpaceObject object = small();
+    const RaySpaceObject object = small_plane();
     const std::uint64_t free = board.memory_map().free_words(Region::luma);
     const Result<int> slot = board.start_load(object);
     ASSERT_TRUE(slot.ok());
@@ -79,7 +79,7 @@ TEST(BoardFaults, ADiskThatStaysSilentFailsTheLoadAndFreesTheSlot) {
 
 TEST(BoardFaults, AnObjectIsNotDrawnBeforeItsLastWord) {
     Board board(test::prototype());
-    const RaySpaceObject object = small();
+    const RaySpaceObject object = small_plane();
     const Result<int> slot = board.start_load(object);
     ASSERT_TRUE(slot.ok());
     const Result<BoardRun> early = board.render({{view_of(board, *slot, object, 0)}});
@@ -99,7 +99,7 @@ TEST(BoardFaults, AFullMemoryOrAFullTableRefusesTheObjectAndKeepsTheOthers) {
     const std::uint64_t small_bank = config.memory.shape.words_per_bank();
     ASSERT_GT(small_bank, 0U);
     Board board(config);
-    const RaySpaceObject object = small();
+    const RaySpaceObject object = small_plane();
     ASSERT_TRUE(board.place(object).ok());
     ASSERT_TRUE(board.place(object).ok());
     const Result<int> third = board.place(object);
@@ -122,7 +122,7 @@ TEST(BoardFaults, AFullMemoryOrAFullTableRefusesTheObjectAndKeepsTheOthers) {
 
 TEST(BoardFaults, BadRegistersRefuseTheWholeCycle) {
     Board board(test::prototype());
-    const RaySpaceObject object = small();
+    const RaySpaceObject object = small_plane();
     const int slot = *board.place(object);
     const BoardView good = view_of(board, slot, object, 0);
     const auto refusal = [&](const BoardView& bad) {
@@ -157,7 +157,7 @@ TEST(BoardFaults, BadRegistersRefuseTheWholeCycle) {
 
 TEST(BoardFaults, AThirdCycleOverrunsTheQueueAndLeavesTheOthersWhole) {
     Board board(test::prototype());
-    const RaySpaceObject object = small();
+    const RaySpaceObject object = small_plane();
     const int slot = *board.place(object);
     for (int n = 0; n < 3; ++n) board.submit({view_of(board, slot, object, n)});
     const RenderControl& control = board.top().render_control;
@@ -180,7 +180,7 @@ TEST(BoardFaults, AThirdCycleOverrunsTheQueueAndLeavesTheOthersWhole) {
 
 TEST(BoardFaults, AnObjectInUseIsNotEvicted) {
     Board board(test::prototype());
-    const RaySpaceObject object = small();
+    const RaySpaceObject object = small_plane();
     const int slot = *board.place(object);
     board.submit({view_of(board, slot, object, 0)});
     EXPECT_FALSE(board.evict(slot).ok());  // its command is still on the bus
@@ -196,17 +196,17 @@ TEST(BoardFaults, AnObjectInUseIsNotEvicted) {
 
 TEST(BoardFaults, ObjectsThatTheBoardCannotDrawAreRefusedWithTheRemedy) {
     Board board(test::prototype());
-    RaySpaceObject shaped = small();
+    RaySpaceObject shaped = small_plane();
     shaped.rings.front().shape.gaps.resize(1);
     EXPECT_NE(board.place(shaped).error().message.find("--raymap plane"), std::string::npos);
-    RaySpaceObject unloaded = small();
+    RaySpaceObject unloaded = small_plane();
     unloaded.pictures[3] = {};
     EXPECT_NE(board.place(unloaded).error().message.find("not all of its pictures"), std::string::npos);
-    RaySpaceObject full_colour = small();
+    RaySpaceObject full_colour = small_plane();
     full_colour.pictures[0].chroma_shift = 0;
     EXPECT_NE(board.place(full_colour).error().message.find("colour at full size"), std::string::npos);
     EXPECT_NE(board.place(rs::test::ring_object({.planes = 13})).error().message.find("--planes"), std::string::npos);
-    const RaySpaceObject object = small();
+    const RaySpaceObject object = small_plane();
     const Camera tilted = look_at_camera({3, 1, 0}, {0, 0, 0}, 0.6, 32, 32);
     const Result<BoardView> view = board.view(0, *prepare_view(object, tilted));
     ASSERT_FALSE(view.ok());
@@ -218,7 +218,7 @@ TEST(BoardFaults, ABoardThatStandsStillSaysWhereEverythingIs) {
     BoardConfig config = test::prototype();
     config.no_progress_cycles = 2000;
     Board board(config);
-    const RaySpaceObject object = small();
+    const RaySpaceObject object = small_plane();
     const int slot = *board.place(object);
     board.top().image_words.push({0, false, false});  // a word without a head: the bus waits for one for ever
     board.top().image_words.commit_writer();

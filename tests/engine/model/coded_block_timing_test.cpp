@@ -10,8 +10,9 @@ namespace {
 using test::Bench;
 
 // A view of an object of 12 views whose classes are known.
-struct Registers {
-    Registers() : object(rs::test::ring_object({.views = 12, .width = 80, .height = 70})), board(test::compressed()) {
+struct CodedRegisters {
+    CodedRegisters()
+        : object(rs::test::ring_object({.views = 12, .width = 80, .height = 70})), board(test::compressed()) {
         std::mt19937_64 random(5);
         object = test::with_coded(object, test::random_pictures(object, random));
         slot = *board.place(object);
@@ -33,7 +34,7 @@ BlockAsk ask_of(int block_row, bool first) {
 }
 
 TEST(CodedBlockTiming, BlockScanGivesAPixelPerCycleAndAnAskBehindItsRun) {
-    const Registers r;
+    const CodedRegisters r;
     Fifo<ColumnWalk> in("in", 4, 1);
     Fifo<BlockAsk> asks("asks", 16, 1);
     Fifo<CodedPixel> pixels("pixels", 64, 1);
@@ -56,7 +57,7 @@ TEST(CodedBlockTiming, BlockScanGivesAPixelPerCycleAndAnAskBehindItsRun) {
 }
 
 TEST(CodedBlockTiming, BlockScanEndsARunAfterSixteenPixels) {
-    const Registers r;
+    const CodedRegisters r;
     Fifo<ColumnWalk> in("in", 4, 1);
     Fifo<BlockAsk> asks("asks", 16, 1);
     Fifo<CodedPixel> pixels("pixels", 64, 1);
@@ -79,7 +80,7 @@ TEST(CodedBlockTiming, BlockScanEndsARunAfterSixteenPixels) {
 }
 
 TEST(CodedBlockTiming, TileFinderTakesABlockPerCycleAndAsksOncePerTile) {
-    const Registers r;
+    const CodedRegisters r;
     Fifo<BlockAsk> in("in", 8, 1);
     Fifo<MemoryRead> reads("reads", 8, 1);
     Fifo<FoundTile> out("out", 8, 1);
@@ -129,7 +130,7 @@ TEST(CodedBlockTiming, TileReaderAsksInTheCycleOfTheWord) {
 }
 
 TEST(CodedBlockTiming, RecordReaderTakesACyclePerWordAndOneForANewTile) {
-    const Registers r;
+    const CodedRegisters r;
     Fifo<AskedTile> in("in", 8, 1);
     Fifo<MemoryWord> heads("heads", 4, 1);
     Fifo<MemoryRead> reads("reads", 16, 1);
@@ -168,7 +169,7 @@ TEST(CodedBlockTiming, RecordReaderTakesACyclePerWordAndOneForANewTile) {
 }
 
 TEST(CodedBlockTiming, BlockMotionTakesACyclePerWordOneToHandOverAndOneForASecondAsk) {
-    const Registers r;
+    const CodedRegisters r;
     Fifo<AskedRecord> in("in", 4, 1);
     Fifo<MemoryWord> words("words", 4, 1);
     Fifo<BlockRecord> out("out", 4, 1);
@@ -201,7 +202,7 @@ TEST(CodedBlockTiming, BlockMotionTakesACyclePerWordOneToHandOverAndOneForASecon
 }
 
 TEST(CodedBlockTiming, RecordSelectGivesAPixelPerCycle) {
-    const Registers r;
+    const CodedRegisters r;
     Fifo<CodedPixel> in("in", 16, 1);
     Fifo<BlockRecord> records("records", 4, 1);
     Fifo<CodedPixel> out("out", 16, 1);
@@ -231,7 +232,7 @@ TEST(CodedBlockTiming, RecordSelectGivesAPixelPerCycle) {
 }
 
 TEST(CodedBlockTiming, BookLookupLoadsAWordPerCycleThenGivesAPixelPerCycleOfLatencySeven) {
-    const Registers r;
+    const CodedRegisters r;
     Fifo<CodedPixel> in("in", 8, 1);
     Fifo<MemoryRead> reads("reads", 4, 1);
     Fifo<MemoryWord> words("words", 4, 1);

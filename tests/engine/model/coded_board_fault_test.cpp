@@ -7,7 +7,7 @@
 namespace rs::engine::model {
 namespace {
 
-RaySpaceObject small(std::uint64_t seed) {
+RaySpaceObject small_coded(std::uint64_t seed) {
     return test::random_coded_object({.views = 6, .planes = 4, .x_cells = 16, .u_cells = 16, .seed = seed});
 }
 
@@ -19,7 +19,7 @@ void expect_right(Board& board, int slot, const RaySpaceObject& object) {
 }
 
 TEST(CodedBoardFaults, EachBoardRefusesTheOthersObjectsAndNamesIt) {
-    const RaySpaceObject coded = small(1);
+    const RaySpaceObject coded = small_coded(1);
     const RaySpaceObject raw = rs::test::ring_object({.views = 6});
     const auto refusal = [](const BoardConfig& config, const RaySpaceObject& object) {
         const Status status = drawable(object, config.limits);
@@ -44,7 +44,7 @@ TEST(CodedBoardFaults, EachBoardRefusesTheOthersObjectsAndNamesIt) {
 TEST(CodedBoardFaults, AnObjectInThePlaceOfAnother) {
     Board board(test::compressed());
     for (std::uint64_t seed = 1; seed < 8; ++seed) {
-        const RaySpaceObject object = small(seed);
+        const RaySpaceObject object = small_coded(seed);
         const Result<int> slot = board.place(object);
         ASSERT_TRUE(slot.ok());
         EXPECT_EQ(*slot, 0);
@@ -56,8 +56,8 @@ TEST(CodedBoardFaults, AnObjectInThePlaceOfAnother) {
 
 TEST(CodedBoardFaults, BooksAreLoadedWhenTheObjectChangesAndOnlyThen) {
     Board board(test::compressed());
-    const RaySpaceObject a = small(11);
-    const RaySpaceObject b = small(12);
+    const RaySpaceObject a = small_coded(11);
+    const RaySpaceObject b = small_coded(12);
     const int slot_a = *board.place(a);
     const int slot_b = *board.place(b);
     const auto view = [&](int slot, const RaySpaceObject& object) {
@@ -79,7 +79,7 @@ TEST(CodedBoardFaults, BooksAreLoadedWhenTheObjectChangesAndOnlyThen) {
 
 TEST(CodedBoardFaults, AHundredAndSixtySlotsAndNoMore) {
     Board board(test::compressed());
-    const RaySpaceObject object = small(3);
+    const RaySpaceObject object = small_coded(3);
     for (int n = 0; n < 160; ++n) ASSERT_EQ(*board.place(object), n);
     const Result<int> one_more = board.place(object);
     ASSERT_FALSE(one_more.ok());
@@ -100,7 +100,7 @@ TEST(CodedBoardFaults, FullMemoryNamesTheRegion) {
 // A board lives for many cycles: what it knows of those that are done is bounded.
 TEST(CodedBoardFaults, FinishedCyclesAreForgotten) {
     Board board(test::compressed());
-    const RaySpaceObject object = small(5);
+    const RaySpaceObject object = small_coded(5);
     const int slot = *board.place(object);
     const auto prepared = prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, 3, 4));
     const BoardView view = *board.view(slot, *prepared);

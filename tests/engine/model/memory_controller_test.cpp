@@ -9,8 +9,8 @@
 namespace rs::engine::model {
 namespace {
 
-struct Bench {
-    explicit Bench(const MemorySettings& s = {})
+struct PortBench {
+    explicit PortBench(const MemorySettings& s = {})
         : settings(s),
           sdram(settings.shape, settings.timing),
           controller("memory", settings, sdram, {{"a", &reads, &words}}, writes, written, loads, loaded) {}
@@ -49,7 +49,7 @@ struct Bench {
 };
 
 TEST(MemoryController, AReadTakesFiveCyclesAndAClosedOrOtherRowCostsItsCommands) {
-    Bench bench;
+    PortBench bench;
     bench.sdram.set_word(7, 70);
     bench.ask(7);
     EXPECT_EQ(bench.until_word(), 1 + 5);  // activate, then the read
@@ -66,7 +66,7 @@ TEST(MemoryController, AReadTakesFiveCyclesAndAClosedOrOtherRowCostsItsCommands)
 }
 
 TEST(MemoryController, ANullReadTakesATurnAndNoCommand) {
-    Bench bench;
+    PortBench bench;
     bench.sdram.set_word(0, 5);
     bench.ask(0, true);
     EXPECT_EQ(bench.until_word(), 5);
@@ -76,7 +76,7 @@ TEST(MemoryController, ANullReadTakesATurnAndNoCommand) {
 }
 
 TEST(MemoryController, NeverAsksForMoreThanTheAnswersHaveRoomFor) {
-    Bench bench;
+    PortBench bench;
     for (WordAddress n = 0; n < 20; ++n) bench.ask(n);
     for (int n = 0; n < 50; ++n) bench.step();
     EXPECT_EQ(bench.words.count(), 4);
@@ -85,7 +85,7 @@ TEST(MemoryController, NeverAsksForMoreThanTheAnswersHaveRoomFor) {
 }
 
 TEST(MemoryController, ReadsInARowOfOpenColumnsComeOneACycle) {
-    Bench bench;
+    PortBench bench;
     for (WordAddress n = 0; n < 3; ++n) bench.ask(n);
     EXPECT_EQ(bench.until_word(), 6);
     for (int n = 0; n < 2; ++n) {
@@ -96,7 +96,7 @@ TEST(MemoryController, ReadsInARowOfOpenColumnsComeOneACycle) {
 }
 
 TEST(MemoryController, WritesWaitForABatchWhileSomebodyReadsAndTurnTheBusRoundOnce) {
-    Bench bench;
+    PortBench bench;
     for (WordAddress n = 0; n < 4; ++n) bench.ask(n);
     for (WordAddress n = 0; n < 7; ++n) bench.write(100 + n, n);
     for (int n = 0; n < 5; ++n) bench.step();  // activate and four reads
@@ -114,7 +114,7 @@ TEST(MemoryController, WritesWaitForABatchWhileSomebodyReadsAndTurnTheBusRoundOn
 }
 
 TEST(MemoryController, TheLastWordOfAViewIsReported) {
-    Bench bench;
+    PortBench bench;
     bench.write(100, 1);
     bench.write(101, 2, true);
     for (int n = 0; n < 2; ++n) bench.step();  // activate, the first word
@@ -125,7 +125,7 @@ TEST(MemoryController, TheLastWordOfAViewIsReported) {
 
 // Cycles in which the port is lost to maintenance, over a few windows.
 std::uint64_t maintenance_cycles(int load_words) {
-    Bench bench;
+    PortBench bench;
     for (int n = 0; n < load_words; ++n) {
         bench.loads.push({static_cast<WordAddress>(n), 1000U + static_cast<std::uint64_t>(n), n + 1 == load_words});
         bench.loads.commit();
@@ -150,7 +150,7 @@ TEST(MemoryController, TheMaintenanceWindowTakesTheSameTimeWithAndWithoutLoading
 }
 
 TEST(MemoryController, AWindowLoadsTwentyWordsOfOneRow) {
-    Bench bench;
+    PortBench bench;
     for (WordAddress n = 0; n < 30; ++n) {
         bench.loads.push({1014 + n, n, false});
         bench.loads.commit();

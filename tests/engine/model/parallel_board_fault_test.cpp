@@ -5,7 +5,7 @@
 namespace rs::engine::model {
 namespace {
 
-RaySpaceObject small(std::uint64_t seed, bool coded = true) {
+RaySpaceObject small_for_pipes(std::uint64_t seed, bool coded = true) {
     return test::any_object({.views = 6, .planes = 4, .x_cells = 16, .u_cells = 16, .seed = seed},
                             {.coded = coded, .shape = true});
 }
@@ -27,25 +27,25 @@ std::string refusal(const RaySpaceObject& object) {
 }
 
 TEST(ParallelBoardFaults, RefusesWhatItCannotDrawAndSaysWhy) {
-    EXPECT_EQ(refusal(small(1)), "");
-    EXPECT_EQ(refusal(small(1, false)), "");
-    RaySpaceObject dense = small(1, false);
+    EXPECT_EQ(refusal(small_for_pipes(1)), "");
+    EXPECT_EQ(refusal(small_for_pipes(1, false)), "");
+    RaySpaceObject dense = small_for_pipes(1, false);
     dense.coded = std::make_shared<codec::CodedPictures>();
     EXPECT_NE(refusal(dense).find("of profile dense"), std::string::npos);
-    RaySpaceObject tall = small(1, false);
+    RaySpaceObject tall = small_for_pipes(1, false);
     tall.rings.front().shape.bands = 257;
     EXPECT_NE(refusal(tall).find("bands of height in its shape map: 257, more than the board's 256"),
               std::string::npos);
-    RaySpaceObject missing = small(1, false);
+    RaySpaceObject missing = small_for_pipes(1, false);
     missing.pictures[2] = {};
     EXPECT_NE(refusal(missing).find("not all of its pictures are loaded"), std::string::npos);
-    RaySpaceObject rings = small(1, false);
+    RaySpaceObject rings = small_for_pipes(1, false);
     rings.rings.push_back(rings.rings.front());
     EXPECT_NE(refusal(rings).find("rings of views: 2"), std::string::npos);
     // The boards of 2000 name this one.
-    const Status published = drawable(small(1, false), test::prototype().limits);
+    const Status published = drawable(small_for_pipes(1, false), test::prototype().limits);
     EXPECT_NE(published.error().message.find("or use parallel"), std::string::npos);
-    const RaySpaceObject object = small(1);
+    const RaySpaceObject object = small_for_pipes(1);
     Camera camera = test::upright_at(0.4, 3.5, 0, 0.9, 40, 40);
     camera = look_at_camera({1, 2, 3}, {0, 0, 0}, 0.7, 40, 40);
     const Result<BoardView> tilted = board_view(*prepare_view(object, camera), 0);
@@ -57,7 +57,7 @@ TEST(ParallelBoardFaults, RefusesWhatItCannotDrawAndSaysWhy) {
 TEST(ParallelBoardFaults, AnObjectInThePlaceOfAnother) {
     Board board(test::parallel(3));
     for (std::uint64_t seed = 1; seed < 8; ++seed) {
-        const RaySpaceObject object = small(seed, seed % 3 != 0);
+        const RaySpaceObject object = small_for_pipes(seed, seed % 3 != 0);
         const Result<int> slot = board.place(object);
         ASSERT_TRUE(slot.ok());
         EXPECT_EQ(*slot, 0);
@@ -73,7 +73,7 @@ TEST(ParallelBoardFaults, ALoadWithoutDataFailsAndTheSlotIsFree) {
     config.disk.stall_cycles = 100'000;
     config.disk.timeout_cycles = 20'000;
     Board board(config);
-    const RaySpaceObject object = small(3);
+    const RaySpaceObject object = small_for_pipes(3);
     ASSERT_TRUE(board.start_load(object).ok());
     const Status failed = board.finish_loads();
     ASSERT_FALSE(failed.ok());
@@ -88,8 +88,8 @@ TEST(ParallelBoardFaults, ALoadWithoutDataFailsAndTheSlotIsFree) {
 
 // Loading goes on in the maintenance windows of all channels, and costs drawing no cycle.
 TEST(ParallelBoardFaults, LoadingDisturbsNothing) {
-    const RaySpaceObject shown = small(1);
-    const RaySpaceObject loaded = small(2);
+    const RaySpaceObject shown = small_for_pipes(1);
+    const RaySpaceObject loaded = small_for_pipes(2);
     const auto cycles_of = [&](bool loading) {
         Board board(test::parallel(3));
         const int slot = *board.place(shown);
@@ -110,14 +110,14 @@ TEST(ParallelBoardFaults, ARetryOfTheBusLosesNothing) {
     BoardConfig config = test::parallel(3);
     config.pci.retry_every = 3;
     Board board(config);
-    const RaySpaceObject object = small(5);
+    const RaySpaceObject object = small_for_pipes(5);
     expect_right(board, *board.place(object), object);
     EXPECT_GT(board.top().host_bus.counters().retries, 5U);
 }
 
 TEST(ParallelBoardFaults, AThirdCycleIsRefusedAndTheTwoStayWhole) {
     Board board(test::parallel(3));
-    const RaySpaceObject object = small(6);
+    const RaySpaceObject object = small_for_pipes(6);
     const BoardView view = *board.view(*board.place(object), view_of(object));
     for (int n = 0; n < 4; ++n) board.submit({view});
     const auto refused = [&] { return board.top().render_control.refusals().size() >= 1; };

@@ -16,8 +16,8 @@ namespace {
 
 using test::Bench;
 
-struct Registers {
-    explicit Registers(bool shape, int width = 48)
+struct ColumnRegisters {
+    explicit ColumnRegisters(bool shape, int width = 48)
         : object(test::any_object({.views = 8, .planes = 4, .x_cells = 16, .u_cells = 16}, {.shape = shape})),
           board(test::parallel(1)) {
         if (shape) object.rings.front().shape = rs::test::small_shape(object, 0);
@@ -58,7 +58,7 @@ TEST(ParallelArithmetic, SquareRootsAreThoseOfTheLaw) {
 }
 
 TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
-    const Registers r(true);
+    const ColumnRegisters r(true);
     Fifo<MappedRay> in("in", 4, 1);
     Fifo<MemoryRead> reads("reads", 2, 1);
     Fifo<MemoryWord> words("words", 2, 1);
@@ -107,7 +107,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
 }
 
 TEST(ParallelColumnTiming, RaysOfPlaneObjectsPassTheBracketFinder) {
-    const Registers r(false);
+    const ColumnRegisters r(false);
     Fifo<MappedRay> in("in", 4, 1);
     Fifo<MemoryRead> reads("reads", 2, 1);
     Fifo<MemoryWord> words("words", 2, 1);
@@ -122,7 +122,7 @@ TEST(ParallelColumnTiming, RaysOfPlaneObjectsPassTheBracketFinder) {
 }
 
 TEST(ParallelColumnTiming, PictureReaderAsksAWordPerCycle) {
-    const Registers r(true);
+    const ColumnRegisters r(true);
     Fifo<BracketedRay> in("in", 4, 1);
     Fifo<MemoryRead> reads("reads", 2, 1);
     Fifo<MemoryWord> words("words", 2, 1);
@@ -152,7 +152,7 @@ TEST(ParallelColumnTiming, PictureReaderAsksAWordPerCycle) {
 }
 
 TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
-    const Registers r(true);
+    const ColumnRegisters r(true);
     Fifo<LinedRay> in("in", 4, 1);
     Fifo<ColumnSetup> out("out", 4, 1);
     ColumnSetupStage block(r.file, in, out);
@@ -196,7 +196,7 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
 }
 
 TEST(ParallelColumnTiming, BandReaderAsksAWordPerCycleAndWaitsForAStripe) {
-    const Registers r(true);  // 48 columns
+    const ColumnRegisters r(true);  // 48 columns
     Fifo<ColumnSetup> in("in", 64, 1);
     Fifo<Done> stripe_free("free", 2, 1);
     Fifo<MemoryRead> reads("reads", 64, 1);

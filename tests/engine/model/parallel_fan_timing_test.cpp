@@ -11,7 +11,7 @@ namespace rs::engine::model {
 namespace {
 
 using test::Bench;
-using Registers = test::ViewsOfThreeObjects;
+using test::ViewsOfThreeObjects;
 
 struct Lookup {
     // Answers requests at once for so many steps; how many words were asked for.
@@ -41,7 +41,7 @@ struct Lookup {
         in.push(p);
         in.commit();
     }
-    Registers r;
+    ViewsOfThreeObjects r;
     Fifo<ViewJob> jobs{"jobs", 8, 1};
     Fifo<Done> done{"done", 4, 1};
     Fifo<CodedPixel> in{"in", 8, 1};
@@ -94,7 +94,7 @@ TEST(ParallelTexelTiming, TwinLookupReplacesNoBooksOfAViewUnderWay) {
 }
 
 TEST(ParallelFans, AViewIsWrittenWhenAllPipesWithAShareHaveWrittenTheirs) {
-    Registers r;
+    ViewsOfThreeObjects r;
     r.file.banks[0].views[1].width = 20;  // two stripes
     Fifo<ViewJob> in("in", 4, 1);
     Fifo<Done> written("written", 2, 1);

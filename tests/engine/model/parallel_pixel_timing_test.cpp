@@ -18,8 +18,8 @@ namespace {
 using test::Bench;
 
 // A view of 40x30 pixels; a shape map of 7 bands.
-struct Registers {
-    Registers()
+struct PixelRegisters {
+    PixelRegisters()
         : object(test::any_object({.views = 8, .planes = 4, .x_cells = 16, .u_cells = 16}, {})),
           board(test::parallel(1)) {
         object.rings.front().shape = rs::test::small_shape(object, 0);
@@ -53,7 +53,7 @@ ColumnSetup column_of(RayKind kind, int column) {
 }
 
 TEST(ParallelPixelTiming, PixelScanGivesAPixelPerCycleOfFourPatches) {
-    const Registers r;
+    const PixelRegisters r;
     Fifo<ViewJob> jobs("jobs", 4, 1);
     Fifo<Done> patch_free("free", 4, 1);
     Fifo<Done> view_done("done", 2, 1);
@@ -81,7 +81,7 @@ TEST(ParallelPixelTiming, PixelScanGivesAPixelPerCycleOfFourPatches) {
 }
 
 TEST(ParallelPixelTiming, PixelScanHasTwoViewsUnderWay) {
-    const Registers r;
+    const PixelRegisters r;
     RegisterFile file = r.file;
     file.banks[0].views.resize(3, file.banks[0].views[0]);
     for (BoardView& view : file.banks[0].views) view.width = view.height = 1;
@@ -106,7 +106,7 @@ TEST(ParallelPixelTiming, PixelScanHasTwoViewsUnderWay) {
 }
 
 TEST(ParallelPixelTiming, RayRiseWaitsForItsColumnThenGivesAPixelPerCycle) {
-    const Registers r;
+    const PixelRegisters r;
     Fifo<ColumnSetup> columns("columns", 2, 1);
     Fifo<ScannedPixel> in("in", 8, 1);
     Fifo<RisenPixel> out("out", 8, 1);
@@ -145,7 +145,7 @@ struct March {
         in.push({pixel_of(id), foot_q12, foot_q12, per_d_q20});
         in.commit();
     }
-    Registers r;
+    PixelRegisters r;
     Fifo<ColumnSetup> columns{"columns", 4, 1};
     Fifo<MemoryWord> words{"words", 4, 1};
     Fifo<RisenPixel> in{"in", 4, 1};
@@ -209,7 +209,7 @@ TEST(ParallelPixelTiming, CellMarchWaitsForTheLastWordOfItsColumn) {
 }
 
 TEST(ParallelPixelTiming, SamplePlaceGivesASamplePerCycleOfLatency53) {
-    const Registers r;
+    const PixelRegisters r;
     Fifo<ColumnSetup> columns("columns", 2, 1);
     Fifo<MetCell> in("in", 4, 1);
     Fifo<PlacedSample> out("out", 16, 1);
@@ -288,7 +288,7 @@ TEST(ParallelPixelTiming, FilterChoiceAndResolveArePipelines) {
 }
 
 TEST(ParallelPixelTiming, PatchStoreWritesAPatchWhenItsLastPixelIsThere) {
-    const Registers r;
+    const PixelRegisters r;
     Fifo<PatchJob> patches("patches", 4, 1);
     Fifo<FinishedPixel> pixels("pixels", 8, 1);
     Fifo<FinishedPixel> empty("empty", 8, 1);

@@ -13,7 +13,7 @@ namespace rs::engine::model {
 namespace {
 
 using test::Bench;
-using Registers = test::ViewsOfThreeObjects;
+using test::ViewsOfThreeObjects;
 
 PlacedSample sample_at(int picture, int left, int top, int fx, int fy, int view = 0) {
     PlacedSample sample;
@@ -32,7 +32,7 @@ struct Tags {
         in.push(sample);
         in.commit();
     }
-    Registers r;
+    ViewsOfThreeObjects r;
     Fifo<PlacedSample> in{"in", 8, 1};
     Fifo<TexelFill> fills{"fills", 32, 1};
     Fifo<WaitingSample> out{"out", 32, 1};
@@ -81,7 +81,7 @@ TEST(ParallelTexelTiming, TexelTagsReplaceTheOlderLineBehindItsLastReader) {
 }
 
 TEST(ParallelTexelTiming, FillFetchTakes64CyclesForACodedBlockAndAWordPerCycleForARawOne) {
-    Registers r;
+    ViewsOfThreeObjects r;
     Fifo<TexelFill> in("in", 4, 1);
     Fifo<BlockAsk> asks("asks", 64, 1);
     Fifo<CodedPixel> pixels("pixels", 256, 1);
