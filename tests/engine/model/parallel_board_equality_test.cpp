@@ -1,92 +1,58 @@
 // Every bit of the parallel board's pictures is that of the scalar definition: raw and coded pictures, with a shape map
 // and without, any number of pipes.
 
+#include "tests/engine/model/board_comparison.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"
 
 namespace rs::engine::model {
 namespace {
 
-struct Seen {
-    int pairs = 0;
-    std::int64_t shown = 0;
+struct Seen : test::Compared {
     std::uint64_t sent_back = 0;
     std::uint64_t of_last_hop = 0;
 };
 
 // 25 objects and 20 views of each: 500 pairs.
-Seen compare(const test::AnyObject& kind, std::uint64_t seed) {
+void compare(const test::AnyObject& kind, std::uint64_t seed, Seen& seen) {
     std::mt19937_64 random(seed);
-    Seen seen;
     for (int n = 0; n < 25; ++n) {
-        const RaySpaceObject object = test::any_object({.views = 2 + static_cast<int>(random() % 30),
-                                                        .width = 8 + static_cast<int>(random() % 70),
-                                                        .height = 8 + static_cast<int>(random() % 70),
-                                                        .distance = test::in(random, 2, 5),
-                                                        .fl_px = test::in(random, 30, 120),
-                                                        .planes = 3 + static_cast<int>(random() % 10),
-                                                        .x_cells = 32,
-                                                        .u_cells = 48,
-                                                        .camera_height = test::in(random, -0.3, 0.5),
-                                                        .seed = random()},
-                                                       kind, n % 3 == 0);
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", object " << n);
+        const RaySpaceObject object = test::any_object(test::random_ring(random, 2, 78, 120), kind, n % 3 == 0);
         Board board(test::parallel(1 + n % 5));
-        const Result<int> slot = board.place(object);
-        if (!slot) {
-            ADD_FAILURE() << slot.error().message;
-            return seen;
-        }
-        std::vector<engine::ViewRegisters> registers;
-        std::vector<std::vector<BoardView>> cycles(2);
-        for (int v = 0; v < 20; ++v) {
-            const Result<engine::ViewRegisters> prepared = prepare_view(object, test::random_upright(random, 60));
-            EXPECT_TRUE(prepared.ok());
-            registers.push_back(*prepared);
-            cycles[static_cast<std::size_t>(v >= 7)].push_back(*board.view(*slot, *prepared));
-        }
-        const Result<BoardRun> run = board.render(cycles);
-        if (!run) {
-            ADD_FAILURE() << run.error().message;
-            return seen;
-        }
-        for (const RenderedCycle& cycle : run->cycles) {
-            for (const Image<Rgba8>& picture : cycle.pictures) {
-                const std::size_t at = static_cast<std::size_t>(seen.pairs) % 20;
-                const Image<Rgba8> expected = test::defined(object, registers[at]);
-                EXPECT_EQ(picture, expected) << "seed " << seed << ", object " << n << ", view " << at;
-                for (const Rgba8& p : expected.pixels()) seen.shown += p.a != 0;
-                ++seen.pairs;
-            }
-        }
+        ASSERT_NO_FATAL_FAILURE(test::compare_random_views(board, object, object, random, 60, seen));
         for (const auto& pipe : board.top().parallel->pipes) {
             seen.sent_back += pipe->layer_choice.sent_back();
             seen.of_last_hop += pipe->chains.fifos[3]->records.pushed_in_all();
         }
     }
-    return seen;
 }
 
 TEST(ParallelBoardEqualityProperty, RawPicturesOnPlanes) {
-    const Seen seen = compare({.coded = false, .shape = false}, 20261123);
+    Seen seen;
+    ASSERT_NO_FATAL_FAILURE(compare({.coded = false, .shape = false}, 20261123, seen));
     EXPECT_EQ(seen.pairs, 500);
     EXPECT_GT(seen.shown, 60'000);
 }
 
 TEST(ParallelBoardEqualityProperty, CodedPicturesOnPlanes) {
-    const Seen seen = compare({.coded = true, .shape = false}, 20261124);
+    Seen seen;
+    ASSERT_NO_FATAL_FAILURE(compare({.coded = true, .shape = false}, 20261124, seen));
     EXPECT_EQ(seen.pairs, 500);
     EXPECT_GT(seen.shown, 30'000);
     EXPECT_GT(seen.of_last_hop, 1000U);  // predictions of three hops
 }
 
 TEST(ParallelBoardEqualityProperty, RawPicturesWithShapeMaps) {
-    const Seen seen = compare({.coded = false, .shape = true}, 20261125);
+    Seen seen;
+    ASSERT_NO_FATAL_FAILURE(compare({.coded = false, .shape = true}, 20261125, seen));
     EXPECT_EQ(seen.pairs, 500);
     EXPECT_GT(seen.shown, 60'000);
     EXPECT_GT(seen.sent_back, 10'000U);  // cells that did not answer
 }
 
 TEST(ParallelBoardEqualityProperty, CodedPicturesWithShapeMaps) {
-    const Seen seen = compare({.coded = true, .shape = true}, 20261126);
+    Seen seen;
+    ASSERT_NO_FATAL_FAILURE(compare({.coded = true, .shape = true}, 20261126, seen));
     EXPECT_EQ(seen.pairs, 500);
     EXPECT_GT(seen.shown, 30'000);
     EXPECT_GT(seen.of_last_hop, 1000U);

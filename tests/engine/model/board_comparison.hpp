@@ -1,0 +1,63 @@
+#pragma once
+// A board's pictures beside those of the scalar definition.
+
+#include "tests/engine/model/board_test_objects.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace rs::engine::model::test {
+
+// An object as the property tests draw it; at most `most_px` - 1 pixels a side, so that tiles end anywhere.
+inline rs::test::RingObjectOptions random_ring(std::mt19937_64& random, int fewest_views, int most_px,
+                                               double most_fl_px) {
+    const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+    return {.views = fewest_views + below(30),
+            .width = 8 + below(most_px - 8),
+            .height = 8 + below(most_px - 8),
+            .distance = in(random, 2, 5),
+            .fl_px = in(random, 30, most_fl_px),
+            .planes = 3 + below(10),
+            .x_cells = 32,
+            .u_cells = 48,
+            .camera_height = in(random, -0.3, 0.5),
+            .seed = random()};
+}
+
+struct Compared {
+    int pairs = 0;           // of a view and its picture
+    std::int64_t shown = 0;  // pixels that are not clear, in all
+};
+
+// Places the object and draws twenty random upright views of at most `most_px` pixels a side in two rendering cycles.
+// Every picture must be the definition's of `stored`: the object as the board keeps it.
+inline void compare_random_views(Board& board, const RaySpaceObject& object, const RaySpaceObject& stored,
+                                 std::mt19937_64& random, int most_px, Compared& compared) {
+    const Result<int> slot = board.place(object);
+    ASSERT_TRUE(slot.ok()) << slot.error().message;
+    std::vector<engine::ViewRegisters> registers;
+    std::vector<std::vector<BoardView>> cycles(2);
+    for (int v = 0; v < 20; ++v) {
+        const Result<engine::ViewRegisters> prepared = prepare_view(object, random_upright(random, most_px));
+        ASSERT_TRUE(prepared.ok()) << prepared.error().message;
+        const Result<BoardView> view = board.view(*slot, *prepared);
+        ASSERT_TRUE(view.ok()) << view.error().message;
+        registers.push_back(*prepared);
+        cycles[static_cast<std::size_t>(v >= 7)].push_back(*view);
+    }
+    const Result<BoardRun> run = board.render(cycles);
+    ASSERT_TRUE(run.ok()) << run.error().message;
+    std::size_t at = 0;
+    for (const RenderedCycle& cycle : run->cycles) {
+        for (const Image<Rgba8>& picture : cycle.pictures) {
+            const Image<Rgba8> expected = defined(stored, registers[at++]);
+            ASSERT_EQ(picture, expected) << "view " << at - 1;
+            for (const Rgba8& p : expected.pixels()) compared.shown += p.a != 0;
+            ++compared.pairs;
+        }
+    }
+}
+
+}  // namespace rs::engine::model::test
