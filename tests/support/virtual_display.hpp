@@ -11,6 +11,7 @@
 
 namespace rs::test {
 
+// -noreset: a server that loses its last client would start anew, and refuse the next one meanwhile.
 class VirtualDisplay {
 public:
     VirtualDisplay() {
@@ -23,7 +24,7 @@ public:
             dup2(nothing, STDERR_FILENO);
             const std::string to = std::to_string(numbers[1]);
             execlp("Xvfb", "Xvfb", "-displayfd", to.c_str(), "-screen", "0", "1280x900x24", "-nolisten", "tcp",
-                   static_cast<char*>(nullptr));
+                   "-noreset", static_cast<char*>(nullptr));
             _exit(127);
         }
         close(numbers[1]);
