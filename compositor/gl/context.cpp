@@ -3,6 +3,7 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include <array>
 #include <utility>
 
 namespace rs::gl {
@@ -20,6 +21,39 @@ void GLAPIENTRY note_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLen
     errors.emplace_back(message, static_cast<std::size_t>(length));
 }
 
+// The program that drew last is there until another one draws: it counts only if nobody has released it.
+bool is_unreleased_program(GLuint name) {
+    GLint released = GL_TRUE;
+    if (glIsProgram(name) == GL_TRUE) glGetProgramiv(name, GL_DELETE_STATUS, &released);
+    return released == GL_FALSE;
+}
+
+std::vector<std::string> all_names_alive() {
+    constexpr GLuint kLastName = 8192;  // drivers take the lowest ones that are free
+    struct Kind {
+        const char* what;
+        PFNGLISTEXTUREPROC is_one;
+    };
+    const std::array<Kind, 8> kinds{{{"textures", glIsTexture},
+                                     {"buffers", glIsBuffer},
+                                     {"vertex arrays", glIsVertexArray},
+                                     {"framebuffers", glIsFramebuffer},
+                                     {"renderbuffers", glIsRenderbuffer},
+                                     {"shaders", glIsShader},
+                                     {"samplers", glIsSampler},
+                                     {"queries", glIsQuery}}};
+    std::vector<std::string> alive;
+    for (const Kind& kind : kinds) {
+        int count = 0;
+        for (GLuint name = 1; name <= kLastName; ++name) count += kind.is_one(name) == GL_TRUE ? 1 : 0;
+        if (count > 0) alive.push_back(std::to_string(count) + " " + kind.what);
+    }
+    int programs = 0;
+    for (GLuint name = 1; name <= kLastName; ++name) programs += is_unreleased_program(name) ? 1 : 0;
+    if (programs > 0) alive.push_back(std::to_string(programs) + " programs");
+    return alive;
+}
+
 }  // namespace
 
 struct Context::State {
@@ -27,9 +61,11 @@ struct Context::State {
     EGLContext context = EGL_NO_CONTEXT;
     std::string device_name;
     std::vector<std::string> errors;
+    std::function<void(const std::vector<std::string>&)> at_end;
 
     // The conventions of the header, of the context that is current.
     void settle(const ContextOptions& options) {
+        at_end = options.at_end;
         device_name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
         if (options.debug) {
             glEnable(GL_DEBUG_OUTPUT);
@@ -41,10 +77,22 @@ struct Context::State {
         glPixelStorei(GL_PACK_ALIGNMENT, 1);
     }
 
+    std::vector<std::string> take_errors() {
+        for (GLenum code = glGetError(); code != GL_NO_ERROR; code = glGetError()) {
+            errors.push_back("OpenGL error " + std::to_string(code));
+        }
+        return std::exchange(errors, {});
+    }
+
     State() = default;
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     ~State() {
+        if (at_end) {
+            std::vector<std::string> left = take_errors();
+            for (std::string& names : all_names_alive()) left.push_back(std::move(names));
+            at_end(left);
+        }
         if (context == EGL_NO_CONTEXT) return;
         eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         eglDestroyContext(display, context);
@@ -83,7 +131,9 @@ Result<Context> Context::create_surfaceless(const ContextOptions& options) {
                                  options.debug ? EGL_TRUE : EGL_FALSE,
                                  EGL_NONE};
     state->context = eglCreateContext(state->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-    if (state->context == EGL_NO_CONTEXT) return no_context("the driver has no OpenGL 4.5 core");
+    if (state->context == EGL_NO_CONTEXT)
+        return no_context(
+            "the driver has no OpenGL 4.5 core; with LIBGL_ALWAYS_SOFTWARE=1 Mesa draws on the CPU instead");
     if (!eglMakeCurrent(state->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state->context)) {
         return no_context("the context cannot be made current");
     }
@@ -106,10 +156,11 @@ const std::string& Context::device_name() const {
 }
 
 std::vector<std::string> Context::take_errors() {
-    for (GLenum code = glGetError(); code != GL_NO_ERROR; code = glGetError()) {
-        state_->errors.push_back("OpenGL error " + std::to_string(code));
-    }
-    return std::exchange(state_->errors, {});
+    return state_->take_errors();
+}
+
+std::vector<std::string> Context::names_alive() const {
+    return all_names_alive();
 }
 
 }  // namespace rs::gl

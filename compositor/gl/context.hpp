@@ -8,6 +8,7 @@
 
 #include "rayspace/result.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ namespace rs::gl {
 
 struct ContextOptions {
     bool debug = false;  // a debug context: take_errors() then tells every error with the driver's words
+    // Called when the context ends, with the errors that nobody has taken and the names that nobody has released; for
+    // tests. May be empty.
+    std::function<void(const std::vector<std::string>& left)> at_end = nullptr;
 };
 
 // Current on the thread that created it, where all work with it must be done. Move-only.
@@ -33,6 +37,9 @@ public:
     [[nodiscard]] const std::string& device_name() const;
     // The OpenGL errors since the last call, one line each.
     [[nodiscard]] std::vector<std::string> take_errors();
+    // What has been made and not yet released, such as "2 textures"; whoever made it. Asks the driver about every
+    // name up to some thousands: milliseconds, for tests.
+    [[nodiscard]] std::vector<std::string> names_alive() const;
 
 private:
     struct State;

@@ -23,6 +23,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <thread>
 
@@ -94,13 +95,15 @@ void print_warnings(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) std::fprintf(stderr, "rs-view: warning: %s\n", warning.c_str());
 }
 
+Result<Window> open_window(const ViewArguments& arguments, PixelSize size) {
+    return Window::create(
+        {.title = arguments.scene.empty() ? "rs-view" : arguments.scene, .width = size.width, .height = size.height});
+}
+
 // In a window: beginning where the first camera is, then at the scene's viewpoints.
-Status run_visit(const ViewArguments& arguments, const Scene& scene, std::unique_ptr<Showroom> showroom,
-                 const std::string& executor, const Camera& first, PixelSize size) {
+Status run_visit(Window window, const ViewArguments& arguments, const Scene& scene, std::unique_ptr<Showroom> showroom,
+                 const std::string& executor, const Camera& first) {
     VisitOptions options;
-    options.window.title = arguments.scene.empty() ? "rs-view" : arguments.scene;
-    options.window.width = size.width;
-    options.window.height = size.height;
     options.wire_frame = arguments.wire_frame;
     options.samples = arguments.samples;
     options.executor = executor;
@@ -112,7 +115,7 @@ Status run_visit(const ViewArguments& arguments, const Scene& scene, std::unique
     begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
     options.viewpoints.push_back(begin);
     options.viewpoints.insert(options.viewpoints.end(), scene.viewpoints.begin(), scene.viewpoints.end());
-    return visit(scene, std::move(showroom), options);
+    return visit(std::move(window), scene, std::move(showroom), options);
 }
 
 Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::vector<Camera>& cameras,
@@ -126,15 +129,28 @@ Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::
     return write_png(arguments.output, *frame);
 }
 
-Status run_view(const ViewArguments& arguments) {
-    const bool in_window = arguments.output.empty();
-    const Result<OutputKind> kind = in_window ? OutputKind::picture : output_kind(arguments.output);
-    if (!kind) return kind.error();
+Status run_view(ViewArguments arguments) {
     const Result<PixelSize> size = parse_size(arguments.size);
     if (!size) return size.error();
     Result<Scene> scene = asked_scene(arguments);
     if (!scene) return scene.error();
     print_warnings(scene->warnings);
+    std::optional<Window> window;
+    bool in_place_of_window = false;
+    if (arguments.output.empty()) {
+        Result<Window> opened = open_window(arguments, *size);
+        if (opened) {
+            window.emplace(std::move(*opened));
+        } else {  // what a visitor would have seen first
+            in_place_of_window = true;
+            int number = 0;
+            arguments.output = free_name(".", "screenshot", ".png", number).string();
+            print_warnings({opened.error().message + "; the first view goes to " + arguments.output});
+        }
+    }
+    const bool in_window = window.has_value();
+    const Result<OutputKind> kind = in_window ? OutputKind::picture : output_kind(arguments.output);
+    if (!kind) return kind.error();
     std::string executor;
     Result<std::unique_ptr<engine::BoardDevice>> board = asked_board(arguments, executor);
     if (!board) return board.error();
@@ -145,9 +161,12 @@ Status run_view(const ViewArguments& arguments) {
         if (const Status status = showroom->wait_for_all({0, 0, 0}); !status) return status.error();
         return showroom->placed();
     };
-    const Result<std::vector<Camera>> cameras = asked_cameras(arguments, *scene, objects_to_frame, *size);
+    Result<std::vector<Camera>> cameras = asked_cameras(arguments, *scene, objects_to_frame, *size);
     if (!cameras) return cameras.error();
-    if (in_window) return run_visit(arguments, *scene, std::move(showroom), executor, cameras->front(), *size);
+    if (in_place_of_window) cameras->erase(cameras->begin() + 1, cameras->end());
+    if (in_window) {
+        return run_visit(std::move(*window), arguments, *scene, std::move(showroom), executor, cameras->front());
+    }
     if (*kind == OutputKind::picture && cameras->size() != 1) {
         return Error{arguments.output + ": " + std::to_string(cameras->size()) +
                      " frames do not fit one picture; give a folder or an .mp4 to -o"};

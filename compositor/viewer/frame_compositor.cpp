@@ -254,7 +254,7 @@ void FrameCompositor::upload(const SeenNode& node) {
         const RaySpaceObject& object = (*nodes_)[node.index].object->object->renderer.object();
         depths = engine::depth_picture(object, node.view.camera, drawn.depth_q20);
     }
-    renderers_.objects.upload(node.index, drawn.picture, depths);
+    renderers_.objects.upload(node.index, node.view, drawn.picture, depths);
     const int width = drawn.picture.width();
     const int height = drawn.picture.height();
     statistics_.nodes[node.index] = {true, width, height, drawn.seconds, drawn.by_board};

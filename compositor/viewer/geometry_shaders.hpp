@@ -68,15 +68,15 @@ vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, v
     if (has_place) {
         vec3 way = lights[first + 2].xyz - place_in_world;
         float d = length(way);
-        if (d > lights[first + 1].w) return vec3(0.0);
         to_light = d > 0.0 ? way / d : n;
-        strength = 1.0 / max(dot(lights[first + 4].xyz, vec3(1.0, d, d * d)), 1.0);
+        // Selected, not returned from: branches cost more than what they save.
+        strength = d > lights[first + 1].w ? 0.0 : 1.0 / max(dot(lights[first + 4].xyz, vec3(1.0, d, d * d)), 1.0);
         if (is_spot) {
             float cut_off = lights[first + 2].w;
             float beam = lights[first + 3].w;
             float angle = acos(clamp(dot(-to_light, lights[first + 3].xyz), -1.0, 1.0));
-            if (angle > cut_off) return vec3(0.0);
-            if (angle > beam) strength *= (cut_off - angle) / (cut_off - beam);
+            float within = angle > beam ? (cut_off - angle) / (cut_off - beam) : 1.0;
+            strength = angle > cut_off ? 0.0 : strength * within;
         }
     }
     vec3 ambient = has_place ? lights[first + 1].rgb * diffuse * material[2].w : vec3(0.0);

@@ -1,6 +1,6 @@
 #pragma once
-// Draws the pictures of ray-space nodes into a frame: a rectangle of the screen at the depth of its reference plane
-// (object_view.hpp), tested against the geometry and blended over.
+// Draws the pictures of ray-space nodes into a frame: what they show (shown_parts.hpp), at the depth of the node's
+// reference plane (object_view.hpp), tested against the geometry and blended over.
 //
 // With a depth for every pixel, objects, and objects and geometry, reach into each other as their surfaces do. Then
 // pixels that are at least half covered also hide what is drawn later and lies behind them; the others, rims, do not,
@@ -33,10 +33,11 @@ public:
     // For nodes 0 .. nodes - 1.
     static Result<ObjectRenderer> create(std::size_t nodes, ObjectDepth depth = ObjectDepth::kPlane);
 
-    // Gives the picture of a node to the GPU, at least one pixel; that of the view which is drawn next. A node has two
+    // Gives the picture of a node to the GPU, at least one pixel; that of the view, which is drawn next. A node has two
     // textures, taken in turns, so that one may still be drawn from while the other is filled. Of kPixel, `depths` has
     // the picture's size and holds axial depths in the units of the object's rig (engine::depth_picture).
-    void upload(std::size_t node, ConstImageView<Rgba8> picture, ConstImageView<float> depths = {});
+    void upload(std::size_t node, const ObjectView& view, ConstImageView<Rgba8> picture,
+                ConstImageView<float> depths = {});
 
     struct Appearance {
         glm::ivec2 screen_px{0};  // size of the frame
@@ -52,17 +53,24 @@ public:
 
 private:
     ObjectRenderer(std::vector<gl::Program> programs, std::size_t nodes, ObjectDepth depth);
-    void draw_pixels(const gl::Program& program, float least_alpha, float alphas_end, bool depth_write) const;
+    struct Pass {
+        float least_alpha = 0;  // pixels of at least so much and less than the next are drawn
+        float alphas_end = 2;
+        bool depth_write = false;
+        bool there = true;  // not fading in
+    };
 
     struct Textures {
         std::array<std::optional<gl::Texture>, 2> in_turns;
         std::array<std::optional<gl::Texture>, 2> depths;
         std::size_t filled_last = 0;
+        std::optional<gl::VertexArray> opaque;  // parts of the picture
+        std::optional<gl::VertexArray> blended;
     };
+    static void draw_pixels(const gl::Program& program, const Textures& textures, const Pass& pass);
     ObjectDepth depth_;
     std::vector<gl::Program> programs_;  // smooth, then [samples across - 1]
-    gl::VertexArray rectangle_;
-    std::vector<Textures> textures_;  // [node]
+    std::vector<Textures> textures_;     // [node]
 };
 
 }  // namespace rs::compositor

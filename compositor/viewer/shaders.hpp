@@ -34,14 +34,13 @@ void main() {
     result = vec4(mix(checker, background, smoothstep(0.15, 1.0, away)), 1.0);
 })";
 
-// A ray-space node: its rectangle of the screen, each pixel the mean of samples_across * samples_across samples of the
-// picture, at the depth of its two planes or of its pixels (object_view.hpp).
+// A ray-space node: the parts of the screen that show it (shown_parts.hpp), each pixel the mean of samples_across *
+// samples_across samples of the picture, at the depth of its two planes or of its pixels (object_view.hpp).
 inline constexpr const char* kObjectVertex = R"(#version 450 core
-uniform vec4 rectangle;  // x, y, width, height in pixels
-uniform vec2 screen;     // width, height in pixels
+layout(location = 0) in vec3 corner;  // homogeneous, in pixels
+uniform vec2 screen;                  // width, height in pixels
 void main() {
-    vec2 p = rectangle.xy + vec2(gl_VertexID & 1, gl_VertexID >> 1) * rectangle.zw;
-    gl_Position = vec4(p.x / screen.x * 2.0 - 1.0, 1.0 - p.y / screen.y * 2.0, 0.0, 1.0);
+    gl_Position = vec4(corner.x / screen.x * 2.0 - corner.z, corner.z - corner.y / screen.y * 2.0, 0.0, corner.z);
 })";
 // Behind "#version" and the constants kPixelDepth, kSamplesAcross and kSmooth (a sample lies between the nearest four
 // texels): drawn on a CPU, loops that are unrolled cost half.

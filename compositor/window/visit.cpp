@@ -1,6 +1,7 @@
 #include "compositor/window/visit.hpp"
 
 #include "compositor/viewer/framing.hpp"
+#include "rayspace/median.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -13,7 +14,8 @@ constexpr double kNewsSeconds = 3;
 constexpr std::size_t kFramesCounted = 31;
 constexpr double kRecordedFrames_per_s = 30;
 
-// The first name of PREFIX-1.ENDING, PREFIX-2.ENDING, ... that is free.
+}  // namespace
+
 std::filesystem::path free_name(const std::filesystem::path& folder, const char* prefix, const char* ending,
                                 int& number) {
     for (;;) {
@@ -21,15 +23,6 @@ std::filesystem::path free_name(const std::filesystem::path& folder, const char*
         if (!std::filesystem::exists(path)) return path;
     }
 }
-
-double middle_one(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-}  // namespace
 
 Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor compositor, const Scene& scene,
              const VisitOptions& options)
@@ -58,12 +51,10 @@ Visit::~Visit() {
     if (video_) static_cast<void>(video_->finish());
 }
 
-Result<std::unique_ptr<Visit>> Visit::create(const Scene& scene, std::unique_ptr<Showroom> showroom,
+Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom,
                                              const VisitOptions& options) {
     RS_CHECK(!options.viewpoints.empty());
-    Result<Window> window = Window::create(options.window);
-    if (!window) return window.error();
-    const glm::ivec2 size = glm::max(window->framebuffer_px(), glm::ivec2(1));
+    const glm::ivec2 size = glm::max(window.framebuffer_px(), glm::ivec2(1));
     Result<FrameCompositor> compositor = FrameCompositor::create(scene, showroom->engine(), showroom->nodes(),
                                                                  {.width = size.x,
                                                                   .height = size.y,
@@ -73,7 +64,7 @@ Result<std::unique_ptr<Visit>> Visit::create(const Scene& scene, std::unique_ptr
                                                                   .upright_pictures = true});
     if (!compositor) return compositor.error();
     return std::unique_ptr<Visit>(
-        new Visit(std::move(*window), std::move(showroom), std::move(*compositor), scene, options));
+        new Visit(std::move(window), std::move(showroom), std::move(*compositor), scene, options));
 }
 
 Camera Visit::camera() const {
@@ -189,7 +180,7 @@ void Visit::refresh_panel(double seconds) {
     frame_seconds_.push_back(seconds);
     if (frame_seconds_.size() > kFramesCounted) frame_seconds_.erase(frame_seconds_.begin());
     const FrameStatistics& statistics = compositor_.statistics();
-    panel_.frame_ms = 1e3 * middle_one(frame_seconds_);
+    panel_.frame_ms = 1e3 * median(frame_seconds_);
     panel_.geometry_ms = 1e3 * statistics.geometry_s;
     panel_.engine_ms = 1e3 * statistics.engine_s;
     panel_.upload_ms = 1e3 * statistics.upload_s;
@@ -270,8 +261,8 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     return true;
 }
 
-Status visit(const Scene& scene, std::unique_ptr<Showroom> showroom, const VisitOptions& options) {
-    const Result<std::unique_ptr<Visit>> made = Visit::create(scene, std::move(showroom), options);
+Status visit(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom, const VisitOptions& options) {
+    const Result<std::unique_ptr<Visit>> made = Visit::create(std::move(window), scene, std::move(showroom), options);
     if (!made) return made.error();
     for (;;) {
         const Result<bool> goes_on = (*made)->step();

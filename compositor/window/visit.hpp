@@ -24,7 +24,6 @@
 namespace rs::compositor {
 
 struct VisitOptions {
-    WindowOptions window;
     std::vector<Viewpoint> viewpoints;     // at least one; the first is where the visit begins
     std::filesystem::path pictures = ".";  // where screenshots and recordings go
     int samples = 4;
@@ -37,7 +36,7 @@ struct VisitOptions {
 
 class Visit {
 public:
-    static Result<std::unique_ptr<Visit>> create(const Scene& scene, std::unique_ptr<Showroom> showroom,
+    static Result<std::unique_ptr<Visit>> create(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom,
                                                  const VisitOptions& options);
     ~Visit();  // finishes a recording
 
@@ -92,7 +91,11 @@ private:
     std::chrono::steady_clock::time_point last_;
 };
 
+// The first name of PREFIX-1.ENDING, PREFIX-2.ENDING, ... behind `number` that is free in the folder; sets its number.
+std::filesystem::path free_name(const std::filesystem::path& folder, const char* prefix, const char* ending,
+                                int& number);
+
 // Until the visitor leaves.
-Status visit(const Scene& scene, std::unique_ptr<Showroom> showroom, const VisitOptions& options);
+Status visit(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom, const VisitOptions& options);
 
 }  // namespace rs::compositor

@@ -130,7 +130,7 @@ Result<Window> Window::create(const WindowOptions& options) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.context.debug ? GLFW_TRUE : GLFW_FALSE);
     // Frames are drawn elsewhere and come with their final bytes.
     glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
@@ -138,7 +138,7 @@ Result<Window> Window::create(const WindowOptions& options) {
     if (state->window == nullptr) return no_window("no window with OpenGL 4.5 core can be had");
     glfwMakeContextCurrent(state->window);
     glfwSwapInterval(options.wait_for_screen ? 1 : 0);
-    Result<gl::Context> context = gl::Context::adopt_current({.debug = options.debug});
+    Result<gl::Context> context = gl::Context::adopt_current(options.context);
     if (!context) return context.error();
     state->context.emplace(std::move(*context));
     state->listen();

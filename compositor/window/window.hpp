@@ -18,8 +18,8 @@ struct WindowOptions {
     std::string title = "Rayspace";
     int width = 1280;  // screen units
     int height = 720;
-    bool debug = false;           // as gl::ContextOptions
     bool wait_for_screen = true;  // a frame for each of the screen's
+    gl::ContextOptions context = {};
 };
 
 // Move-only; one at a time.

@@ -8,6 +8,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -170,6 +172,26 @@ TEST_F(View, WhatIsNoSceneIsRefusedOnOneLine) {
         EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
         EXPECT_FALSE(std::filesystem::exists(in("shot.png")));
     }
+}
+
+TEST_F(View, WithoutAWindowTheFirstViewIsWritten) {
+    write("hall.wrl", kWorld);
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(work_.path());
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    const test::ToolRun run = view({in("hall.wrl")});
+    setenv("LIBGL_DRIVERS_PATH", work_.path().c_str(), 1);
+    const test::ToolRun without_drivers = view({in("hall.wrl")});
+    unsetenv("LIBGL_DRIVERS_PATH");
+    std::filesystem::current_path(before);
+    EXPECT_EQ(without_drivers.exit_code, 1);
+    EXPECT_THAT(without_drivers.err, HasSubstr("install Mesa's EGL"));
+    if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("window: "));
+    EXPECT_THAT(run.err, HasSubstr("the first view goes to ./screenshot-1.png"));
+    EXPECT_GT(red_pixels(in("screenshot-1.png")), 20);
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ protected:
     void TearDown() override {
         if (!context_) return;
         EXPECT_THAT(context_->take_errors(), ::testing::IsEmpty());
+        EXPECT_THAT(context_->names_alive(), ::testing::IsEmpty());
     }
 
     Image<Rgba8> compose(const Scene& scene, const std::vector<PlacedObject>& objects, const Camera& camera = kFront,
@@ -85,6 +86,31 @@ TEST_F(Compositing, ErrorsOfOpenGlAreSeen) {
     glEnable(GL_TEXTURE_2D_ARRAY);  // no capability
     EXPECT_THAT(context_->take_errors(), ::testing::Not(::testing::IsEmpty()));
     EXPECT_THAT(context_->take_errors(), ::testing::IsEmpty());
+}
+
+TEST_F(Compositing, WhatIsNotReleasedIsSeen) {
+    std::optional<FrameCompositor> compositor;
+    {
+        auto made = FrameCompositor::create(with_box({1, 1, 1}, {0, 0, 0}), {test::placed_at(test::drum())},
+                                            {.width = kFrameWidth, .height = kFrameHeight});
+        ASSERT_TRUE(made.ok());
+        compositor.emplace(std::move(*made));
+    }
+    ASSERT_TRUE(compositor->draw(kFront));
+    EXPECT_THAT(
+        context_->names_alive(),
+        ::testing::UnorderedElementsAre(::testing::EndsWith(" textures"), ::testing::EndsWith(" buffers"),
+                                        ::testing::EndsWith(" vertex arrays"), ::testing::EndsWith(" framebuffers"),
+                                        ::testing::EndsWith(" renderbuffers"), ::testing::EndsWith(" programs")));
+    compositor.reset();
+    EXPECT_THAT(context_->names_alive(), ::testing::IsEmpty());
+    const unsigned texture = [] {
+        GLuint name = 0;
+        glCreateTextures(GL_TEXTURE_2D, 1, &name);
+        return name;
+    }();
+    EXPECT_THAT(context_->names_alive(), ::testing::ElementsAre("1 textures"));
+    glDeleteTextures(1, &texture);
 }
 
 TEST_F(Compositing, TheFirstRowIsTheTop) {

@@ -76,6 +76,7 @@ protected:
     void TearDown() override {
         if (!context_) return;
         EXPECT_THAT(context_->take_errors(), ::testing::IsEmpty());
+        EXPECT_THAT(context_->names_alive(), ::testing::IsEmpty());
     }
 
     static PlacedObject placed(const NodeTransform& transform = {}) {

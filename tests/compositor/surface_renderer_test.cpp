@@ -33,6 +33,7 @@ protected:
     void TearDown() override {
         if (!context_) return;
         EXPECT_THAT(context_->take_errors(), ::testing::IsEmpty());
+        EXPECT_THAT(context_->names_alive(), ::testing::IsEmpty());
     }
 
     Image<Rgba8> picture_of(const std::string& body, const glm::dvec3& eye = kEye, bool wire_frame = false) {

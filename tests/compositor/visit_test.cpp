@@ -36,7 +36,6 @@ protected:
         drum.description = "a red drum";
         scene.objects.push_back(drum);
         VisitOptions options;
-        options.window = {.title = "test", .width = 320, .height = 240, .debug = true, .wait_for_screen = false};
         Viewpoint front;
         front.world_from_camera[3] = glm::dvec4(0, 0, 6, 1);
         Viewpoint side = front;
@@ -47,14 +46,21 @@ protected:
         options.samples = 1;
         auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true}, nullptr,
                                                    std::make_unique<test::ObjectsInMemory>(kRed));
-        auto visit = Visit::create(scene, std::move(showroom), options);
+        WindowOptions small{.title = "test", .width = 320, .height = 240, .wait_for_screen = false};
+        small.context = {.debug = true, .at_end = [this](const std::vector<std::string>& left) { left_ = left; }};
+        auto window = Window::create(small);
+        ASSERT_TRUE(window.ok()) << window.error().message;
+        auto visit = Visit::create(std::move(*window), scene, std::move(showroom), options);
         ASSERT_TRUE(visit.ok()) << visit.error().message;
         visit_ = std::move(*visit);
         ASSERT_TRUE(step());
     }
     void TearDown() override {
         if (!visit_) return;
-        EXPECT_THAT(visit_->window().context().take_errors(), ::testing::IsEmpty());
+        EXPECT_FALSE(visit_->window().context().names_alive().empty());
+        visit_.reset();
+        ASSERT_TRUE(left_.has_value());
+        EXPECT_THAT(*left_, ::testing::IsEmpty());
     }
 
     bool step(double seconds = 0.1) {
@@ -75,6 +81,7 @@ protected:
 
     static inline std::unique_ptr<test::VirtualDisplay> display_;
     test::TemporaryFolder work_;
+    std::optional<std::vector<std::string>> left_;  // of OpenGL, when the window was gone
     std::unique_ptr<Visit> visit_;
 };
 
