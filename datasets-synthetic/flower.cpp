@@ -87,7 +87,7 @@ private:
         for (int j = 0; j <= kRows; ++j) {
             const float radius = 0.39F * (1.0F - static_cast<float>(j) / kRows);
             for (int i = 0; i <= kColumns; ++i) {
-                vec3 p = portable::around(2.0F * portable::kPi * static_cast<float>(i) / kColumns, radius, 0.0F);
+                vec3 p = portable::around(2.0F * portable::kPiF * static_cast<float>(i) / kColumns, radius, 0.0F);
                 p.y = kSoilHeight + 0.02F * (1.0F - radius / 0.39F) +
                       0.05F * layered_noise(p * 9.0F + vec3{0.0F, 4.5F, 0.0F}, 4, static_cast<std::uint32_t>(seed_));
                 soil.positions[soil.index(i, j)] = p;
@@ -97,7 +97,7 @@ private:
         append_grid(soil_, std::move(soil));
         for (int k = 0; k < 70; ++k) {
             // One draw to a statement, here and everywhere: the order of arguments is the compiler's own.
-            const float angle_rad = random.uniform(0.0F, 2.0F * portable::kPi);
+            const float angle_rad = random.uniform(0.0F, 2.0F * portable::kPiF);
             const float reach = 0.36F * std::sqrt(random.uniform());
             const vec3 centre = portable::around(angle_rad, reach, kSoilHeight + 0.018F);
             const float size = random.uniform(0.006F, 0.02F);
@@ -145,13 +145,13 @@ private:
                               float width_share) {
             for (int k = 0; k < count; ++k) {
                 const float turn = (static_cast<float>(k) + 0.12F * random.bell()) / static_cast<float>(count);
-                const vec3 outwards = frame.direction(portable::around(2.0F * portable::kPi * turn, 1.0F, 0.0F));
+                const vec3 outwards = frame.direction(portable::around(2.0F * portable::kPiF * turn, 1.0F, 0.0F));
                 const vec3 axis = frame.axes[1];
                 const float lift = lift_rad + 0.10F * random.bell();
                 const vec3 along = outwards * portable::cos(lift) + axis * portable::sin(lift);
                 PetalShape shape;
                 shape.length = length * random.uniform(0.92F, 1.08F);
-                shape.width = width_share * 2.0F * portable::kPi * length / static_cast<float>(count);
+                shape.width = width_share * 2.0F * portable::kPiF * length / static_cast<float>(count);
                 shape.base_width = 0.32F;
                 shape.widest_at = 0.66F;
                 shape.pointedness = 0.25F;
@@ -159,7 +159,7 @@ private:
                 shape.cup = 0.20F + 0.08F * random.bell();
                 shape.ripple = 0.14F;
                 shape.ripple_waves = random.uniform(1.5F, 2.6F);
-                shape.ripple_phase_rad = random.uniform(0.0F, 2.0F * portable::kPi);
+                shape.ripple_phase_rad = random.uniform(0.0F, 2.0F * portable::kPiF);
                 // Every other petal lies a little higher, so that neighbours overlap instead of cutting each other.
                 const float level = height + (k % 2 == 0 ? 0.0F : 0.012F);
                 append_petal(mesh, frame_facing(frame.origin + axis * level + outwards * 0.05F, along, axis), shape);
@@ -198,7 +198,7 @@ private:
         const Frame frame = frame_facing(to, out, random.direction());
         for (int k = 0; k < 6; ++k) {
             const vec3 side =
-                frame.direction(portable::around(portable::kPi / 3.0F * static_cast<float>(k), 1.0F, 0.0F));
+                frame.direction(portable::around(portable::kPiF / 3.0F * static_cast<float>(k), 1.0F, 0.0F));
             const Frame base = frame_facing(to + side * 0.012F, out + 0.35F * side, -side);
             PetalShape petal{
                 .length = 0.13F, .width = 0.075F, .base_width = 0.4F, .widest_at = 0.45F, .pointedness = 0.5F};
@@ -244,7 +244,7 @@ private:
         shape.cup = 0.28F;
         shape.ripple = 0.16F;
         shape.ripple_waves = 2.5F;
-        shape.ripple_phase_rad = random.uniform(0.0F, 2.0F * portable::kPi);
+        shape.ripple_phase_rad = random.uniform(0.0F, 2.0F * portable::kPiF);
         shape.rows = 18;
         append_petal(leaves_, frame_facing(base, along, up), shape);
     }

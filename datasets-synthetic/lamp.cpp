@@ -45,7 +45,7 @@ std::vector<vec2> wall(const std::vector<vec2>& outside, float thickness) {
     const vec2 across = 0.5F * (outside.back() - inside.back());
     const vec2 up{-across.y, across.x};
     for (int k = 1; k < 6; ++k) {
-        const float angle_rad = portable::kPi * static_cast<float>(k) / 6.0F;
+        const float angle_rad = portable::kPiF * static_cast<float>(k) / 6.0F;
         profile.push_back(middle + across * portable::cos(angle_rad) + up * portable::sin(angle_rad));
     }
     profile.insert(profile.end(), inside.rbegin(), inside.rend());
@@ -120,12 +120,12 @@ void append_burner(Mesh& brushed, Mesh& polished) {
     // Beads around the collar and prongs that hold the chimney.
     constexpr int kBeads = 36;
     for (int k = 0; k < kBeads; ++k) {
-        const vec3 centre = portable::around(2.0F * portable::kPi * static_cast<float>(k) / kBeads, 0.192F, 1.30F);
+        const vec3 centre = portable::around(2.0F * portable::kPiF * static_cast<float>(k) / kBeads, 0.192F, 1.30F);
         append_ellipsoid(polished, {{centre, glm::mat3{1.0F}}, vec3{0.0135F}}, 12, 8);
     }
     constexpr int kProngs = 8;
     for (int k = 0; k < kProngs; ++k) {
-        const float angle_rad = 2.0F * portable::kPi * (static_cast<float>(k) + 0.5F) / kProngs;
+        const float angle_rad = 2.0F * portable::kPiF * (static_cast<float>(k) + 0.5F) / kProngs;
         const vec3 out = portable::around(angle_rad, 1.0F, 0.0F);
         PetalShape prong{.length = 0.13F, .width = 0.075F, .base_width = 0.9F, .widest_at = 0.4F, .pointedness = 0.4F};
         prong.curl_rad = 0.55F;
@@ -193,10 +193,10 @@ Result<capture::Scene> generate_lamp(const nlohmann::json& parameters, std::uint
     append_stand(brushed, polished);
     append_burner(brushed, polished);
     append_flame(wick, flame, flame_radiance > 0.0F);
-    const float feet_turn_rad = Random(seed, 61).uniform(0.0F, 2.0F * portable::kPi);
+    const float feet_turn_rad = Random(seed, 61).uniform(0.0F, 2.0F * portable::kPiF);
     for (int k = 0; k < 4; ++k) {
         const vec3 centre =
-            portable::around(feet_turn_rad + 0.5F * portable::kPi * static_cast<float>(k), 0.37F, 0.074F);
+            portable::around(feet_turn_rad + 0.5F * portable::kPiF * static_cast<float>(k), 0.37F, 0.074F);
         append_ellipsoid(glass, {{centre, glm::mat3{1.0F}}, vec3{0.0735F}}, 64, 32);
     }
 

@@ -27,7 +27,7 @@ inline float atan2(float y, float x) {
     return static_cast<float>(atan2(static_cast<double>(y), static_cast<double>(x)));
 }
 
-inline constexpr float kPi = static_cast<float>(rs::kPi);
+inline constexpr float kPiF = static_cast<float>(kPi);
 
 // The point at an angle about the upright axis, from the z axis towards x.
 inline glm::vec3 around(float angle_rad, float radius, float height) {
