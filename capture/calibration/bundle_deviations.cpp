@@ -20,6 +20,10 @@ namespace {
 
 constexpr std::size_t kSharedErrors = 4;
 
+// Errors of one side of the object, per px of robust_deviation_px; and how many sides there are.
+constexpr double kSectorError = 2;
+constexpr std::size_t kSectors = 12;
+
 // By how much a point may seem to move, per px of shared error, seen `beside_rad` from the middle of its views.
 std::array<Eigen::Vector2d, kSharedErrors> shared_errors(double beside_rad) {
     const double odd = std::sin(beside_rad), even = 1 - std::cos(beside_rad);
@@ -38,7 +42,7 @@ double middle_angle(const TurntableModel& model, const Track& track) {
 // Which points are near each other: [point] a number of its neighbourhood, a sector around the axis in a band of
 // height; made smaller until there are at least `fewest`, or each point is alone.
 std::vector<std::size_t> neighbourhoods(const std::vector<glm::dvec3>& points, std::size_t fewest) {
-    constexpr int kSectors = 16, kBands = 6;
+    constexpr int kAround = 16, kBands = 6;
     constexpr int kFinest = 64;
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (const glm::dvec3& p : points) {
@@ -51,7 +55,7 @@ std::vector<std::size_t> neighbourhoods(const std::vector<glm::dvec3>& points, s
         std::map<std::pair<int, int>, std::size_t> numbers;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double around = std::atan2(points[i].x, points[i].z) / (2 * kPi) + 0.5;
-            const std::pair<int, int> place{static_cast<int>(around * kSectors * finer),
+            const std::pair<int, int> place{static_cast<int>(around * kAround * finer),
                                             static_cast<int>((points[i].y - lowest) / height * kBands * finer)};
             result[i] = numbers.try_emplace(place, numbers.size()).first->second;
         }
@@ -63,8 +67,7 @@ std::vector<std::size_t> neighbourhoods(const std::vector<glm::dvec3>& points, s
 
 }  // namespace
 
-ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& options, double at_px,
-                                  double shared_error_px) {
+Eigen::MatrixXd bundle_covariance(const Bundle& bundle, const BundleOptions& options, double shared_error_px) {
     const TurntableModel& model = bundle.model;
     const NumberPlaces places(options.free, std::vector<bool>(model.angles_rad.size(), true));
     const std::array<double, 5> lens{model.lens.f_px, model.lens.cx, model.lens.cy, model.lens.k1, model.lens.k2};
@@ -74,7 +77,8 @@ ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& opt
 
     Eigen::MatrixXd bread = Eigen::MatrixXd::Zero(n, n);
     Eigen::MatrixXd meat;
-    Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(n, kSharedErrors);  // what each shared error does to the score
+    // What each shared error does to the score, for the tracks of each sector.
+    std::vector<Eigen::MatrixXd> shared(kSectors, Eigen::MatrixXd::Zero(n, kSharedErrors));
     const std::vector<std::size_t> neighbourhood = neighbourhoods(bundle.points, 2 * static_cast<std::size_t>(n));
     Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(bundle.points.size()));
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
@@ -136,7 +140,9 @@ ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& opt
         bread += camera_camera - camera_point * inverse * camera_point.transpose();
         const Eigen::VectorXd score = camera_score - camera_point * inverse * point_score;
         scores.col(static_cast<Eigen::Index>(neighbourhood[i])) += score;
-        shared += camera_shared - camera_point * inverse * point_shared;
+        const double around = middle_rad / (2 * kPi) + 0.5;
+        const auto sector = static_cast<std::size_t>(around * static_cast<double>(kSectors)) % kSectors;
+        shared[sector] += camera_shared - camera_point * inverse * point_shared;
     }
     meat = scores * scores.transpose();
     const auto clusters = static_cast<int>((scores.colwise().squaredNorm().array() > 0).count());
@@ -149,16 +155,27 @@ ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& opt
         meat(places.camera[k], places.camera[k]) += information * options.loss_px * options.loss_px;
     }
 
-    ModelDeviations deviations;
-    deviations.angles_rad.assign(model.angles_rad.size(), std::numeric_limits<double>::infinity());
-    if (clusters <= n) return deviations;
+    if (clusters <= n) return {};
     const Eigen::LDLT<Eigen::MatrixXd> solver(bread);
-    if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-15)) return deviations;
+    if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-15)) return {};
     const double few = static_cast<double>(clusters) / (clusters - n);  // the usual correction for few clusters
     const Eigen::MatrixXd half = solver.solve(meat);
-    const Eigen::MatrixXd moved = shared_error_px * solver.solve(shared);
-    const Eigen::MatrixXd covariance = few * solver.solve(half.transpose()) + moved * moved.transpose();
-    return deviations_of(model, places, covariance, at_px);
+    Eigen::MatrixXd covariance = few * solver.solve(half.transpose());
+    const double sector_error_px = shared_error_px > 0 ? kSectorError * robust_deviation_px(bundle) : 0;
+    Eigen::MatrixXd everywhere = Eigen::MatrixXd::Zero(n, kSharedErrors);
+    for (const Eigen::MatrixXd& sector : shared) {
+        everywhere += sector;
+        const Eigen::MatrixXd moved = sector_error_px * solver.solve(sector);
+        covariance += moved * moved.transpose();
+    }
+    const Eigen::MatrixXd moved = shared_error_px * solver.solve(everywhere);
+    return covariance + moved * moved.transpose();
+}
+
+ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& options, double at_px,
+                                  double shared_error_px) {
+    const NumberPlaces places(options.free, std::vector<bool>(bundle.model.angles_rad.size(), true));
+    return deviations_of(bundle.model, places, bundle_covariance(bundle, options, shared_error_px), at_px);
 }
 
 }  // namespace rs::capture

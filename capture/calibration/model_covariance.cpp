@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rs::capture {
 namespace {
@@ -40,6 +41,11 @@ NumberPlaces::NumberPlaces(const BundleFreedom& free, const std::vector<bool>& i
 
 ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& places,
                               const Eigen::MatrixXd& covariance, double at_px) {
+    if (covariance.size() == 0 && places.count > 0) {
+        ModelDeviations unknown;
+        unknown.angles_rad.assign(model.angles_rad.size(), std::numeric_limits<double>::infinity());
+        return unknown;
+    }
     const auto of = [&](const Eigen::VectorXd& gradient) {
         return std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
     };

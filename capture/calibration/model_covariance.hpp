@@ -14,6 +14,7 @@ namespace rs::capture {
 
 // f, cx, cy, k1, k2, pan, tilt, roll
 inline constexpr std::size_t kCameraNumbers = 8;
+inline constexpr std::size_t kPan = 5;
 
 // Where the numbers of a model stand among the unknowns, camera first, then angles or the step; -1: held.
 struct NumberPlaces {
@@ -26,8 +27,9 @@ struct NumberPlaces {
     NumberPlaces(const BundleFreedom& free, const std::vector<bool>& is_seen);
 };
 
-// What was held has a deviation of 0. Unknowns of `covariance` beyond places.count do not count. `at_px` is the row
-// (for an axis nearer to sideways the column) at which the axis' position is judged.
+// What was held has a deviation of 0; all are infinite where `covariance` is empty, for nothing is known. Unknowns of
+// `covariance` beyond places.count do not count. `at_px` is the row (for an axis nearer to sideways the column) at
+// which the axis' position is judged.
 ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& places,
                               const Eigen::MatrixXd& covariance, double at_px);
 

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <string>
 
 namespace rs::capture {
 namespace {
@@ -19,9 +17,6 @@ constexpr float kIndistinct = 0.02F;
 // of the way from B to F.
 constexpr float kScatter = 0.5F;
 constexpr float kMostScatter = 0.35F;
-
-// So deep inside, a pixel shows nothing but the object.
-constexpr float kOwnColour_px = 1.9F;
 
 // By distance alone: of an edge without blur, a pixel's own width mixes.
 constexpr float kAlphaPerPx = 0.75F;
@@ -82,44 +77,6 @@ cv::Mat1f trust(const cv::Mat1f& depth, int band_px) {
     return weight;
 }
 
-// The object's own colour in a pixel on its border, and how much of the pixel it covers.
-struct Share {
-    cv::Vec3f colour;
-    float alpha = 0;
-    float weight = 0;  // of the colours that were asked; 0: none
-};
-
-// Stripes and strands: the object's colours change from pixel to pixel, so not their mean is asked but each of those
-// near by, and counts by how well some mixture of it and the backdrop explains the pixel.
-Share explained_by_near(const cv::Mat3f& light, const cv::Mat1f& depth_inside, const cv::Vec3f& b, int x, int y,
-                        float deviation_sq, int reach_px) {
-    const cv::Vec3f seen = light(y, x) - b;
-    Share share;
-    for (int v = std::max(0, y - reach_px); v <= std::min(light.rows - 1, y + reach_px); ++v) {
-        for (int u = std::max(0, x - reach_px); u <= std::min(light.cols - 1, x + reach_px); ++u) {
-            if (depth_inside(v, u) < kOwnColour_px) continue;
-            const cv::Vec3f span = light(v, u) - b;
-            const float span_sq = span.dot(span);
-            const float alpha = std::clamp(seen.dot(span) / std::max(span_sq, 1e-9F), 0.0F, 1.0F);
-            const cv::Vec3f rest = seen - span * alpha;
-            const auto away_sq = static_cast<float>((u - x) * (u - x) + (v - y) * (v - y));
-            const float weight = std::exp(-0.5F * (rest.dot(rest) / deviation_sq +
-                                                   away_sq / static_cast<float>(reach_px * reach_px) * 4)) *
-                                 span_sq / (span_sq + kIndistinct * kIndistinct);
-            share.colour += light(v, u) * weight;
-            share.alpha += alpha * weight;
-            share.weight += weight;
-        }
-    }
-    if (share.weight > 1e-6F) {
-        share.colour *= 1 / share.weight;
-        share.alpha /= share.weight;
-    } else {
-        share.weight = 0;
-    }
-    return share;
-}
-
 LinearRgb rgb(const cv::Vec3f& v) {
     return {v[0], v[1], v[2]};
 }
@@ -165,20 +122,7 @@ SoftEdge softened(const cv::Mat3f& light, const cv::Mat1b& inside, int band_px) 
             // The mask is right to a pixel or so: alpha nears its value towards the band's ends.
             const float low = std::max(0.0F, (distance - 0.5F) / (band - 0.5F));
             const float high = std::min(1.0F, 1 + (distance + 0.5F) / (band - 0.5F));
-            static const bool kNew = std::getenv("NEWEDGE") != nullptr;
-            static const float kNoise = kNew ? std::stof(std::getenv("NEWEDGE")) : 0;
-            float wanted = mixed;
-            if (kNew) {
-                const Share share = explained_by_near(light, depth_inside, b, x, y,
-                                                      kNoise * kNoise + 0.25F * backdrop.scatter_sq(y, x), band_px + 3);
-                if (share.weight > 0) {
-                    const cv::Vec3f own = share.colour - b;
-                    const float own_sq = own.dot(own);
-                    const float sure = own_sq / (own_sq + kIndistinct * kIndistinct + backdrop.scatter_sq(y, x));
-                    wanted = by_distance + sure * (share.alpha - by_distance);
-                }
-            }
-            edge.alpha(x, y) = std::clamp(std::clamp(wanted, 0.0F, 1.0F), low, high);
+            edge.alpha(x, y) = std::clamp(std::clamp(mixed, 0.0F, 1.0F), low, high);
             edge.object(x, y) = rgb(f);
             edge.backdrop(x, y) = rgb(b);
         }

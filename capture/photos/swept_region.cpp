@@ -146,14 +146,27 @@ void add_parts_of_revolution(const Image<Cell>& cells, cv::Mat1b& swept) {
         wide = v < moving.y ? wide : std::min(wide, moves + kRimCells);
         for (int u = middle - wide + 1; u < middle + wide; ++u) swept(v, u) = 255;
     }
+    // A foot below all that moves, less than half as wide as the body: the camera looks down on it, so it is seen for
+    // less than half of its width. What of this is the ground the plate will explain.
+    const int bottom = moving.y + moving.height - 1;
+    const int foot = reach([&](int u, int w) { return before(w, u) != 0; }, std::max(0, bottom - kEdgeCells));
+    if (4 * foot > moving.width) return;
+    const int end = std::min(swept.rows, bottom + 1 + foot / 2);
+    for (int v = bottom + 1; v < end; ++v) {
+        const double down = static_cast<double>(v - bottom) / (end - bottom);
+        const int wide = static_cast<int>(foot * std::sqrt(1 - down * down));
+        for (int u = std::max(0, middle - wide + 1); u < std::min(swept.cols, middle + wide); ++u) swept(v, u) = 255;
+    }
 }
 
 // What turns sweeps a body of revolution, which has no notches: a band that never changes between two that do is the
 // object's, and in every row so is what lies between the ends.
 void close_bands(cv::Mat1b& swept) {
     const int tall = std::max(3, swept.rows / kBandShare) | 1;
-    cv::morphologyEx(swept, swept, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {1, tall}), {-1, -1}, 1,
+    cv::Mat1b closed;
+    cv::morphologyEx(swept, closed, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {1, tall}), {-1, -1}, 1,
                      cv::BORDER_CONSTANT, cv::Scalar::all(0));
+    swept |= closed;  // near the picture's border closing takes away
     for (int v = 0; v < swept.rows; ++v) {
         int left = 0;
         int right = swept.cols - 1;

@@ -61,6 +61,35 @@ TEST(SweptRegion, HoldsTheStillPartsOfTheObject) {
     EXPECT_EQ(region(60, 105), 0);
 }
 
+TEST(SweptRegion, HoldsALipNearThePicturesBorder) {
+    constexpr int kUp = 29;  // the body's top at y = 1
+    Image<Rgba8> still(kSide, kSide, kWall);
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            if (in_body(x, y + kUp)) still(x, y) = kBody;
+        }
+    }
+    const Image<std::uint8_t> region =
+        swept_region(still, mask_where([](int x, int y) { return in_bands(x, y + kUp); }));
+    EXPECT_EQ(region(60, 2), 255);
+    EXPECT_EQ(region(60, 8), 255);
+    EXPECT_EQ(region(30, 3), 0);
+}
+
+TEST(SweptRegion, HoldsTheFootOfWhatIsNarrowBelow) {
+    const auto moves = [](int x, int y) { return y >= 30 && y < 86 && std::abs(x - 60) < (y < 70 ? 20 : 6); };
+    Image<Rgba8> still(kSide, kSide, kWall);
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            if (moves(x, y) || (y >= 86 && y < 92 && std::abs(x - 60) < 6)) still(x, y) = kBody;
+        }
+    }
+    const Image<std::uint8_t> region = swept_region(still, mask_where(moves));
+    EXPECT_EQ(region(60, 86), 255);
+    EXPECT_EQ(region(70, 86), 0);
+    EXPECT_EQ(region(60, 100), 0);
+}
+
 TEST(SweptRegion, IsEmptyWhereNothingMoves) {
     const Image<std::uint8_t> region =
         swept_region(Image<Rgba8>(kSide, kSide, kWall), mask_where([](int, int) { return false; }));
