@@ -1,5 +1,6 @@
 #include "encode/build.hpp"
 
+#include "encode/compact_json.hpp"
 #include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/rings.hpp"
 #include "rayspace/conventions.hpp"
@@ -69,7 +70,7 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
     RaySpaceObject& object = built.object;
     object.name = options.name;
     object.units_per_radius = set.upright.object_radius;
-    object.rig_json = rig_to_json(set.upright);
+    object.rig_json = compact_json(rig_to_json(set.upright));
     object.width = set.width;
     object.height = set.height;
 

@@ -41,6 +41,7 @@ public:
         coded_.tile_height_log2 = settings.tile_height_log2;
         coded_.dense.chroma_step_offset = settings.chroma_offset;
         coded_.dense.probabilities.fill(2048);
+        if (coded_.dense.has_edge_alpha()) coded_.dense.edge_alpha = usual_edge_alpha(sources);
         start_probabilities();
         coded_.levels.assign(object.views.size(), 0);
         coded_.pictures.resize(object.views.size());

@@ -27,6 +27,11 @@ struct DenseSettings {
     std::array<int, 2> chroma_offset = {0, 1};
 };
 
+// The alpha bits that are worth their cost at a step: one, of which the decoder makes soft edges, from a step of 20 on.
+constexpr int dense_alpha_bits(double step) {
+    return step >= 20 ? 1 : 2;
+}
+
 // `sources`: one per view, of settings.alpha_bits. The object gives rings and sizes. The same input gives the same
 // bytes on any number of threads. Memory: 4 bytes a sample of the coded size, and some two bytes for each bit of the
 // result.

@@ -3,10 +3,13 @@
 #include "rayspace/codec/coded_chunks.hpp"
 #include "rayspace/parallel.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace rs::encode {
 namespace {
@@ -28,20 +31,22 @@ std::string text_of(double value) {
 // Finds the coarsest step that reaches a fidelity, or the finest one that keeps to a size.
 class GoalSearch {
 public:
-    GoalSearch(const RaySpaceObject& object, const std::vector<SourcePicture>& sources, codec::Profile profile,
-               int alpha_bits, Progress* progress)
+    GoalSearch(const RaySpaceObject& object, std::vector<SourcePicture>& sources, codec::Profile profile,
+               std::optional<int> alpha_bits, Progress* progress)
         : object_(object), sources_(sources), profile_(profile), alpha_bits_(alpha_bits), progress_(progress) {}
 
     EncodedPictures at_step(double step) {
         if (profile_ == codec::Profile::kBoard) {
             BoardSettings settings;
             settings.step = step;
-            settings.alpha_bits = alpha_bits_;
+            settings.alpha_bits = alpha_bits_.value_or(settings.alpha_bits);
+            prepare_sources(settings.alpha_bits);
             return encode_board(object_, sources_, settings, progress_);
         }
         DenseSettings settings;
         settings.step = step;
-        settings.alpha_bits = alpha_bits_;
+        settings.alpha_bits = alpha_bits_.value_or(dense_alpha_bits(step));
+        prepare_sources(settings.alpha_bits);
         return encode_dense(object_, sources_, settings, progress_);
     }
 
@@ -76,6 +81,12 @@ public:
     }
 
 private:
+    void prepare_sources(int alpha_bits) {
+        if (std::exchange(source_bits_, alpha_bits) == alpha_bits) return;
+        tbb::parallel_for(std::size_t{0}, sources_.size(),
+                          [&](std::size_t v) { set_alpha_bits(sources_[v], alpha_bits); });
+    }
+
     // The coarsest step for which `holds`, which holds below some step and not above it; `off`: by how many steps of
     // the scale one seems to be too fine (above 0) or too coarse.
     template <class Holds, class Off>
@@ -110,9 +121,10 @@ private:
     EncodedPictures take(int index) { return at_index(index); }
 
     const RaySpaceObject& object_;
-    const std::vector<SourcePicture>& sources_;
+    std::vector<SourcePicture>& sources_;
     codec::Profile profile_;
-    int alpha_bits_;
+    std::optional<int> alpha_bits_;
+    int source_bits_ = 0;  // those that the sources have now
     Progress* progress_;
     std::map<int, EncodedPictures> tried_;
     double reached_db_ = 0;
@@ -132,13 +144,13 @@ std::uint64_t coded_bytes(const codec::CodedPictures& coded) {
 }
 
 Result<EncodedPictures> encode_pictures(const CaptureSet& set, const RaySpaceObject& object, const PictureGoal& goal,
-                                        int alpha_bits, Progress* progress) {
+                                        std::optional<int> alpha_bits, Progress* progress) {
     std::vector<SourcePicture> sources(object.views.size());
     const Status read =
         for_each_in_parallel(static_cast<int>(sources.size()), "pictures", progress, [&](int view) -> Status {
             const Result<Image<Rgba8>> picture = read_upright_picture(set, view);
             if (!picture) return picture.error();
-            sources[static_cast<std::size_t>(view)] = source_picture(*picture, alpha_bits);
+            sources[static_cast<std::size_t>(view)] = source_picture(*picture, alpha_bits.value_or(2));
             return {};
         });
     if (!read) return read.error();

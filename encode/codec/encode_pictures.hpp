@@ -26,11 +26,12 @@ inline constexpr double kMaxQuality = 100;
 // 100: a step of 2; twice that for every 14 less. What it means to a board object: board_encoder.hpp.
 double step_of_quality(double quality);
 
-// Encodes the pictures of `set`, of which `object` (views, rings, size) was built; alpha in `alpha_bits` bits. For a
+// Encodes the pictures of `set`, of which `object` (views, rings, size) was built; alpha in `alpha_bits` bits, or in as
+// many as suit the profile and the step. For a
 // goal of fidelity or size it encodes up to some six times. Fails where a picture cannot be read, or the goal cannot be
 // reached. Memory: some 10 bytes a sample, and twice the bytes of the result per sample.
 Result<EncodedPictures> encode_pictures(const CaptureSet& set, const RaySpaceObject& object, const PictureGoal& goal,
-                                        int alpha_bits, Progress* progress = nullptr);
+                                        std::optional<int> alpha_bits, Progress* progress = nullptr);
 
 // Of chunks CODE and PICT, as the file will have them.
 std::uint64_t coded_bytes(const codec::CodedPictures& coded);

@@ -2,6 +2,7 @@
 
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/quantise.hpp"
+#include "rayspace/codec/alpha_mask.hpp"
 #include "rayspace/codec/transform.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ using codec::PartChoice;
 using codec::PartPlace;
 using codec::Source;
 
-constexpr int kSamples = kMacroblock * kMacroblock;
+constexpr int kMacroblockSamples = kMacroblock * kMacroblock;
 constexpr float kNever = std::numeric_limits<float>::max();
 
 // How often a part with samples that do not matter is coded anew with what the last coding made of them.
@@ -52,7 +53,7 @@ float error_of(const TransformTarget& target, const std::uint8_t* shown, std::pt
 bool code_transform(const TransformTarget& target, const QuantiserSettings& settings, const CostTable& costs,
                     codec::Levels& levels, int& last, std::uint8_t* shown) {
     const int size = target.size;
-    std::int16_t residual[kSamples];
+    std::int16_t residual[kMacroblockSamples];
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
             const int off = target.wanted[y * target.source_stride + x] - target.predicted[y * target.stride + x];
@@ -62,7 +63,7 @@ bool code_transform(const TransformTarget& target, const QuantiserSettings& sett
     }
     bool any = false;
     for (int round = 0; round <= (target.all_matter ? 0 : kRefits); ++round) {
-        std::int32_t coefficients[kSamples];
+        std::int32_t coefficients[kMacroblockSamples];
         forward_transform(residual, size, coefficients);
         levels = {};
         any = quantise(coefficients, settings, costs, levels, last);
@@ -93,10 +94,10 @@ void PartSearch::code_alpha(Coder& coder, const Part& part, const PartChoice& ch
         const int bx = part.bx + (i & (part.blocks() - 1));
         const int by = part.by + i / part.blocks();
         if (state_.grid.at(bx, by).alpha != codec::AlphaClass::kMixed) continue;
-        const auto predicted = [&](int x, int y) {
-            return codec::predicted_alpha(choice, task_.references, left_ + x, top_ + y, task_.code->alpha_bits);
-        };
-        codec::code_block_alpha(coder, state_.alpha, task_.code->alpha_bits, bx, by, predicted);
+        codec::code_block_mask(coder, state_.alpha, bx, by, [&](int x, int y) {
+            return codec::predicted_mask(
+                codec::interpolated_alpha(choice.source, choice.motion, task_.references, left_ + x, top_ + y));
+        });
     }
 }
 
@@ -129,7 +130,7 @@ float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) con
         all_matter = all_matter && info.alpha == codec::AlphaClass::kOpaque;
     }
 
-    std::uint8_t predicted[codec::kPlanes][kSamples];
+    std::uint8_t predicted[codec::kPlanes][kMacroblockSamples];
     TransformTarget targets[codec::kPlanes];
     float plain_error = 0;
     for (int plane = 0; plane < codec::kPlanes; ++plane) {
@@ -177,7 +178,7 @@ float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) con
                 target.wanted += down * target.source_stride + right;
                 target.matters += down * target.source_stride + right;
                 target.predicted += down * target.stride + right;
-                std::uint8_t shown[kSamples];
+                std::uint8_t shown[kMacroblockSamples];
                 trial.plane_coded[p][t] =
                     code_transform(target, settings, costs_, trial.levels[p][t], trial.last[p][t], shown);
                 trial.coded = trial.coded || trial.plane_coded[p][t];
@@ -267,7 +268,7 @@ void PartSearch::find_inter(const Part& part, const PartChoice* around, PartChoi
     search.reach_x = 1;
     search.reach_y = 1;
     for (const std::size_t r : {std::size_t{0}, std::size_t{1}}) {
-        std::uint8_t other[kSamples];
+        std::uint8_t other[kMacroblockSamples];
         codec::predict_from_picture(task_.references[1 - r][0], place.x, place.y, trial.motion[1 - r], part.size, other,
                                     part.size);
         search.reference = task_.references[r][0];

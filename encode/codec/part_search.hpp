@@ -7,12 +7,13 @@
 
 namespace rs::encode {
 
-// What the parts of a tile know of each other. The alpha levels are those of the whole tile: where a part's are coded,
-// only those before them are looked at, and a decoder has 0 in place of others only where they are not looked at
+// What the parts of a tile know of each other. The masks and depths are those of the whole tile: where a part's are
+// coded, only those before them are looked at, and a decoder has 0 in place of others only where they are not looked at
 // either.
 struct TileState {
     codec::TileGrid grid;
-    codec::AlphaLevels alpha;
+    codec::AlphaLevels alpha;   // mask
+    codec::AlphaLevels depths;  // of syntax::alpha_depth
 };
 
 class PartSearch {

@@ -1,21 +1,30 @@
 #pragma once
 // A picture as the encoder sees it: planes of the coded size, and which samples matter.
 
+#include "rayspace/codec/dense_code.hpp"
 #include "rayspace/image.hpp"
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace rs::encode {
 
 struct SourcePicture {
     std::array<Image<std::uint8_t>, 3> planes;  // Y, U, V at full size
+    Image<std::uint8_t> coverage;               // alpha, 0 .. 255
     Image<std::uint8_t> alpha;                  // levels 0 .. 2^bits - 1
     Image<std::uint8_t> matters;                // 255 where the alpha level is not 0, else 0
 };
 
 // `picture` has straight alpha. The coded size is its own, rounded up to a multiple of 16.
 SourcePicture source_picture(ConstImageView<Rgba8> picture, int alpha_bits);
+
+// The same picture with alpha in another number of bits.
+void set_alpha_bits(SourcePicture& source, int alpha_bits);
+
+// The mean alpha, off 0 or 255, beside the edges of masks of one bit.
+codec::EdgeAlpha usual_edge_alpha(const std::vector<SourcePicture>& sources);
 
 // Weights of squared errors of Y, U and V that make up the squared error of R, G and B together (BT.601), but for the
 // products of different planes' errors: 3, 1.772^2 + 0.344^2, 1.402^2 + 0.714^2.

@@ -1,6 +1,7 @@
 #include "encode/codec/tile_encoder.hpp"
 
 #include "encode/codec/part_search.hpp"
+#include "rayspace/codec/alpha_mask.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 #include "rayspace/codec/reconstruct_part.hpp"
 
@@ -33,6 +34,9 @@ public:
         for (int y = 0; y < place_.height; y += kMacroblock) {
             for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
         }
+        codec::AlphaFinish(recorder_, *task_.code, state_.grid, state_.alpha, state_.depths, task_.references, place_,
+                           task_.out[3])
+            .finish();
     }
 
 private:
@@ -49,19 +53,17 @@ private:
                         const int level = task_.source->alpha(left_ + x, top_ + y);
                         lowest = std::min(lowest, level);
                         highest = std::max(highest, level);
-                        state_.alpha.at(x, y) = static_cast<std::uint8_t>(level);
+                        const int mask = codec::mask_of_level(level, task_.code->alpha_bits);
+                        state_.alpha.at(x, y) = static_cast<std::uint8_t>(mask);
+                        state_.depths.at(x, y) = static_cast<std::uint8_t>(mask != 0 ? full - level : level);
+                        task_.out[3](left_ + x, top_ + y) =
+                            static_cast<std::uint8_t>(codec::alpha_of_level(level, task_.code->alpha_bits));
                     }
                 }
                 classes_[static_cast<std::size_t>(by)][static_cast<std::size_t>(bx)] = highest == 0 ? AlphaClass::kEmpty
                                                                                        : lowest == full
                                                                                            ? AlphaClass::kOpaque
                                                                                            : AlphaClass::kMixed;
-            }
-        }
-        for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                task_.out[3](left_ + x, top_ + y) =
-                    static_cast<std::uint8_t>(codec::alpha_of_level(state_.alpha.at(x, y), task_.code->alpha_bits));
             }
         }
     }

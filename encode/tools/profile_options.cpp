@@ -50,8 +50,9 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
         "--size", arguments.size, "or: the best pictures that take at most so many bytes together, such as 800k or 2M");
     quality->excludes(psnr)->excludes(size);
     psnr->excludes(size);
-    command.add_option("--alpha-bits", arguments.alpha_bits, "bits of compressed pictures' alpha, 1..4")
-        ->capture_default_str();
+    command.add_option(
+        "--alpha-bits", arguments.alpha_bits,
+        "bits of compressed pictures' alpha, 1..4; without it 2, or 1 for dense pictures below a quality of 54");
 }
 
 Result<std::optional<PictureGoal>> goal_of(const ProfileArguments& arguments) {
@@ -59,8 +60,8 @@ Result<std::optional<PictureGoal>> goal_of(const ProfileArguments& arguments) {
     if (arguments.profile != "dense" && arguments.profile != "board") {
         return Error{"--profile " + arguments.profile + ": there is no such profile; give dense, board or raw"};
     }
-    if (arguments.alpha_bits < 1 || arguments.alpha_bits > codec::kMaxAlphaBits) {
-        return Error{"--alpha-bits " + std::to_string(arguments.alpha_bits) + ": must be 1.." +
+    if (arguments.alpha_bits && (*arguments.alpha_bits < 1 || *arguments.alpha_bits > codec::kMaxAlphaBits)) {
+        return Error{"--alpha-bits " + std::to_string(*arguments.alpha_bits) + ": must be 1.." +
                      std::to_string(codec::kMaxAlphaBits)};
     }
     PictureGoal goal;

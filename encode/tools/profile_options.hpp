@@ -15,8 +15,8 @@ struct ProfileArguments {
     std::string profile = "dense";
     double quality = PictureGoal{}.quality;
     std::optional<double> psnr_db;
-    std::string size;  // bytes of the pictures, with k, M or G; empty: not given
-    int alpha_bits = DenseSettings{}.alpha_bits;
+    std::string size;               // bytes of the pictures, with k, M or G; empty: not given
+    std::optional<int> alpha_bits;  // nothing: as suits the quality
 };
 
 void add_profile_options(CLI::App& command, ProfileArguments& arguments);

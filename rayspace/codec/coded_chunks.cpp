@@ -89,8 +89,14 @@ Status check_references(const CodedPictures& coded, std::size_t view, const Pict
 }
 
 // What follows in the chunk CODE of dense pictures, to its end.
-Status take_probabilities(ByteReader& in, DenseCode& dense) {
-    std::vector<bool> listed(dense.probabilities.size());
+Status take_dense_code(ByteReader& in, DenseCode& dense) {
+    if (dense.has_edge_alpha()) {
+        for (std::uint8_t& off : dense.edge_alpha) off = in.get<std::uint8_t>();
+        const int largest = *std::max_element(dense.edge_alpha.begin(), dense.edge_alpha.end());
+        if (!in.ok()) return Error{"ends within its alpha of edges"};
+        if (largest > kMaxEdgeAlpha) return out_of_range("an alpha of edges", largest, 0, kMaxEdgeAlpha);
+    }
+    std::vector<bool> listed(static_cast<std::size_t>(dense.contexts()));
     if (!take_bits(in, listed)) return Error{"ends within its list of contexts, or lists some that do not exist"};
     for (std::size_t c = 0; c < listed.size(); ++c) {
         const int listed_as = listed[c] ? in.get<std::uint8_t>() : kEven / kProbabilityUnit;
@@ -112,17 +118,19 @@ std::vector<std::byte> code_payload(const CodedPictures& coded) {
     const bool board = coded.profile == Profile::kBoard;
     out.put(static_cast<std::uint8_t>(board ? 0 : coded.dense.alpha_bits));
     for (const int offset : coded.dense.chroma_step_offset) out.put(static_cast<std::int8_t>(board ? 0 : offset));
-    out.put_zeros(2);
+    out.put(static_cast<std::uint8_t>(board ? 0 : static_cast<int>(coded.dense.alpha_coding)));
+    out.put_zeros(1);
     out.put(std::span<const std::uint8_t>(coded.levels));
     if (board) {
         put_board_code(coded.board, out);
         return payload_of(out);
     }
-    std::vector<bool> listed(coded.dense.probabilities.size());
+    if (coded.dense.has_edge_alpha()) out.put(std::span<const std::uint8_t>(coded.dense.edge_alpha));
+    std::vector<bool> listed(static_cast<std::size_t>(coded.dense.contexts()));
     for (std::size_t c = 0; c < listed.size(); ++c) listed[c] = coded.dense.probabilities[c] != kEven;
     put_bits(out, listed);
-    for (const std::uint16_t probability : coded.dense.probabilities) {
-        if (probability != kEven) out.put(static_cast<std::uint8_t>(probability / kProbabilityUnit));
+    for (std::size_t c = 0; c < listed.size(); ++c) {
+        if (listed[c]) out.put(static_cast<std::uint8_t>(coded.dense.probabilities[c] / kProbabilityUnit));
     }
     return payload_of(out);
 }
@@ -134,7 +142,8 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     const auto tile_height_log2 = in.get<std::uint8_t>();
     const auto alpha_bits = in.get<std::uint8_t>();
     for (int& offset : coded.dense.chroma_step_offset) offset = in.get<std::int8_t>();
-    const bool reserved_is_zero = in.take_zeros(2);
+    const auto alpha_coding = in.get<std::uint8_t>();
+    const bool reserved_is_zero = in.take_zeros(1);
     const auto levels = in.take(views);
     if (!in.ok()) return Error{"is too short"};
     if (profile != static_cast<std::uint8_t>(Profile::kDense) &&
@@ -160,12 +169,15 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
             return out_of_range("a chroma step's offset", offset, -largest_offset, largest_offset);
         }
     }
+    const int most_codings = board ? 0 : static_cast<int>(AlphaCoding::kMask);
+    if (alpha_coding > most_codings) return out_of_range("the coding of alpha", alpha_coding, 0, most_codings);
     if (!reserved_is_zero) return Error{"has reserved bytes that are not zero"};
     coded.profile = static_cast<Profile>(profile);
     coded.width = width;
     coded.height = height;
     coded.tile_width_log2 = tile_width_log2;
     coded.tile_height_log2 = tile_height_log2;
+    coded.dense.alpha_coding = static_cast<AlphaCoding>(alpha_coding);
     coded.dense.alpha_bits = alpha_bits;
     coded.levels.resize(views);
     for (std::size_t v = 0; v < views; ++v) {
@@ -175,7 +187,7 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
                                 kProgressiveLevels - 1);
         }
     }
-    Status rest = board ? take_board_code(in, coded.board) : take_probabilities(in, coded.dense);
+    Status rest = board ? take_board_code(in, coded.board) : take_dense_code(in, coded.dense);
     if (!rest) return rest;
     coded.pictures.assign(views, {});
     return {};

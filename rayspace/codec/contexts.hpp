@@ -33,6 +33,15 @@ inline constexpr int kRestClass = kAboveTwo + kBlockKinds * 2 * kNearSums;     /
 inline constexpr int kAlphaZero = kRestClass + kBlockKinds * 14;               // [predicted 4][W 3][N 3][NW 3][NE 3]
 inline constexpr int kAlphaFull = kAlphaZero + 4 * 81;                         // [predicted 4][W 3][N 3][NW 3][NE 3]
 inline constexpr int kAlphaBetween = kAlphaFull + 4 * 81;                      // [mean of W and N 3][node 16]
-inline constexpr int kCount = kAlphaBetween + 3 * 16;
+inline constexpr int kLevelsCount = kAlphaBetween + 3 * 16;
+
+// Objects whose alpha is a mask have these in place of the three above.
+inline constexpr int kMaskFroms = 8;
+inline constexpr int kMask = kAlphaZero;                     // [predicted 8][samples coded before 64]
+inline constexpr int kInner = kMask + kMaskFroms * 64;       // [neighbours 3][predicted 3][mask 2][sum of mask 17]
+inline constexpr int kInnerLevel = kInner + 3 * 3 * 2 * 17;  // [mask 2][sum of mask / 4 5][node 8]
+inline constexpr int kMaskCount = kInnerLevel + 2 * 5 * 8;
+
+inline constexpr int kCount = kMaskCount > kLevelsCount ? kMaskCount : kLevelsCount;
 
 }  // namespace rs::codec::context

@@ -13,11 +13,28 @@
 
 namespace rs::codec {
 
+enum class AlphaCoding : std::uint8_t {
+    kLevels = 0,  // every sample's level (format 1.2)
+    kMask = 1,    // which samples are half covered at least, and of more than one bit, how much
+};
+
+// What alpha lies off 0 (255) beside a mask's edge: [mask][weight of the samples around that are unlike it, 1 .. 12].
+using EdgeAlpha = std::array<std::uint8_t, 24>;
+inline constexpr int kEdgeWeights = 12;
+inline constexpr int kMaxEdgeAlpha = 127;
+
 struct DenseCode {
+    AlphaCoding alpha_coding = AlphaCoding::kMask;
     int alpha_bits = 2;                              // 1 .. kMaxAlphaBits
+    EdgeAlpha edge_alpha = {};                       // 0 .. kMaxEdgeAlpha; of masks of one bit only
     std::array<int, 2> chroma_step_offset = {0, 0};  // of U and V, added to the step index of Y; +-kMaxChromaOffset
     std::array<std::uint16_t, context::kCount> probabilities = {};  // of 0, in 4096ths; 8 .. 4088
 
+    [[nodiscard]] bool has_edge_alpha() const { return alpha_coding == AlphaCoding::kMask && alpha_bits == 1; }
+    // How many contexts there are.
+    [[nodiscard]] int contexts() const {
+        return alpha_coding == AlphaCoding::kMask ? context::kMaskCount : context::kLevelsCount;
+    }
     // Of plane 0 .. 2.
     [[nodiscard]] int plane_step(int step, int plane) const {
         if (plane == 0) return step;

@@ -2,6 +2,7 @@
 // The steps by which a tile of a dense picture is decoded, for any Coder (syntax.hpp): one that reads, or one that also
 // looks at what is read.
 
+#include "rayspace/codec/alpha_mask.hpp"
 #include "rayspace/codec/dense_tile.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 #include "rayspace/codec/reconstruct_part.hpp"
@@ -33,6 +34,9 @@ public:
         for (int y = 0; y < place_.height; y += kMacroblock) {
             for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
         }
+        if (code_.alpha_coding == AlphaCoding::kMask) {
+            AlphaFinish(reader_, code_, grid_, alpha_, depths_, references_, place_, out_[3]).finish();
+        }
     }
 
 private:
@@ -61,7 +65,11 @@ private:
         choice.coded = false;
         code_prediction(reader_, grid_, part, around_, choice);
         if (listener_ != nullptr) announce(part, choice);
-        alpha(part, choice);
+        if (code_.alpha_coding == AlphaCoding::kMask) {
+            mask(part, choice);
+        } else {
+            alpha(part, choice);
+        }
         code_coefficients(reader_, grid_, part, choice);
         const PartPlace place = place_of_part(grid_, part, left_, top_);
         reconstruct_part(choice, place, head_.step, code_, references_, out_);
@@ -107,6 +115,27 @@ private:
         }
     }
 
+    // What is shown where no more than the mask is said: in blocks that are not mixed, and have none beside them.
+    void mask(const Part& part, const PartChoice& choice) {
+        for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
+            const int bx = part.bx + (i & (part.blocks() - 1));
+            const int by = part.by + i / part.blocks();
+            const AlphaClass kind = grid_.at(bx, by).alpha;
+            if (kind == AlphaClass::kMixed) {
+                code_block_mask(reader_, alpha_, bx, by, [&](int x, int y) {
+                    return predicted_mask(
+                        interpolated_alpha(choice.source, choice.motion, references_, left_ + x, top_ + y));
+                });
+                continue;
+            }
+            alpha_.fill_block(bx, by, kind == AlphaClass::kOpaque ? 1 : 0);
+            for (int y = 0; y < kBlock; ++y) {
+                std::memset(out_[3].row(top_ + by * kBlock + y) + left_ + bx * kBlock,
+                            kind == AlphaClass::kOpaque ? 255 : 0, kBlock);
+            }
+        }
+    }
+
     static void forget_levels(const Part& part, PartChoice& choice) {
         for (std::size_t plane = 0; plane < kPlanes; ++plane) {
             for (std::size_t t = 0; t < static_cast<std::size_t>(choice.transforms(part.size)); ++t) {
@@ -128,6 +157,7 @@ private:
     PartSurroundings around_;
     TileGrid grid_;
     AlphaLevels alpha_;
+    AlphaLevels depths_;
     PartChoice choice_;
 };
 

@@ -11,19 +11,20 @@
 
 namespace rs::codec {
 
-// The alpha of a tile in levels 0 .. 2^bits - 1, with a margin of zeros above and on both sides.
+// The alpha of a tile in levels 0 .. 2^bits - 1, or its mask, with a margin of zeros above and on both sides.
 class AlphaLevels {
 public:
     void clear() { std::memset(levels_, 0, sizeof levels_); }
-    std::uint8_t& at(int x, int y) { return levels_[(y + 1) * kStride + x + 1]; }
-    [[nodiscard]] const std::uint8_t& at(int x, int y) const { return levels_[(y + 1) * kStride + x + 1]; }
+    std::uint8_t& at(int x, int y) { return levels_[(y + kMargin) * kStride + x + kMargin]; }
+    [[nodiscard]] const std::uint8_t& at(int x, int y) const { return levels_[(y + kMargin) * kStride + x + kMargin]; }
     void fill_block(int bx, int by, int level) {
         for (int y = 0; y < kBlock; ++y) std::memset(&at(bx * kBlock, by * kBlock + y), level, kBlock);
     }
 
 private:
-    static constexpr int kStride = (1 << kMaxTileLog2) + 2;
-    std::uint8_t levels_[(1 + (1 << kMaxTileLog2)) * kStride] = {};
+    static constexpr int kMargin = 2;
+    static constexpr int kStride = (1 << kMaxTileLog2) + 2 * kMargin;
+    std::uint8_t levels_[(kMargin + (1 << kMaxTileLog2)) * kStride] = {};
 };
 
 constexpr int alpha_of_level(int level, int bits) {
@@ -64,6 +65,22 @@ void code_block_alpha(Coder& coder, AlphaLevels& alpha, int bits, int bx, int by
             alpha.at(x, y) = static_cast<std::uint8_t>(
                 syntax::alpha_sample(coder, bits, alpha.at(x - 1, y), north, alpha.at(x - 1, y - 1),
                                      later ? north : alpha.at(x + 1, y - 1), predicted(x, y), alpha.at(x, y)));
+        }
+    }
+}
+
+// A mixed block's mask. predicted(x, y): what the references' alpha makes likely (predicted_mask).
+template <class Coder, class Predicted>
+void code_block_mask(Coder& coder, AlphaLevels& mask, int bx, int by, const Predicted& predicted) {
+    for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
+        for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
+            // The sample to the upper right stands for itself only where it has been coded.
+            const int north = mask.at(x, y - 1);
+            const int north_east = (x & (kBlock - 1)) == kBlock - 1 ? north : mask.at(x + 1, y - 1);
+            const int before = mask.at(x - 1, y) + 2 * north + 4 * mask.at(x - 1, y - 1) + 8 * north_east +
+                               16 * mask.at(x - 2, y) + 32 * mask.at(x, y - 2);
+            mask.at(x, y) =
+                static_cast<std::uint8_t>(coder.bit(context::kMask + 64 * predicted(x, y) + before, mask.at(x, y)));
         }
     }
 }

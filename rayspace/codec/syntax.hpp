@@ -207,4 +207,15 @@ int alpha_sample(Coder& coder, int bits, int west, int north, int north_west, in
     return tree(coder, context::kAlphaBetween + 16 * mean, bits, value);
 }
 
+// What a sample of a mixed block lies away from the end that its mask names, in levels, 0 .. 2^(bits - 1) - 1. `sum`:
+// of the mask around it, 0 .. 16; `neighbours`: how many of those to the left and above are not 0; `predicted`: 0
+// without references, 1 where those show an end, 2 where they show something between.
+template <class Coder>
+int alpha_depth(Coder& coder, int bits, int mask, int sum, int neighbours, int predicted, int value) {
+    const int inner = context::kInner + ((3 * neighbours + predicted) * 2 + mask) * 17 + sum;
+    if (coder.bit(inner, value != 0 ? 1 : 0) == 0) return 0;
+    if (bits == 2) return 1;
+    return tree(coder, context::kInnerLevel + (5 * mask + (sum >> 2)) * 8, bits - 1, value);
+}
+
 }  // namespace rs::codec::syntax

@@ -35,6 +35,7 @@ Status write_seeds(const fs::path& corpus) {
                                                               {"two-rings", test::small_object(two_rings)},
                                                               {"shape", std::move(with_shape)},
                                                               {"coded", test::coded_object(larger, {})},
+                                                              {"mask", test::coded_object(larger, {.alpha_bits = 1})},
                                                               {"board", test::board_object(larger, {})}};
     for (const auto& [name, object] : objects) {
         const fs::path file = corpus / "container" / (std::string("seed-") + name + ".rso");

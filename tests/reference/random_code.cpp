@@ -74,11 +74,14 @@ std::vector<std::uint8_t> random_dense_code(const std::vector<int>& levels, bool
     for (int i = 0; i < 2; ++i) put(code, random.whole(4, 6));
     put(code, random.whole(1, 4));
     for (int i = 0; i < 2; ++i) put(code, is_tame ? random.whole(-4, 4) : random.whole(-31, 31));
-    put16(code, 0);
+    const std::size_t alpha_coding = random.one_in(3) ? 0 : 1;
+    put(code, static_cast<int>(alpha_coding));
+    put(code, 0);
     for (const int level : levels) put(code, level);
+    for (int i = 0; i < 24 && alpha_coding == 1 && code[3] == 1; ++i) put(code, random.whole(0, 127));
     const std::size_t listed_at = code.size();
-    code.resize(listed_at + 181);
-    for (int context = 0; context < kContexts; ++context) {
+    code.resize(listed_at + kListedBytes[alpha_coding]);
+    for (int context = 0; context < kContexts[alpha_coding]; ++context) {
         if (!is_tame && random.one_in(8)) continue;
         std::uint8_t& byte = code[listed_at + static_cast<std::size_t>(context / 8)];
         byte = static_cast<std::uint8_t>(byte | (1 << context % 8));

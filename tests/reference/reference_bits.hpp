@@ -11,7 +11,7 @@ namespace rs::reference {
 
 class Bits {
 public:
-    Bits(Bytes bytes, const std::array<int, kContexts>& probability) : bytes_(bytes), probability_(probability) {
+    Bits(Bytes bytes, const std::array<int, kContexts[1]>& probability) : bytes_(bytes), probability_(probability) {
         for (int i = 0; i < 16; ++i) value_ = static_cast<std::uint16_t>(2 * value_ + next_bit());
     }
 
@@ -63,7 +63,7 @@ private:
     }
 
     Bytes bytes_;
-    const std::array<int, kContexts>& probability_;
+    const std::array<int, kContexts[1]>& probability_;
     std::size_t position_ = 0;
     unsigned range_ = 65535;
     std::uint16_t value_ = 0;

@@ -53,18 +53,28 @@ std::string read_fields(Bytes payload, Code& code) {
     const int largest_offset = is_board ? 0 : 31;
     if (std::abs(code.u_offset) > largest_offset) return "u_offset is out of range";
     if (std::abs(code.v_offset) > largest_offset) return "v_offset is out of range";
-    if (payload[6] != 0 || payload[7] != 0) return "reserved bytes of CODE are not 0";
+    if (payload[6] > (is_board ? 0 : 1)) return "CODE has another alpha_coding";
+    code.alpha_coding = payload[6];
+    if (payload[7] != 0) return "reserved bytes of CODE are not 0";
     return "";
 }
 
 // CODE: "Then, of dense pictures"
 std::string read_probabilities(Bytes payload, Code& code) {
-    constexpr std::size_t kListedBytes = 181;
-    if (payload.size() < kListedBytes) return "CODE is shorter than its fields";
-    std::size_t at = kListedBytes;
-    for (int context = 0; context < 181 * 8; ++context) {
+    if (code.alpha_coding == 1 && code.alpha_bits == 1) {
+        if (payload.size() < code.edge_alpha.size()) return "CODE is shorter than its edge_alpha";
+        for (std::size_t i = 0; i < code.edge_alpha.size(); ++i) {
+            if (payload[i] > 127) return "an edge_alpha is above 127";
+            code.edge_alpha[i] = payload[i];
+        }
+        payload = payload.subspan(code.edge_alpha.size());
+    }
+    const std::size_t listed_bytes = kListedBytes[static_cast<std::size_t>(code.alpha_coding)];
+    if (payload.size() < listed_bytes) return "CODE is shorter than its fields";
+    std::size_t at = listed_bytes;
+    for (int context = 0; context < static_cast<int>(8 * listed_bytes); ++context) {
         const bool is_listed = bit_at(payload, 0, context);
-        if (context >= kContexts) {
+        if (context >= kContexts[static_cast<std::size_t>(code.alpha_coding)]) {
             if (is_listed) return "a listed context does not exist";
             continue;
         }

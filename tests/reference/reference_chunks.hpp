@@ -14,7 +14,8 @@ namespace rs::reference {
 
 using Bytes = std::span<const std::uint8_t>;
 
-inline constexpr int kContexts = 1447;
+inline constexpr std::array<int, 2> kContexts = {1447, 1649};  // [alpha_coding]
+inline constexpr std::array<std::size_t, 2> kListedBytes = {181, 207};
 inline constexpr int kNoView = 65535;
 
 enum class Profile { kDense = 1, kBoard = 2 };
@@ -28,11 +29,13 @@ struct Code {
     int tile_width = 0;  // px
     int tile_height = 0;
     int alpha_bits = 0;
+    int alpha_coding = 0;
+    std::array<int, 24> edge_alpha{};
     int u_offset = 0;
     int v_offset = 0;
-    std::vector<int> level;                    // per view
-    std::array<int, kContexts> probability{};  // of dense pictures: in 256ths, of a 0
-    BoardCode board;                           // of board pictures
+    std::vector<int> level;                       // per view
+    std::array<int, kContexts[1]> probability{};  // of dense pictures: in 256ths, of a 0
+    BoardCode board;                              // of board pictures
 };
 
 struct Pict {

@@ -28,6 +28,10 @@ enum Context {
     kAlphaZero = 751,
     kAlphaFull = 1075,
     kAlphaBetween = 1399,
+    // With alpha_coding 1, instead of the last three:
+    kMask = 751,
+    kInner = 1263,
+    kInnerLevel = 1569,
 };
 
 }  // namespace rs::reference

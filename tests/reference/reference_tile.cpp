@@ -25,12 +25,14 @@ TileDecoder::TileDecoder(const Code& code, const Pict& pict, std::array<const Pi
     full_ = (1 << code.alpha_bits) - 1;
     blocks_.resize(static_cast<std::size_t>(width_ / 8 * (height_ / 8)));
     levels_.resize(static_cast<std::size_t>(width_ * height_));
+    depths_.resize(levels_.size());
 }
 
 void TileDecoder::decode() {
     for (int y = 0; y < height_; y += 16) {
         for (int x = 0; x < width_; x += 16) decode_macroblock(x, y);
     }
+    if (code_.alpha_coding == 1) make_alpha();
 }
 
 TileDecoder::Block& TileDecoder::block_at(int x, int y) {
@@ -94,7 +96,13 @@ void TileDecoder::decode_part(int x, int y, int n) {
         if (uses(part.source, r)) part.vector[static_cast<std::size_t>(r)] = read_vector(part, r);
     }
     for (int by = y; by < y + n; by += 8) {
-        for (int bx = x; bx < x + n; bx += 8) read_alpha(part, bx, by);
+        for (int bx = x; bx < x + n; bx += 8) {
+            if (code_.alpha_coding == 1) {
+                read_mask(part, bx, by);
+            } else {
+                read_alpha(part, bx, by);
+            }
+        }
     }
     const int i = part.source == Source::kNeighbours ? 0 : 1;
     const int coded = count_neighbours(part, [](const Block& block) { return block.is_coded; });

@@ -60,6 +60,13 @@ private:
     int read_difference(int component);
     void read_alpha(const Part& part, int x, int y);
     int read_mixed_level(const Part& part, int block_x, int x, int y);
+    void read_mask(const Part& part, int x, int y);
+    int mask_from(Source source, const std::array<Vector, 2>& vector, int x, int y) const;
+    int shown_alpha(Source source, const std::array<Vector, 2>& vector, int x, int y) const;
+    int mask_sum(int x, int y) const;
+    void make_alpha();
+    void make_smooth_alpha(int x, int y);
+    void read_depths(int x, int y);
     void read_transforms(const Part& part);
     Square read_coefficients(int n, int kind);
     void predict(const Part& part);
@@ -73,7 +80,8 @@ private:
     int tile_x_ = 0, tile_y_ = 0, width_ = 0, height_ = 0;
     int full_ = 0;
     std::vector<Block> blocks_;
-    std::vector<int> levels_;
+    std::vector<int> levels_;  // with alpha_coding 1: masks
+    std::vector<int> depths_;
 };
 
 }  // namespace rs::reference

@@ -17,7 +17,7 @@ struct Profile {
 const std::vector<Profile>& profiles() {
     static const std::vector<Profile> table = {
         {"raw", {}},
-        {"dense", {20, 35, 50, 65, 80}},
+        {"dense", {20, 28, 35, 42, 50, 58, 65, 72, 80}},
         {"board", {40, 60, 75, 90}},
     };
     return table;

@@ -74,7 +74,7 @@ TEST_F(CodedFile, EveryFieldOfTheSharedPartIsChecked) {
     ASSERT_TRUE(parse(sound));
     const std::pair<std::size_t, int> wrong[] = {
         {0, 0},  {0, 3},        {1, 3},  {1, 7}, {2, 3},   {2, 7}, {3, 0},    {3, 5},
-        {4, 32}, {4, 256 - 32}, {5, 32}, {6, 1}, {7, 255}, {8, 4}, {16, 200}, {8 + 9 + 180, 255}};
+        {4, 32}, {4, 256 - 32}, {5, 32}, {6, 2}, {7, 255}, {8, 4}, {16, 200}, {8 + 9 + 180, 255}};
     for (const auto& [offset, value] : wrong) {
         std::vector<std::byte> damaged = sound;
         damaged[offset] = static_cast<std::byte>(value);
@@ -145,6 +145,7 @@ TEST_F(CodedFile, AnyBytesDecode) {
     for (int round = 0; round < 60; ++round) {
         CodedPictures coded = *object_.coded;
         coded.dense.alpha_bits = 1 + static_cast<int>(random() % 4);
+        coded.dense.alpha_coding = random() % 2 == 0 ? AlphaCoding::kLevels : AlphaCoding::kMask;
         for (auto& p : coded.dense.probabilities) p = static_cast<std::uint16_t>(16 * (1 + random() % 255));
         for (CodedPicture& picture : coded.pictures) {
             picture.head.step = static_cast<int>(random() % (kMaxStep + 1));

@@ -139,6 +139,26 @@ TEST(DenseEncoder, TheDecoderShowsWhatTheEncoderMeasured) {
     }
 }
 
+TEST(DenseEncoder, OneBitOfAlphaHasSoftEdges) {
+    RaySpaceObject object = test::small_object(kSmallDense);
+    const std::vector<Image<Rgba8>> pictures = test::drawn_pictures(object);
+    DenseSettings settings;
+    settings.alpha_bits = 1;
+    object.coded = std::make_shared<codec::CodedPictures>(test::code_pictures(object, pictures, settings));
+    codec::decode_pictures(object);
+    std::int64_t soft = 0;
+    for (std::size_t v = 0; v < pictures.size(); ++v) {
+        for (int y = 0; y < object.height; ++y) {
+            for (int x = 0; x < object.width; ++x) {
+                const int shown = object.pictures[v].a(x, y);
+                ASSERT_EQ(shown >= 128, pictures[v](x, y).a >= 128) << v << ": " << x << ", " << y;
+                soft += shown > 0 && shown < 255 ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(soft, 0);
+}
+
 TEST(DenseEncoder, FinerStepsAreBetterAndLarger) {
     const RaySpaceObject object = test::small_object(kSmallDense);
     const std::vector<Image<Rgba8>> pictures = test::drawn_pictures(object);

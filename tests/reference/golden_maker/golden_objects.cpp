@@ -70,8 +70,9 @@ RaySpaceObject board(const DrawnSize& size, double step) {
 }
 
 // A stream with a picture of two references, tiles that do not fill the last byte of their list, and all four levels,
-// that has no more bytes than this, and no less than half as many.
-RaySpaceObject random_object(Profile profile, std::size_t most_bytes) {
+// that has no more bytes than this, and no less than half as many; of dense pictures with alpha so coded.
+RaySpaceObject random_object(Profile profile, std::size_t most_bytes,
+                             codec::AlphaCoding alpha_coding = codec::AlphaCoding::kLevels) {
     for (std::uint64_t seed = 1; seed < 100000; ++seed) {
         const reference::Stream stream = reference::random_stream(seed, profile);
         std::size_t bytes = stream.code.size();
@@ -86,6 +87,7 @@ RaySpaceObject random_object(Profile profile, std::size_t most_bytes) {
         const std::size_t tiles = coded->pictures[0].tiles.size();
         const bool is_tame = profile == Profile::kBoard || coded->dense.probabilities[0] != 2048;
         if (!has_two || tiles % 8 == 0 || tiles < 2 || levels != 15 || !is_tame) continue;
+        if (profile == Profile::kDense && coded->dense.alpha_coding != alpha_coding) continue;
         RaySpaceObject object =
             without_pictures({coded->width, coded->height, static_cast<int>(coded->pictures.size()), 1, false});
         object.coded = coded;
@@ -111,8 +113,11 @@ std::vector<GoldenObject> golden_objects() {
     objects.push_back({"dense-64x64-alpha3", dense({128, 96, 9, 1, false}, 6, 6, 3, 8)});
     objects.push_back({"board", board({96, 80, 9, 1, false}, 12)});
     objects.push_back({"board-shape", board({70, 50, 10, 1, true}, 24)});
-    objects.push_back({"dense-random", random_object(Profile::kDense, 50000)});
-    objects.push_back({"dense-random-small", random_object(Profile::kDense, 8000)});
+    for (const auto& [name, alpha_coding] : {std::pair{"dense-random", codec::AlphaCoding::kLevels},
+                                             std::pair{"dense-random-masks", codec::AlphaCoding::kMask}}) {
+        objects.push_back({name, random_object(Profile::kDense, 50000, alpha_coding)});
+        objects.push_back({std::string(name) + "-small", random_object(Profile::kDense, 8000, alpha_coding)});
+    }
     objects.push_back({"board-random", random_object(Profile::kBoard, 30000)});
     objects.push_back({"board-random-small", random_object(Profile::kBoard, 8000)});
     return objects;

@@ -70,7 +70,8 @@ Status write_invalid(const fs::path& folder, const Drafts& drafts) {
     add(golden::order_damages());
     add(golden::geometry_damages());
     add(golden::shape_damages());
-    add(golden::code_damages(drafts.at("dense-random-small"), drafts.at("board-random-small")));
+    add(golden::code_damages(drafts.at("dense-random-small"), drafts.at("dense-random-masks-small"),
+                             drafts.at("board-random-small")));
     for (const char* base : {"dense-random-small", "board-random-small"}) {
         add(golden::picture_damages(base, drafts.at(base)));
     }

@@ -44,6 +44,7 @@ std::vector<Damage> dense_code(const Draft& valid) {
         code_byte("alpha-bits-5", base, 3, 5, "alpha bits is 5"),
         code_byte("u-offset-32", base, 4, 32, "offset is 32"),
         code_byte("v-offset-minus-128", base, 5, -128, "offset is -128"),
+        code_byte("alpha-coding-2", base, 6, 2, "coding of alpha is 2"),
         code_byte("reserved", base, 7, 1, "reserved"),
         code_byte("level-4", base, 8, 4, "level of picture 0 is 4"),
         code("context-1447", base, "contexts", [=](Bytes& b) { b[listed + 180] |= std::byte{0x80}; }),
@@ -52,6 +53,22 @@ std::vector<Damage> dense_code(const Draft& valid) {
         code("shorter-than-its-contexts", base, "contexts", [=](Bytes& b) { b.resize(listed + 180); }),
         code("shorter-than-its-levels", base, "too short", [=](Bytes& b) { b.resize(listed - 1); }),
         code("long", base, "behind its last", [](Bytes& b) { b.push_back(std::byte{1}); }),
+    };
+}
+
+std::vector<Damage> dense_code_of_masks(const Draft& valid) {
+    const std::string base = "dense-random-masks-small";
+    const bool has_edge_alpha = valid.chunks[valid.place(kCode)].payload[3] == std::byte{1};
+    const std::size_t listed = rest_of_code(valid) + (has_edge_alpha ? 24 : 0);
+    // Of the encoder's: 9 views.
+    const auto with_edge_alpha = [](const std::string& name, const std::string& words, const auto& change) {
+        return code("edge-alpha-" + name, "dense-16x16-alpha1", words, change);
+    };
+    return {
+        with_edge_alpha("128", "alpha of edges is 128", [](Bytes& b) { b[17 + 23] = std::byte{128}; }),
+        with_edge_alpha("short", "alpha of edges", [](Bytes& b) { b.resize(17 + 23); }),
+        code("masks-context-1649", base, "contexts", [=](Bytes& b) { b[listed + 206] |= std::byte{0x02}; }),
+        code("masks-shorter-than-its-contexts", base, "contexts", [=](Bytes& b) { b.resize(listed + 206); }),
     };
 }
 
@@ -73,7 +90,8 @@ std::vector<Damage> board_code(const Draft& valid) {
         code_byte("board-alpha-bits-2", base, 3, 2, "alpha bits is 2"),
         code_byte("board-u-offset-1", base, 4, 1, "offset is 1"),
         code_byte("board-v-offset-minus-1", base, 5, -1, "offset is -1"),
-        code_byte("board-reserved", base, 6, 1, "reserved"),
+        code_byte("board-alpha-coding-1", base, 6, 1, "coding of alpha is 1"),
+        code_byte("board-reserved", base, 7, 1, "reserved"),
         code_byte("board-level-4", base, 8, 4, "level of picture 0 is 4"),
         code_byte("board-block-stages-3", base, classes + 9, 3 << 2, "class 3 | cannot be"),
         code_byte("board-quarter-stages-5", base, classes + 9, 5 << 4, "class 3 | cannot be"),
@@ -126,8 +144,9 @@ PictureFields fields_of(const Draft& valid, int width, int height) {
 
 }  // namespace
 
-std::vector<Damage> code_damages(const Draft& dense, const Draft& board) {
+std::vector<Damage> code_damages(const Draft& dense, const Draft& masks, const Draft& board) {
     std::vector<Damage> all = dense_code(dense);
+    for (Damage& damage : dense_code_of_masks(masks)) all.push_back(std::move(damage));
     for (Damage& damage : board_code(board)) all.push_back(std::move(damage));
     return all;
 }

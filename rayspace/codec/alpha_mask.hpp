@@ -1,0 +1,135 @@
+#pragma once
+// Alpha as a mask: a bit per sample that says whether it is covered by half or more, and what is made of it when a
+// tile's masks are known. Integer and normative: encode/FORMAT.md, section "Masks". No function here allocates.
+
+#include "rayspace/codec/dense_code.hpp"
+#include "rayspace/codec/dense_tile.hpp"
+#include "rayspace/codec/part_syntax.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace rs::codec {
+
+constexpr int mask_of_level(int level, int bits) {
+    return level >> (bits - 1);
+}
+
+// Samples of the mask at (x, y) and around it, weighted 1 2 1, 2 4 2, 1 2 1: 0 .. 16. Outside of the tile
+// (width x height samples) they are the nearest ones inside.
+inline int mask_sum(const AlphaLevels& mask, int x, int y, int width, int height) {
+    const int left = std::max(x - 1, 0);
+    const int right = std::min(x + 1, width - 1);
+    const auto row = [&](int at) { return mask.at(left, at) + 2 * mask.at(x, at) + mask.at(right, at); };
+    return row(std::max(y - 1, 0)) + 2 * row(y) + row(std::min(y + 1, height - 1));
+}
+
+// How much of `sum` is unlike the sample in its middle: 0 .. 12.
+constexpr int unlike_weight(int mask, int sum) {
+    return mask != 0 ? 16 - sum : sum;
+}
+
+// Alpha where the mask is all there is: edges are as soft as the object's mostly are.
+inline int smooth_alpha(const EdgeAlpha& edge, int mask, int sum) {
+    const int weight = unlike_weight(mask, sum);
+    const int off = weight == 0 ? 0 : edge[static_cast<std::size_t>(kEdgeWeights * mask + weight - 1)];
+    return mask != 0 ? 255 - off : off;
+}
+
+// The alpha that a part's references show for sample (x, y) of the picture, between samples interpolated; -1 where it
+// has none.
+int interpolated_alpha(Source source, const std::array<MotionVector, 2>& motion,
+                       const std::array<ConstPlaneViews, 2>& references, int x, int y);
+
+// The first index of context::kMask.
+constexpr int predicted_mask(int alpha) {
+    if (alpha < 0) return 0;
+    if (alpha == 0) return 1;
+    return alpha < 64 ? 2 : alpha < 112 ? 3 : alpha < 144 ? 4 : alpha < 192 ? 5 : alpha < 255 ? 6 : 7;
+}
+
+// A tile's alpha once its masks and parts are known: smoothed, or of more than one bit, coded. `depths`: a writer's, as
+// in syntax::alpha_depth; filled in.
+template <class Coder>
+class AlphaFinish {
+public:
+    AlphaFinish(Coder& coder, const DenseCode& code, const TileGrid& grid, const AlphaLevels& mask, AlphaLevels& depths,
+                const std::array<ConstPlaneViews, 2>& references, const TilePlace& place,
+                const ImageView<std::uint8_t>& out)
+        : coder_(coder),
+          bits_(code.alpha_bits),
+          edge_(code.edge_alpha),
+          grid_(grid),
+          mask_(mask),
+          depths_(depths),
+          references_(references),
+          place_(place),
+          out_(out) {}
+
+    void finish() {
+        for (int by = 0; by < place_.height / kBlock; ++by) {
+            for (int bx = 0; bx < place_.width / kBlock; ++bx) {
+                if (grid_.at(bx, by).source == Source::kNone) continue;
+                if (bits_ > 1) {
+                    if (grid_.at(bx, by).alpha == AlphaClass::kMixed) refine(bx, by);
+                } else if (!alone(bx, by)) {
+                    smooth(bx, by);
+                }
+            }
+        }
+    }
+
+private:
+    // Nothing but blocks of its own class, or the tile's rim, around a block that is not mixed.
+    [[nodiscard]] bool alone(int bx, int by) const {
+        const AlphaClass own = grid_.at(bx, by).alpha;
+        if (own == AlphaClass::kMixed) return false;
+        for (int y = std::max(by - 1, 0); y <= std::min(by + 1, place_.height / kBlock - 1); ++y) {
+            for (int x = std::max(bx - 1, 0); x <= std::min(bx + 1, place_.width / kBlock - 1); ++x) {
+                if (grid_.at(x, y).alpha != own) return false;
+            }
+        }
+        return true;
+    }
+
+    void smooth(int bx, int by) {
+        for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
+            for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
+                out_(place_.left + x, place_.top + y) = static_cast<std::uint8_t>(
+                    smooth_alpha(edge_, mask_.at(x, y), mask_sum(mask_, x, y, place_.width, place_.height)));
+            }
+        }
+    }
+
+    void refine(int bx, int by) {
+        const BlockInfo& info = grid_.at(bx, by);
+        const int full = (1 << bits_) - 1;
+        for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
+            for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
+                const int mask = mask_.at(x, y);
+                const int neighbours = (depths_.at(x - 1, y) != 0 ? 1 : 0) + (depths_.at(x, y - 1) != 0 ? 1 : 0);
+                const int shown =
+                    interpolated_alpha(info.source, info.motion, references_, place_.left + x, place_.top + y);
+                const int predicted = shown < 0 ? 0 : shown < 32 || shown > 223 ? 1 : 2;
+                const int sum = mask_sum(mask_, x, y, place_.width, place_.height);
+                const int depth =
+                    syntax::alpha_depth(coder_, bits_, mask, sum, neighbours, predicted, depths_.at(x, y));
+                depths_.at(x, y) = static_cast<std::uint8_t>(depth);
+                out_(place_.left + x, place_.top + y) =
+                    static_cast<std::uint8_t>(alpha_of_level(mask != 0 ? full - depth : depth, bits_));
+            }
+        }
+    }
+
+    Coder& coder_;
+    int bits_;
+    const EdgeAlpha& edge_;
+    const TileGrid& grid_;
+    const AlphaLevels& mask_;
+    AlphaLevels& depths_;
+    const std::array<ConstPlaneViews, 2>& references_;
+    const TilePlace& place_;
+    const ImageView<std::uint8_t>& out_;
+};
+
+}  // namespace rs::codec
