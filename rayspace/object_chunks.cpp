@@ -2,9 +2,11 @@
 
 #include "rayspace/byte_stream.hpp"
 #include "rayspace/conventions.hpp"
+#include "rayspace/zstd_frame.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace rs::object_chunks {
@@ -79,14 +81,25 @@ Status parse_head(std::span<const std::byte> payload, RaySpaceObject& object) {
 // ---------------------------------------------------------------------------------------------------------------- RIGJ
 
 Payload rig_payload(const RaySpaceObject& object) {
-    const auto bytes = std::as_bytes(std::span(object.rig_json));
-    return {bytes.begin(), bytes.end()};
+    return zstd_frame({reinterpret_cast<const std::uint8_t*>(object.rig_json.data()), object.rig_json.size()});
 }
 
 Status parse_rig_text(std::span<const std::byte> payload, RaySpaceObject& object) {
     if (payload.size() > kMaxRigJson_bytes)
         return out_of_range("the rig's length", payload.size(), 0, kMaxRigJson_bytes);
-    object.rig_json = text_of(payload);
+    const std::optional<std::uint64_t> expanded_bytes = stated_zstd_bytes(payload);
+    if (!expanded_bytes) {  // as it is
+        object.rig_json = text_of(payload);
+        return {};
+    }
+    if (*expanded_bytes > kMaxRigJson_bytes) {
+        return out_of_range("the rig's length, expanded,", *expanded_bytes, 0, kMaxRigJson_bytes);
+    }
+    constexpr const char* kWhat = "the words of its rig";
+    if (Status s = check_zstd_frame(payload, *expanded_bytes, kWhat); !s) return s;
+    std::vector<std::uint8_t> text;
+    if (Status s = expand_zstd_frame(payload, *expanded_bytes, kWhat, text); !s) return s;
+    object.rig_json.assign(text.begin(), text.end());
     return {};
 }
 

@@ -32,7 +32,7 @@ using Payload = std::vector<std::byte>;
 Payload head_payload(const RaySpaceObject& object);
 Status parse_head(std::span<const std::byte> payload, RaySpaceObject& object);
 
-// RIGJ: object.rig_json as it is.
+// RIGJ: object.rig_json in a Zstandard frame; read as it is, too.
 Payload rig_payload(const RaySpaceObject& object);
 Status parse_rig_text(std::span<const std::byte> payload, RaySpaceObject& object);
 

@@ -23,6 +23,14 @@ std::vector<std::byte> zstd_frame(std::span<const std::uint8_t> bytes) {
     return frame;
 }
 
+std::optional<std::uint64_t> stated_zstd_bytes(std::span<const std::byte> bytes) {
+    ByteReader start(bytes);
+    if (start.get<std::uint32_t>() != ZSTD_MAGICNUMBER) return std::nullopt;
+    const unsigned long long stated_bytes = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+    if (stated_bytes == ZSTD_CONTENTSIZE_UNKNOWN || stated_bytes == ZSTD_CONTENTSIZE_ERROR) return std::nullopt;
+    return stated_bytes;
+}
+
 // libzstd would also take several frames, skippable ones and those of versions before the format was settled.
 Status check_zstd_frame(std::span<const std::byte> frame, std::uint64_t size_bytes, const char* what) {
     if (size_bytes == 0 && frame.empty()) return {};

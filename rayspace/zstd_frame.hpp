@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,10 @@ namespace rs {
 
 // Of no bytes: no frame either. The same bytes give the same frame, with the same version of libzstd.
 std::vector<std::byte> zstd_frame(std::span<const std::uint8_t> bytes);
+
+// The size that the frame at the beginning of `bytes` states for its content; nothing where there is none, or none is
+// stated. Looks at its head only.
+std::optional<std::uint64_t> stated_zstd_bytes(std::span<const std::byte> bytes);
 
 // `frame` must be one whole frame that states `size_bytes`, and nothing else. Looks at its head only.
 Status check_zstd_frame(std::span<const std::byte> frame, std::uint64_t size_bytes, const char* what);

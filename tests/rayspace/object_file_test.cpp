@@ -1,4 +1,5 @@
 #include "rayspace/object_file.hpp"
+#include "rayspace/zstd_frame.hpp"
 #include "tests/support/small_object.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -242,7 +243,30 @@ TEST(ObjectFile, NumbersAreCheckedBeforeTheyAllocate) {
                 HasSubstr("is 315 bytes long instead of 316"));
     EXPECT_THAT(error_after([](Chunks& chunks) { find(chunks, "PICT", 5).payload.clear(); }), HasSubstr("is empty"));
     EXPECT_THAT(error_after([](Chunks& chunks) { find(chunks, "RIGJ").payload.resize(100); }),
-                HasSubstr("rig: is not valid JSON"));
+                HasSubstr("the words of its rig are not one whole Zstandard frame"));
+}
+
+TEST(ObjectFile, RigsMayBeTextOrFrames) {
+    const auto rig = [](std::string text) {
+        return error_after([&](Chunks& chunks) {
+            const auto bytes = std::as_bytes(std::span(text));
+            find(chunks, "RIGJ").payload.assign(bytes.begin(), bytes.end());
+        });
+    };
+    const auto frame = [](const std::string& text) {
+        const auto bytes = zstd_frame({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    };
+    const std::string text = test::small_object().rig_json;
+    ASSERT_FALSE(text.empty());
+    EXPECT_EQ(rig(text), "read without error");
+    EXPECT_EQ(rig(frame(text)), "read without error");
+    EXPECT_LT(frame(text).size(), text.size());
+    EXPECT_THAT(rig(text.substr(0, 100)), HasSubstr("rig: is not valid JSON"));
+    EXPECT_THAT(rig(frame("{")), HasSubstr("rig: is not valid JSON"));
+    EXPECT_THAT(rig(frame(text) + " "), HasSubstr("are not one whole Zstandard frame"));
+    EXPECT_THAT(rig(frame(std::string((std::size_t{16} << 20) + 1, ' '))),
+                HasSubstr("the rig's length, expanded, is 16777217; it must be 0..16777216"));
 }
 
 TEST(ObjectFile, MemoryIsCapped) {

@@ -105,6 +105,7 @@ std::vector<Damage> ranges() {
 std::vector<Damage> rules() {
     return {
         {"rig-no-json", kBase, "rig", [](Draft& d) { d.payload(kRig) = Bytes(5, std::byte{'x'}); }},
+        {"rig-cut", kBase, "the words of its rig", [](Draft& d) { d.payload(kRig).pop_back(); }},
         {"rig-other-number-of-frames", kBase, "as many frames as views",
          [](Draft& d) {
              const std::string text = R"({"fl_x":9,"fl_y":9,"cx":1,"cy":1,"w":3,"h":2,"frames":[{"file_path":"a.png",)"
