@@ -7,6 +7,8 @@
 #include "rayspace/parallel.hpp"
 #include "rayspace/yuv.hpp"
 
+#include <cmath>
+
 namespace rs::encode {
 namespace {
 
@@ -31,6 +33,15 @@ Rig in_object_radii(Rig rig) {
         view.camera.world_from_camera[3] = glm::dvec4(view.camera.centre() / rig.object_radius, 1);
     }
     return rig;
+}
+
+// In q20 of object radii; nothing where it is so far away that it can only be a mistake.
+std::optional<std::int32_t> foot_of(const Rig& rig) {
+    constexpr double kMost_radii = 128;
+    if (!rig.foot_height) return std::nullopt;
+    const double foot = *rig.foot_height / rig.object_radius;
+    if (!(std::abs(foot) <= kMost_radii)) return std::nullopt;
+    return static_cast<std::int32_t>(std::lround(std::ldexp(foot, 20)));
 }
 
 Status read_all_pictures(const CaptureSet& set, RaySpaceObject& object, Progress* progress) {
@@ -70,6 +81,7 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
     RaySpaceObject& object = built.object;
     object.name = options.name;
     object.units_per_radius = set.upright.object_radius;
+    object.foot_q20 = foot_of(set.upright);
     object.rig_json = compact_json(rig_to_json(set.upright));
     object.width = set.width;
     object.height = set.height;

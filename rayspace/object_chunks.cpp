@@ -2,6 +2,7 @@
 
 #include "rayspace/byte_stream.hpp"
 #include "rayspace/conventions.hpp"
+#include "rayspace/line_coding.hpp"
 #include "rayspace/zstd_frame.hpp"
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace rs::object_chunks {
 namespace {
 
 constexpr std::size_t kView_bytes = 16;
-constexpr std::size_t kRingFixed_bytes = 28;
-constexpr std::size_t kLine_bytes = 16;
 constexpr std::size_t kPictureHeader_bytes = 16;
 constexpr std::uint8_t kRawCoding = 0;
 
@@ -29,6 +28,46 @@ Error out_of_range(const char* what, std::uint64_t found, std::uint64_t lowest, 
 
 Payload payload_of(const ByteWriter& writer) {
     return {writer.bytes().begin(), writer.bytes().end()};
+}
+
+void put_line(const CapturedLine& line, ByteWriter& out) {
+    out.put(line.l0_q20);
+    out.put(line.l1_q30);
+    out.put(line.q0_q16);
+    out.put(line.q1_q16);
+}
+
+CapturedLine get_line(ByteReader& in) {
+    CapturedLine line;
+    line.l0_q20 = in.get<std::int32_t>();
+    line.l1_q30 = in.get<std::int32_t>();
+    line.q0_q16 = in.get<std::int32_t>();
+    line.q1_q16 = in.get<std::int32_t>();
+    return line;
+}
+
+// The lines in what is left of a RING payload.
+Result<std::vector<CapturedLine>> parse_lines(ByteReader& in, std::size_t views, int planes, std::uint8_t coding) {
+    std::vector<CapturedLine> lines(views * static_cast<std::size_t>(planes));
+    const std::size_t plain_bytes = lines.size() * line_coding::kBytesPerLine;
+    if (coding == static_cast<std::uint8_t>(LineCoding::kPlain)) {
+        if (in.left() != plain_bytes) {
+            return Error{"holds " + std::to_string(in.left()) + " bytes of lines instead of " +
+                         std::to_string(plain_bytes)};
+        }
+        for (CapturedLine& line : lines) line = get_line(in);
+        return lines;
+    }
+    if (coding != static_cast<std::uint8_t>(LineCoding::kResiduals)) {
+        return Error{"has line coding " + std::to_string(coding) + ", which is not known here; update these tools"};
+    }
+    constexpr const char* kWhat = "its lines";
+    const std::span<const std::byte> frame = in.take(in.left());
+    if (Status s = check_zstd_frame(frame, plain_bytes, kWhat); !s) return s.error();
+    std::vector<std::uint8_t> plane;
+    if (Status s = expand_zstd_frame(frame, plain_bytes, kWhat, plane); !s) return s.error();
+    line_coding::put_residuals(plane, planes, lines);
+    return lines;
 }
 
 std::string text_of(std::span<const std::byte> bytes) {
@@ -130,13 +169,28 @@ Status parse_views(std::span<const std::byte> payload, RaySpaceObject& object) {
     return {};
 }
 
+// ---------------------------------------------------------------------------------------------------------------- foot
+
+Payload foot_payload(const RaySpaceObject& object) {
+    ByteWriter out;
+    out.put(object.foot_q20.value());
+    return payload_of(out);
+}
+
+Status parse_foot(std::span<const std::byte> payload, RaySpaceObject& object) {
+    if (payload.size() != sizeof(std::int32_t)) return wrong_size(payload.size(), sizeof(std::int32_t));
+    object.foot_q20 = ByteReader(payload).get<std::int32_t>();
+    return {};
+}
+
 // ---------------------------------------------------------------------------------------------------------------- RING
 
-Payload ring_payload(const RaySpaceObject& object, std::size_t index) {
+Payload ring_payload(const RaySpaceObject& object, std::size_t index, LineCoding coding) {
     const Ring& ring = object.rings[index];
     ByteWriter out;
     out.put(ring.elevation_udeg);
-    out.put(static_cast<std::uint16_t>(ring.planes));
+    out.put(static_cast<std::uint8_t>(ring.planes));
+    out.put(static_cast<std::uint8_t>(coding));
     out.put(static_cast<std::uint16_t>(ring.views.size()));
     out.put(static_cast<std::uint16_t>(ring.x_cells));
     out.put(static_cast<std::uint16_t>(ring.u_cells));
@@ -145,13 +199,15 @@ Payload ring_payload(const RaySpaceObject& object, std::size_t index) {
     out.put(ring.u_half_q28);
     out.put(ring.u_cells_per_unit_q12);
     for (const std::uint16_t view : ring.views) out.put(view);
+    std::vector<CapturedLine> lines;
     for (const std::uint16_t view : ring.views) {
-        for (const CapturedLine& line : object.views[view].lines) {
-            out.put(line.l0_q20);
-            out.put(line.l1_q30);
-            out.put(line.q0_q16);
-            out.put(line.q1_q16);
-        }
+        const std::vector<CapturedLine>& of_view = object.views[view].lines;
+        lines.insert(lines.end(), of_view.begin(), of_view.end());
+    }
+    if (coding == LineCoding::kPlain) {
+        for (const CapturedLine& line : lines) put_line(line, out);
+    } else {
+        out.put(std::span<const std::byte>(zstd_frame(line_coding::residual_plane(lines, ring.planes))));
     }
     return payload_of(out);
 }
@@ -160,7 +216,8 @@ Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, st
     Ring& ring = object.rings[index];
     ByteReader in(payload);
     ring.elevation_udeg = in.get<std::int32_t>();
-    const auto planes = in.get<std::uint16_t>();
+    const auto planes = in.get<std::uint8_t>();
+    const auto coding = in.get<std::uint8_t>();
     const auto view_count = in.get<std::uint16_t>();
     const auto x_cells = in.get<std::uint16_t>();
     const auto u_cells = in.get<std::uint16_t>();
@@ -177,8 +234,7 @@ Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, st
     }
     if (x_cells < 1 || x_cells > kMaxMapSide) return out_of_range("the map's size along x", x_cells, 1, kMaxMapSide);
     if (u_cells < 1 || u_cells > kMaxMapSide) return out_of_range("the map's size along u", u_cells, 1, kMaxMapSide);
-    const std::size_t expected_bytes = kRingFixed_bytes + view_count * (sizeof(std::uint16_t) + planes * kLine_bytes);
-    if (payload.size() != expected_bytes) return wrong_size(payload.size(), expected_bytes);
+    if (in.left() < view_count * sizeof(std::uint16_t)) return Error{"ends inside of its list of views"};
     ring.planes = planes;
     ring.x_cells = x_cells;
     ring.u_cells = u_cells;
@@ -191,13 +247,12 @@ Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, st
         }
         object.views[view].lines.resize(planes);
     }
+    const Result<std::vector<CapturedLine>> lines = parse_lines(in, view_count, planes, coding);
+    if (!lines) return lines.error();
+    auto next = lines->begin();
     for (const std::uint16_t view : ring.views) {
-        for (CapturedLine& line : object.views[view].lines) {
-            line.l0_q20 = in.get<std::int32_t>();
-            line.l1_q30 = in.get<std::int32_t>();
-            line.q0_q16 = in.get<std::int32_t>();
-            line.q1_q16 = in.get<std::int32_t>();
-        }
+        std::copy_n(next, planes, object.views[view].lines.begin());
+        next += planes;
     }
     return {};
 }
@@ -300,6 +355,7 @@ int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n) {
 
 std::vector<ChunkKey> chunk_order(const RaySpaceObject& object) {
     std::vector<ChunkKey> order = {{kHead, 0}, {kRig, 0}, {kViews, 0}};
+    if (object.foot_q20) order.push_back({kFoot, 0});
     if (object.coded) order.push_back({kCode, 0});
     for (std::uint32_t r = 0; r < object.rings.size(); ++r) {
         order.push_back({kRing, r});

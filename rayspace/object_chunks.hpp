@@ -9,6 +9,7 @@
 #include "rayspace/result.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace rs::object_chunks {
 inline constexpr ChunkName kHead = {'H', 'E', 'A', 'D'};
 inline constexpr ChunkName kRig = {'R', 'I', 'G', 'J'};
 inline constexpr ChunkName kViews = {'V', 'I', 'E', 'W'};
+inline constexpr ChunkName kFoot = {'f', 'o', 'o', 't'};
 inline constexpr ChunkName kRing = {'R', 'I', 'N', 'G'};
 inline constexpr ChunkName kMap = {'R', 'M', 'A', 'P'};
 inline constexpr ChunkName kShape = {'s', 'h', 'a', 'p'};  // rayspace/shape_chunk.hpp
@@ -40,9 +42,14 @@ Status parse_rig_text(std::span<const std::byte> payload, RaySpaceObject& object
 Payload views_payload(const RaySpaceObject& object);
 Status parse_views(std::span<const std::byte> payload, RaySpaceObject& object);
 
+// foot: object.foot_q20, which must be there to be written.
+Payload foot_payload(const RaySpaceObject& object);
+Status parse_foot(std::span<const std::byte> payload, RaySpaceObject& object);
+
 // RING r: everything of object.rings[r] but its cells, and the lines of the ring's views. A view that another ring has
 // already is refused.
-Payload ring_payload(const RaySpaceObject& object, std::size_t ring);
+enum class LineCoding : std::uint8_t { kPlain = 0, kResiduals = 1 };  // rayspace/line_coding.hpp
+Payload ring_payload(const RaySpaceObject& object, std::size_t ring, LineCoding coding = LineCoding::kResiduals);
 Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, std::size_t ring);
 
 // RMAP r: the cells, run-length coded along u. `ring` has its sizes from RING.
@@ -54,8 +61,8 @@ Payload picture_payload(const PlanarPicture& picture);
 Status parse_picture(std::span<const std::byte> payload, int width, int height, PlanarPicture& picture);
 std::uint64_t raw_picture_bytes(int width, int height);
 
-// The chunks of an object in the order of the file. Needs the rings' view lists, which rings have a shape map, and the
-// levels of coded pictures.
+// The chunks of an object in the order of the file. Needs the rings' view lists, which rings have a shape map, whether
+// there is a foot, and the levels of coded pictures.
 struct ChunkKey {
     ChunkName name{};
     std::uint32_t index = 0;

@@ -24,6 +24,7 @@ Payload payload_of(const RaySpaceObject& object, ChunkKey key) {
     if (key.name == kHead) return head_payload(object);
     if (key.name == kRig) return rig_payload(object);
     if (key.name == kViews) return views_payload(object);
+    if (key.name == kFoot) return foot_payload(object);
     if (key.name == kRing) return ring_payload(object, key.index);
     if (key.name == kMap) return map_payload(object.rings[key.index]);
     if (key.name == kShape) return shape_payload(object.rings[key.index]);
@@ -78,8 +79,7 @@ public:
             largest_chunk = std::max(largest_chunk, entry.size_bytes);
             if (coded_ && entry.name == kPicture) kept += entry.size_bytes;
         }
-        const ChunkEntry* const rig = container_.find(kRig, 0);
-        const std::uint64_t passing = largest_chunk + (rig != nullptr ? kParsedOverText * rig->size_bytes : 0);
+        const std::uint64_t passing = largest_chunk + kParsedOverText * object_.rig_json.size();
         // Cells are unpacked from planes of bytes, one for each byte of a cell.
         const std::uint64_t most = kept + needed_bytes_ + 2 * shape_cells + passing;
         const std::uint64_t passing_planes = coded_ && options_.decode ? pictures * coded_planes_bytes() : 0;
@@ -123,6 +123,9 @@ private:
         if (Status s = read_chunk({kHead, 0}, [&](Bytes b) { return parse_head(b, object_); }); !s) return s;
         if (Status s = read_chunk({kRig, 0}, [&](Bytes b) { return parse_rig_text(b, object_); }); !s) return s;
         if (Status s = read_chunk({kViews, 0}, [&](Bytes b) { return parse_views(b, object_); }); !s) return s;
+        if (container_.find(kFoot, 0) != nullptr) {
+            if (Status s = read_chunk({kFoot, 0}, [&](Bytes b) { return parse_foot(b, object_); }); !s) return s;
+        }
         if (container_.find(kCode, 0) != nullptr) {
             coded_ = std::make_shared<codec::CodedPictures>();
             object_.coded = coded_;
@@ -151,6 +154,10 @@ private:
                 return Error{container_.where() + ": chunk " + to_string(entry.name) + " " +
                              std::to_string(entry.index) + " does not stand behind a chunk " + to_string(kMap) + " " +
                              std::to_string(entry.index) + "; encode the object anew"};
+            } else if (entry.name == kFoot) {
+                return Error{container_.where() + ": chunk " + to_string(entry.name) + " " +
+                             std::to_string(entry.index) + " is not the one behind chunk " + to_string(kViews) +
+                             " 0; encode the object anew"};
             } else if (entry.name[0] >= 'A' && entry.name[0] <= 'Z') {
                 return Error{container_.where() + ": chunk " + to_string(entry.name) + " " +
                              std::to_string(entry.index) +

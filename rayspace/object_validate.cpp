@@ -170,6 +170,9 @@ Status check_head(const RaySpaceObject& object) {
     if (!(object.units_per_radius >= 1e-12 && object.units_per_radius <= 1e12)) {
         return Error{"its units per radius are not within 1e-12..1e12"};
     }
+    if (object.foot_q20 && !below(*object.foot_q20, kMaxDistance_q20)) {
+        return Error{"its foot is 256 object radii or more from the height 0"};
+    }
     return {};
 }
 

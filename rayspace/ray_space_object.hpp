@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -81,9 +82,10 @@ struct PlanarPicture {
 
 struct RaySpaceObject {
     std::string name;
-    double units_per_radius = 1;  // length of the object radius in the units of the capture set
-    std::string rig_json;         // the rig of the stored (upright) pictures, in the capture set's units: rig.hpp
-    int width = 0;                // px, of every picture
+    double units_per_radius = 1;           // length of the object radius in the units of the capture set
+    std::optional<std::int32_t> foot_q20;  // Y of the ground that the object stands on, object radii; if it is known
+    std::string rig_json;  // the rig of the stored (upright) pictures, in the capture set's units: rig.hpp
+    int width = 0;         // px, of every picture
     int height = 0;
     std::vector<CapturedView> views;
     std::vector<Ring> rings;

@@ -64,6 +64,7 @@ Status write_rig(const fs::path& transforms_json, const Rig& rig) {
         }
     }
     if (!std::isfinite(rig.object_radius)) return Error{where + ": the object radius is not finite"};
+    if (!std::isfinite(rig.foot_height.value_or(0))) return Error{where + ": the foot's height is not finite"};
     const std::string text = rig_to_json(rig);
     return write_file(transforms_json, text);
 }

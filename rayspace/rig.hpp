@@ -4,7 +4,8 @@
 // A capture set is a folder: RGBA pictures (sRGB, straight alpha) and one transforms.json. Common keys: w h fl_x fl_y
 // cx cy (of all frames, or of one frame where it carries its own), camera_angle_x (where fl_x is absent), frames[].
 // file_path and frames[].transform_matrix. Our own keys: object_radius (the radius about Y that holds the object, in
-// the rig's units), axis_note, depth_file_path per frame. Keys we do not know survive a round trip.
+// the rig's units), foot_height (Y of the ground that the object stands on, in the rig's units), axis_note,
+// depth_file_path per frame. Keys we do not know survive a round trip.
 
 #include "rayspace/camera.hpp"
 #include "rayspace/result.hpp"
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,7 @@ struct RigView {
 struct Rig {
     std::vector<RigView> views;
     double object_radius = 0;                          // 0 = not known
+    std::optional<double> foot_height;                 // where it is known
     nlohmann::json extras = nlohmann::json::object();  // top-level keys that we do not know
 };
 

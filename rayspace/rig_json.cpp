@@ -276,6 +276,7 @@ Result<Rig> parse_rig(const std::string& text, const std::string& where, const F
         Intrinsics file = take_intrinsics(keys);
         Rig rig;
         rig.object_radius = keys.take_number("object_radius", 0, kMaxLength).value_or(0);
+        rig.foot_height = keys.take_number("foot_height", -kMaxLength, kMaxLength);
         json frames = keys.take("frames");
         if (!frames.is_array() || frames.empty()) throw keys.wrong("frames", "must be a list with at least one frame");
         if (frames.size() > kMaxViews) {
@@ -306,6 +307,7 @@ std::string rig_to_json(const Rig& rig) {
     ordered_json top = ordered_json::object();
     if (shared) put_intrinsics(top, rig.views.front().camera);
     if (rig.object_radius > 0) top["object_radius"] = rig.object_radius;
+    if (rig.foot_height) top["foot_height"] = *rig.foot_height;
     put_extras(top, rig.extras);
     top.erase("frames");
 

@@ -40,6 +40,13 @@ void name_views(const ImportReport& report, Rig& rig) {
     }
 }
 
+// In the table frame, where a board on the plate tells it.
+std::optional<double> plate_height(const PhotoCalibration& calibration) {
+    constexpr double kLevel = 0.9;
+    if (!calibration.board || calibration.board->plane_normal.y < kLevel) return std::nullopt;
+    return calibration.board->plane_offset / calibration.board->plane_normal.y;  // on the axis
+}
+
 }  // namespace
 
 Rig nominal_import_rig(const ImportOptions& options, const ImportReport& report, const TurnOutline::Box& visible) {
@@ -67,7 +74,7 @@ Rig nominal_import_rig(const ImportOptions& options, const ImportReport& report,
 Rig calibrated_import_rig(const ImportReport& report, const TurnOutline::Box& visible) {
     const Calibration& calibration = *report.calibration.calibration;
     const TurntableModel& model = calibration.model;
-    Rig rig = make_rig(model, report.frame, visible);
+    Rig rig = make_rig(model, report.frame, visible, plate_height(report.calibration));
     std::vector<RigView> kept;
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         if (std::find(report.left_out.begin(), report.left_out.end(), report.source_names[i]) ==

@@ -108,6 +108,7 @@ Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path
     Result<double> radius = normalise_meshes(file.scene, centre);
     if (!radius) return Error{path.string() + ": " + radius.error().message};
     file.object_radius = *radius;
+    file.foot_height = foot_height(file.scene);
     return file;
 }
 

@@ -62,6 +62,7 @@ Rig truth_rig(const SessionPlan& plan, const Plate& plate, double object_radius,
               double dimming, const std::vector<std::string>& photo_of_view) {
     Rig rig;
     rig.object_radius = object_radius;
+    rig.foot_height = plate.top;
     for (std::size_t i = 0; i < photo_of_view.size(); ++i) {
         RigView view;
         view.camera = pinhole_of(plan, i);

@@ -1,5 +1,6 @@
 #include "capture/tracer/turntable_plate.hpp"
 
+#include "capture/tracer/normalise.hpp"
 #include "capture/tracer/seeded_draws.hpp"
 #include "rayspace/conventions.hpp"
 
@@ -18,16 +19,6 @@ constexpr int kSegments = 256;  // the plate's rim is true to 1e-4 of its radius
 constexpr int kTextureSide_px = 1024;
 
 enum PlatePurpose : std::uint64_t { kSpeckles = 11, kBoard };
-
-double lowest_vertex(const Scene& scene) {
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const Mesh& mesh : scene.meshes) {
-        for (const glm::uvec3& t : mesh.triangles) {
-            for (int k = 0; k < 3; ++k) lowest = std::min(lowest, static_cast<double>(mesh.positions[t[k]].y));
-        }
-    }
-    return lowest;
-}
 
 int add_material(Scene& scene, const std::string& name, const glm::vec3& colour, int texture = -1) {
     Material material;
@@ -156,7 +147,7 @@ Plate fit_plate(const Scene& object, double object_radius, PlateSurface surface,
     Plate plate;
     plate.surface = surface;
     plate.radius = 1.15 * object_radius;
-    plate.top = lowest_vertex(object) - kHair;
+    plate.top = foot_height(object) - kHair;
     plate.thickness = 0.08 * object_radius;
     plate.seed = seed;
     return plate;

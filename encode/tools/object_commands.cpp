@@ -46,6 +46,7 @@ Status run_info(const ObjectArguments& arguments) {
                             {"height", object->height},
                             {"bytes", container->size_bytes()},
                             {"units_per_radius", object->units_per_radius}};
+        if (object->foot_q20) json["foot_radii"] = std::ldexp(*object->foot_q20, -20);
         for (const Ring& ring : object->rings) {
             json["rings"].push_back({{"elevation_deg", ring.elevation_udeg * 1e-6},
                                      {"views", ring.views.size()},
@@ -71,6 +72,7 @@ Status run_info(const ObjectArguments& arguments) {
                     ring.views.size(), ring.elevation_udeg * 1e-6, ring.planes, ring.x_cells, ring.u_cells);
     }
     std::printf("  radius     %g units of the capture set\n", object->units_per_radius);
+    if (object->foot_q20) std::printf("  stands at  height %.3f radii\n", std::ldexp(*object->foot_q20, -20));
     std::printf("  file       %llu bytes\n", static_cast<unsigned long long>(container->size_bytes()));
     for (const ChunkSummary& chunk : chunks) {
         std::printf("    %s  x %-5llu %12llu bytes  %5.1f %%\n", chunk.name.c_str(),

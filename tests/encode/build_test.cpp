@@ -62,6 +62,23 @@ TEST(Build, UprightPicturesAreStoredAsTheyAreAndComeBackFromTheFile) {
     EXPECT_EQ(*picture, rgba_from_planar(built->object.pictures[3]));
 }
 
+TEST(Build, TheFootIsStoredWhereTheRigTellsIt) {
+    const test::TemporaryFolder folder;
+    Rig rig = small_ring(20);  // looks down: made upright about the same axis
+    rig.foot_height = -0.45;
+    rig.object_radius = 0.9;
+    test::write_drawn_set(folder / "set", rig);
+    rig.foot_height.reset();
+    test::write_drawn_set(folder / "silent", rig);
+    const auto foot_of = [](const std::filesystem::path& path) {
+        const Result<CaptureSet> set = open_capture_set(path);
+        EXPECT_TRUE(set.ok());
+        return build_object(*set, {})->object.foot_q20;
+    };
+    EXPECT_EQ(foot_of(folder / "set"), -(1 << 19));
+    EXPECT_EQ(foot_of(folder / "silent"), std::nullopt);
+}
+
 TEST(Build, TheRadiusComesFromTheSilhouettesWhereTheRigDoesNotSay) {
     const test::TemporaryFolder folder;
     Rig rig = small_ring(0, 36);

@@ -12,7 +12,7 @@
 namespace rs::fuzz {
 namespace {
 
-constexpr std::array<ChunkName, 10> kNames = {{{'H', 'E', 'A', 'D'},
+constexpr std::array<ChunkName, 11> kNames = {{{'H', 'E', 'A', 'D'},
                                                {'R', 'I', 'G', 'J'},
                                                {'V', 'I', 'E', 'W'},
                                                {'R', 'I', 'N', 'G'},
@@ -21,7 +21,8 @@ constexpr std::array<ChunkName, 10> kNames = {{{'H', 'E', 'A', 'D'},
                                                {'n', 'o', 't', 'e'},
                                                {'N', 'O', 'T', 'E'},
                                                {'s', 'h', 'a', 'p'},
-                                               {'C', 'O', 'D', 'E'}}};
+                                               {'C', 'O', 'D', 'E'},
+                                               {'f', 'o', 'o', 't'}}};
 constexpr std::size_t kHeader_bytes = 48;
 constexpr std::size_t kEntry_bytes = 32;
 

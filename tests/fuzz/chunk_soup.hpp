@@ -17,8 +17,8 @@ struct SoupChunk {
     std::vector<std::byte> payload;
 };
 
-// Input framing, repeated to the end: { u8 kind, u8 index, u16 length, length bytes }. kind % 10 chooses HEAD RIGJ
-// VIEW RING RMAP PICT note NOTE shap CODE; a length beyond the end is cut there.
+// Input framing, repeated to the end: { u8 kind, u8 index, u16 length, length bytes }. kind % 11 chooses HEAD RIGJ
+// VIEW RING RMAP PICT note NOTE shap CODE foot; a length beyond the end is cut there.
 std::vector<SoupChunk> chunks_from_input(std::span<const std::uint8_t> input);
 std::vector<std::uint8_t> input_from_chunks(std::span<const SoupChunk> chunks);
 

@@ -1,4 +1,5 @@
 // Writes the seed files of the corpus: `make_fuzz_seeds tests/fuzz/corpus`. Run it again when the format changes.
+#include "rayspace/object_chunks.hpp"
 #include "rayspace/object_file.hpp"
 #include "rayspace/write_file.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
@@ -7,6 +8,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 namespace {
@@ -31,12 +33,13 @@ Status write_seeds(const fs::path& corpus) {
     test::SmallObjectOptions larger = one_ring;
     larger.width = 36;
     larger.height = 20;
-    const std::pair<const char*, RaySpaceObject> objects[] = {{"one-ring", test::small_object(one_ring)},
-                                                              {"two-rings", test::small_object(two_rings)},
-                                                              {"shape", std::move(with_shape)},
-                                                              {"coded", test::coded_object(larger, {})},
-                                                              {"mask", test::coded_object(larger, {.alpha_bits = 1})},
-                                                              {"board", test::board_object(larger, {})}};
+    RaySpaceObject standing = test::small_object(one_ring);
+    standing.foot_q20 = -700000;
+    const std::pair<const char*, RaySpaceObject> objects[] = {
+        {"one-ring", test::small_object(one_ring)},   {"standing", std::move(standing)},
+        {"two-rings", test::small_object(two_rings)}, {"shape", std::move(with_shape)},
+        {"coded", test::coded_object(larger, {})},    {"mask", test::coded_object(larger, {.alpha_bits = 1})},
+        {"board", test::board_object(larger, {})}};
     for (const auto& [name, object] : objects) {
         const fs::path file = corpus / "container" / (std::string("seed-") + name + ".rso");
         if (Status status = write_object(file, object); !status) return status;
@@ -46,6 +49,10 @@ Status write_seeds(const fs::path& corpus) {
         for (const ChunkEntry& entry : reader->table()) {
             auto payload = reader->read(entry);
             if (!payload) return payload.error();
+            // Mutations get at numbers that are not compressed.
+            if (entry.name == object_chunks::kRing && name == std::string_view("two-rings")) {
+                payload = object_chunks::ring_payload(object, entry.index, object_chunks::LineCoding::kPlain);
+            }
             chunks.push_back({entry.name, entry.index, std::move(payload).value()});
         }
         const auto input = fuzz::input_from_chunks(chunks);

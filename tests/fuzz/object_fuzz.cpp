@@ -21,6 +21,7 @@ void check_rewriting(const RaySpaceObject& object) {
         if (key.name == kHead) chunk.payload = head_payload(object);
         if (key.name == kRig) chunk.payload = rig_payload(object);
         if (key.name == kViews) chunk.payload = views_payload(object);
+        if (key.name == kFoot) chunk.payload = foot_payload(object);
         if (key.name == kRing) chunk.payload = ring_payload(object, key.index);
         if (key.name == kMap) chunk.payload = map_payload(object.rings[key.index]);
         if (key.name == kShape) chunk.payload = shape_payload(object.rings[key.index]);
@@ -35,7 +36,7 @@ void check_rewriting(const RaySpaceObject& object) {
     RS_CHECK(container.ok());
     const auto again = read_object(*container);
     RS_CHECK(again.ok());
-    RS_CHECK(again->name == object.name && again->rig_json == object.rig_json);
+    RS_CHECK(again->name == object.name && again->rig_json == object.rig_json && again->foot_q20 == object.foot_q20);
     RS_CHECK(again->views == object.views && again->rings == object.rings && again->pictures == object.pictures);
 }
 

@@ -21,6 +21,7 @@ using testing::HasSubstr;
 void expect_same(const RaySpaceObject& a, const RaySpaceObject& b) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.units_per_radius, b.units_per_radius);
+    EXPECT_EQ(a.foot_q20, b.foot_q20);
     EXPECT_EQ(a.rig_json, b.rig_json);
     EXPECT_EQ(a.width, b.width);
     EXPECT_EQ(a.height, b.height);
@@ -110,6 +111,20 @@ TEST(ObjectFile, TheSameObjectGivesTheSameBytes) {
     ASSERT_TRUE(write_object(folder / "a.rso", small_object()).ok());
     ASSERT_TRUE(write_object(folder / "b.rso", small_object()).ok());
     EXPECT_EQ(*read_file(folder / "a.rso", 1 << 20), *read_file(folder / "b.rso", 1 << 20));
+}
+
+TEST(ObjectFile, TheFootIsKeptWhereItIsKnown) {
+    const TemporaryFolder folder;
+    RaySpaceObject object = small_object();
+    object.foot_q20 = -123456;
+    ASSERT_TRUE(write_object(folder / "standing.rso", object).ok());
+    const auto back = read_object(folder / "standing.rso");
+    ASSERT_TRUE(back.ok()) << back.error().message;
+    expect_same(*back, object);
+    object.foot_q20 = 1 << 28;
+    const Status far = write_object(folder / "far.rso", object);
+    ASSERT_FALSE(far.ok());
+    EXPECT_THAT(far.error().message, HasSubstr("its foot is 256 object radii or more"));
 }
 
 TEST(ObjectFile, AnObjectMayHaveNoRig) {
@@ -214,7 +229,11 @@ TEST(ObjectFile, NumbersAreCheckedBeforeTheyAllocate) {
     };
     EXPECT_THAT(ring(4, 2, 2), HasSubstr("chunk RING 0: the number of planes is 2; it must be 3..64"));
     EXPECT_THAT(ring(6, 9, 2), HasSubstr("the number of views is 9"));
-    EXPECT_THAT(ring(6, 7, 2), HasSubstr("bytes long instead of"));
+    EXPECT_THAT(ring(5, 2, 1), HasSubstr("line coding 2, which is not known here"));
+    EXPECT_THAT(ring(5, 0, 1), HasSubstr("bytes of lines instead of 512"));
+    EXPECT_THAT(ring(6, 7, 2), HasSubstr("its lines are no Zstandard frame"));
+    EXPECT_THAT(error_after([](Chunks& chunks) { find(chunks, "RING").payload.resize(28 + 15); }),
+                HasSubstr("ends inside of its list of views"));
     EXPECT_THAT(ring(8, 4097, 2), HasSubstr("size along x is 4097"));
     EXPECT_THAT(ring(10, 0, 2), HasSubstr("size along u is 0"));
     EXPECT_THAT(ring(28, 8, 2), HasSubstr("a view's number is 8"));

@@ -52,6 +52,7 @@ void expect_same_camera(const Camera& a, const Camera& b) {
 TEST(Rig, DoublesComeBackExactly) {
     Rig rig = ring();
     rig.object_radius = 1.0 / 3;
+    rig.foot_height = -0.1;
     rig.views[2].depth_file_path = "depth/2.exr";
     const auto back = rig_from_json(rig_to_json(rig), "R");
     ASSERT_TRUE(back.ok()) << back.error().message;
@@ -62,6 +63,9 @@ TEST(Rig, DoublesComeBackExactly) {
         EXPECT_EQ(back->views[i].depth_file_path, rig.views[i].depth_file_path);
     }
     EXPECT_EQ(back->object_radius, rig.object_radius);
+    EXPECT_EQ(back->foot_height, rig.foot_height);
+    rig.foot_height.reset();
+    EXPECT_EQ(rig_from_json(rig_to_json(rig), "R")->foot_height, std::nullopt);
     EXPECT_TRUE(back->extras.empty()) << back->extras;
 }
 

@@ -80,6 +80,7 @@ TEST_F(SceneFileTest, NormalisesToTheBoundingSphere) {
     EXPECT_NEAR(radius, 1.0F, 1e-6F);
     EXPECT_LT(glm::length(lower + upper), 1e-6F);
     EXPECT_NEAR(file->object_radius, 2 / std::sqrt(5.0), 1e-6);  // a 4 by 2 quad: half diagonal sqrt(5), half width 2
+    EXPECT_NEAR(file->foot_height, lower.y, 1e-6);
 }
 
 TEST_F(SceneFileTest, ReadsEveryKey) {

@@ -119,12 +119,16 @@ std::vector<Damage> order_damages() {
     const Bytes one_byte(1);
     const std::string kBoard = "board-random-small";
     const std::string kShaped = "raw-shape";
+    const std::string kStanding = "raw-33x21-foot";
     const std::string kUnknown = "unknown or out of place";
     return {
         added("unknown", kBase, {{'N', 'E', 'W', 'S'}, 0, one_byte}, "chunk NEWS 0 | " + kUnknown),
         added("picture-too-many", kBase, {kPicture, 99, one_byte}, "chunk PICT 99 | " + kUnknown),
         added("second-code", kBoard, {kCode, 1, one_byte}, "chunk CODE 1 | " + kUnknown),
         added("shape-of-no-ring", kShaped, {kShape, 9, one_byte}, "chunk shap 9 | behind"),
+        added("second-foot", kStanding, {kFoot, 1, Bytes(4)}, "chunk foot 1 | not the one behind"),
+        moved("foot-before-view", kStanding, {kFoot, 0}, {kViews, 0}, "chunk foot 0 | not the one behind"),
+        moved("foot-behind-ring", kStanding, {kFoot, 0}, {kMap, 0}, kUnknown),
         missing(kBase, kHead, 0, "no chunk HEAD 0"),
         missing(kBase, kRig, 0, "no chunk RIGJ 0"),
         missing(kBase, kViews, 0, "no chunk VIEW 0"),

@@ -11,7 +11,8 @@ namespace {
 
 using namespace object_chunks;
 
-const std::string kBase = "raw";  // 3 views, 3 planes, maps of 2 x 3 cells
+const std::string kBase = "raw";                 // 3 views, 3 planes, maps of 2 x 3 cells
+const std::string kStanding = "raw-33x21-foot";  // 8 views, coded lines
 constexpr std::size_t kViewCount = 3, kPlanes = 3;
 constexpr std::size_t kViewList = 28;
 constexpr std::size_t kLines = kViewList + 2 * kViewCount;
@@ -34,6 +35,16 @@ Damage line(const std::string& name, std::size_t offset, std::int64_t value, con
 Damage map(const std::string& name, const std::string& words, const std::function<void(Bytes&)>& change) {
     return {"map-" + name, kBase, words, [=](Draft& d) { change(d.payload(kMap)); }};
 }
+Damage coded_lines(const std::string& name, const std::function<void(Bytes&)>& change) {
+    return {"ring-lines-" + name, kStanding, "chunk RING 0 | its lines", [=](Draft& d) {
+                constexpr std::size_t kFrame = kViewList + 2 * 8;
+                Bytes& ring = d.payload(kRing);
+                Bytes frame(ring.begin() + kFrame, ring.end());
+                change(frame);
+                ring.resize(kFrame);
+                ring.insert(ring.end(), frame.begin(), frame.end());
+            }};
+}
 Damage longer(const std::string& name, ChunkName chunk, int bytes, const std::string& words) {
     return {name, kBase, "chunk " + to_string(chunk) + " 0 | " + words, [=](Draft& d) {
                 Bytes& payload = d.payload(chunk);
@@ -53,7 +64,7 @@ std::vector<Damage> sizes() {
     return {
         longer("head-short", kHead, -1, "bytes long"),      longer("head-long", kHead, 1, "bytes long"),
         longer("view-short", kViews, -1, "bytes long"),     longer("view-long", kViews, 1, "bytes long"),
-        longer("ring-short", kRing, -1, "bytes long"),      longer("ring-long", kRing, 1, "bytes long"),
+        longer("ring-short", kRing, -1, "bytes of lines"),  longer("ring-long", kRing, 1, "bytes of lines"),
         longer("map-long", kMap, 1, "behind its last row"), longer("map-short", kMap, -1, "row"),
         longer("map-empty", kMap, -1000000, "too short"),   longer("picture-short", kPicture, -1, "bytes long"),
         longer("picture-long", kPicture, 1, "bytes long"),
@@ -84,6 +95,7 @@ std::vector<Damage> ranges() {
         ring("elevation", 0, 4, 90000001, "ring 0 | elevation"),
         ring("planes-2", 4, 2, 2, "number of planes is 2"),
         ring("planes-65", 4, 2, 65, "number of planes is 65"),
+        ring("line-coding-2", 5, 1, 2, "chunk RING 0 | line coding 2"),
         ring("views-0", 6, 2, 0, "number of views is 0"),
         ring("views-4", 6, 2, 4, "number of views is 4"),
         ring("x-cells-0", 8, 2, 0, "size along x is 0"),
@@ -99,6 +111,7 @@ std::vector<Damage> ranges() {
         line("l1", 4, kTop + 1, "depth of one of its lines"),
         line("q0", 8, -(std::int64_t{1} << 31), "columns of one of its lines"),
         line("q1", 12, kTop, "columns of one of its lines"),
+        number_damage("foot-far", kStanding, kFoot, 0, 0, 4, std::int64_t{1} << 28, "foot | 256 object radii"),
     };
 }
 
@@ -113,6 +126,17 @@ std::vector<Damage> rules() {
              const auto bytes = std::as_bytes(std::span(text));
              d.payload(kRig).assign(bytes.begin(), bytes.end());
          }},
+        coded_lines("no-frame", [](Bytes& frame) { frame.clear(); }),
+        coded_lines("frame-cut", [](Bytes& frame) { frame.pop_back(); }),
+        coded_lines("frame-and-more", [](Bytes& frame) { frame.push_back(std::byte{0}); }),
+        coded_lines("frame-without-size", [](Bytes& frame) { frame = frame_of(content_of(frame), false, false); }),
+        coded_lines("frame-of-fewer",
+                    [](Bytes& frame) {
+                        Bytes content = content_of(frame);
+                        content.pop_back();
+                        frame = frame_of(content, false, true);
+                    }),
+        {"foot-short", kStanding, "chunk foot 0 | bytes long", [](Draft& d) { d.payload(kFoot).pop_back(); }},
         {"view-in-no-ring", kBase, "view 2 belongs to no ring",
          [](Draft& d) {
              // A ring of the first two views. The third has no picture, which would have no place in the order, and

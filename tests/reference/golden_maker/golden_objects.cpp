@@ -32,6 +32,11 @@ RaySpaceObject raw_with_shape() {
     return object;
 }
 
+RaySpaceObject with_foot(RaySpaceObject object) {
+    object.foot_q20 = -700000;
+    return object;
+}
+
 struct DrawnSize {
     int width, height, views, rings;
     bool has_shape;
@@ -104,9 +109,9 @@ std::vector<GoldenObject> golden_objects() {
     odd.width = 33;
     odd.height = 21;
     std::vector<GoldenObject> objects;
-    objects.push_back({"raw", test::small_object(smallest(1))});
+    objects.push_back({"raw", test::small_object(smallest(1)), true});
     objects.push_back({"raw-shape", raw_with_shape()});
-    objects.push_back({"raw-33x21", test::small_object(odd)});
+    objects.push_back({"raw-33x21-foot", with_foot(test::small_object(odd))});
     objects.push_back({"dense-16x16-alpha1", dense({70, 50, 9, 1, false}, 4, 4, 1, 4)});
     objects.push_back({"dense-32x32-alpha2-shape", dense({100, 64, 8, 1, true}, 5, 5, 2, 12)});
     objects.push_back({"dense-64x16-alpha4", dense({97, 33, 6, 2, false}, 6, 4, 4, 30)});

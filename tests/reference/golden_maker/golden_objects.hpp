@@ -12,6 +12,7 @@ namespace rs::golden {
 struct GoldenObject {
     std::string name;  // of the file, without its extension
     RaySpaceObject object;
+    bool has_plain_lines = false;
 };
 
 std::vector<GoldenObject> golden_objects();
