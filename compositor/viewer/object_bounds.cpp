@@ -209,7 +209,8 @@ UprightExtent estimated_extent(const RaySpaceObject& object) {
         std::nth_element(values.begin(), middle, values.end());
         return *middle;
     };
-    return {foot_of(object, median(bottoms)), median(tops)};
+    const double foot = object.foot_q20 ? std::ldexp(*object.foot_q20, -20) : foot_of(object, median(bottoms));
+    return {foot, median(tops)};
 }
 
 }  // namespace rs::compositor

@@ -19,10 +19,10 @@ struct BoundingCylinder {
 BoundingCylinder bounding_cylinder(const RaySpaceObject& object);
 
 // An estimate of where the object itself begins and ends on its axis, in object radii: `bottom` is what would touch a
-// floor that it stands on. Each picture's lowest row is taken for the rim of the foot that is nearest to the camera.
-// How far that is before the axis is seen from the side, in the pictures a quarter turn away. Of all pictures the
-// median counts. The top is found likewise, but with the object's width for its depth. Both 0 where no picture shows
-// anything.
+// floor that it stands on, which the object itself may say (RaySpaceObject::foot_q20). Else each picture's lowest row
+// is taken for the rim of the foot that is nearest to the camera. How far that is before the axis is seen from the
+// side, in the pictures a quarter turn away. Of all pictures the median counts. The top is found likewise, but with the
+// object's width for its depth. Both 0 where no picture shows anything.
 struct UprightExtent {
     double bottom = 0;
     double top = 0;

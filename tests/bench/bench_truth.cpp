@@ -119,7 +119,7 @@ Status run_bench(Arguments arguments) {
         auto object = traced_object(std::move(*recipe));
         if (!object) return object.error();
         const double foot = static_cast<double>((*object)->rays().lower().y) / (*object)->object_radius();
-        std::fprintf(stderr, "%s: foot %.3f radii below its middle, estimated as %.3f\n",
+        std::fprintf(stderr, "%s: foot %.3f radii below its middle, taken as %.3f\n",
                      scene->objects[i].file.stem().c_str(), -foot, -(*placed)[i].object->extent.bottom);
         traced.push_back({std::move(*object), (*placed)[i].world_from_object});
     }

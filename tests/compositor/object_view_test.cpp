@@ -128,6 +128,15 @@ TEST(PlacedObject, StandsOnItsFoot) {
     EXPECT_EQ(place(object, node).world_from_object.translation, glm::dvec3(3, 1, 0));
 }
 
+TEST(PlacedObject, StandsWhereItSays) {
+    RaySpaceObject standing = test::drum_object(Rgba8{10, 20, 30, 255});
+    standing.foot_q20 = -(5 << 18);
+    const auto viewable = make_viewable(std::move(standing));
+    ASSERT_TRUE(viewable);
+    EXPECT_EQ(viewable->extent.bottom, -1.25);
+    EXPECT_EQ(viewable->extent.top, test::drum(Rgba8{10, 20, 30, 255})->extent.top);
+}
+
 TEST(FramingPose, ShowsAllObjectsWhole) {
     const auto object = test::drum(Rgba8{10, 20, 30, 255});
     const std::vector<PlacedObject> objects = {test::placed_at(object, {{-4, 0, 0}}),
