@@ -3,7 +3,7 @@
 #
 #   ./test.sh                     the release build and all tests, then what reads files under ASan + UBSan
 #   ./test.sh --no-sanitizers     the release build and its tests only
-#   ./test.sh --sanitize-all      all tests under ASan + UBSan as well: half an hour more
+#   ./test.sh --sanitize-all      all tests under ASan + UBSan as well: much longer
 #   ./test.sh -R NAME             further arguments go to ctest
 set -euo pipefail
 cd "$(dirname "$0")"

@@ -17,12 +17,12 @@ constexpr double kNearestPair_rad = 0.15;
 constexpr double kFarthestPair_rad = 2.6;
 constexpr std::size_t kFewestResiduals = 60;
 constexpr double kRobustDeviations = 2;
-constexpr int kTangencyRounds = 5;
+constexpr int kTangencyRounds = 8;
 // One view takes part in many pairs with nearly the same corner of its hull: so many pairs count as one.
 constexpr double kAlikePerView = 0.25;
-// Outlines err together, too, in ways no residual shows; by how much more than they say, true errors on photographs
-// with known truth tell.
-constexpr double kUntold = 4;
+// Outlines err together, too, in ways no residual shows, most of all those of a body that looks the same from all
+// sides; by how much more than they say, true errors on photographs with known truth tell.
+constexpr double kUntold = 3;
 
 struct HullPoint {
     glm::dvec2 plane{0.0};  // without distortion
@@ -122,6 +122,19 @@ double median_size(std::vector<double> values) {
     return *middle;
 }
 
+// By how much camera numbers that moved by `step` (the axis' position is known from outlines already) went farther than
+// their covariance would have them: the mean square in deviations, at least 1.
+double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covariance, const Eigen::VectorXd& step) {
+    std::vector<int> chosen;
+    for (std::size_t k = 0; k < kCameraNumbers; ++k) {
+        if (k != kPan && places.camera[k] >= 0) chosen.push_back(places.camera[k]);
+    }
+    if (chosen.empty()) return 1;
+    const Eigen::MatrixXd among = covariance(chosen, chosen);
+    const Eigen::VectorXd went = step(chosen);
+    return std::max(1.0, went.dot(among.ldlt().solve(went)) / static_cast<double>(chosen.size()));
+}
+
 TurntableModel moved(TurntableModel model, const NumberPlaces& places, const Eigen::VectorXd& step) {
     const std::array<double*, kCameraNumbers> numbers{&model.lens.f_px,     &model.lens.cx,      &model.lens.cy,
                                                       &model.lens.k1,       &model.lens.k2,      &model.pose.pan_rad,
@@ -198,20 +211,22 @@ std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const Numbe
     if (n == 0 || covariance.rows() != n) return std::nullopt;
     const Eigen::LDLT<Eigen::MatrixXd> known(covariance);
     if (known.info() != Eigen::Success || !known.isPositive()) return std::nullopt;
-    const Eigen::MatrixXd before = known.solve(Eigen::MatrixXd::Identity(n, n));
-    if (!before.allFinite()) return std::nullopt;
+    const Eigen::MatrixXd claimed = known.solve(Eigen::MatrixXd::Identity(n, n));
+    if (!claimed.allFinite()) return std::nullopt;
     const std::vector<ViewPair> pairs = comparable_views(model, hulls);
     if (2 * pairs.size() < kFewestResiduals) return std::nullopt;
     TangencyFit fit{model, covariance, 0};
     Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
+    double disbelief = 1;
     const double alike = std::max(1.0, kAlikePerView * static_cast<double>(hulls.size()));
     for (int round = 0; round < kTangencyRounds; ++round) {
         const std::vector<double> now = tangency_residuals(fit.model, hulls, pairs);
         const auto count = static_cast<Eigen::Index>(now.size());
         fit.deviation_px = 1.4826 * median_size(now);
-        if (!(fit.deviation_px > 0) || fit.deviation_px > worst_px) return std::nullopt;
-        Eigen::MatrixXd slopes(count, n);
+        if (!(fit.deviation_px > 0)) return std::nullopt;
+        Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(count, n);
         for (Eigen::Index k = 0; k < n; ++k) {
+            if (!(covariance(k, k) > 0)) continue;
             // A part of the uncertainty, so that corners of hulls change little.
             const double width = 0.3 * std::sqrt(std::max(covariance(k, k), 1e-16));
             Eigen::VectorXd there = step;
@@ -228,23 +243,21 @@ std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const Numbe
             const double far = r(q) / (kRobustDeviations * fit.deviation_px);
             weight(q) = 1 / (fit.deviation_px * fit.deviation_px * alike * (1 + far * far));
         }
-        const Eigen::MatrixXd information = slopes.transpose() * weight.asDiagonal() * slopes + before;
-        const Eigen::LDLT<Eigen::MatrixXd> solver(information);
+        const Eigen::MatrixXd before = claimed / disbelief;
+        const Eigen::MatrixXd of_outlines = slopes.transpose() * weight.asDiagonal() * slopes;
+        const Eigen::LDLT<Eigen::MatrixXd> solver(before + of_outlines);
         if (solver.info() != Eigen::Success) return std::nullopt;
         step += solver.solve(-slopes.transpose() * (weight.asDiagonal() * r) - before * step);
         if (!step.allFinite()) return std::nullopt;
         fit.model = moved(model, places, step);
         if (!(fit.model.lens.f_px > 0)) return std::nullopt;
-        Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(hulls.size()));
-        for (std::size_t q = 0; q < now.size(); ++q) {
-            const auto row = static_cast<Eigen::Index>(q);
-            const Eigen::VectorXd score = slopes.row(row).transpose() * (weight(row) * r(row));
-            scores.col(static_cast<Eigen::Index>(pairs[q / 2].first)) += score;
-            scores.col(static_cast<Eigen::Index>(pairs[q / 2].second)) += score;
-        }
-        const Eigen::MatrixXd half = solver.solve(before + kUntold * kUntold * scores * scores.transpose());
+        const Eigen::MatrixXd half = solver.solve(before + kUntold * kUntold * of_outlines);
         fit.covariance = solver.solve(half.transpose());
+        disbelief = beyond_belief(places, covariance, step);
     }
+    // Judged at the end: where the model began wrong, outlines that agree well do not seem to.
+    fit.deviation_px = 1.4826 * median_size(tangency_residuals(fit.model, hulls, pairs));
+    if (!(fit.deviation_px <= worst_px)) return std::nullopt;
     return fit;
 }
 

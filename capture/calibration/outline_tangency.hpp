@@ -50,10 +50,11 @@ struct TangencyFit {
 };
 
 // `model`, known with `covariance` of the numbers at `places`, and the outlines together: the least squares of both.
-// Outlines are weighed by how well they agree, and their share of the covariance is what each view's residuals say
-// together ("sandwich", as in bundle_deviations.hpp). Nothing where fewer than 60 tangencies can be compared, where
-// they do not agree better than within `worst_px`, or where `model` does not stay before the camera. One thread;
-// deterministic.
+// Outlines are weighed by how well they agree in the end. Where they move lens and directions by more deviations than
+// `covariance` allows, it is widened until it does (Birge 1932): what it came from erred in a way it did not know of.
+// Numbers of no variance stay, as the angle of a view in which no point was seen.
+// Nothing where fewer than 60 tangencies can be compared, where they do not come to agree within `worst_px`, or where
+// `model` does not stay before the camera. One thread; deterministic.
 std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const NumberPlaces& places,
                                         const Eigen::MatrixXd& covariance, std::span<const OutlineHull> hulls,
                                         double worst_px);

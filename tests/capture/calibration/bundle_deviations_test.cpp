@@ -7,8 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -29,9 +31,40 @@ struct Tally {
     [[nodiscard]] double ratio() const { return std::sqrt(stated2 / off2); }
 };
 
+struct DrawnErrors {
+    double noise_px = 0;  // of every observation by itself
+    double side_px = 0;   // of every tenth of the turn, whose points seem to shift as they turn
+};
+
+// Adds to the tracks of each side of the object an error of its own.
+void shift_sides(std::vector<Track>& tracks, const TurntableModel& truth, double side_px, std::uint32_t seed) {
+    constexpr int kSides = 10;
+    std::mt19937 random(seed);
+    std::normal_distribution<double> error(0, side_px);
+    std::array<glm::dvec2, kSides> shift;
+    for (glm::dvec2& each : shift) {
+        each.x = error(random);
+        each.y = error(random);
+    }
+    for (Track& track : tracks) {
+        glm::dvec2 sum(0.0);
+        for (const Observation& seen : track.seen) {
+            const double angle = truth.angles_rad[static_cast<std::size_t>(seen.view)];
+            sum += glm::dvec2(std::cos(angle), std::sin(angle));
+        }
+        const double middle = std::atan2(sum.y, sum.x);
+        const auto side = static_cast<std::size_t>((middle / (2 * kPi) + 0.5) * kSides) % kSides;
+        for (Observation& seen : track.seen) {
+            seen.p += shift[side] * std::sin(truth.angles_rad[static_cast<std::size_t>(seen.view)] - middle);
+        }
+    }
+}
+
 // What the options hold stands at its true value at the start.
-Bundle bundle_of_draw(const TurntableModel& truth, const BundleOptions& options, double noise_px, std::uint32_t seed) {
-    const auto tracks = test::tracks_of(truth, test::surface_points(160, 11), noise_px, seed);
+Bundle bundle_of_draw(const TurntableModel& truth, const BundleOptions& options, const DrawnErrors& errors,
+                      std::uint32_t seed) {
+    auto tracks = test::tracks_of(truth, test::surface_points(160, 11), errors.noise_px, seed);
+    shift_sides(tracks, truth, errors.side_px, seed + 1000);
     Bundle bundle = make_bundle(truth, tracks);
     EXPECT_TRUE(adjust(bundle, options).has_value());
     return bundle;
@@ -42,7 +75,7 @@ double mean(const std::vector<double>& values) {
 }
 
 // Of a turn's f, k1, tilt, roll, axis position and angles.
-void expect_honest(const TurntableModel& truth, const BundleOptions& options, double noise_px) {
+void expect_honest(const TurntableModel& truth, const BundleOptions& options, const DrawnErrors& errors) {
     Tally f, k1, tilt, roll, position, angles;
     const bool sideways = lies_sideways(truth.pose);
     const double at_px = 0.5 * (sideways ? truth.lens.width : truth.lens.height);
@@ -51,7 +84,7 @@ void expect_honest(const TurntableModel& truth, const BundleOptions& options, do
             .value();
     };
     for (int draw = 0; draw < kDraws; ++draw) {
-        const Bundle bundle = bundle_of_draw(truth, options, noise_px, 100 + static_cast<std::uint32_t>(draw));
+        const Bundle bundle = bundle_of_draw(truth, options, errors, 100 + static_cast<std::uint32_t>(draw));
         const ModelDeviations stated = bundle_deviations(bundle, options, at_px);
         const TurntableModel& found = bundle.model;
         f.add(stated.f_px, found.lens.f_px - truth.lens.f_px);
@@ -81,14 +114,21 @@ TEST(BundleDeviations, AreWhatTheNoiseDoes) {
     BundleOptions options;
     options.free.k1 = true;
     options.loss_px = 0.6;
-    expect_honest(test::turn_model(24, radians(15)), options, 0.3);
+    expect_honest(test::turn_model(24, radians(15)), options, {.noise_px = 0.3});
 }
 
 TEST(BundleDeviations, AreSoForACommonStepAndAnAxisOnItsSide) {
     BundleOptions options;
     options.loss_px = 0.6;
     options.free.angles = AngleFreedom::kCommonStep;
-    expect_honest(test::turn_model(24, -radians(15), radians(88)), options, 0.3);
+    expect_honest(test::turn_model(24, -radians(15), radians(88)), options, {.noise_px = 0.3});
+}
+
+TEST(BundleDeviations, HoldWhatOneSideOfTheObjectHasInCommon) {
+    BundleOptions options;
+    options.free.k1 = true;
+    options.loss_px = 0.6;
+    expect_honest(test::turn_model(24, radians(15)), options, {.noise_px = 0.1, .side_px = 0.3});
 }
 
 TEST(BundleDeviations, WhatIsHeldHasNone) {
@@ -96,7 +136,7 @@ TEST(BundleDeviations, WhatIsHeldHasNone) {
     BundleOptions options;
     options.free.f = options.free.tilt = false;
     options.free.angles = AngleFreedom::kHeld;
-    const Bundle bundle = bundle_of_draw(truth, options, 0.3, 5);
+    const Bundle bundle = bundle_of_draw(truth, options, {.noise_px = 0.3}, 5);
     const ModelDeviations stated = bundle_deviations(bundle, options, 400);
     EXPECT_EQ(stated.f_px, 0);
     EXPECT_EQ(stated.cx, 0);
@@ -110,7 +150,7 @@ TEST(BundleDeviations, WhatIsHeldHasNone) {
 
 TEST(BundleDeviations, AreInfiniteWhereTooLittleIsSeen) {
     const TurntableModel truth = test::turn_model(24, radians(15));
-    Bundle bundle = bundle_of_draw(truth, {}, 0.3, 6);
+    Bundle bundle = bundle_of_draw(truth, {}, {.noise_px = 0.3}, 6);
     bundle.tracks.resize(8);  // of 27 unknowns
     bundle.points.resize(8);
     const ModelDeviations stated = bundle_deviations(bundle, {}, 400);
@@ -126,7 +166,7 @@ TEST(BundleDeviations, FallWithTheNoise) {
     loud.loss_px = 0.8;
     quiet.loss_px = 0.2;
     const auto of = [&](const BundleOptions& options, double noise_px) {
-        return bundle_deviations(bundle_of_draw(truth, options, noise_px, 7), options, 400);
+        return bundle_deviations(bundle_of_draw(truth, options, {.noise_px = noise_px}, 7), options, 400);
     };
     EXPECT_NEAR(of(loud, 0.4).f_px / of(quiet, 0.1).f_px, 4, 0.4);
 }

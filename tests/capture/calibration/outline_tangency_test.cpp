@@ -111,6 +111,43 @@ TEST(OutlineTangency, FitMendsFocalLengthAndAnglesThatDrift) {
     EXPECT_GT(3 * std::sqrt(fit->covariance(f, f)), std::abs(fit->model.lens.f_px - truth.lens.f_px));
 }
 
+// A start whose f and tilt are off by several of the deviations of roughly_known().
+TurntableModel far_start(const TurntableModel& truth) {
+    TurntableModel start = truth;
+    start.lens.f_px *= 1.05;
+    start.pose.tilt_rad += radians(0.3);
+    return start;
+}
+
+TEST(OutlineTangency, OutlinesAreJudgedByHowTheyAgreeInTheEnd) {
+    const TurntableModel truth = turn_of_cloud();
+    const TurntableModel start = far_start(truth);
+    const auto hulls = hulls_of_cloud(truth, 0.05);
+    constexpr double kWorst_px = 0.1;
+    std::vector<double> before = tangency_residuals(start, hulls, comparable_views(start, hulls));
+    for (double& residual : before) residual = std::abs(residual);
+    std::nth_element(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(before.size() / 2), before.end());
+    EXPECT_GT(before[before.size() / 2], 2 * kWorst_px);
+    const NumberPlaces places = all_places();
+    const auto fit = fit_tangency(start, places, roughly_known(places, start), hulls, kWorst_px);
+    ASSERT_TRUE(fit.has_value());
+    EXPECT_LT(fit->deviation_px, kWorst_px);
+    EXPECT_NEAR(fit->model.lens.f_px / truth.lens.f_px, 1, 0.005);
+}
+
+TEST(OutlineTangency, WhatClaimedTooMuchIsBelievedLess) {
+    const TurntableModel truth = turn_of_cloud();
+    const auto hulls = hulls_of_cloud(truth, 1);
+    const NumberPlaces places = all_places();
+    const auto known = roughly_known(places, truth);
+    const auto near = fit_tangency(truth, places, known, hulls, 3);
+    const auto far = fit_tangency(far_start(truth), places, known, hulls, 3);
+    ASSERT_TRUE(near && far);
+    const int f = places.camera[0], k1 = places.camera[3];
+    EXPECT_GT(far->covariance(k1, k1), 2 * near->covariance(k1, k1));
+    EXPECT_GT(2 * std::sqrt(far->covariance(f, f)), std::abs(far->model.lens.f_px - truth.lens.f_px));
+}
+
 TEST(OutlineTangency, OutlinesThatDoNotAgreeSayNothing) {
     const TurntableModel truth = turn_of_cloud();
     const NumberPlaces places = all_places();
