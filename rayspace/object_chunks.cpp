@@ -1,8 +1,10 @@
 #include "rayspace/object_chunks.hpp"
 
 #include "rayspace/byte_stream.hpp"
+#include "rayspace/codec/coded_chunks.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/line_coding.hpp"
+#include "rayspace/shape_chunk.hpp"
 #include "rayspace/zstd_frame.hpp"
 
 #include <algorithm>
@@ -370,6 +372,20 @@ std::vector<ChunkKey> chunk_order(const RaySpaceObject& object) {
         }
     }
     return order;
+}
+
+Payload chunk_payload(const RaySpaceObject& object, ChunkKey key) {
+    if (key.name == kHead) return head_payload(object);
+    if (key.name == kRig) return rig_payload(object);
+    if (key.name == kViews) return views_payload(object);
+    if (key.name == kFoot) return foot_payload(object);
+    if (key.name == kRing) return ring_payload(object, key.index);
+    if (key.name == kMap) return map_payload(object.rings[key.index]);
+    if (key.name == kShape) return shape_payload(object.rings[key.index]);
+    if (key.name == kCode) return codec::code_payload(*object.coded);
+    RS_CHECK(key.name == kPicture);
+    if (object.coded) return codec::coded_picture_payload(*object.coded, key.index);
+    return picture_payload(object.pictures[key.index]);
 }
 
 }  // namespace rs::object_chunks

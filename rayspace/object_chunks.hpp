@@ -70,6 +70,9 @@ struct ChunkKey {
 };
 std::vector<ChunkKey> chunk_order(const RaySpaceObject& object);
 
+// The payload of one of these, as write_object() stores it.
+Payload chunk_payload(const RaySpaceObject& object, ChunkKey key);
+
 // The level at which the n-th view of a ring is loaded: a coded picture says it itself.
 int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n);
 

@@ -20,20 +20,6 @@ Error in_chunk(const std::string& where, ChunkKey key, const Status& status) {
                  status.error().message};
 }
 
-Payload payload_of(const RaySpaceObject& object, ChunkKey key) {
-    if (key.name == kHead) return head_payload(object);
-    if (key.name == kRig) return rig_payload(object);
-    if (key.name == kViews) return views_payload(object);
-    if (key.name == kFoot) return foot_payload(object);
-    if (key.name == kRing) return ring_payload(object, key.index);
-    if (key.name == kMap) return map_payload(object.rings[key.index]);
-    if (key.name == kShape) return shape_payload(object.rings[key.index]);
-    if (key.name == kCode) return codec::code_payload(*object.coded);
-    RS_CHECK(key.name == kPicture);
-    if (object.coded) return codec::coded_picture_payload(*object.coded, key.index);
-    return picture_payload(object.pictures[key.index]);
-}
-
 // Reads one object; holds what the steps share.
 class ObjectReader {
 public:
@@ -271,7 +257,7 @@ Status write_object(const std::filesystem::path& path, const RaySpaceObject& obj
     if (!writer) return writer.error();
     if (progress != nullptr) progress->start("writing", static_cast<std::int64_t>(order.size()));
     for (const ChunkKey key : order) {
-        if (Status status = writer->add(key.name, key.index, payload_of(object, key)); !status) return status;
+        if (Status status = writer->add(key.name, key.index, chunk_payload(object, key)); !status) return status;
         if (progress != nullptr) progress->advance();
     }
     Status status = writer->commit();

@@ -1,13 +1,9 @@
 #include "engine/core/reconstruct.hpp"
-#include "rayspace/codec/coded_chunks.hpp"
 #include "rayspace/object_chunks.hpp"
 #include "rayspace/object_file.hpp"
 #include "rayspace/ray_space.hpp"
-#include "rayspace/shape_chunk.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 #include "tests/fuzz/entries.hpp"
-
-#include <utility>
 
 namespace rs::fuzz {
 namespace {
@@ -17,20 +13,7 @@ void check_rewriting(const RaySpaceObject& object) {
     using namespace object_chunks;
     std::vector<SoupChunk> chunks;
     for (const ChunkKey key : chunk_order(object)) {
-        SoupChunk chunk{key.name, key.index, {}};
-        if (key.name == kHead) chunk.payload = head_payload(object);
-        if (key.name == kRig) chunk.payload = rig_payload(object);
-        if (key.name == kViews) chunk.payload = views_payload(object);
-        if (key.name == kFoot) chunk.payload = foot_payload(object);
-        if (key.name == kRing) chunk.payload = ring_payload(object, key.index);
-        if (key.name == kMap) chunk.payload = map_payload(object.rings[key.index]);
-        if (key.name == kShape) chunk.payload = shape_payload(object.rings[key.index]);
-        if (key.name == kCode) chunk.payload = codec::code_payload(*object.coded);
-        if (key.name == kPicture) {
-            chunk.payload = object.coded ? codec::coded_picture_payload(*object.coded, key.index)
-                                         : picture_payload(object.pictures[key.index]);
-        }
-        chunks.push_back(std::move(chunk));
+        chunks.push_back({key.name, key.index, chunk_payload(object, key)});
     }
     const auto container = ContainerReader::over(container_of(chunks), "rewritten");
     RS_CHECK(container.ok());

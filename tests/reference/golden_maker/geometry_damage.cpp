@@ -130,12 +130,7 @@ std::vector<Damage> rules() {
         coded_lines("frame-cut", [](Bytes& frame) { frame.pop_back(); }),
         coded_lines("frame-and-more", [](Bytes& frame) { frame.push_back(std::byte{0}); }),
         coded_lines("frame-without-size", [](Bytes& frame) { frame = frame_of(content_of(frame), false, false); }),
-        coded_lines("frame-of-fewer",
-                    [](Bytes& frame) {
-                        Bytes content = content_of(frame);
-                        content.pop_back();
-                        frame = frame_of(content, false, true);
-                    }),
+        coded_lines("frame-of-fewer", [](Bytes& frame) { frame = fewer(frame); }),
         {"foot-short", kStanding, "chunk foot 0 | bytes long", [](Draft& d) { d.payload(kFoot).pop_back(); }},
         {"view-in-no-ring", kBase, "view 2 belongs to no ring",
          [](Draft& d) {

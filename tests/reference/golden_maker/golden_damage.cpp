@@ -62,4 +62,10 @@ Bytes content_of(const Bytes& frame) {
     return content;
 }
 
+Bytes fewer(const Bytes& frame) {
+    Bytes content = content_of(frame);
+    content.pop_back();
+    return frame_of(content, false, true);
+}
+
 }  // namespace rs::golden

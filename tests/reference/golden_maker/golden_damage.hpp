@@ -44,6 +44,7 @@ Damage number_damage(std::string name, std::string base, ChunkName chunk, std::u
 // A Zstandard frame of the content; `states_size`: as the format wants it.
 Bytes frame_of(const Bytes& content, bool has_checksum, bool states_size);
 Bytes content_of(const Bytes& frame);
+Bytes fewer(const Bytes& frame);  // a frame of its content but for the last byte
 
 std::vector<Damage> container_damages();
 std::vector<Damage> order_damages();

@@ -58,12 +58,6 @@ Damage frames_damage(const std::string& name, const std::string& words,
     });
 }
 
-Bytes fewer(const Bytes& frame) {
-    Bytes content = content_of(frame);
-    content.pop_back();
-    return frame_of(content, false, true);
-}
-
 void add_to(Bytes& payload, std::size_t offset, std::int64_t difference) {
     set_number(payload, offset, number_at(payload, offset, 4) + difference, 4);
 }
