@@ -50,6 +50,34 @@ void compare_column(const WorkView& view, const WorkView& neighbour, const Horiz
     }
 }
 
+// What the neighbours of one kind say of a pixel at a depth.
+class KindCost {
+public:
+    void add(int cost) {
+        if (cost == kUnknown) return;
+        known_ = true;
+        outside_ |= cost == kOutside;
+        best_ = std::min(best_, cost);
+        worst_ = std::max(worst_, cost);
+    }
+    [[nodiscard]] bool known() const { return known_; }
+    [[nodiscard]] bool outside() const { return outside_; }
+    [[nodiscard]] int cost() const { return (3 * best_ + std::min(worst_, best_ + 20)) / 4; }
+
+private:
+    int best_ = kMostCost;
+    int worst_ = 0;
+    bool known_ = false;
+    bool outside_ = false;
+};
+
+int both(const KindCost& beside, const KindCost& across) {
+    if (beside.outside() || across.outside()) return kOutsideCost;
+    if (!across.known()) return beside.known() ? beside.cost() : kMostCost / 2;
+    if (!beside.known()) return across.cost();
+    return (beside.cost() + across.cost()) / 2;
+}
+
 }  // namespace
 
 ObjectBox object_box(const WorkView& view) {
@@ -64,41 +92,31 @@ ObjectBox object_box(const WorkView& view) {
     return box;
 }
 
-CostVolume matching_costs(const WorkView& view, std::span<const WorkView* const> neighbours, const DepthRange& range) {
+CostVolume matching_costs(const WorkView& view, const Neighbours& neighbours, const DepthRange& range) {
     CostVolume volume;
     volume.box = object_box(view);
     volume.levels = range.count;
     if (volume.box.empty()) return volume;
-    const int rows = volume.box.height();
+    const auto rows = static_cast<std::size_t>(volume.box.height());
     const auto levels = static_cast<std::size_t>(range.count);
-    volume.costs.resize(static_cast<std::size_t>(volume.box.width()) * static_cast<std::size_t>(rows) * levels);
-    std::vector<std::uint8_t> side(static_cast<std::size_t>(rows) * neighbours.size());
+    volume.costs.resize(static_cast<std::size_t>(volume.box.width()) * rows * levels);
+    std::vector<const WorkView*> all = neighbours.beside;
+    all.insert(all.end(), neighbours.across.begin(), neighbours.across.end());
+    std::vector<std::uint8_t> costs(rows * all.size());
     for (int column = volume.box.left; column < volume.box.right; ++column) {
         const HorizontalRay ray = view.ray_of(column + 0.5);
         std::uint8_t* const to = volume.at(column, volume.box.top);
         for (int level = 0; level < range.count; ++level) {
-            for (std::size_t n = 0; n < neighbours.size(); ++n) {
-                compare_column(view, *neighbours[n], ray, range.at(level), column, volume.box,
-                               side.data() + n * static_cast<std::size_t>(rows));
+            for (std::size_t n = 0; n < all.size(); ++n) {
+                compare_column(view, *all[n], ray, range.at(level), column, volume.box, costs.data() + n * rows);
             }
-            for (int row = 0; row < rows; ++row) {
-                int best = kMostCost;
-                int worst = 0;
-                bool known = false;
-                bool outside = false;
-                for (std::size_t n = 0; n < neighbours.size(); ++n) {
-                    const int cost = side[n * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row)];
-                    if (cost == kUnknown) continue;
-                    known = true;
-                    outside |= cost == kOutside;
-                    best = std::min(best, cost);
-                    worst = std::max(worst, cost);
+            for (std::size_t row = 0; row < rows; ++row) {
+                KindCost beside;
+                KindCost across;
+                for (std::size_t n = 0; n < all.size(); ++n) {
+                    (n < neighbours.beside.size() ? beside : across).add(costs[n * rows + row]);
                 }
-                const int cost = outside ? kOutsideCost
-                                 : known ? (3 * best + std::min(worst, best + 20)) / 4
-                                         : kMostCost / 2;
-                to[static_cast<std::size_t>(row) * levels + static_cast<std::size_t>(level)] =
-                    static_cast<std::uint8_t>(cost);
+                to[row * levels + static_cast<std::size_t>(level)] = static_cast<std::uint8_t>(both(beside, across));
             }
         }
     }

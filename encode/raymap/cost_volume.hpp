@@ -6,7 +6,6 @@
 #include "encode/raymap/work_view.hpp"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace rs::encode {
@@ -40,10 +39,17 @@ struct CostVolume {
 
 inline constexpr int kMostCost = 60;
 
+// The pictures that one is compared with, at most two of a kind.
+struct Neighbours {
+    std::vector<const WorkView*> beside;  // of its ring
+    std::vector<const WorkView*> across;  // of the rings below and above
+};
+
 // Each neighbour gives a cost, the mean absolute difference of R, G and B, at most kMostCost, which is also that of a
 // point that falls on a transparent pixel; a neighbour that does not have the point in its frame gives none. Surfaces
-// are seen by the pictures to one side at least, so the better side counts for most.
-CostVolume matching_costs(const WorkView& view, std::span<const WorkView* const> neighbours, const DepthRange& range);
+// are seen by the pictures to one side at least, so the better side counts for most. Where there are neighbours of both
+// kinds the mean of the two is taken: edges that lie level tell only those across something.
+CostVolume matching_costs(const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
 
 // Points outside of the hull cost kOutsideCost.
 void forbid_outside(CostVolume& volume, const WorkView& view, const VisualHull& hull, const DepthRange& range);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kSampleViews = 4;
 constexpr double kMostContradicted = 0.01;
+constexpr double kWidestBetweenRings_deg = 20;
 
 NormalLine normal_line(const Camera& camera, const ReferencePlane& plane) {
     const auto fixed = [](double value, int bits) {
@@ -52,8 +53,9 @@ public:
             });
     }
 
-    // The hull and the depths; the first kSampleViews evenly spread ones are kept for people.
-    Status search(Progress* progress, std::vector<FoundDepth>& samples) {
+    // The hull and the depths; the first kSampleViews evenly spread ones are kept for people. `beside` are the rings
+    // next below and above, where there are such.
+    Status search(const std::vector<const RingSearch*>& beside, Progress* progress, std::vector<FoundDepth>& samples) {
         std::vector<const WorkView*> all;
         for (const DepthView& view : views_) all.push_back(&view.view);
         choose_hull(all);
@@ -63,7 +65,7 @@ public:
         samples.resize(first_sample + static_cast<std::size_t>((count + every - 1) / every));
         return for_each_in_parallel(count, "depth", progress, [&](int n) -> Status {
             DepthView& view = views_[static_cast<std::size_t>(n)];
-            const std::vector<const WorkView*> neighbours = neighbours_of(n);
+            const Neighbours neighbours{neighbours_of(n), nearest_of(beside, view.view)};
             const DepthRange range = range_of(n);
             CostVolume costs = matching_costs(view.view, neighbours, range);
             forbid_outside(costs, view.view, *hull_, range);
@@ -136,6 +138,22 @@ private:
         return found;
     }
 
+    // The picture of each ring that stands nearest to this one, unless it is too far away to compare.
+    static std::vector<const WorkView*> nearest_of(const std::vector<const RingSearch*>& rings, const WorkView& view) {
+        std::vector<const WorkView*> found;
+        const auto cosine_to = [&](const DepthView& other) {
+            return glm::dot(glm::normalize(glm::dvec3(view.centre, view.centre_y)),
+                            glm::normalize(glm::dvec3(other.view.centre, other.view.centre_y)));
+        };
+        for (const RingSearch* const ring : rings) {
+            const auto nearest = std::max_element(
+                ring->views_.begin(), ring->views_.end(),
+                [&](const DepthView& a, const DepthView& b) { return cosine_to(a) < cosine_to(b); });
+            if (cosine_to(*nearest) > std::cos(radians(kWidestBetweenRings_deg))) found.push_back(&nearest->view);
+        }
+        return found;
+    }
+
     [[nodiscard]] DepthRange range_of(int n) const {
         const int count = static_cast<int>(views_.size());
         double widest_deg = 0;
@@ -177,13 +195,20 @@ private:
 Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
                                    const ShapeOptions& options, RaySpaceObject& object, Progress* progress) {
     FoundShapes found;
+    std::vector<RingSearch> searches;
+    searches.reserve(rings.size());
+    for (const ViewRing& ring : rings) {
+        searches.emplace_back(set, rig, ring, options);
+        if (const Status status = searches.back().read(progress); !status) return status.error();
+    }
     for (std::size_t r = 0; r < rings.size(); ++r) {
-        RingSearch search(set, rig, rings[r], options);
-        if (const Status status = search.read(progress); !status) return status.error();
-        if (const Status status = search.search(progress, found.samples); !status) return status.error();
+        std::vector<const RingSearch*> beside;
+        if (r > 0) beside.push_back(&searches[r - 1]);
+        if (r + 1 < rings.size()) beside.push_back(&searches[r + 1]);
+        if (const Status status = searches[r].search(beside, progress, found.samples); !status) return status.error();
         Ring& ring = object.rings[r];
-        ring.shape = search.lines(ring.planes);
-        search.warn(ring.shape, found.warnings);
+        ring.shape = searches[r].lines(ring.planes);
+        searches[r].warn(ring.shape, found.warnings);
     }
     return found;
 }

@@ -169,7 +169,7 @@ TEST(VisualHull, AViewWithoutAnObjectSaysNothing) {
 TEST(SemiGlobal, FindsTheDepthOfTheBalls) {
     const Rig rig = ring(60);
     const std::vector<WorkView> views = drawn_views(rig);
-    const WorkView* const neighbours[] = {&views[1], &views[59]};
+    const Neighbours neighbours{{&views[1], &views[59]}, {}};
     const DepthRange range{-1.03, 2.06 / 127, 128};
     CostVolume costs = matching_costs(views[0], neighbours, range);
     forbid_outside(costs, views[0], VisualHull(pointers(views), 1), range);
