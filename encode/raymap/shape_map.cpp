@@ -56,9 +56,12 @@ public:
     // The hull and the depths; the first kSampleViews evenly spread ones are kept for people. `beside` are the rings
     // next below and above, where there are such.
     Status search(const std::vector<const RingSearch*>& beside, Progress* progress, std::vector<FoundDepth>& samples) {
-        std::vector<const WorkView*> all;
-        for (const DepthView& view : views_) all.push_back(&view.view);
-        choose_hull(all);
+        std::vector<const WorkView*> silhouettes = work_views();
+        for (const RingSearch* const ring : beside) {
+            const std::vector<const WorkView*> more = ring->work_views();
+            silhouettes.insert(silhouettes.end(), more.begin(), more.end());
+        }
+        choose_hull(silhouettes);
         const int count = static_cast<int>(views_.size());
         const int every = std::max(1, (count + kSampleViews - 1) / kSampleViews);
         const std::size_t first_sample = samples.size();
@@ -110,6 +113,12 @@ public:
     }
 
 private:
+    [[nodiscard]] std::vector<const WorkView*> work_views() const {
+        std::vector<const WorkView*> all;
+        for (const DepthView& view : views_) all.push_back(&view.view);
+        return all;
+    }
+
     // The narrowest margin at which the silhouettes agree; a rig that is only nominal needs a wide one.
     void choose_hull(const std::vector<const WorkView*>& all) {
         const DepthRange range{-kDeepest, 2 * kDeepest / (options_.depths - 1), options_.depths};
@@ -146,9 +155,9 @@ private:
                             glm::normalize(glm::dvec3(other.view.centre, other.view.centre_y)));
         };
         for (const RingSearch* const ring : rings) {
-            const auto nearest = std::max_element(
-                ring->views_.begin(), ring->views_.end(),
-                [&](const DepthView& a, const DepthView& b) { return cosine_to(a) < cosine_to(b); });
+            const auto nearest =
+                std::max_element(ring->views_.begin(), ring->views_.end(),
+                                 [&](const DepthView& a, const DepthView& b) { return cosine_to(a) < cosine_to(b); });
             if (cosine_to(*nearest) > std::cos(radians(kWidestBetweenRings_deg))) found.push_back(&nearest->view);
         }
         return found;

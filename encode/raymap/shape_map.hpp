@@ -1,8 +1,9 @@
 #pragma once
 // Finds the shape maps of an object (rayspace/shape_map.hpp) from its pictures.
 //
-// For every picture of a ring: the visual hull of all silhouettes bounds the depths; the colours of the pictures to
-// either side say which depth agrees (cost_volume.hpp); smoothness decides where colour does not (semi_global.hpp).
+// For every picture of a ring: the visual hull of all silhouettes, those of the rings next below and above among them,
+// bounds the depths; the colours of the pictures to either side and below and above say which depth agrees
+// (cost_volume.hpp); smoothness decides where colour does not (semi_global.hpp).
 // Then every line between two pictures takes over what both have found (shape_lines.hpp).
 
 #include "encode/capture_set.hpp"

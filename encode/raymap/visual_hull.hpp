@@ -1,5 +1,5 @@
 #pragma once
-// The visual hull: what all silhouettes of a ring allow. It bounds the search for depth.
+// The visual hull: what all silhouettes of a ring, and of its neighbours, allow. It bounds the search for depth.
 //
 // Cameras are upright, so all points above a place of the ground plan fall into one column of a picture, at rows linear
 // in height. A column of a silhouette is a few runs of rows; so the hull above a place is an intersection of runs,

@@ -179,6 +179,77 @@ TEST(SemiGlobal, FindsTheDepthOfTheBalls) {
     EXPECT_TRUE(std::isnan(levels(0, 0)));
 }
 
+// A ball about the origin whose colour depends on height alone.
+constexpr double kBallRadius = 0.8;
+
+Image<Rgba8> striped_ball(const Camera& camera) {
+    Image<Rgba8> picture(camera.width, camera.height);
+    const glm::dvec3 eye = camera.centre();
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            const glm::dvec3 ray = glm::normalize(camera.ray(x + 0.5, y + 0.5));
+            const double along = -glm::dot(ray, eye);
+            const double inside = kBallRadius * kBallRadius + along * along - glm::dot(eye, eye);
+            if (inside < 0) continue;
+            const double height = eye.y + (along - std::sqrt(inside)) * ray.y;
+            const auto code = [](double wave) { return static_cast<std::uint8_t>(128 + std::lround(100 * wave)); };
+            picture(x, y) = {code(std::sin(35 * height)), code(std::cos(35 * height)), 128, 255};
+        }
+    }
+    return picture;
+}
+
+// `count` cameras that look at it from above, the first at an azimuth.
+Rig ring_above(int count, double first_deg, double elevation_deg) {
+    return make_ring({.count = count,
+                      .distance = 3.5,
+                      .elevation_rad = radians(elevation_deg),
+                      .fl_px = 180,
+                      .width = 128,
+                      .height = 112,
+                      .first_rad = radians(first_deg)});
+}
+
+// One of them, level.
+WorkView striped_view(double azimuth_deg, double elevation_deg) {
+    Camera camera = ring(1, azimuth_deg, 3.5 * std::cos(radians(elevation_deg))).views[0].camera;
+    camera.world_from_camera[3].y = 3.5 * std::sin(radians(elevation_deg));
+    return make_work_view(camera, striped_ball(camera), 1);
+}
+
+TEST(CostVolume, LevelStripesHaveADepthOnlyAcrossRings) {
+    const WorkView view = striped_view(0, 10);
+    const WorkView left = striped_view(-6, 10);
+    const WorkView right = striped_view(6, 10);
+    const WorkView below = striped_view(1, 4);
+    const WorkView above = striped_view(-2, 16);
+    const DepthRange range{-1.03, 2.06 / 127, 128};
+    constexpr int kColumn = 64;
+    const HorizontalRay ray = view.ray_of(kColumn + 0.5);
+    // How far from the ball's surface the farthest depth lies whose colour agrees nearly as well as any does.
+    const auto doubt = [&](const Neighbours& neighbours, int row) {
+        const double rise = (view.height_of(row + 0.5, 1) - view.centre_y) / ray.horizontal_per_axial;
+        const double foot_y = view.centre_y + ray.to_foot * rise;
+        const double a = 1 + rise * rise;
+        const double half_b = rise * foot_y;
+        const double c = foot_y * foot_y + glm::dot(ray.foot, ray.foot) - kBallRadius * kBallRadius;
+        const double surface = (-half_b - std::sqrt(half_b * half_b - a * c)) / a;
+        const CostVolume costs = matching_costs(view, neighbours, range);
+        const std::uint8_t* const of = costs.at(kColumn, row);
+        const int least = *std::min_element(of, of + range.count);
+        double farthest = 0;
+        for (int level = 0; level < range.count; ++level) {
+            if (of[level] <= least + 2) farthest = std::max(farthest, std::abs(range.at(level) - surface));
+        }
+        return farthest;
+    };
+    for (const int row : {50, 57, 64}) {
+        EXPECT_GT(doubt({{&left, &right}, {}}, row), 0.3) << row;
+        EXPECT_LT(doubt({{&left, &right}, {&below, &above}}, row), 0.15) << row;
+        EXPECT_LT(doubt({{}, {&below}}, row), 0.15) << row;
+    }
+}
+
 TEST(ShapeMap, BeatsThePlaneHalfwayAndKeepsCapturedPictures) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", ring(24));
@@ -191,6 +262,21 @@ TEST(ShapeMap, BeatsThePlaneHalfwayAndKeepsCapturedPictures) {
     EXPECT_GT(shape_db, psnr_of(plane, folder / "halfway") + 5);
     EXPECT_GT(shape_db, 24);
     EXPECT_NEAR(psnr_of(shape, folder / "set"), psnr_of(plane, folder / "set"), 1e-9);
+}
+
+TEST(ShapeMap, RingsHelpOneAnother) {
+    const test::TemporaryFolder folder;
+    Rig rings;
+    for (const double elevation_deg : {2.0, 10.0, 18.0}) {
+        const Rig more = ring_above(16, 0, elevation_deg);
+        rings.views.insert(rings.views.end(), more.views.begin(), more.views.end());
+    }
+    rings.object_radius = 0.9;
+    test::write_drawn_set(folder / "set", rings, striped_ball);
+    Rig between = ring_above(12, 4, 6);
+    between.object_radius = 0.9;
+    test::write_drawn_set(folder / "between", between, striped_ball);
+    EXPECT_GT(psnr_of(build(folder / "set"), folder / "between"), 17);
 }
 
 TEST(ShapeMap, IsTheSameEveryTime) {

@@ -47,11 +47,12 @@ inline Image<Rgba8> drawn_picture(const Camera& camera) {
 }
 
 // Draws every view of `rig` into `folder`.
-inline void write_drawn_set(const std::filesystem::path& folder, Rig rig) {
+inline void write_drawn_set(const std::filesystem::path& folder, Rig rig,
+                            Image<Rgba8> (*draw)(const Camera&) = drawn_picture) {
     std::filesystem::create_directories(folder);
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         rig.views[i].file_path = std::to_string(i) + ".png";
-        const Status status = write_png(folder / rig.views[i].file_path, drawn_picture(rig.views[i].camera));
+        const Status status = write_png(folder / rig.views[i].file_path, draw(rig.views[i].camera));
         ASSERT_TRUE(status.ok()) << status.error().message;
     }
     const Status status = write_rig(folder / kRigFileName, rig);
