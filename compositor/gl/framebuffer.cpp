@@ -63,8 +63,10 @@ void Framebuffer::resolve_to(const Framebuffer& target) const {
 
 float Framebuffer::depth_at(int column, int row, const Framebuffer& scratch) const {
     RS_CHECK(scratch.width_ == width_ && scratch.height_ == height_ && scratch.samples_ == 1);
-    glBlitNamedFramebuffer(handle_.name(), scratch.handle_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
-                           GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    if (&scratch != this) {
+        glBlitNamedFramebuffer(handle_.name(), scratch.handle_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
+                               GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    }
     glBindFramebuffer(GL_READ_FRAMEBUFFER, scratch.handle_.name());
     float depth = 0;
     glReadPixels(column, row, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);

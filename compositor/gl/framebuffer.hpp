@@ -16,13 +16,14 @@ public:
     static Result<Framebuffer> create(int width, int height, int samples);
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
+    [[nodiscard]] int samples() const { return samples_; }
 
     // Draws go here from now on. Clears colour (linear light) and depth (to infinity).
     void begin(const glm::vec3& background) const;
     // Averages the samples into `target`, which has the same size and one sample.
     void resolve_to(const Framebuffer& target) const;
     // The depth at a pixel (column, row): near plane over distance, 0 where nothing was drawn. `scratch` has the same
-    // size and one sample; its depths are lost. Waits for all drawing.
+    // size and one sample; its depths are lost, unless it is this framebuffer. Waits for all drawing.
     [[nodiscard]] float depth_at(int column, int row, const Framebuffer& scratch) const;
     // Puts the picture into the current window, stretched to width x height pixels, which then is what is drawn into
     // (for an overlay). One sample only.

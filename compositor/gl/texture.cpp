@@ -1,18 +1,54 @@
 #include "compositor/gl/texture.hpp"
 
+#include "rayspace/linear_light.hpp"
+
 #include <epoxy/gl.h>
+#include <glm/gtc/type_precision.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 
 namespace rs::gl {
+namespace {
+
+GLenum format_of(TexelKind kind) {
+    switch (kind) {
+        case TexelKind::kFloat:
+            return GL_R32F;
+        case TexelKind::kLinear:
+            return GL_RGBA16;
+        case TexelKind::kColour:
+            break;
+    }
+    return GL_SRGB8_ALPHA8;
+}
+
+Image<glm::u16vec4> linear_texels(ConstImageView<Rgba8> picture) {
+    std::array<std::uint16_t, 256> codes{};
+    for (int c = 0; c < 256; ++c) {
+        codes[static_cast<std::size_t>(c)] =
+            static_cast<std::uint16_t>(std::lround(65535 * linear_from_srgb8(static_cast<std::uint8_t>(c))));
+    }
+    Image<glm::u16vec4> texels(picture.width(), picture.height());
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            const Rgba8 p = picture(x, y);
+            texels(x, y) = {codes[p.r], codes[p.g], codes[p.b], p.a * 257};
+        }
+    }
+    return texels;
+}
+
+}  // namespace
 
 Texture::Texture(int width, int height, TexelKind kind, int levels) : width_(width), height_(height) {
     RS_CHECK(width >= 1 && height >= 1);
     unsigned name = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &name);
     handle_ = Handle<Kind::kTexture>(name);
-    glTextureStorage2D(name, levels, kind == TexelKind::kFloat ? GL_R32F : GL_SRGB8_ALPHA8, width, height);
+    glTextureStorage2D(name, levels, format_of(kind), width, height);
 }
 
 Texture::Texture(int width, int height, TexelKind kind) : Texture(width, height, kind, 1) {
@@ -21,9 +57,10 @@ Texture::Texture(int width, int height, TexelKind kind) : Texture(width, height,
 }
 
 Texture::Texture(ConstImageView<Rgba8> picture, const TextureWrap& wrap)
-    : Texture(picture.width(), picture.height(), TexelKind::kColour,
+    : Texture(picture.width(), picture.height(), TexelKind::kLinear,
               std::bit_width(static_cast<unsigned>(std::max(picture.width(), picture.height())))) {
-    upload(picture);
+    const Image<glm::u16vec4> linear = linear_texels(picture);
+    upload(linear.data(), linear.width(), linear.height(), linear.width(), GL_RGBA, GL_UNSIGNED_SHORT);
     const unsigned name = handle_.name();
     glGenerateTextureMipmap(name);
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);

@@ -1,5 +1,5 @@
 #pragma once
-// A picture on the GPU: 8-bit sRGB with straight alpha, read by shaders as linear light, or one float per pixel.
+// A picture on the GPU, with straight alpha: read by shaders as linear light, or as one float per pixel.
 
 #include "compositor/gl/handle.hpp"
 #include "rayspace/image.hpp"
@@ -12,13 +12,18 @@ struct TextureWrap {
     bool repeat_t = true;
 };
 
-enum class TexelKind { kColour, kFloat };
+enum class TexelKind {
+    kColour,  // 8-bit sRGB
+    kLinear,  // 16-bit linear light: twice the memory, but drawn on a CPU it need not be decoded at every pixel
+    kFloat
+};
 
 class Texture {
 public:
     // Content undefined; read without interpolation. Sides 1..kMaxPictureSide_px.
     Texture(int width, int height, TexelKind kind = TexelKind::kColour);
-    // A picture that does not change, for surfaces: read with linear interpolation from levels of half the size each.
+    // A picture that does not change, for surfaces: kLinear, read with linear interpolation from levels of half the
+    // size each.
     Texture(ConstImageView<Rgba8> picture, const TextureWrap& wrap);
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }

@@ -38,6 +38,15 @@ private:
 
 }  // namespace
 
+Result<FrameCompositor::Frame> FrameCompositor::Frame::create(int width, int height, int samples) {
+    auto drawn = gl::Framebuffer::create(width, height, samples);
+    if (!drawn) return drawn.error();
+    if (drawn->samples() == 1) return Frame{std::move(*drawn), std::nullopt};
+    auto resolved = gl::Framebuffer::create(width, height, 1);
+    if (!resolved) return resolved.error();
+    return Frame{std::move(*drawn), std::move(*resolved)};
+}
+
 Result<FrameCompositor> FrameCompositor::create(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
                                                 std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options) {
     auto background = BackgroundRenderer::create(scene.background);
@@ -50,13 +59,11 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& scene, std::shared_
     if (!objects) return objects.error();
     auto placeholders = PlaceholderRenderer::create();
     if (!placeholders) return placeholders.error();
-    auto frame = gl::Framebuffer::create(options.width, options.height, options.samples);
+    auto frame = Frame::create(options.width, options.height, options.samples);
     if (!frame) return frame.error();
-    auto resolved = gl::Framebuffer::create(options.width, options.height, 1);
-    if (!resolved) return resolved.error();
     return FrameCompositor(scene, std::move(engine), std::move(nodes),
                            {std::move(*floor), std::move(*objects), std::move(*placeholders), std::move(*background),
-                            std::move(*surfaces), std::move(*frame), std::move(*resolved)},
+                            std::move(*surfaces), std::move(*frame)},
                            options);
 }
 
@@ -132,7 +139,7 @@ Status FrameCompositor::draw(const Camera& camera) {
     EngineViews views(*engine_);
     if (const Status status = views.submit(std::move(requests)); !status) return status.error();
 
-    renderers_.frame.begin(renderers_.background.zenith());
+    renderers_.frame.drawn.begin(renderers_.background.zenith());
     if (!renderers_.background.plain()) renderers_.background.draw(camera);
     const auto transparent = renderers_.surfaces.draw_opaque(view, wire_frame_);
     statistics_.geometry_in_view = renderers_.surfaces.nodes_in_view();
@@ -149,7 +156,7 @@ Status FrameCompositor::draw(const Camera& camera) {
     }
     statistics_.upload_s = clock.lap();
     draw_blended(transparent, seen, view);
-    renderers_.frame.resolve_to(renderers_.resolved);
+    if (const auto& resolved = renderers_.frame.resolved) renderers_.frame.drawn.resolve_to(*resolved);
     statistics_.composite_s = clock.lap();
     return {};
 }
@@ -184,12 +191,9 @@ void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparen
 }
 
 Status FrameCompositor::resize(int width, int height) {
-    auto frame = gl::Framebuffer::create(width, height, samples_);
+    auto frame = Frame::create(width, height, samples_);
     if (!frame) return frame.error();
-    auto resolved = gl::Framebuffer::create(width, height, 1);
-    if (!resolved) return resolved.error();
     renderers_.frame = std::move(*frame);
-    renderers_.resolved = std::move(*resolved);
     camera_.reset();
     return {};
 }
@@ -199,16 +203,14 @@ void FrameCompositor::turn_object(std::size_t index, double angle_rad) {
 }
 
 std::optional<double> FrameCompositor::distance_ahead() const {
-    const float depth =
-        renderers_.frame.depth_at(renderers_.frame.width() / 2, renderers_.frame.height() / 2, renderers_.resolved);
+    const float depth = renderers_.frame.depth_at(width() / 2, height() / 2);
     if (!(depth > 0)) return std::nullopt;
     return kNear / depth;
 }
 
 std::optional<std::size_t> FrameCompositor::object_at(int x, int y) const {
     if (!camera_ || x < 0 || y < 0 || x >= width() || y >= height()) return std::nullopt;
-    const double geometry =
-        renderers_.frame.depth_at(x, y, renderers_.resolved);  // kNear / distance, 0 where there is none
+    const double geometry = renderers_.frame.depth_at(x, y);  // kNear / distance, 0 where there is none
     const glm::dvec3 position(x + 0.5, y + 0.5, 1);
     std::optional<std::size_t> nearest;
     double nearest_distance = 0;

@@ -90,8 +90,8 @@ public:
 
     // The same in two steps: draw() leaves the frame with the context's device, for show_in_window() or picture().
     Status draw(const Camera& camera);
-    [[nodiscard]] Image<Rgba8> picture() const { return renderers_.resolved.read_picture(); }
-    void show_in_window(int width, int height) const { renderers_.resolved.show_in_window(width, height); }
+    [[nodiscard]] Image<Rgba8> picture() const { return renderers_.frame.shown().read_picture(); }
+    void show_in_window(int width, int height) const { renderers_.frame.shown().show_in_window(width, height); }
 
     // Of the last draw() or compose().
     [[nodiscard]] const FrameStatistics& statistics() const { return statistics_; }
@@ -100,8 +100,8 @@ public:
     // How far geometry is along the middle pixel's ray in the last frame, scene units; nothing where there is none.
     [[nodiscard]] std::optional<double> distance_ahead() const;
 
-    [[nodiscard]] int width() const { return renderers_.frame.width(); }
-    [[nodiscard]] int height() const { return renderers_.frame.height(); }
+    [[nodiscard]] int width() const { return renderers_.frame.drawn.width(); }
+    [[nodiscard]] int height() const { return renderers_.frame.drawn.height(); }
     // Frames of another size from now on. Fails, with nothing changed, where the driver cannot.
     Status resize(int width, int height);
     void set_wire_frame(bool wire_frame) { wire_frame_ = wire_frame; }
@@ -109,14 +109,21 @@ public:
     void turn_object(std::size_t index, double angle_rad);
 
 private:
+    struct Frame {
+        gl::Framebuffer drawn;
+        std::optional<gl::Framebuffer> resolved;  // to one sample; only where there are several
+
+        static Result<Frame> create(int width, int height, int samples);
+        [[nodiscard]] const gl::Framebuffer& shown() const { return resolved ? *resolved : drawn; }
+        [[nodiscard]] float depth_at(int x, int y) const { return drawn.depth_at(x, y, shown()); }
+    };
     struct Renderers {
         gl::Program floor;
         ObjectRenderer objects;
         PlaceholderRenderer placeholders;
         BackgroundRenderer background;
         SurfaceRenderer surfaces;
-        gl::Framebuffer frame;
-        gl::Framebuffer resolved;
+        Frame frame;
     };
     FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
                     std::shared_ptr<const ShownNodes> nodes, Renderers renderers, const FrameOptions& options);

@@ -50,19 +50,20 @@ in vec2 place_on_texture;
 in vec4 vertex_colour;
 out vec4 result;
 
-vec3 reflected(vec3 diffuse, vec3 n, vec3 to_eye, vec3 to_light, vec3 colour) {
-    float facing = max(dot(n, to_light), 0.0);
-    vec3 sum = diffuse * facing;
-    if (kShiny && facing > 0.0) {
-        vec3 between = to_light + to_eye;
-        float along = max(dot(n, between) * inversesqrt(max(dot(between, between), 1e-12)), 0.0);
-        float exponent = material[1].w;
-        sum += material[1].rgb * (along > 0.0 ? pow(along, exponent) : exponent == 0.0 ? 1.0 : 0.0);
+// Directions towards the eye and the light have unit length: of the one halfway, (to_light + to_eye) / |to_light + to_eye|,
+// only what it has in common with the normal is needed.
+vec3 reflected(vec3 diffuse, vec3 n, vec3 to_eye, float eye_facing, vec3 to_light, vec3 colour) {
+    float facing = dot(n, to_light);
+    vec3 sum = diffuse * max(facing, 0.0);
+    if (kShiny) {
+        float along = (facing + eye_facing) * inversesqrt(max(2.0 + 2.0 * dot(to_light, to_eye), 1e-12));
+        float gloss = pow(max(along, 1e-20), material[1].w);
+        sum += material[1].rgb * (facing > 0.0 ? gloss : 0.0);
     }
     return sum * colour;
 }
 
-vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, vec3 to_eye) {
+vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, vec3 to_eye, float eye_facing) {
     vec3 to_light = -lights[first + 3].xyz;
     float strength = 1.0;
     if (has_place) {
@@ -70,7 +71,8 @@ vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, v
         float d = length(way);
         to_light = d > 0.0 ? way / d : n;
         // Selected, not returned from: branches cost more than what they save.
-        strength = d > lights[first + 1].w ? 0.0 : 1.0 / max(dot(lights[first + 4].xyz, vec3(1.0, d, d * d)), 1.0);
+        strength = d > lights[first + 1].w ? 0.0 : 1.0;
+        if (kFading) strength /= max(dot(lights[first + 4].xyz, vec3(1.0, d, d * d)), 1.0);
         if (is_spot) {
             float cut_off = lights[first + 2].w;
             float beam = lights[first + 3].w;
@@ -80,17 +82,20 @@ vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, v
         }
     }
     vec3 ambient = has_place ? lights[first + 1].rgb * diffuse * material[2].w : vec3(0.0);
-    return strength * (ambient + reflected(diffuse, n, to_eye, to_light, lights[first].rgb));
+    return strength * (ambient + reflected(diffuse, n, to_eye, eye_facing, to_light, lights[first].rgb));
 }
 
 vec3 lit(vec3 diffuse, vec3 n, vec3 to_eye) {
     vec3 sum = material[2].rgb + material[3].rgb * diffuse * material[2].w;
-    if (kHeadlight) sum += reflected(diffuse, n, to_eye, -headlight, vec3(1.0));
-    for (int i = 0; i < kDirectional; ++i) sum += from_light(5 * i, false, false, diffuse, n, to_eye);
+    float eye_facing = dot(n, to_eye);
+    if (kHeadlight) sum += reflected(diffuse, n, to_eye, eye_facing, -headlight, vec3(1.0));
+    for (int i = 0; i < kDirectional; ++i) sum += from_light(5 * i, false, false, diffuse, n, to_eye, eye_facing);
     for (int i = kDirectional; i < kDirectional + kPoints; ++i) {
-        sum += from_light(5 * i, true, false, diffuse, n, to_eye);
+        sum += from_light(5 * i, true, false, diffuse, n, to_eye, eye_facing);
     }
-    for (int i = kDirectional + kPoints; i < kLights; ++i) sum += from_light(5 * i, true, true, diffuse, n, to_eye);
+    for (int i = kDirectional + kPoints; i < kLights; ++i) {
+        sum += from_light(5 * i, true, true, diffuse, n, to_eye, eye_facing);
+    }
     return sum;
 }
 

@@ -57,19 +57,22 @@ std::optional<gl::VertexArray> triangles(const std::vector<glm::vec3>& corners,
 }  // namespace
 
 Result<ObjectRenderer> ObjectRenderer::create(std::size_t nodes, ObjectDepth depth) {
-    std::vector<gl::Program> programs;
-    for (int samples = 0; samples <= kMostSamplesAcross; ++samples) {
-        const std::string constants =
-            "#version 450 core\n" + shader_constant("kPixelDepth", depth == ObjectDepth::kPixel) +
-            shader_constant("kSamplesAcross", std::max(samples, 1)) + shader_constant("kSmooth", samples == 0);
-        auto program = gl::Program::create("object", shaders::kObjectVertex, constants + shaders::kObjectFragment);
-        if (!program) return program.error();
-        programs.push_back(std::move(*program));
+    Programs programs;
+    for (const bool opaque : {false, true}) {
+        for (int samples = 0; samples <= kMostSamplesAcross; ++samples) {
+            const std::string constants =
+                "#version 450 core\n" + shader_constant("kPixelDepth", depth == ObjectDepth::kPixel) +
+                shader_constant("kOpaque", opaque) + shader_constant("kSamplesAcross", std::max(samples, 1)) +
+                shader_constant("kSmooth", samples == 0);
+            auto program = gl::Program::create("object", shaders::kObjectVertex, constants + shaders::kObjectFragment);
+            if (!program) return program.error();
+            (opaque ? programs.opaque : programs.blended).push_back(std::move(*program));
+        }
     }
     return ObjectRenderer(std::move(programs), nodes, depth);
 }
 
-ObjectRenderer::ObjectRenderer(std::vector<gl::Program> programs, std::size_t nodes, ObjectDepth depth)
+ObjectRenderer::ObjectRenderer(Programs programs, std::size_t nodes, ObjectDepth depth)
     : depth_(depth), programs_(std::move(programs)), textures_(nodes) {}
 
 void ObjectRenderer::upload(std::size_t node, const ObjectView& view, ConstImageView<Rgba8> picture,
@@ -87,34 +90,48 @@ void ObjectRenderer::upload(std::size_t node, const ObjectView& view, ConstImage
     large_enough(textures.depths[textures.filled_last], width, height, gl::TexelKind::kFloat).upload(depths);
 }
 
-void ObjectRenderer::draw(std::size_t node, const ObjectView& view, const Appearance& appearance) const {
-    const Textures& textures = textures_[node];
-    textures.in_turns[textures.filled_last]->bind(0);
-    const gl::Program& program = programs_[view.smooth ? 0 : static_cast<std::size_t>(view.samples_across)];
+const gl::Program& ObjectRenderer::set_up(const std::vector<gl::Program>& programs, const ObjectView& view,
+                                          const Appearance& appearance) const {
+    const gl::Program& program = programs[view.smooth ? 0 : static_cast<std::size_t>(view.samples_across)];
     program.set("screen", glm::vec2(appearance.screen_px));
-    program.set("picture_size", glm::ivec2(view.camera.width, view.camera.height));
     program.set("picture_from_screen", glm::mat3(view.picture_from_screen));
     program.set("facing_depth", glm::vec3(view.inverse_depth_facing * kNear));
     program.set("foot_depth", glm::vec3(view.inverse_depth_foot * kNear));
     program.set("from_above", view.from_above ? 1 : 0);
     program.set("fog", glm::vec4(appearance.fog, appearance.own_light));
     program.set("opacity", appearance.opacity);
-    const bool there = appearance.opacity >= 1;
-    if (depth_ == ObjectDepth::kPlane) return draw_pixels(program, textures, {.there = there});
-    textures.depths[textures.filled_last]->bind(1);
-    program.set("near_of_depths", static_cast<float>(kNear / view.units_per_rig_unit));
-    // What is still fading in hides nothing.
-    draw_pixels(program, textures, {.least_alpha = kHidingAlpha, .depth_write = there, .there = there});
-    draw_pixels(program, textures, {.alphas_end = kHidingAlpha, .there = there});
+    if (depth_ == ObjectDepth::kPixel) {
+        program.set("near_of_depths", static_cast<float>(kNear / view.units_per_rig_unit));
+    }
+    return program;
 }
 
-void ObjectRenderer::draw_pixels(const gl::Program& program, const Textures& textures, const Pass& pass) {
-    program.set("alphas", glm::vec2(pass.least_alpha, pass.alphas_end));
-    const auto draw_part = [&](const std::optional<gl::VertexArray>& part, gl::Blending blending) {
-        if (part) gl::draw(program, *part, {.depth_write = pass.depth_write, .blending = blending});
+void ObjectRenderer::draw(std::size_t node, const ObjectView& view, const Appearance& appearance) const {
+    const Textures& textures = textures_[node];
+    textures.in_turns[textures.filled_last]->bind(0);
+    if (depth_ == ObjectDepth::kPixel) textures.depths[textures.filled_last]->bind(1);
+    const bool there = appearance.opacity >= 1;  // what is still fading in hides nothing
+    if (textures.opaque) {
+        gl::draw(set_up(programs_.opaque, view, appearance), *textures.opaque,
+                 {.depth_write = there && depth_ == ObjectDepth::kPixel,
+                  .blending = there ? gl::Blending::kReplace : gl::Blending::kOverPremultiplied});
+    }
+    if (textures.blended) {
+        const gl::Program& program = set_up(programs_.blended, view, appearance);
+        program.set("picture_size", glm::ivec2(view.camera.width, view.camera.height));
+        draw_blended_parts(*textures.blended, program, there);
+    }
+}
+
+void ObjectRenderer::draw_blended_parts(const gl::VertexArray& parts, const gl::Program& program, bool there) const {
+    const auto draw_alphas = [&](float least, float end, bool hides) {
+        program.set("alphas", glm::vec2(least, end));
+        gl::draw(program, parts, {.depth_write = hides, .blending = gl::Blending::kOverPremultiplied});
     };
-    draw_part(textures.opaque, pass.there ? gl::Blending::kReplace : gl::Blending::kOverPremultiplied);
-    draw_part(textures.blended, gl::Blending::kOverPremultiplied);
+    constexpr float kMoreThanAll = 2;
+    if (depth_ == ObjectDepth::kPlane) return draw_alphas(0, kMoreThanAll, false);
+    draw_alphas(kHidingAlpha, kMoreThanAll, there);
+    draw_alphas(0, kHidingAlpha, false);
 }
 
 void ObjectRenderer::release(std::size_t node) {

@@ -52,13 +52,12 @@ public:
     void release(std::size_t node);
 
 private:
-    ObjectRenderer(std::vector<gl::Program> programs, std::size_t nodes, ObjectDepth depth);
-    struct Pass {
-        float least_alpha = 0;  // pixels of at least so much and less than the next are drawn
-        float alphas_end = 2;
-        bool depth_write = false;
-        bool there = true;  // not fading in
+    // Smooth, then [samples across - 1].
+    struct Programs {
+        std::vector<gl::Program> opaque;
+        std::vector<gl::Program> blended;
     };
+    ObjectRenderer(Programs programs, std::size_t nodes, ObjectDepth depth);
 
     struct Textures {
         std::array<std::optional<gl::Texture>, 2> in_turns;
@@ -67,10 +66,13 @@ private:
         std::optional<gl::VertexArray> opaque;  // parts of the picture
         std::optional<gl::VertexArray> blended;
     };
-    static void draw_pixels(const gl::Program& program, const Textures& textures, const Pass& pass);
+    const gl::Program& set_up(const std::vector<gl::Program>& programs, const ObjectView& view,
+                              const Appearance& appearance) const;
+    void draw_blended_parts(const gl::VertexArray& parts, const gl::Program& program, bool there) const;
+
     ObjectDepth depth_;
-    std::vector<gl::Program> programs_;  // smooth, then [samples across - 1]
-    std::vector<Textures> textures_;     // [node]
+    Programs programs_;
+    std::vector<Textures> textures_;  // [node]
 };
 
 }  // namespace rs::compositor

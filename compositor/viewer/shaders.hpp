@@ -42,8 +42,8 @@ uniform vec2 screen;                  // width, height in pixels
 void main() {
     gl_Position = vec4(corner.x / screen.x * 2.0 - corner.z, corner.z - corner.y / screen.y * 2.0, 0.0, corner.z);
 })";
-// Behind "#version" and the constants kPixelDepth, kSamplesAcross and kSmooth (a sample lies between the nearest four
-// texels): drawn on a CPU, loops that are unrolled cost half.
+// Behind "#version" and the constants kPixelDepth, kOpaque (all texels that are read are), kSamplesAcross and kSmooth
+// (a sample lies between the nearest four texels): drawn on a CPU, loops that are unrolled cost half.
 inline constexpr const char* kObjectFragment = R"(
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D depths;  // where kPixelDepth: axial, 0 where there is nothing
@@ -60,9 +60,9 @@ out vec4 result;
 vec4 sum = vec4(0.0);      // premultiplied
 float nearness = 0.0;      // 1 / depth, weighed as sum.a
 void add(ivec2 at, float weight, float depth_of_picture) {
-    ivec2 inside = clamp(at, ivec2(0), picture_size - 1);
+    ivec2 inside = kOpaque ? at : clamp(at, ivec2(0), picture_size - 1);
     vec4 straight = texelFetch(picture, inside, 0);
-    float a = inside == at ? straight.a * weight : 0.0;
+    float a = kOpaque ? weight : inside == at ? straight.a * weight : 0.0;
     sum += vec4(straight.rgb * a, a);
     if (kPixelDepth) {
         float depth = texelFetch(depths, inside, 0).r;
@@ -88,15 +88,17 @@ void main() {
             }
         }
     }
-    float alpha = sum.a / float(kSamplesAcross * kSamplesAcross);
-    if (alpha == 0.0 || alpha < alphas.x || alpha >= alphas.y) discard;
+    const float samples = float(kSamplesAcross * kSamplesAcross);
+    float covered = kOpaque ? samples : sum.a;
+    float alpha = covered / samples;
+    if (!kOpaque && (alpha == 0.0 || alpha < alphas.x || alpha >= alphas.y)) discard;
     vec3 place = vec3(gl_FragCoord.xy, 1.0);
     float depth = dot(facing_depth, place);
-    if (kPixelDepth && nearness > 0.0) depth = near_of_depths * nearness / sum.a;
+    if (kPixelDepth && nearness > 0.0) depth = near_of_depths * nearness / covered;
     float foot = dot(foot_depth, place);
     gl_FragDepth = clamp(from_above != 0 ? max(depth, foot) : min(depth, foot), 0.0, 1.0);
     alpha *= opacity;
-    result = vec4(mix(fog.rgb, sum.rgb / sum.a, fog.w) * alpha, alpha);
+    result = vec4(mix(fog.rgb, sum.rgb / covered, fog.w) * alpha, alpha);
 })";
 
 }  // namespace rs::compositor::shaders

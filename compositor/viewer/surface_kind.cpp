@@ -14,6 +14,7 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
             ++(light == LightKind::kDirectional ? kind.directional
                : light == LightKind::kPoint     ? kind.points
                                                 : kind.spots);
+            kind.fading |= light != LightKind::kDirectional && scene.lights[i].attenuation != glm::vec3(1, 0, 0);
         }
         kind.headlight = scene.navigation.headlight;
         kind.shiny = node.material.specular != glm::vec3(0);
@@ -28,8 +29,9 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
 std::string constants_of(const SurfaceKind& kind) {
     return "#version 450 core\n" + shader_constant("kDirectional", kind.directional) +
            shader_constant("kPoints", kind.points) + shader_constant("kSpots", kind.spots) +
-           shader_constant("kHeadlight", kind.headlight) + shader_constant("kLit", kind.lit) +
-           shader_constant("kShiny", kind.shiny) + shader_constant("kPicture", kind.picture) +
+           shader_constant("kFading", kind.fading) + shader_constant("kHeadlight", kind.headlight) +
+           shader_constant("kLit", kind.lit) + shader_constant("kShiny", kind.shiny) +
+           shader_constant("kPicture", kind.picture) +
            shader_constant("kPictureAlpha", static_cast<int>(kind.picture_alpha)) +
            shader_constant("kColours", kind.colours) + shader_constant("kFog", kind.fog);
 }

@@ -13,6 +13,7 @@ struct SurfaceKind {
     int directional = 0;  // lights that reach it
     int points = 0;
     int spots = 0;
+    bool fading = false;  // some of these lights are weaker farther away
     bool headlight = false;
     bool lit = false;
     bool shiny = false;
