@@ -214,7 +214,7 @@ void PartSearch::find_intra(const Part& part, PartChoice& trial, PartChoice& cho
         ranked[static_cast<std::size_t>(mode)] = {sum, mode};
     }
     std::sort(ranked.begin(), ranked.end());
-    constexpr std::size_t kTried = 2;
+    constexpr std::size_t kTried = 4;
     for (std::size_t i = 0; i < kTried; ++i) {
         if (i > 0 && ranked[i].first == ranked[0].first) continue;
         trial.intra_mode = ranked[i].second;

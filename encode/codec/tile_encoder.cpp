@@ -2,6 +2,7 @@
 
 #include "encode/codec/part_search.hpp"
 #include "rayspace/codec/alpha_mask.hpp"
+#include "rayspace/codec/edge_filter.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 #include "rayspace/codec/reconstruct_part.hpp"
 
@@ -37,6 +38,7 @@ public:
         codec::AlphaFinish(recorder_, *task_.code, state_.grid, state_.alpha, state_.depths, task_.references, place_,
                            task_.out[3])
             .finish();
+        codec::filter_edges(state_.grid, *task_.code, task_.head.step, place_, task_.out);
     }
 
 private:

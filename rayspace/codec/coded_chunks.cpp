@@ -119,7 +119,7 @@ std::vector<std::byte> code_payload(const CodedPictures& coded) {
     out.put(static_cast<std::uint8_t>(board ? 0 : coded.dense.alpha_bits));
     for (const int offset : coded.dense.chroma_step_offset) out.put(static_cast<std::int8_t>(board ? 0 : offset));
     out.put(static_cast<std::uint8_t>(board ? 0 : static_cast<int>(coded.dense.alpha_coding)));
-    out.put_zeros(1);
+    out.put(static_cast<std::uint8_t>(!board && coded.dense.edge_filter ? 1 : 0));
     out.put(std::span<const std::uint8_t>(coded.levels));
     if (board) {
         put_board_code(coded.board, out);
@@ -143,7 +143,7 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     const auto alpha_bits = in.get<std::uint8_t>();
     for (int& offset : coded.dense.chroma_step_offset) offset = in.get<std::int8_t>();
     const auto alpha_coding = in.get<std::uint8_t>();
-    const bool reserved_is_zero = in.take_zeros(1);
+    const auto edge_filter = in.get<std::uint8_t>();
     const auto levels = in.take(views);
     if (!in.ok()) return Error{"is too short"};
     if (profile != static_cast<std::uint8_t>(Profile::kDense) &&
@@ -171,7 +171,8 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     }
     const int most_codings = board ? 0 : static_cast<int>(AlphaCoding::kMask);
     if (alpha_coding > most_codings) return out_of_range("the coding of alpha", alpha_coding, 0, most_codings);
-    if (!reserved_is_zero) return Error{"has reserved bytes that are not zero"};
+    const int most_filters = board ? 0 : 1;
+    if (edge_filter > most_filters) return out_of_range("the filter of edges", edge_filter, 0, most_filters);
     coded.profile = static_cast<Profile>(profile);
     coded.width = width;
     coded.height = height;
@@ -179,6 +180,7 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     coded.tile_height_log2 = tile_height_log2;
     coded.dense.alpha_coding = static_cast<AlphaCoding>(alpha_coding);
     coded.dense.alpha_bits = alpha_bits;
+    coded.dense.edge_filter = edge_filter != 0;
     coded.levels.resize(views);
     for (std::size_t v = 0; v < views; ++v) {
         coded.levels[v] = static_cast<std::uint8_t>(levels[v]);

@@ -4,6 +4,7 @@
 
 #include "rayspace/codec/alpha_mask.hpp"
 #include "rayspace/codec/dense_tile.hpp"
+#include "rayspace/codec/edge_filter.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 #include "rayspace/codec/reconstruct_part.hpp"
 
@@ -37,6 +38,7 @@ public:
         if (code_.alpha_coding == AlphaCoding::kMask) {
             AlphaFinish(reader_, code_, grid_, alpha_, depths_, references_, place_, out_[3]).finish();
         }
+        filter_edges(grid_, code_, head_.step, place_, out_);
     }
 
 private:
@@ -73,8 +75,8 @@ private:
         code_coefficients(reader_, grid_, part, choice);
         const PartPlace place = place_of_part(grid_, part, left_, top_);
         reconstruct_part(choice, place, head_.step, code_, references_, out_);
-        if (choice.coded) forget_levels(part, choice);
         enter_part(grid_, part, choice);
+        if (choice.coded) forget_levels(part, choice);
     }
 
     void announce(const Part& part, const PartChoice& choice) {

@@ -30,6 +30,7 @@ inline void enter_part(TileGrid& grid, const Part& part, const PartChoice& choic
         BlockInfo& info = grid.at(part.bx + (i & (part.blocks() - 1)), part.by + i / part.blocks());
         info.source = choice.source;
         info.coded = choice.coded;
+        info.small_transforms = choice.coded && choice.transforms(part.size) > 1;
         info.motion = choice.motion;
     }
 }

@@ -27,8 +27,9 @@ constexpr bool uses(Source source, int reference) {
 struct BlockInfo {
     AlphaClass alpha = AlphaClass::kOutside;
     Source source = Source::kNone;
-    bool split = false;  // belongs to a macroblock in four parts
-    bool coded = false;  // its part has coefficients
+    bool split = false;             // belongs to a macroblock in four parts
+    bool coded = false;             // its part has coefficients
+    bool small_transforms = false;  // its part is a macroblock with those of 8x8
     std::array<MotionVector, 2> motion;
 };
 

@@ -55,7 +55,8 @@ std::string read_fields(Bytes payload, Code& code) {
     if (std::abs(code.v_offset) > largest_offset) return "v_offset is out of range";
     if (payload[6] > (is_board ? 0 : 1)) return "CODE has another alpha_coding";
     code.alpha_coding = payload[6];
-    if (payload[7] != 0) return "reserved bytes of CODE are not 0";
+    if (payload[7] > (is_board ? 0 : 1)) return "CODE has another edge_filter";
+    code.edge_filter = payload[7];
     return "";
 }
 

@@ -30,6 +30,7 @@ struct Code {
     int tile_height = 0;
     int alpha_bits = 0;
     int alpha_coding = 0;
+    int edge_filter = 0;
     std::array<int, 24> edge_alpha{};
     int u_offset = 0;
     int v_offset = 0;

@@ -130,10 +130,14 @@ Square predict_from_neighbours(const Picture& picture, int plane, int x, int y, 
     return part;
 }
 
-Square residual(const Square& levels, int step_index) {
+int quantiser_step(int step_index) {
     static constexpr int kSteps[8] = {16, 17, 19, 21, 23, 25, 27, 29};  // M
+    return kSteps[step_index % 8] * (1 << (step_index / 8));
+}
+
+Square residual(const Square& levels, int step_index) {
     const int n = levels.n;
-    const std::int64_t q = kSteps[step_index % 8] * (1 << (step_index / 8));
+    const std::int64_t q = quantiser_step(step_index);
 
     Square coefficients(n);
     for (int v = 0; v < n; ++v) {

@@ -32,6 +32,9 @@ Square predict_from_reference(const Picture& reference, int plane, int x, int y,
 Square predict_from_neighbours(const Picture& picture, int plane, int x, int y, int n, int mode, bool has_left,
                                bool has_upper);
 
+// "Step index i stands for q".
+int quantiser_step(int step_index);
+
 // "Reconstruction": R of a transform's levels; the step index is that of the plane.
 Square residual(const Square& levels, int step_index);
 

@@ -1,6 +1,7 @@
 #include "tests/reference/reference_tile.hpp"
 
 #include "tests/reference/reference_contexts.hpp"
+#include "tests/reference/reference_edges.hpp"
 
 #include <algorithm>
 
@@ -33,6 +34,11 @@ void TileDecoder::decode() {
         for (int x = 0; x < width_; x += 16) decode_macroblock(x, y);
     }
     if (code_.alpha_coding == 1) make_alpha();
+    if (code_.edge_filter == 0) return;
+    for (int plane = 0; plane < 3; ++plane) {
+        smooth_edges(plane, true);
+        smooth_edges(plane, false);
+    }
 }
 
 TileDecoder::Block& TileDecoder::block_at(int x, int y) {
@@ -88,7 +94,7 @@ int TileDecoder::count_neighbours(const Part& part, Predicate predicate) {
 }
 
 void TileDecoder::decode_part(int x, int y, int n) {
-    Part part = {x, y, n, block_in_tile(x - 8, y), block_in_tile(x, y - 8), Source::kNeighbours, 0, {}, false};
+    Part part = {x, y, n, block_in_tile(x - 8, y), block_in_tile(x, y - 8), Source::kNeighbours, 0, {}, false, false};
     const int size = n == 16 ? 1 : 0;
     read_source(part);
     if (part.source == Source::kNeighbours) part.mode = bits_.tree(kIntraMode + 7 * size, 3);
@@ -116,6 +122,7 @@ void TileDecoder::decode_part(int x, int y, int n) {
             block.source = part.source;
             block.vector = part.vector;
             block.is_coded = part.is_coded;
+            block.has_small_transforms = part.has_small_transforms;
         }
     }
 }
@@ -163,19 +170,25 @@ int TileDecoder::read_difference(int component) {
     return is_negative ? -magnitude : magnitude;
 }
 
-void TileDecoder::read_transforms(const Part& part) {
+// Reconstruction: "The step index of Y is the picture's; of U and V that plus the offset in CODE, clamped to 0 .. 63."
+int TileDecoder::step_index(int plane) const {
+    const int offset = plane == 0 ? 0 : plane == 1 ? code_.u_offset : code_.v_offset;
+    return std::clamp(pict_.step + offset, 0, 63);
+}
+
+void TileDecoder::read_transforms(Part& part) {
     const int i = part.source == Source::kNeighbours ? 0 : 1;
-    const int n = part.n == 16 && bits_.bit(kSmallTransforms + i) == 0 ? 16 : 8;
+    part.has_small_transforms = part.n == 8 || bits_.bit(kSmallTransforms + i) == 1;
+    const int n = part.has_small_transforms ? 8 : 16;
     const int s = n == 16 ? 1 : 0;
     int before = 0;  // b
     for (int plane = 0; plane < 3; ++plane) {
-        const int offset = plane == 0 ? 0 : plane == 1 ? code_.u_offset : code_.v_offset;
         for (int y = part.y; y < part.y + part.n; y += n) {
             for (int x = part.x; x < part.x + part.n; x += n) {
                 if (bits_.bit(kPlaneCoded + ((plane * 2 + s) * 2 + i) * 2 + before) == 0) continue;
                 before = 1;
                 const Square levels = read_coefficients(n, 4 * (plane > 0 ? 1 : 0) + 2 * s + i);
-                add(residual(levels, std::clamp(pict_.step + offset, 0, 63)), plane, x, y);
+                add(residual(levels, step_index(plane)), plane, x, y);
             }
         }
     }
@@ -217,6 +230,32 @@ void TileDecoder::add(const Square& r, int plane, int x, int y) {
             s = static_cast<std::uint8_t>(std::clamp(s + r.at(px, py), 0, 255));
         }
     }
+}
+
+// Edges of blocks: "at x = 8, 16, .. of the tile", or "at y".
+void TileDecoder::smooth_edges(int plane, bool is_upright) {
+    const int q = quantiser_step(step_index(plane));
+    for (int y = is_upright ? 0 : 8; y < height_; y += 8) {
+        for (int x = is_upright ? 8 : 0; x < width_; x += 8) {
+            const Block& a = is_upright ? block_at(x - 8, y) : block_at(x, y - 8);
+            const bool is_in_macroblock = (is_upright ? x : y) % 16 == 8;
+            if (!is_smoothed(a, block_at(x, y), is_in_macroblock)) continue;
+            smooth_edge(picture_, {plane, tile_x_ + x, tile_y_ + y, is_upright, q});
+        }
+    }
+}
+
+bool TileDecoder::is_smoothed(const Block& a, const Block& b, bool is_in_macroblock) {
+    // "inside of a part of 16x16: if the part is coded in transforms of 8x8"
+    if (is_in_macroblock && !a.is_in_split) return a.has_small_transforms;
+    // "between two parts: if both blocks have a source ..., and at least one of them is coded, or ..."
+    if (a.source == Source::kNone || b.source == Source::kNone) return false;
+    if (a.is_coded || b.is_coded || a.source != b.source || a.source == Source::kNeighbours) return true;
+    for (std::size_t r = 0; r < 2; ++r) {
+        const bool differs = a.vector[r].x != b.vector[r].x || a.vector[r].y != b.vector[r].y;
+        if (uses(a.source, static_cast<int>(r)) && differs) return true;
+    }
+    return false;
 }
 
 }  // namespace rs::reference

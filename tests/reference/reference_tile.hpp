@@ -1,5 +1,6 @@
 #pragma once
-// FORMAT.md, "Macroblocks", "Parts", "Coefficients" and "Alpha": what the bits of a tile say.
+// FORMAT.md, "Macroblocks", "Parts", "Coefficients" and "Alpha": what the bits of a tile say; "Edges of blocks": which
+// of them are smoothed.
 
 #include "tests/reference/reference_bits.hpp"
 #include "tests/reference/reference_chunks.hpp"
@@ -30,6 +31,7 @@ private:
         Source source = Source::kNone;
         std::array<Vector, 2> vector;
         bool is_coded = false;
+        bool has_small_transforms = false;
     };
 
     // Positions are of samples, from the tile's upper left corner.
@@ -41,6 +43,7 @@ private:
         int mode;
         std::array<Vector, 2> vector;
         bool is_coded;
+        bool has_small_transforms;  // always, of a coded block
     };
 
     static bool uses(Source source, int reference);
@@ -67,10 +70,13 @@ private:
     void make_alpha();
     void make_smooth_alpha(int x, int y);
     void read_depths(int x, int y);
-    void read_transforms(const Part& part);
+    int step_index(int plane) const;
+    void read_transforms(Part& part);
     Square read_coefficients(int n, int kind);
     void predict(const Part& part);
     void add(const Square& r, int plane, int x, int y);
+    void smooth_edges(int plane, bool is_upright);
+    static bool is_smoothed(const Block& a, const Block& b, bool is_in_macroblock);
 
     const Code& code_;
     const Pict& pict_;
