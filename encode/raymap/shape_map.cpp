@@ -53,15 +53,12 @@ public:
             });
     }
 
-    // The hull and the depths; the first kSampleViews evenly spread ones are kept for people. `beside` are the rings
-    // next below and above, where there are such.
-    Status search(const std::vector<const RingSearch*>& beside, Progress* progress, std::vector<FoundDepth>& samples) {
-        std::vector<const WorkView*> silhouettes = work_views();
-        for (const RingSearch* const ring : beside) {
-            const std::vector<const WorkView*> more = ring->work_views();
-            silhouettes.insert(silhouettes.end(), more.begin(), more.end());
-        }
-        choose_hull(silhouettes);
+    // The hull and the depths; the first kSampleViews evenly spread ones are kept for people. `rings` are those next
+    // below and above, where there are such.
+    Status search(const std::vector<const RingSearch*>& rings, Progress* progress, std::vector<FoundDepth>& samples) {
+        choose_hull({});
+        const std::vector<const RingSearch*> beside = agreeing(rings);
+        if (!beside.empty()) choose_hull(beside);
         const int count = static_cast<int>(views_.size());
         const int every = std::max(1, (count + kSampleViews - 1) / kSampleViews);
         const std::size_t first_sample = samples.size();
@@ -113,21 +110,40 @@ public:
     }
 
 private:
-    [[nodiscard]] std::vector<const WorkView*> work_views() const {
+    // Of this ring and the others.
+    [[nodiscard]] std::vector<const WorkView*> work_views(const std::vector<const RingSearch*>& others) const {
         std::vector<const WorkView*> all;
         for (const DepthView& view : views_) all.push_back(&view.view);
+        for (const RingSearch* const ring : others) {
+            for (const DepthView& view : ring->views_) all.push_back(&view.view);
+        }
         return all;
     }
 
-    // The narrowest margin at which the silhouettes agree; a rig that is only nominal needs a wide one.
-    void choose_hull(const std::vector<const WorkView*>& all) {
+    [[nodiscard]] bool agree(const std::vector<const WorkView*>& views, const VisualHull& hull) const {
         const DepthRange range{-kDeepest, 2 * kDeepest / (options_.depths - 1), options_.depths};
+        return contradicted_share(views, hull, range) <= kMostContradicted;
+    }
+
+    // The narrowest margin at which the silhouettes agree; a rig that is only nominal needs a wide one.
+    void choose_hull(const std::vector<const RingSearch*>& beside) {
+        const std::vector<const WorkView*> all = work_views(beside);
         for (margin_px_ = 1;; margin_px_ *= 2) {
             hull_ = std::make_unique<VisualHull>(all, margin_px_);
-            const double share = contradicted_share(all, *hull_, range);
-            if (margin_px_ >= options_.widest_hull_margin_px || share <= kMostContradicted) break;
+            if (margin_px_ >= options_.widest_hull_margin_px || agree(all, *hull_)) break;
         }
         outline_ = std::make_unique<VisualHull>(all, margin_px_ - 1);
+    }
+
+    // The rings whose silhouettes this one's, with the margin that these need among themselves, do not contradict:
+    // rings may be calibrated each for itself only.
+    [[nodiscard]] std::vector<const RingSearch*> agreeing(const std::vector<const RingSearch*>& rings) const {
+        std::vector<const RingSearch*> found;
+        for (const RingSearch* const ring : rings) {
+            const std::vector<const WorkView*> both = work_views({ring});
+            if (agree(both, VisualHull(both, margin_px_))) found.push_back(ring);
+        }
+        return found;
     }
 
     [[nodiscard]] double gap_deg(int n) const { return degrees(gap_width(views_, static_cast<std::size_t>(n))); }

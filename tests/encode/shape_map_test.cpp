@@ -279,6 +279,28 @@ TEST(ShapeMap, RingsHelpOneAnother) {
     EXPECT_GT(psnr_of(build(folder / "set"), folder / "between"), 17);
 }
 
+TEST(ShapeMap, ARingThatContradictsIsLeftOut) {
+    const test::TemporaryFolder folder;
+    Rig one = ring_above(16, 0, 2);
+    one.object_radius = 0.9;
+    Rig two = one;
+    Rig turned_wrong = ring_above(16, 0, 10);
+    for (RigView& view : turned_wrong.views) view.camera.cx += 12;
+    two.views.insert(two.views.end(), turned_wrong.views.begin(), turned_wrong.views.end());
+    // Pictures of the right cameras, and then the wrong numbers for those of the second ring.
+    Rig right = two;
+    for (RigView& view : right.views) view.camera.cx = one.views[0].camera.cx;
+    test::write_drawn_set(folder / "one", one, striped_ball);
+    test::write_drawn_set(folder / "two", right, striped_ball);
+    for (std::size_t i = 0; i < two.views.size(); ++i) two.views[i].file_path = std::to_string(i) + ".png";
+    ASSERT_TRUE(write_rig(folder / "two" / kRigFileName, two).ok());
+    Rig between = ring_above(8, 11.25, 2);
+    between.object_radius = 0.9;
+    test::write_drawn_set(folder / "between", between, striped_ball);
+    EXPECT_GT(psnr_of(build(folder / "two"), folder / "between"),
+              psnr_of(build(folder / "one"), folder / "between") - 0.5);
+}
+
 TEST(ShapeMap, IsTheSameEveryTime) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", ring(10));
