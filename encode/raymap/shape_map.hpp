@@ -3,9 +3,9 @@
 //
 // For every picture of a ring: the visual hull of all silhouettes, those of the rings next below and above among them,
 // bounds the depths; the colours of the pictures to either side and below and above say which depth agrees
-// (cost_volume.hpp); smoothness decides where colour does not (semi_global.hpp). A ring whose silhouettes contradict this
-// one's, because only each for itself is calibrated, is left out.
-// Then every line between two pictures takes over what both have found (shape_lines.hpp).
+// (cost_volume.hpp); smoothness decides where colour does not (semi_global.hpp). A ring whose silhouettes contradict
+// this one's, because only each for itself is calibrated, is left out. Then every line between two pictures takes over
+// what both have found (shape_lines.hpp).
 
 #include "encode/capture_set.hpp"
 #include "encode/raymap/rings.hpp"
