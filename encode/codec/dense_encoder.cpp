@@ -6,6 +6,7 @@
 #include "encode/codec/ring_references.hpp"
 #include "encode/codec/source_picture.hpp"
 #include "encode/codec/tile_encoder.hpp"
+#include "rayspace/codec/context_states.hpp"
 #include "rayspace/codec/decode_picture.hpp"
 #include "rayspace/median.hpp"
 
@@ -205,9 +206,15 @@ private:
             for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
                 if (!picture.tiles[t].present) continue;
                 BoolEncoder encoder;
+                codec::ContextStates states(coded_.dense);
                 for (const Decision d : work_[v].decisions[t]) {
-                    const auto context = static_cast<std::size_t>(d >> 1U);
-                    encoder.bit(d & 1, context == codec::context::kCount ? 2048 : coded_.dense.probabilities[context]);
+                    const int context = d >> 1;
+                    if (context == codec::context::kCount) {
+                        encoder.bit(d & 1, 2048);
+                        continue;
+                    }
+                    encoder.bit(d & 1, states.probability(context));
+                    states.learn(context, d & 1);
                 }
                 const std::vector<std::byte> bytes = encoder.finish();
                 picture.tiles[t].begin = static_cast<std::uint32_t>(picture.bytes.size());

@@ -105,7 +105,7 @@ void PartSearch::write(const Part& part, PartChoice& choice, Recorder& recorder)
     const codec::PartSurroundings around{task_.head.references(), task_.head.usual_motion};
     codec::code_prediction(recorder, state_.grid, part, around, choice);
     code_alpha(recorder, part, choice);
-    codec::code_coefficients(recorder, state_.grid, part, choice);
+    codec::code_coefficients(recorder, state_.grid, part, task_.code->hidden_signs, choice);
 }
 
 void PartSearch::commit(const Part& part, const PartChoice& choice) const {
@@ -154,7 +154,7 @@ float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) con
     choice.coded = false;
     choice.small_transforms = false;
     Estimator none_bits(costs_);
-    codec::code_coefficients(none_bits, state_.grid, part, choice);
+    codec::code_coefficients(none_bits, state_.grid, part, task_.code->hidden_signs, choice);
     float cost = plain_error + task_.lambda * none_bits.bits();
 
     // Coefficients, in large and in small transforms.
@@ -168,8 +168,12 @@ float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) con
         for (int plane = 0; plane < codec::kPlanes; ++plane) {
             const auto p = static_cast<std::size_t>(plane);
             const int kind = codec::syntax::block_kind(plane, size, inter);
-            const QuantiserSettings settings{size, kind, task_.code->plane_step(task_.head.step, plane),
-                                             kPlaneWeights[p], task_.lambda};
+            const QuantiserSettings settings{size,
+                                             kind,
+                                             task_.code->plane_step(task_.head.step, plane),
+                                             kPlaneWeights[p],
+                                             task_.lambda,
+                                             task_.code->hidden_signs};
             for (std::size_t t = 0; t < static_cast<std::size_t>(trial.transforms(part.size)); ++t) {
                 TransformTarget target = targets[plane];
                 const std::ptrdiff_t down = static_cast<std::ptrdiff_t>(t >> 1) * kBlock;
@@ -187,7 +191,7 @@ float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) con
         }
         if (!trial.coded) continue;
         Estimator bits(costs_);
-        codec::code_coefficients(bits, state_.grid, part, trial);
+        codec::code_coefficients(bits, state_.grid, part, task_.code->hidden_signs, trial);
         const float total = error + task_.lambda * bits.bits();
         if (total < cost) {
             cost = total;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace rs::encode {
 namespace {
@@ -43,6 +44,111 @@ void forward(const std::int16_t* residual, std::int32_t* coefficients) {
     }
 }
 
+// Where a level is worth more or less than it costs: what quantise() knows of a transform.
+struct Quantiser {
+    const std::int32_t* coefficients;
+    const QuantiserSettings& settings;
+    const CostTable& costs;
+    const std::uint8_t* scan;
+    float step;   // in units of the coefficients
+    float scale;  // of their squared errors
+
+    [[nodiscard]] float magnitude(int i) const { return static_cast<float>(std::abs(coefficients[scan[i]])); }
+    [[nodiscard]] float distortion(int i, int level) const {
+        const float off = magnitude(i) - static_cast<float>(level) * step;
+        return scale * off * off;
+    }
+    [[nodiscard]] float level_cost(int i, int near, bool must_be, int level) const {
+        Estimator estimator(costs);
+        codec::syntax::level(estimator, settings.kind, settings.size, scan[i] & (settings.size - 1),
+                             scan[i] / settings.size, near, must_be, level);
+        return settings.lambda * estimator.bits();
+    }
+    [[nodiscard]] float last_cost(int last) const {
+        Estimator estimator(costs);
+        codec::syntax::last_place(estimator, settings.kind, settings.size, last);
+        return settings.lambda * estimator.bits();
+    }
+};
+
+// Makes the parities of the groups those of the signs that they hide, with the level changed by one that costs least.
+class SignHider {
+public:
+    SignHider(const Quantiser& quantiser, codec::Levels& levels, int& last)
+        : quantiser_(quantiser), size_(quantiser.settings.size), levels_(levels), last_(last) {}
+
+    void hide() {
+        for (int begin = last_ & ~(codec::syntax::kSignGroup - 1); begin >= 0; begin -= codec::syntax::kSignGroup) {
+            if (!agrees(begin)) mend(begin);
+        }
+    }
+
+private:
+    std::int16_t& at(int i) {
+        const int place = quantiser_.scan[i];
+        return levels_.at[(place / size_) * codec::Levels::kStride + (place & (size_ - 1))];
+    }
+
+    // Whether the group's parity is that of the sign that it hides, if it hides one.
+    bool agrees(int begin) {
+        int highest = -1;
+        int lowest = -1;
+        int sum = 0;
+        for (int i = std::min(begin + codec::syntax::kSignGroup - 1, last_); i >= begin; --i) {
+            if (at(i) == 0) continue;
+            if (highest < 0) highest = i;
+            lowest = i;
+            sum += std::abs(at(i));
+        }
+        if (highest - lowest < codec::syntax::kHidingSpan) return true;
+        return (sum & 1) == (at(lowest) < 0 ? 1 : 0);
+    }
+
+    void mend(int begin) {
+        const int end = std::min(begin + codec::syntax::kSignGroup - 1, last_);
+        float best_cost = std::numeric_limits<float>::max();
+        int best_place = -1;
+        int best_level = 0;
+        for (int i = end; i >= begin; --i) {
+            const int place = quantiser_.scan[i];
+            const int near = codec::syntax::near_sum(levels_, place & (size_ - 1), place / size_);
+            const std::int16_t before = at(i);
+            const int size = std::abs(before);
+            const float now = quantiser_.distortion(i, size) + quantiser_.level_cost(i, near, i == last_, size);
+            for (const int changed : {size - 1, size + 1}) {
+                if (changed < 0) continue;
+                const bool shortens = i == last_ && changed == 0;
+                float cost = quantiser_.distortion(i, changed) - now;
+                cost += shortens ? quantiser_.last_cost(last_below(i)) - quantiser_.last_cost(i)
+                                 : quantiser_.level_cost(i, near, i == last_, changed);
+                if (cost >= best_cost) continue;
+                const int level = quantiser_.coefficients[place] < 0 ? -changed : changed;
+                at(i) = static_cast<std::int16_t>(level);
+                if (agrees(begin)) {
+                    best_cost = cost;
+                    best_place = i;
+                    best_level = level;
+                }
+                at(i) = before;
+            }
+        }
+        at(best_place) = static_cast<std::int16_t>(best_level);
+        if (best_place == last_ && best_level == 0) last_ = last_below(last_);
+    }
+
+    // The next place below that has a level; a group that is mended has two at least.
+    int last_below(int i) {
+        do --i;
+        while (at(i) == 0);
+        return i;
+    }
+
+    const Quantiser& quantiser_;
+    int size_;
+    codec::Levels& levels_;
+    int& last_;
+};
+
 }  // namespace
 
 void forward_transform(const std::int16_t* residual, int size, std::int32_t* coefficients) {
@@ -57,15 +163,16 @@ bool quantise(const std::int32_t* coefficients, const QuantiserSettings& setting
               codec::Levels& levels, int& last) {
     namespace syntax = codec::syntax;
     const int size = settings.size;
-    const std::uint8_t* const scan = syntax::scan_order(size);
     const int count = size * size;
     const float unit = size == 8 ? 16.0F : 8.0F;  // of the coefficients, in orthonormal ones
     const float step = static_cast<float>(codec::step_q4(settings.step)) / 16.0F * unit;
     const float inverse = 1 / step;
-    const float scale = settings.weight / (unit * unit);
+    const Quantiser quantiser{
+        coefficients, settings, costs, syntax::scan_order(size), step, settings.weight / (unit * unit)};
+    const std::uint8_t* const scan = quantiser.scan;
 
     int start = count - 1;
-    while (start >= 0 && static_cast<float>(std::abs(coefficients[scan[start]])) * inverse < 0.5F) --start;
+    while (start >= 0 && quantiser.magnitude(start) * inverse < 0.5F) --start;
     if (start < 0) return false;
 
     // cost[i]: of coding place i; dropped[i]: of leaving it out; flagless[i]: of coding it as the last one.
@@ -73,35 +180,26 @@ bool quantise(const std::int32_t* coefficients, const QuantiserSettings& setting
     std::array<float, kLargest * kLargest> dropped;
     std::array<float, kLargest * kLargest> flagless;
     for (int i = start; i >= 0; --i) {
-        const int place = scan[i];
-        const int u = place & (size - 1);
-        const int v = place / size;
-        const int coefficient = coefficients[place];
-        const auto magnitude = static_cast<float>(std::abs(coefficient));
+        const int u = scan[i] & (size - 1);
+        const int v = scan[i] / size;
         const auto n = static_cast<std::size_t>(i);
-        dropped[n] = scale * magnitude * magnitude;
+        dropped[n] = quantiser.distortion(i, 0);
         const int near = syntax::near_sum(levels, u, v);
-        const auto bits_of = [&](int level, bool must_be) {
-            Estimator estimator(costs);
-            syntax::level(estimator, settings.kind, size, u, v, near, must_be, level);
-            return estimator.bits();
-        };
-        const auto nearest = static_cast<int>(std::min(magnitude * inverse + 0.5F, 16000.0F));
+        const auto nearest = static_cast<int>(std::min(quantiser.magnitude(i) * inverse + 0.5F, 16000.0F));
         int best = 0;
-        float best_cost = dropped[n] + settings.lambda * bits_of(0, false);
+        float best_cost = dropped[n] + quantiser.level_cost(i, near, false, 0);
         flagless[n] = 1e30F;
         for (int level = nearest; level >= std::max(nearest - 1, 1); --level) {
-            const float off = magnitude - static_cast<float>(level) * step;
-            const float distortion = scale * off * off;
-            const float total = distortion + settings.lambda * bits_of(level, false);
+            const float distortion = quantiser.distortion(i, level);
+            const float total = distortion + quantiser.level_cost(i, near, false, level);
             if (total < best_cost) {
                 best_cost = total;
                 best = level;
-                flagless[n] = distortion + settings.lambda * bits_of(level, true);
+                flagless[n] = distortion + quantiser.level_cost(i, near, true, level);
             }
         }
         cost[n] = best_cost;
-        levels.at[v * codec::Levels::kStride + u] = static_cast<std::int16_t>(coefficient < 0 ? -best : best);
+        levels.at[v * codec::Levels::kStride + u] = static_cast<std::int16_t>(coefficients[scan[i]] < 0 ? -best : best);
     }
 
     // Where to stop: everything above the last one is dropped.
@@ -115,9 +213,7 @@ bool quantise(const std::int32_t* coefficients, const QuantiserSettings& setting
         const auto n = static_cast<std::size_t>(i);
         above -= dropped[n];
         if (flagless[n] < 1e30F) {
-            Estimator estimator(costs);
-            syntax::last_place(estimator, settings.kind, size, i);
-            const float total = below + above + flagless[n] + settings.lambda * estimator.bits();
+            const float total = below + above + flagless[n] + quantiser.last_cost(i);
             if (total < best_total) {
                 best_total = total;
                 last = i;
@@ -125,13 +221,15 @@ bool quantise(const std::int32_t* coefficients, const QuantiserSettings& setting
         }
         below += cost[n];
     }
+    for (int i = last + 1; i <= start; ++i) {
+        levels.at[(scan[i] / size) * codec::Levels::kStride + (scan[i] & (size - 1))] = 0;
+    }
+    if (settings.hidden_signs && last >= 0) SignHider(quantiser, levels, last).hide();
     levels.used = 0;
-    for (int i = 0; i <= start; ++i) {
+    for (int i = 0; i <= last; ++i) {
         const int u = scan[i] & (size - 1);
         const int v = scan[i] / size;
-        std::int16_t& level = levels.at[v * codec::Levels::kStride + u];
-        if (i > last) level = 0;
-        if (level != 0) levels.used = std::max(levels.used, std::max(u, v) + 1);
+        if (levels.at[v * codec::Levels::kStride + u] != 0) levels.used = std::max(levels.used, std::max(u, v) + 1);
     }
     return last >= 0;
 }

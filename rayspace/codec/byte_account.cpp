@@ -3,6 +3,7 @@
 #include "rayspace/codec/board_tile.hpp"
 #include "rayspace/codec/bool_decoder.hpp"
 #include "rayspace/codec/coded_chunks.hpp"
+#include "rayspace/codec/context_states.hpp"
 #include "rayspace/codec/decode_picture.hpp"
 #include "rayspace/codec/dense_tile_decoder.hpp"
 
@@ -52,10 +53,11 @@ using Bits = std::array<double, kPurposes>;
 class CountingReader {
 public:
     CountingReader(std::span<const std::byte> bytes, const DenseCode& code, Bits& bits)
-        : decoder_(bytes), code_(code), bits_(bits) {}
+        : decoder_(bytes), states_(code), bits_(bits) {}
     int bit(int context, int /*value*/) {
-        const std::uint16_t zero = code_.probabilities[static_cast<std::size_t>(context)];
+        const std::uint32_t zero = states_.probability(context);
         const int read = decoder_.bit(zero);
+        states_.learn(context, read);
         bits_[purpose_of(context)] -= std::log2((read == 0 ? zero : 4096 - zero) / 4096.0);
         return read;
     }
@@ -66,7 +68,7 @@ public:
 
 private:
     BoolDecoder decoder_;
-    const DenseCode& code_;
+    ContextStates states_;
     Bits& bits_;
 };
 

@@ -88,6 +88,17 @@ Status check_references(const CodedPictures& coded, std::size_t view, const Pict
     return {};
 }
 
+// What a dense object makes use of: bits of the byte `features`.
+constexpr unsigned kEdgeFilter = 1;
+constexpr unsigned kLearning = 2;
+constexpr unsigned kHiddenSigns = 4;
+constexpr int kAllFeatures = 7;
+
+std::uint8_t features_of(const DenseCode& dense) {
+    return static_cast<std::uint8_t>((dense.edge_filter ? kEdgeFilter : 0U) | (dense.learning ? kLearning : 0U) |
+                                     (dense.hidden_signs ? kHiddenSigns : 0U));
+}
+
 // What follows in the chunk CODE of dense pictures, to its end.
 Status take_dense_code(ByteReader& in, DenseCode& dense) {
     if (dense.has_edge_alpha()) {
@@ -119,7 +130,7 @@ std::vector<std::byte> code_payload(const CodedPictures& coded) {
     out.put(static_cast<std::uint8_t>(board ? 0 : coded.dense.alpha_bits));
     for (const int offset : coded.dense.chroma_step_offset) out.put(static_cast<std::int8_t>(board ? 0 : offset));
     out.put(static_cast<std::uint8_t>(board ? 0 : static_cast<int>(coded.dense.alpha_coding)));
-    out.put(static_cast<std::uint8_t>(!board && coded.dense.edge_filter ? 1 : 0));
+    out.put(board ? std::uint8_t{0} : features_of(coded.dense));
     out.put(std::span<const std::uint8_t>(coded.levels));
     if (board) {
         put_board_code(coded.board, out);
@@ -143,7 +154,7 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     const auto alpha_bits = in.get<std::uint8_t>();
     for (int& offset : coded.dense.chroma_step_offset) offset = in.get<std::int8_t>();
     const auto alpha_coding = in.get<std::uint8_t>();
-    const auto edge_filter = in.get<std::uint8_t>();
+    const auto features = in.get<std::uint8_t>();
     const auto levels = in.take(views);
     if (!in.ok()) return Error{"is too short"};
     if (profile != static_cast<std::uint8_t>(Profile::kDense) &&
@@ -171,8 +182,8 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     }
     const int most_codings = board ? 0 : static_cast<int>(AlphaCoding::kMask);
     if (alpha_coding > most_codings) return out_of_range("the coding of alpha", alpha_coding, 0, most_codings);
-    const int most_filters = board ? 0 : 1;
-    if (edge_filter > most_filters) return out_of_range("the filter of edges", edge_filter, 0, most_filters);
+    const int all_features = board ? 0 : kAllFeatures;
+    if (features > all_features) return out_of_range("the set of features", features, 0, all_features);
     coded.profile = static_cast<Profile>(profile);
     coded.width = width;
     coded.height = height;
@@ -180,7 +191,9 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     coded.tile_height_log2 = tile_height_log2;
     coded.dense.alpha_coding = static_cast<AlphaCoding>(alpha_coding);
     coded.dense.alpha_bits = alpha_bits;
-    coded.dense.edge_filter = edge_filter != 0;
+    coded.dense.edge_filter = (features & kEdgeFilter) != 0;
+    coded.dense.learning = (features & kLearning) != 0;
+    coded.dense.hidden_signs = (features & kHiddenSigns) != 0;
     coded.levels.resize(views);
     for (std::size_t v = 0; v < views; ++v) {
         coded.levels[v] = static_cast<std::uint8_t>(levels[v]);

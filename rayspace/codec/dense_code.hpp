@@ -28,6 +28,8 @@ struct DenseCode {
     int alpha_bits = 2;                              // 1 .. kMaxAlphaBits
     EdgeAlpha edge_alpha = {};                       // 0 .. kMaxEdgeAlpha; of masks of one bit only
     bool edge_filter = true;                         // edge_filter.hpp; false in format 1.4 and before
+    bool learning = true;                            // context_states.hpp; false in format 1.5 and before
+    bool hidden_signs = true;                        // syntax.hpp; false in format 1.5 and before
     std::array<int, 2> chroma_step_offset = {0, 0};  // of U and V, added to the step index of Y; +-kMaxChromaOffset
     std::array<std::uint16_t, context::kCount> probabilities = {};  // of 0, in 4096ths; 8 .. 4088
 

@@ -1,6 +1,7 @@
 #include "rayspace/codec/dense_tile.hpp"
 
 #include "rayspace/codec/bool_decoder.hpp"
+#include "rayspace/codec/context_states.hpp"
 #include "rayspace/codec/dense_tile_decoder.hpp"
 
 #include <cstring>
@@ -10,14 +11,17 @@ namespace {
 
 class Reader {
 public:
-    Reader(std::span<const std::byte> bytes, const std::uint16_t* probabilities)
-        : bits_(bytes), probabilities_(probabilities) {}
-    int bit(int context, int /*value*/) { return bits_.bit(probabilities_[context]); }
+    Reader(std::span<const std::byte> bytes, const DenseCode& code) : bits_(bytes), states_(code) {}
+    int bit(int context, int /*value*/) {
+        const int read = bits_.bit(states_.probability(context));
+        states_.learn(context, read);
+        return read;
+    }
     int raw(int /*value*/) { return bits_.bit(1U << (kProbabilityBits - 1)); }
 
 private:
     BoolDecoder bits_;
-    const std::uint16_t* probabilities_;
+    ContextStates states_;
 };
 
 }  // namespace
@@ -25,7 +29,7 @@ private:
 void decode_dense_tile(const DenseCode& code, const PictureHead& head, std::span<const std::byte> bytes,
                        const TilePlace& place, const std::array<ConstPlaneViews, 2>& references,
                        ReferenceListener* listener, const PlaneViews& out) {
-    Reader reader(bytes, code.probabilities.data());
+    Reader reader(bytes, code);
     DenseTileDecoder(reader, code, head, place, references, listener, out).decode();
 }
 

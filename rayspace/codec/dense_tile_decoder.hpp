@@ -72,7 +72,7 @@ private:
         } else {
             alpha(part, choice);
         }
-        code_coefficients(reader_, grid_, part, choice);
+        code_coefficients(reader_, grid_, part, code_.hidden_signs, choice);
         const PartPlace place = place_of_part(grid_, part, left_, top_);
         reconstruct_part(choice, place, head_.step, code_, references_, out_);
         enter_part(grid_, part, choice);

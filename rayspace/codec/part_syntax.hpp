@@ -137,7 +137,7 @@ void code_prediction(Coder& coder, const TileGrid& grid, const Part& part, const
 
 // The coefficients; `choice` has its prediction.
 template <class Coder>
-void code_coefficients(Coder& coder, const TileGrid& grid, const Part& part, PartChoice& choice) {
+void code_coefficients(Coder& coder, const TileGrid& grid, const Part& part, bool hidden_signs, PartChoice& choice) {
     const int inter = is_inter(choice.source) ? 1 : 0;
     choice.coded = syntax::coded(coder, grid, part, inter != 0, choice.coded);
     if (!choice.coded) return;
@@ -154,7 +154,7 @@ void code_coefficients(Coder& coder, const TileGrid& grid, const Part& part, Par
             bool& has = choice.plane_coded[plane][t];
             has = coder.bit(at + before, has ? 1 : 0) != 0;
             if (!has) continue;
-            syntax::block(coder, kind, size, choice.levels[plane][t], choice.last[plane][t]);
+            syntax::block(coder, kind, size, hidden_signs, choice.levels[plane][t], choice.last[plane][t]);
             before = 1;
         }
     }

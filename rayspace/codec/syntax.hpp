@@ -134,22 +134,21 @@ constexpr int band_of(int diagonal, int size) {
     return d <= 2 ? 1 : d <= 5 ? 2 : 3;
 }
 
-// One level that is not known to be zero; `must_be`: known not to be zero.
+// The magnitude of one level that is not known to be zero; `must_be`: known not to be zero.
 template <class Coder>
-int level(Coder& coder, int kind, int size, int u, int v, int near, bool must_be, int value) {
-    const int magnitude = std::abs(value);
+int magnitude(Coder& coder, int kind, int size, int u, int v, int near, bool must_be, int value) {
     const int band = band_of(u + v, size);
     if (!must_be) {
         const int at = context::kNonZero + (kind * context::kBands + band) * context::kNearSums + near;
-        if (coder.bit(at, magnitude != 0 ? 1 : 0) == 0) return 0;
+        if (coder.bit(at, value != 0 ? 1 : 0) == 0) return 0;
     }
     const int more = (2 * kind + (band == 0 ? 1 : 0)) * context::kNearSums + near;
     int read = 1;
-    if (coder.bit(context::kAboveOne + more, magnitude > 1 ? 1 : 0) != 0) {
+    if (coder.bit(context::kAboveOne + more, value > 1 ? 1 : 0) != 0) {
         read = 2;
-        if (coder.bit(context::kAboveTwo + more, magnitude > 2 ? 1 : 0) != 0) {
+        if (coder.bit(context::kAboveTwo + more, value > 2 ? 1 : 0) != 0) {
             // Up to 2^14 + 1; the second highest bit has no context of its own.
-            const int wanted = magnitude - 3 + 1;
+            const int wanted = value - 3 + 1;
             int length = 1;
             while (length < 14 &&
                    coder.bit(context::kRestClass + 14 * kind + length - 1, (wanted >> length) != 0 ? 1 : 0) != 0) {
@@ -160,6 +159,14 @@ int level(Coder& coder, int kind, int size, int u, int v, int near, bool must_be
             read = 3 + rest - 1;
         }
     }
+    return read;
+}
+
+// The same with its sign.
+template <class Coder>
+int level(Coder& coder, int kind, int size, int u, int v, int near, bool must_be, int value) {
+    const int read = magnitude(coder, kind, size, u, v, near, must_be, std::abs(value));
+    if (read == 0) return 0;
     return coder.raw(value < 0 ? 1 : 0) != 0 ? -read : read;
 }
 
@@ -169,18 +176,44 @@ int last_place(Coder& coder, int kind, int size, int value) {
     return number(coder, context::kLastClass + 8 * kind, size == 8 ? 6 : 8, context::kLastTop + 9 * kind, value);
 }
 
+// Levels are looked at in groups of this many places. Where signs are hidden, that of a group's lowest level that is
+// not zero is the parity of its magnitudes' sum, if the highest lies kHidingSpan places above it at least.
+inline constexpr int kSignGroup = 16;
+inline constexpr int kHidingSpan = 4;
+
 // A block with at least one level that is not zero. `levels` holds those to be written, or zeros, and is filled in;
 // `last`: the scan place of the last one, for a writer.
 template <class Coder>
-void block(Coder& coder, int kind, int size, Levels& levels, int last) {
+void block(Coder& coder, int kind, int size, bool hidden_signs, Levels& levels, int last) {
     const std::uint8_t* const scan = scan_order(size);
+    const auto at = [&](int i) -> std::int16_t& {
+        return levels.at[(scan[i] / size) * Levels::kStride + (scan[i] & (size - 1))];
+    };
     last = last_place(coder, kind, size, last);
+    int places[kSignGroup];  // of the group's levels that are not zero, from the highest
+    int found = 0;
+    int sum = 0;
     for (int i = last; i >= 0; --i) {
         const int u = scan[i] & (size - 1);
         const int v = scan[i] / size;
-        std::int16_t& at = levels.at[v * Levels::kStride + u];
-        at = static_cast<std::int16_t>(level(coder, kind, size, u, v, near_sum(levels, u, v), i == last, at));
-        if (at != 0) levels.used = std::max(levels.used, std::max(u, v) + 1);
+        const int wanted = at(i);
+        const int read = magnitude(coder, kind, size, u, v, near_sum(levels, u, v), i == last, std::abs(wanted));
+        if (read != 0) {
+            at(i) = static_cast<std::int16_t>(wanted < 0 ? -read : read);
+            levels.used = std::max(levels.used, std::max(u, v) + 1);
+            places[found++] = i;
+            sum += read;
+        }
+        if (hidden_signs && (i & (kSignGroup - 1)) != 0) continue;
+        const bool hides = hidden_signs && found > 0 && places[0] - places[found - 1] >= kHidingSpan;
+        for (int n = 0; n < found; ++n) {
+            std::int16_t& one = at(places[n]);
+            const int negative = hides && n + 1 == found ? sum & 1 : coder.raw(one < 0 ? 1 : 0);
+            const int size_of_one = std::abs(one);
+            one = static_cast<std::int16_t>(negative != 0 ? -size_of_one : size_of_one);
+        }
+        found = 0;
+        sum = 0;
     }
 }
 

@@ -103,7 +103,7 @@ TEST(Container, LayoutIsTheDocumentedOne) {
     const unsigned char magic[] = {0x89, 'R', 'S', 'O', '\r', '\n', 0x1A, '\n'};
     std::memcpy(expected.data(), magic, 8);
     put_number(expected, 8, 1, 2);
-    put_number(expected, 10, 5, 2);
+    put_number(expected, 10, 6, 2);
     put_number(expected, 12, 1, 4);
     put_number(expected, 16, 48, 8);
     put_number(expected, 24, 96, 8);

@@ -76,7 +76,7 @@ std::vector<std::uint8_t> random_dense_code(const std::vector<int>& levels, bool
     for (int i = 0; i < 2; ++i) put(code, is_tame ? random.whole(-4, 4) : random.whole(-31, 31));
     const std::size_t alpha_coding = random.one_in(3) ? 0 : 1;
     put(code, static_cast<int>(alpha_coding));
-    put(code, random.one_in(4) ? 0 : 1);
+    put(code, random.one_in(2) ? 7 : random.whole(0, 7));
     for (const int level : levels) put(code, level);
     for (int i = 0; i < 24 && alpha_coding == 1 && code[3] == 1; ++i) put(code, random.whole(0, 127));
     const std::size_t listed_at = code.size();

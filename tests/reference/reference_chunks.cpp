@@ -55,8 +55,10 @@ std::string read_fields(Bytes payload, Code& code) {
     if (std::abs(code.v_offset) > largest_offset) return "v_offset is out of range";
     if (payload[6] > (is_board ? 0 : 1)) return "CODE has another alpha_coding";
     code.alpha_coding = payload[6];
-    if (payload[7] > (is_board ? 0 : 1)) return "CODE has another edge_filter";
-    code.edge_filter = payload[7];
+    if (payload[7] > (is_board ? 0 : 7)) return "CODE has other features";
+    code.has_smooth_edges = (payload[7] & 1) != 0;
+    code.is_learning = (payload[7] & 2) != 0;
+    code.has_hidden_signs = (payload[7] & 4) != 0;
     return "";
 }
 

@@ -23,6 +23,7 @@ Square TileDecoder::read_coefficients(int n, int kind) {
     Square levels(n);
     const auto counted = [&](int u, int v) { return u < n && v < n ? std::min(std::abs(levels.at(u, v)), 3) : 0; };
 
+    std::vector<SignlessLevel> group;  // of 16 places; with hidden signs only
     const int last = bits_.number(kLastClass + 8 * kind, n == 8 ? 6 : 8, kLastTop + 9 * kind);
     for (int place = last; place >= 0; --place) {
         const auto [u, v] = order.at(static_cast<std::size_t>(place));
@@ -31,23 +32,47 @@ Square TileDecoder::read_coefficients(int n, int kind) {
         const int near = std::min((sum + 1) >> 1, 4);
         const int d = n == 8 ? u + v : (u + v + 1) >> 1;
         const int band = u + v == 0 ? 0 : d <= 2 ? 1 : d <= 5 ? 2 : 3;
-        if (place != last && bits_.bit(kNonZero + (kind * 4 + band) * 5 + near) == 0) continue;
-
-        const int e = u + v == 0 ? 1 : 0;
-        int magnitude = 1;
-        if (bits_.bit(kAboveOne + (kind * 2 + e) * 5 + near) == 1) {
-            magnitude = 2;
-            if (bits_.bit(kAboveTwo + (kind * 2 + e) * 5 + near) == 1) {
-                int length = 1;
-                while (length < 14 && bits_.bit(kRestClass + 14 * kind + length - 1) == 1) ++length;
-                int rest = 1;
-                for (int i = 1; i < length; ++i) rest = 2 * rest + bits_.raw();
-                magnitude = 2 + rest;
+        if (place == last || bits_.bit(kNonZero + (kind * 4 + band) * 5 + near) == 1) {
+            int& level = levels.at(u, v);
+            level = read_magnitude(kind, u + v == 0 ? 1 : 0, near);
+            if (code_.has_hidden_signs) {
+                group.push_back({place, &level});
+            } else if (bits_.raw() == 1) {
+                level = -level;
             }
         }
-        levels.at(u, v) = bits_.raw() == 1 ? -magnitude : magnitude;
+        // "The signs of a group stand behind what is read for its lowest place", also where the level there is 0.
+        if (place % 16 == 0) {
+            read_hidden_signs(group);
+            group.clear();
+        }
     }
     return levels;
+}
+
+int TileDecoder::read_magnitude(int kind, int e, int near) {
+    if (bits_.bit(kAboveOne + (kind * 2 + e) * 5 + near) == 0) return 1;
+    if (bits_.bit(kAboveTwo + (kind * 2 + e) * 5 + near) == 0) return 2;
+    int length = 1;
+    while (length < 14 && bits_.bit(kRestClass + 14 * kind + length - 1) == 1) ++length;
+    int rest = 1;
+    for (int i = 1; i < length; ++i) rest = 2 * rest + bits_.raw();
+    return 2 + rest;
+}
+
+// "raw bits, 1 for negative, of its levels that are not zero, in the order in which their magnitudes were read"
+void TileDecoder::read_hidden_signs(const std::vector<SignlessLevel>& group) {
+    if (group.empty()) return;
+    int sum = 0;
+    for (const SignlessLevel& each : group) sum += *each.level;
+    // "If the first and the last of these lie 4 places or more apart, the last one has no such bit": the first has the
+    // highest place.
+    const bool is_last_hidden = group.front().place - group.back().place >= 4;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        const bool is_hidden = is_last_hidden && i + 1 == group.size();
+        const bool is_negative = is_hidden ? sum % 2 == 1 : bits_.raw() == 1;
+        if (is_negative) *group[i].level = -*group[i].level;
+    }
 }
 
 // Alpha

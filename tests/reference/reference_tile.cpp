@@ -17,7 +17,11 @@ int median(int a, int b, int c) {
 // Samples, tiles, blocks
 TileDecoder::TileDecoder(const Code& code, const Pict& pict, std::array<const Picture*, 2> references, int t,
                          Bytes bytes, Picture& picture)
-    : code_(code), pict_(pict), references_(references), picture_(picture), bits_(bytes, code.probability) {
+    : code_(code),
+      pict_(pict),
+      references_(references),
+      picture_(picture),
+      bits_(bytes, code.probability, code.is_learning) {
     const int columns = ceil_div(picture.width, code.tile_width);
     tile_x_ = code.tile_width * (t % columns);
     tile_y_ = code.tile_height * (t / columns);
@@ -34,7 +38,7 @@ void TileDecoder::decode() {
         for (int x = 0; x < width_; x += 16) decode_macroblock(x, y);
     }
     if (code_.alpha_coding == 1) make_alpha();
-    if (code_.edge_filter == 0) return;
+    if (!code_.has_smooth_edges) return;
     for (int plane = 0; plane < 3; ++plane) {
         smooth_edges(plane, true);
         smooth_edges(plane, false);

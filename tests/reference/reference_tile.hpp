@@ -46,6 +46,12 @@ private:
         bool has_small_transforms;  // always, of a coded block
     };
 
+    // A level that is not zero, as long as its sign is not known.
+    struct SignlessLevel {
+        int place;
+        int* level;  // holds the magnitude
+    };
+
     static bool uses(Source source, int reference);
     template <class Predicate>
     static int count_neighbours(const Part& part, Predicate predicate);
@@ -73,6 +79,8 @@ private:
     int step_index(int plane) const;
     void read_transforms(Part& part);
     Square read_coefficients(int n, int kind);
+    int read_magnitude(int kind, int e, int near);
+    void read_hidden_signs(const std::vector<SignlessLevel>& group);
     void predict(const Part& part);
     void add(const Square& r, int plane, int x, int y);
     void smooth_edges(int plane, bool is_upright);

@@ -73,8 +73,8 @@ TEST_F(CodedFile, EveryFieldOfTheSharedPartIsChecked) {
     };
     ASSERT_TRUE(parse(sound));
     const std::pair<std::size_t, int> wrong[] = {
-        {0, 0},  {0, 3},        {1, 3},  {1, 7}, {2, 3},   {2, 7}, {3, 0},    {3, 5},
-        {4, 32}, {4, 256 - 32}, {5, 32}, {6, 2}, {7, 255}, {8, 4}, {16, 200}, {8 + 9 + 180, 255}};
+        {0, 0},  {0, 3},        {1, 3},  {1, 7}, {2, 3}, {2, 7}, {3, 0},    {3, 5},
+        {4, 32}, {4, 256 - 32}, {5, 32}, {6, 2}, {7, 8}, {8, 4}, {16, 200}, {8 + 9 + 180, 255}};
     for (const auto& [offset, value] : wrong) {
         std::vector<std::byte> damaged = sound;
         damaged[offset] = static_cast<std::byte>(value);

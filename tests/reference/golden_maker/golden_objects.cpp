@@ -75,8 +75,8 @@ RaySpaceObject board(const DrawnSize& size, double step) {
 }
 
 // A stream with a picture of two references, tiles that do not fill the last byte of their list, and all four levels,
-// that has no more bytes than this, and no less than half as many; of dense pictures with alpha so coded, and edges
-// smoothed if as masks.
+// that has no more bytes than this, and no less than half as many; of dense pictures with alpha so coded, and all
+// features if as masks, else none.
 RaySpaceObject random_object(Profile profile, std::size_t most_bytes,
                              codec::AlphaCoding alpha_coding = codec::AlphaCoding::kLevels) {
     for (std::uint64_t seed = 1; seed < 100000; ++seed) {
@@ -93,10 +93,11 @@ RaySpaceObject random_object(Profile profile, std::size_t most_bytes,
         const std::size_t tiles = coded->pictures[0].tiles.size();
         const bool is_tame = profile == Profile::kBoard || coded->dense.probabilities[0] != 2048;
         if (!has_two || tiles % 8 == 0 || tiles < 2 || levels != 15 || !is_tame) continue;
-        if (profile == Profile::kDense && (coded->dense.alpha_coding != alpha_coding ||
-                                           coded->dense.edge_filter != (alpha_coding == codec::AlphaCoding::kMask))) {
-            continue;
-        }
+        const codec::DenseCode& dense = coded->dense;
+        const bool has_features = alpha_coding == codec::AlphaCoding::kMask;
+        const bool is_wanted = dense.alpha_coding == alpha_coding && dense.edge_filter == has_features &&
+                               dense.learning == has_features && dense.hidden_signs == has_features;
+        if (profile == Profile::kDense && !is_wanted) continue;
         RaySpaceObject object =
             without_pictures({coded->width, coded->height, static_cast<int>(coded->pictures.size()), 1, false});
         object.coded = coded;
