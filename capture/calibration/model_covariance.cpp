@@ -39,6 +39,20 @@ NumberPlaces::NumberPlaces(const BundleFreedom& free, const std::vector<bool>& i
     if (free.angles == AngleFreedom::kCommonStep) step = count++;
 }
 
+TurntableModel stepped(TurntableModel model, const NumberPlaces& places, const Eigen::VectorXd& step) {
+    const std::array<double*, kCameraNumbers> numbers{&model.lens.f_px,     &model.lens.cx,      &model.lens.cy,
+                                                      &model.lens.k1,       &model.lens.k2,      &model.pose.pan_rad,
+                                                      &model.pose.tilt_rad, &model.pose.roll_rad};
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        if (places.camera[k] >= 0) *numbers[k] += step(places.camera[k]);
+    }
+    for (std::size_t view = 0; view < model.angles_rad.size(); ++view) {
+        if (places.angles[view] >= 0) model.angles_rad[view] += step(places.angles[view]);
+        if (places.step >= 0) model.angles_rad[view] += static_cast<double>(view) * step(places.step);
+    }
+    return model;
+}
+
 ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& places,
                               const Eigen::MatrixXd& covariance, double at_px) {
     if (covariance.size() == 0 && places.count > 0) {

@@ -27,6 +27,9 @@ struct NumberPlaces {
     NumberPlaces(const BundleFreedom& free, const std::vector<bool>& is_seen);
 };
 
+// `model` with the numbers at `places` changed by `step`.
+TurntableModel stepped(TurntableModel model, const NumberPlaces& places, const Eigen::VectorXd& step);
+
 // What was held has a deviation of 0; all are infinite where `covariance` is empty, for nothing is known. Unknowns of
 // `covariance` beyond places.count do not count. `at_px` is the row (for an axis nearer to sideways the column) at
 // which the axis' position is judged.

@@ -135,20 +135,6 @@ double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covarian
     return std::max(1.0, went.dot(among.ldlt().solve(went)) / static_cast<double>(chosen.size()));
 }
 
-TurntableModel moved(TurntableModel model, const NumberPlaces& places, const Eigen::VectorXd& step) {
-    const std::array<double*, kCameraNumbers> numbers{&model.lens.f_px,     &model.lens.cx,      &model.lens.cy,
-                                                      &model.lens.k1,       &model.lens.k2,      &model.pose.pan_rad,
-                                                      &model.pose.tilt_rad, &model.pose.roll_rad};
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-        if (places.camera[k] >= 0) *numbers[k] += step(places.camera[k]);
-    }
-    for (std::size_t view = 0; view < model.angles_rad.size(); ++view) {
-        if (places.angles[view] >= 0) model.angles_rad[view] += step(places.angles[view]);
-        if (places.step >= 0) model.angles_rad[view] += static_cast<double>(view) * step(places.step);
-    }
-    return model;
-}
-
 }  // namespace
 
 std::vector<OutlineHull> outline_hulls(std::span<const CalibrationPicture> turn, int reduction,
@@ -231,7 +217,7 @@ std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const Numbe
             const double width = 0.3 * std::sqrt(std::max(covariance(k, k), 1e-16));
             Eigen::VectorXd there = step;
             there(k) += width;
-            const std::vector<double> then = tangency_residuals(moved(model, places, there), hulls, pairs);
+            const std::vector<double> then = tangency_residuals(stepped(model, places, there), hulls, pairs);
             for (Eigen::Index q = 0; q < count; ++q) {
                 const auto at = static_cast<std::size_t>(q);
                 slopes(q, k) = (then[at] - now[at]) / width;
@@ -249,7 +235,7 @@ std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const Numbe
         if (solver.info() != Eigen::Success) return std::nullopt;
         step += solver.solve(-slopes.transpose() * (weight.asDiagonal() * r) - before * step);
         if (!step.allFinite()) return std::nullopt;
-        fit.model = moved(model, places, step);
+        fit.model = stepped(model, places, step);
         if (!(fit.model.lens.f_px > 0)) return std::nullopt;
         const Eigen::MatrixXd half = solver.solve(before + kUntold * kUntold * of_outlines);
         fit.covariance = solver.solve(half.transpose());

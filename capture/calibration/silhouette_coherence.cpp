@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace rs::capture {
 namespace {
 
 constexpr int kDepths = 96;       // tried along a ray
 constexpr int kRefinements = 12;  // golden sections around the best of them
+constexpr int kNearDepths = 2;    // tried on either side of a depth that is roughly known
 constexpr double kNoRay_px = 100;
 
 // What one view sees of the points centre + depth * direction of one other view's rays.
@@ -55,8 +57,9 @@ public:
         : turn_(turn), lens_(lens), sights_(sights), directions_(sights.size()) {}
 
     // The largest over depths within `reach` of the axis of the least over views of the distance; any value above 0
-    // where there is one, for then the ray falls short of nothing.
-    double best(const glm::dvec3& direction, double reach) {
+    // where there is one, for then the ray falls short of nothing. `known_depth`: where; above 0 if it is
+    // roughly known.
+    double best(const glm::dvec3& direction, double reach, double& known_depth) {
         for (std::size_t j = 0; j < sights_.size(); ++j) directions_[j] = sights_[j].camera_from_table * direction;
         // From (0, 0, 1): nearest to the axis at `middle`.
         const double flat2 = direction.x * direction.x + direction.z * direction.z;
@@ -65,18 +68,26 @@ public:
         const double half = std::sqrt(std::max(1e-6, reach * reach - miss2) / flat2);
         const double step = 2 * half / kDepths;
         float most = std::numeric_limits<float>::lowest();
-        double at = middle;
-        for (int k = 0; k < kDepths; ++k) {
-            // Outwards from the middle, so that a good value comes early and prunes the rest.
-            const double depth = middle + step * (k % 2 == 0 ? -(k / 2) - 0.5 : k / 2 + 0.5);
+        const bool is_known = known_depth > 0;
+        // Outwards from the middle, or from where it was, so that a good value comes early and prunes the rest.
+        const double from = is_known ? known_depth : middle - 0.5 * step;
+        const int tried = is_known ? 2 * kNearDepths + 1 : kDepths;
+        double at = from;
+        for (int k = 0; k < tried; ++k) {
+            const double depth = from + step * (k % 2 == 0 ? -(k / 2) : k / 2 + 1);
             const float least = least_over_views(depth, most);
             if (least > most) {
                 most = least;
                 at = depth;
             }
-            if (most >= 0) return most;
+            if (most >= 0) {
+                known_depth = at;
+                return most;
+            }
         }
-        return std::max<double>(most, refined(at - step, at + step));
+        const auto [found, found_at] = refined(at - step, at + step);
+        known_depth = found > most ? found_at : at;
+        return std::max<double>(most, found);
     }
 
 private:
@@ -96,7 +107,8 @@ private:
         return least;
     }
 
-    [[nodiscard]] double refined(double low, double high) const {
+    // The largest value, and where.
+    [[nodiscard]] std::pair<float, double> refined(double low, double high) const {
         constexpr double kGolden = 0.6180339887498949;
         constexpr float kNoFloor = std::numeric_limits<float>::lowest();
         double a = high - kGolden * (high - low);
@@ -118,7 +130,7 @@ private:
                 at_b = least_over_views(b, kNoFloor);
             }
         }
-        return std::max(at_a, at_b);
+        return at_a > at_b ? std::pair{at_a, a} : std::pair{at_b, b};
     }
 
     const SilhouetteTurn& turn_;
@@ -142,7 +154,8 @@ std::vector<std::size_t> views_of_rays(const SilhouetteTurn& turn, const RaySele
     return views;
 }
 
-std::vector<double> shortfalls_px(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays) {
+std::vector<double> shortfalls_px(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays,
+                                  RayDepths* depths) {
     RS_CHECK(model.angles_rad.size() == turn.views() && rays.every > 0);
     // The rays of all views first: the farthest from the axis says how far the object may reach.
     struct View {
@@ -169,16 +182,20 @@ std::vector<double> shortfalls_px(const SilhouetteTurn& turn, const TurntableMod
                          static_cast<float>(model.lens.cy), static_cast<float>(model.lens.k1),
                          static_cast<float>(model.lens.k2)};
     std::vector<double> shortfalls(count);
+    RayDepths near = depths != nullptr ? *depths : RayDepths{};
+    RS_CHECK(near.empty() || near.size() == count);
+    near.resize(count);
     tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
         if (views[i].directions.empty()) return;
         const std::vector<Sight> sights = sights_of(model, i, rays.left_out);
         RayProbe probe(turn, lens, sights);
         for (std::size_t e = 0; e < views[i].directions.size(); ++e) {
             const auto& direction = views[i].directions[e];
-            const double best_px = direction ? probe.best(*direction, reach) : -kNoRay_px;
+            const double best_px = direction ? probe.best(*direction, reach, near[views[i].first + e]) : -kNoRay_px;
             shortfalls[views[i].first + e] = std::clamp(-best_px, 0.0, kNoRay_px);
         }
     });
+    if (depths != nullptr && depths->empty()) *depths = std::move(near);
     return shortfalls;
 }
 

@@ -9,8 +9,7 @@
 namespace rs::capture {
 namespace {
 
-constexpr std::size_t kFewestViews = 6;
-constexpr int kWishedBox_px = 300;
+constexpr std::size_t kFewestOutlines = 6;
 constexpr int kMargin_px = 24;
 constexpr float kHalfway = 0.5F;
 
@@ -94,7 +93,7 @@ Image<float> signed_distance(ConstImageView<float> coverage) {
 }
 
 // Where coverage crosses one half between neighbours, sorted by direction from the middle and thinned out evenly.
-std::vector<glm::dvec2> edge_points(ConstImageView<float> coverage, const glm::dvec2& origin) {
+std::vector<glm::dvec2> edge_points(ConstImageView<float> coverage, const glm::dvec2& origin, std::size_t most) {
     std::vector<glm::dvec2> points;
     glm::dvec2 middle(0);
     const auto add_crossing = [&](int x, int y, int dx, int dy) {
@@ -117,7 +116,7 @@ std::vector<glm::dvec2> edge_points(ConstImageView<float> coverage, const glm::d
     std::stable_sort(points.begin(), points.end(), [&](const glm::dvec2& a, const glm::dvec2& b) {
         return std::atan2(a.y - middle.y, a.x - middle.x) < std::atan2(b.y - middle.y, b.x - middle.x);
     });
-    const std::size_t kept = std::min(points.size(), SilhouetteTurn::kEdgesPerView);
+    const std::size_t kept = std::min(points.size(), most);
     for (std::size_t i = 0; i < kept; ++i) points[i] = points[i * points.size() / kept];
     points.resize(kept);
     return points;
@@ -129,10 +128,10 @@ std::string view_name(std::size_t i) {
 
 }  // namespace
 
-Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> masks) {
-    if (masks.size() < kFewestViews) {
+Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> masks, const SilhouetteDetail& detail) {
+    if (masks.size() < kFewestOutlines) {
         return Error{"silhouettes: " + std::to_string(masks.size()) + " views say too little; take at least " +
-                     std::to_string(kFewestViews)};
+                     std::to_string(kFewestOutlines)};
     }
     Box whole;
     for (std::size_t i = 0; i < masks.size(); ++i) {
@@ -148,7 +147,7 @@ Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> m
 
     SilhouetteTurn turn;
     const int side = std::max(whole.right - whole.left, whole.bottom - whole.top);
-    turn.reduction_ = std::max(1, (side + kWishedBox_px / 2) / kWishedBox_px);
+    turn.reduction_ = std::max(1, (side + detail.box_px / 2) / detail.box_px);
     const int n = turn.reduction_;
     turn.open_[0] = whole.left <= 1;
     turn.open_[1] = whole.right >= masks[0].width() - 1;
@@ -165,8 +164,8 @@ Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> m
         const int bottom = std::min(coverage.height(), whole.bottom / n + 1 + kMargin_px);
         const ConstImageView<float> part = coverage.view().crop(left, top, right - left, bottom - top);
         turn.origin_ = glm::vec2(left, top);
-        turn.edges_.push_back(edge_points(part, {left, top}));
-        if (part.width() < 2 || part.height() < 2 || turn.edges_.back().size() < kFewestViews) {
+        turn.edges_.push_back(edge_points(part, {left, top}, detail.edges_per_view));
+        if (part.width() < 2 || part.height() < 2 || turn.edges_.back().size() < kFewestOutlines) {
             return Error{view_name(i) + " has hardly any outline; check its cut-out"};
         }
         try {

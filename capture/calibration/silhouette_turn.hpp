@@ -13,20 +13,23 @@
 
 namespace rs::capture {
 
+struct SilhouetteDetail {
+    int box_px = 300;                 // about: side of the box of the whole turn
+    std::size_t edges_per_view = 48;  // at most
+};
+
 class SilhouetteTurn {
 public:
-    // Coverage 0..255, all views of one size. They are reduced by a whole factor so that the box of the whole turn is
-    // about 300 px, and cut to that box. Errors: fewer than 6 views, sizes that differ, a view that is empty or full.
-    static Result<SilhouetteTurn> of(std::span<const Image<std::uint8_t>> masks);
+    // Coverage 0..255, all views of one size. They are reduced by the whole factor that `detail` asks for, and cut to
+    // the turn's box. Errors: fewer than 6 views, sizes that differ, a view that is empty or full.
+    static Result<SilhouetteTurn> of(std::span<const Image<std::uint8_t>> masks, const SilhouetteDetail& detail = {});
 
     [[nodiscard]] std::size_t views() const { return distances_.size(); }
     [[nodiscard]] int reduction() const { return reduction_; }                  // mask px per px of the positions below
     [[nodiscard]] double width_px() const { return box_high_.x - box_low_.x; }  // of the turn's box
     [[nodiscard]] bool touches_border() const { return open_[0] || open_[1] || open_[2] || open_[3]; }
 
-    // Points of view i's outline to a fraction of a px, at most kEdgesPerView, evenly around it, none on the border of
-    // the picture.
-    static constexpr std::size_t kEdgesPerView = 48;
+    // Points of view i's outline to a fraction of a px, evenly around it, none on the border of the picture.
     [[nodiscard]] std::span<const glm::dvec2> edges(std::size_t view) const { return edges_[view]; }
 
     // Signed distance in px from the outline of `view`, positive inside. Beyond a border that the object touches the

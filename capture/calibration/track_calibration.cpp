@@ -2,8 +2,7 @@
 
 #include "capture/calibration/bundle_deviations.hpp"
 #include "capture/calibration/model_covariance.hpp"
-#include "capture/calibration/outline_symmetry.hpp"
-#include "capture/calibration/outline_tangency.hpp"
+#include "capture/calibration/outline_settling.hpp"
 #include "capture/calibration/patch_alignment.hpp"
 #include "capture/calibration/start_search.hpp"
 #include "capture/calibration/turn_diagnosis.hpp"
@@ -30,8 +29,6 @@ constexpr double kWideArc_rad = 0.35;
 constexpr std::size_t kEnoughTracks = 2000;  // more would only take time
 constexpr double kRoom = 1.15;               // around the points known, for those not known yet
 constexpr double kLeastOutlierLimit_px = 0.8;
-// Outlines of two views that agree no better than this are of fur, or cut out wrong, and would mislead.
-constexpr double kWorstOutlines_px = 0.15;
 constexpr double kAlignedLimit_px = 1;  // alignment that went to another place
 
 void split(const std::vector<Track>& tracks, std::vector<Track>& part, std::vector<Track>& held_out) {
@@ -184,52 +181,6 @@ bool refine(Bundle& bundle, const TurnPictures& turn, BundleOptions& options) {
     }
     return true;
 }
-
-// Moves the axis to where tracks and outlines together see it, and the points with it. All else stays: texture that
-// glides alike around the whole object looks as if it turned about an axis beside the true one, and bending lens and
-// angles until it fits the true one only spreads the error. `deviations` are those of the bundle as it stands; the
-// position's is made that of both. A line for the photographer where they disagree.
-std::optional<std::string> settle_axis(Bundle& bundle, const TurnPictures& turn, const NumberPlaces& places,
-                                       const Eigen::MatrixXd& covariance, double at_px, ModelDeviations& deviations) {
-    if (places.camera[kPan] < 0) return std::nullopt;
-    const auto of_outlines = axis_of_outlines(covered_together(turn.pictures), turn.reduction, bundle.model);
-    if (!of_outlines) return std::nullopt;
-    const auto position = axis_position(bundle.model.lens, bundle.model.pose, of_outlines->at_px);
-    if (!position) return std::nullopt;
-    const double deviation_px = deviations_of(bundle.model, places, covariance, of_outlines->at_px).axis_position_px;
-    const AxisPlace of_tracks{of_outlines->at_px, *position, deviation_px};
-    const AxisPlace agreed = agreed_axis(of_tracks, *of_outlines);
-    const auto model = with_axis_at(bundle.model, agreed);
-    if (!model) return std::nullopt;
-    Bundle moved = make_bundle(*model, bundle.tracks);
-    if (moved.tracks.size() < kFewestTracks / 2) return std::nullopt;
-    bundle = std::move(moved);
-    deviations.axis_position_px = std::hypot(agreed.deviation_px, deviations.roll_rad * (agreed.at_px - at_px));
-    return axis_warning(of_tracks, *of_outlines, turn.reduction);
-}
-
-// Brings the whole model to where tracks and outlines together see it (outline_tangency.hpp), and the points with it.
-// `covariance` is that of the tracks alone; the axis' position is known as `deviations` say. Everything stays where
-// outlines cannot be compared or do not agree.
-void settle_with_outlines(Bundle& bundle, const TurnPictures& turn, const NumberPlaces& places,
-                          Eigen::MatrixXd covariance, double at_px, ModelDeviations& deviations) {
-    if (covariance.size() == 0) return;
-    if (const int pan = places.camera[kPan]; pan >= 0) {
-        covariance.row(pan).setZero();
-        covariance.col(pan).setZero();
-        covariance(pan, pan) = std::pow(deviations.axis_position_px / bundle.model.lens.f_px, 2);
-    }
-    const std::vector<OutlineHull> hulls = outline_hulls(turn.pictures, turn.reduction, bundle.model);
-    const auto fit = fit_tangency(bundle.model, places, covariance, hulls, kWorstOutlines_px * turn.reduction);
-    if (!fit) return;
-    Bundle moved = make_bundle(fit->model, bundle.tracks);
-    if (moved.tracks.size() < kFewestTracks / 2) return;
-    bundle = std::move(moved);
-    const double before_px = deviations.axis_position_px;  // from the same outlines: they are not asked twice
-    deviations = deviations_of(bundle.model, places, fit->covariance, at_px);
-    deviations.axis_position_px = std::max(deviations.axis_position_px, before_px);
-}
-
 }  // namespace
 
 Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
@@ -283,11 +234,12 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     keep_enough_tracks(bundle);
     const bool refined = refine(bundle, turn, options);
     if (!refined) bundle = settled;
-    const NumberPlaces places(options.free, std::vector<bool>(views, true));
-    const Eigen::MatrixXd covariance = bundle_covariance(bundle, options, kSharedError_px * turn.reduction);
-    ModelDeviations deviations = deviations_of(bundle.model, places, covariance, at_px);
-    const auto axis_disagrees = settle_axis(bundle, turn, places, covariance, at_px, deviations);
-    settle_with_outlines(bundle, turn, places, covariance, at_px, deviations);
+    TrackSolution solution{
+        std::move(bundle), NumberPlaces(options.free, std::vector<bool>(views, true)), {}, at_px, {}};
+    solution.covariance = bundle_covariance(solution.bundle, options, kSharedError_px * turn.reduction);
+    solution.deviations = deviations_of(solution.bundle.model, solution.places, solution.covariance, at_px);
+    const auto axis_disagrees = settle_with_outlines(solution, turn, kFewestTracks / 2);
+    bundle = std::move(solution.bundle);
     if (refined) {
         unseen.model = bundle.model;
         unseen = make_agreeing_bundle(bundle.model, aligned_tracks(turn.pictures, turn.reduction, unseen),
@@ -298,7 +250,7 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     Calibration& calibration = result.calibration;
     calibration.method = CalibrationMethod::kTracks;
     calibration.model = bundle.model;
-    calibration.deviations = std::move(deviations);
+    calibration.deviations = std::move(solution.deviations);
     calibration.step_rad = median_step(bundle.model.angles_rad);
     Bundle judged = settled;  // its observations, the better angles
     judged.model = bundle.model;

@@ -1,0 +1,31 @@
+#pragma once
+// What the outlines of all views together say about camera and angles: that they are outlines of one body
+// (silhouette_coherence.hpp). Points that can be followed for a short way only let the angles drift around the turn;
+// outlines tie every view to all others.
+
+#include "capture/calibration/model_covariance.hpp"
+#include "capture/calibration/silhouette_turn.hpp"
+#include "capture/calibration/turntable_model.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+
+namespace rs::capture {
+
+struct CoherenceFit {
+    TurntableModel model;
+    Eigen::MatrixXd covariance;  // as the one given
+    double shortfall_px = 0;     // root mean square over the rays, px of the photographs
+};
+
+// `model`, known with `covariance` of the numbers at `places`, and the outlines together: what both make likeliest,
+// along those combinations of numbers that `covariance` leaves loosest. Outlines are weighed by how well they agree.
+// `picture_px`: px of the photographs per px of `turn`. Nothing where the outlines do not come to agree within
+// `worst_px` (photographs' px), or `model` does not stay before the camera. Works on the threads of the calling tbb
+// arena; equal results whatever their number.
+std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const NumberPlaces& places,
+                                          const Eigen::MatrixXd& covariance, const SilhouetteTurn& turn,
+                                          double picture_px, double worst_px);
+
+}  // namespace rs::capture
