@@ -23,7 +23,7 @@ constexpr double kOutlier_px = 1;       // of the turn: shortfalls far above it 
 // Outlines that agree better are those of bodies that look alike from everywhere, and know no more for it.
 constexpr double kFinest_px = 0.12;
 // Neighbouring points of an outline are off alike: a view is worth this many independent ones.
-constexpr double kIndependentRays = 48;
+constexpr double kIndependentRays = 24;
 // Outlines err together, too, in ways no shortfall shows (as in outline_tangency.cpp).
 constexpr double kUntoldTogether = 6;
 

@@ -1,7 +1,7 @@
 #pragma once
 // The binary arithmetic decoder of coded pictures: encode/FORMAT.md, section "Bits".
 //
-// Probabilities are fixed for the whole object, so a decoder has no state but its position: any tile can be begun
+// What is likely comes from outside (context_states.hpp) and begins anew with every tile, so any tile can be begun
 // without its neighbours. Reading past the end gives zeros, as many as are asked for: a decoder never fails, and what
 // it makes of damaged bytes is bounded by the syntax that is read through it.
 
