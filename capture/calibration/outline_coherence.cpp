@@ -24,6 +24,9 @@ constexpr double kOutlier_px = 1;       // of the turn: shortfalls far above it 
 constexpr double kFinest_px = 0.12;
 // Neighbouring points of an outline are off alike: a view is worth this many independent ones.
 constexpr double kIndependentRays = 24;
+// Outlines that leave more than this of the angles' variance are of a body that looks alike from all sides. What they
+// say of the camera is in the small print of their errors: it has been seen to bend lens and tilt.
+constexpr double kTellsOfAngles = 0.5;
 // Outlines err together, too, in ways no shortfall shows (as in outline_tangency.cpp).
 constexpr double kUntoldTogether = 6;
 
@@ -59,6 +62,19 @@ Eigen::MatrixXd loosest(const Eigen::MatrixXd& covariance, const Eigen::VectorXd
                          std::sqrt(parts.eigenvalues()(n - 1 - k));
     }
     return columns;
+}
+
+// How much of the angles' variance outlines leave, 0 .. 1.
+double angles_left(const NumberPlaces& places, const Eigen::MatrixXd& columns, const Eigen::MatrixXd& of_outlines) {
+    const Eigen::Index n = columns.cols();
+    const Eigen::MatrixXd after = (Eigen::MatrixXd::Identity(n, n) + of_outlines).inverse();
+    double before = 0, left = 0;
+    for (const int place : places.angles) {
+        if (place < 0) continue;
+        before += columns.row(place).squaredNorm();
+        left += columns.row(place).dot(after * columns.row(place).transpose());
+    }
+    return before > 0 ? left / before : 1;
 }
 
 // Of combinations whose variances were 1: what `of_outlines` makes of them if outlines are off by kUntoldTogether times
@@ -168,6 +184,7 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     CoherenceFit fit{outlines.at(z), covariance, 0};
     fit.shortfall_px = picture_px * std::sqrt(shortfalls.squaredNorm() / static_cast<double>(shortfalls.size()));
     if (!(fit.shortfall_px <= worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
+    if (!(angles_left(places, columns, of_outlines) <= kTellsOfAngles)) return std::nullopt;
     fit.covariance += columns * (variance_with(of_outlines) - unit) * columns.transpose();
     return fit;
 }

@@ -94,7 +94,7 @@ TEST(OutlineCoherence, MendsAnglesThatDriftAroundTheTurn) {
         variance += fit->covariance(place, place) / kCoherentViews;
         before += covariance(place, place) / kCoherentViews;
     }
-    EXPECT_LT(variance, 0.5 * before);
+    EXPECT_LT(variance, 0.8 * before);
     EXPECT_GT(2 * std::sqrt(variance), angles_error_rad(fit->model, truth));
 }
 
@@ -111,18 +111,23 @@ TEST(OutlineCoherence, IsTheSameOnAnyNumberOfThreads) {
 }
 
 // What a body of revolution shows is the same at any angle, and is no reason to turn or to bend anything.
-TEST(OutlineCoherence, ABodyOfRevolutionMovesNothing) {
+TEST(OutlineCoherence, ABodyOfRevolutionSaysNothing) {
     const TurntableModel truth = turn_of_figure(kCoherentViews);
     const auto [places, covariance] = known_by_short_tracks(truth);
     const SilhouetteTurn turn = turn_of(drawn(bottle(), truth));
-    const auto fit = fit_coherence(truth, places, covariance, turn, turn.reduction(), 0.5);
-    ASSERT_TRUE(fit.has_value());
-    EXPECT_LT(angles_error_rad(fit->model, truth), radians(0.05));
-    EXPECT_NEAR(fit->model.lens.f_px / truth.lens.f_px, 1, 0.005);
-    for (const int place : places.angles) {
-        if (place < 0) continue;
-        EXPECT_GT(fit->covariance(place, place), 0.7 * covariance(place, place));
-    }
+    EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), 0.5).has_value());
+    const SilhouetteTurn of_figure = turn_of(masks_of_figure());
+    EXPECT_TRUE(fit_coherence(truth, places, covariance, of_figure, of_figure.reduction(), 0.5).has_value());
+}
+
+TEST(OutlineCoherence, AnglesThatAreHeldStay) {
+    const TurntableModel truth = turn_of_figure(kCoherentViews);
+    BundleFreedom free;
+    free.angles = AngleFreedom::kHeld;
+    const NumberPlaces places(free, std::vector<bool>(truth.angles_rad.size(), true));
+    const Eigen::MatrixXd covariance = 1e-4 * Eigen::MatrixXd::Identity(places.count, places.count);
+    const SilhouetteTurn turn = turn_of(masks_of_figure());
+    EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), 0.5).has_value());
 }
 
 TEST(OutlineCoherence, OutlinesOfNoOneBodySayNothing) {
