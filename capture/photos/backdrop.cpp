@@ -1,6 +1,7 @@
 #include "capture/photos/backdrop.hpp"
 
 #include "capture/photos/colour_difference.hpp"
+#include "capture/photos/disc_bridging.hpp"
 #include "capture/photos/plate.hpp"
 #include "capture/photos/turn_plate.hpp"
 
@@ -25,7 +26,8 @@ constexpr int kBorderColours = 4;
 constexpr double kStillBorder = 0.5;
 constexpr float kStillShare = 0.6F;  // of the samples agree: never or seldom hidden
 constexpr float kNeverHidden = 0.95F;
-constexpr float kSeenShare = 0.3F;  // of the samples agree: the backdrop, if its colour is right
+constexpr float kSeenShare = 0.3F;     // of the samples agree: the backdrop, if its colour is right
+constexpr double kShadowReach = 0.25;  // of the disc's radius
 constexpr float kSameColour_delta_e = 16;
 constexpr std::size_t kMinSamplesForStillness = 6;
 
@@ -231,10 +233,12 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
         found.untouched = mask_of(still, [](float agreement) { return agreement >= kNeverHidden; });
     }
     Image<std::uint8_t> known;
+    std::optional<TurntableDisc> disc;
     if (turn && shares.still >= kStillBorder) {
         TurnPlate plate = plate_of_turn(samples, still.colour, found.untouched);
         still.colour = std::move(plate.colour);
         known = std::move(plate.known);
+        disc = plate.disc;
         found.untouched = std::move(plate.untouched);
         // Through the loops of an object a white or black backdrop looks the same all the time, too.
         if (found.kind == BackdropKind::kColour) found.hidden = std::move(plate.hidden);
@@ -245,7 +249,8 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
         still.colour = Image<Rgba8>(known.width(), known.height(), found.colour);
     }
     found.known = known;
-    if (turn) bridge_rows(still.colour, known);
+    if (disc) found.ground = disc_mask(*disc, known.width(), known.height(), kShadowReach);
+    if (turn) bridge_gaps(disc, still.colour, known);
     fill_unknown(still.colour, known);
     found.plate = std::move(still.colour);
     if (turn) found.noise_delta_e = plate_noise(samples, found.plate, found.known);

@@ -38,6 +38,8 @@ struct Backdrop {
     // ground of a painted vase. Empty where there are too few pictures to tell.
     Image<std::uint8_t> untouched{};
     Image<std::uint8_t> hidden{};
+    // 255 on a turntable's disc and around it, where the object's shadow falls; empty where no disc was found.
+    Image<std::uint8_t> ground{};
     // Mean difference near by between the samples that show the plate and the plate; as empty.
     Image<float> noise_delta_e{};
 };

@@ -30,6 +30,12 @@ float delta_e(const Lab& x, const Lab& y) {
     return std::hypot(x.l - y.l, x.a - y.a, x.b - y.b);
 }
 
+bool is_colourful(const LinearRgb& colour) {
+    constexpr float kColourful = 15;
+    const Lab lab = lab_from_linear(colour);
+    return std::hypot(lab.a, lab.b) > kColourful;
+}
+
 Explanation explain_by_backdrop(const LinearRgb& pixel, const LinearRgb& backdrop, float min_shade, float max_shade) {
     const Lab seen = lab_from_linear(pixel);
     Explanation result;

@@ -19,6 +19,9 @@ Lab lab_from_linear(const LinearRgb& colour);
 // CIE 1976 colour difference; 2.3 is just noticeable.
 float delta_e(const Lab& x, const Lab& y);
 
+// Whether a backdrop has so much colour that the shaded grey parts of an object do not look like it in a shadow.
+bool is_colourful(const LinearRgb& colour);
+
 // How well `backdrop` explains `pixel`. A shadow multiplies the backdrop's linear light by one factor for all channels,
 // so `shaded` is the difference to the multiple of the backdrop that fits best.
 struct Explanation {

@@ -40,6 +40,7 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
     }
     for (const Rgba8& colour : backdrop.screen) plate_.screen.push_back(linear_rgb(colour));
     plate_.noise_delta_e = scaled(backdrop.noise_delta_e, width, height);
+    plate_.ground = scaled(backdrop.ground, width, height);
     plate_.hidden = scaled(backdrop.hidden, width, height);
     untouched_ = scaled(backdrop.untouched, width, height);
 }

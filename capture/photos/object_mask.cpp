@@ -1,6 +1,7 @@
 #include "capture/photos/object_mask.hpp"
 
 #include "capture/photos/contrast_cut.hpp"
+#include "capture/photos/opencv_image.hpp"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -13,9 +14,6 @@
 namespace rs::capture {
 namespace {
 
-// A backdrop with less colour than this looks like the shaded grey parts of an object.
-constexpr float kColourful = 15;
-
 // What the colour says where it is almost the plate's, and on a small island of it.
 constexpr float kAlmostPlain = -0.4F;
 constexpr float kIsland = -0.1F;
@@ -25,7 +23,7 @@ constexpr double kChance = 0.00002;
 constexpr float kShadowRather = -0.1F;
 
 // Where the object is known to hide the backdrop always, whatever the colour: the plate is a guess there.
-constexpr float kHidden = 0.5F;
+constexpr float kHidden = 2;
 
 // Light left in a shadow that is no crevice.
 constexpr float kLikelyShade = 0.3F;
@@ -42,9 +40,18 @@ float ramp(float value, float low, float high) {
     return std::clamp((value - low) / (high - low), 0.0F, 1.0F);
 }
 
-bool is_colourful(const LinearRgb& colour) {
-    const Lab lab = lab_from_linear(colour);
-    return std::hypot(lab.a, lab.b) > kColourful;
+// Where an object throws its shadow the light that it mirrors falls, too.
+MaskOptions on_ground(MaskOptions options) {
+    options.possible_delta_e = 9;
+    options.certain_delta_e = 20;
+    options.shadow_tolerance = 1;
+    return options;
+}
+
+// Far behind the object there are hardly any shadows of it.
+MaskOptions above_ground(MaskOptions options) {
+    options.shadow_or_grey = 0.3F;
+    return options;
 }
 
 float preference_against(const LinearRgb& pixel, const LinearRgb& behind, float noise_delta_e,
@@ -177,6 +184,68 @@ void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstI
     }
 }
 
+// 255 where `part` is at most `width_px` wide along a row, a column or a diagonal.
+cv::Mat1b thin_parts(const cv::Mat1b& part, int width_px) {
+    cv::Mat1b thin(part.size(), std::uint8_t{0});
+    for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
+        cv::Mat1i since(part.size(), 0);  // steps back along (dx, dy) that stay within the part
+        for (int i = 0; i < part.rows; ++i) {
+            const int y = dy < 0 ? part.rows - 1 - i : i;
+            for (int x = 0; x < part.cols; ++x) {
+                if (part(y, x) == 0) continue;
+                const int u = x - dx;
+                const int v = y - dy;
+                const bool inside = u >= 0 && v >= 0 && v < part.rows;
+                since(y, x) = inside ? since(v, u) + 1 : part.cols + part.rows;
+            }
+        }
+        // A run's length stands at its end: carried back along it.
+        cv::Mat1i run(part.size(), 0);
+        for (int i = 0; i < part.rows; ++i) {
+            const int y = dy < 0 ? i : part.rows - 1 - i;
+            for (int x = part.cols - 1; x >= 0; --x) {
+                if (part(y, x) == 0) continue;
+                const int u = x + dx;
+                const int v = y + dy;
+                const bool inside = u < part.cols && v >= 0 && v < part.rows;
+                run(y, x) = !inside ? part.cols + part.rows : (part(v, u) != 0 ? run(v, u) : since(y, x));
+                if (run(y, x) <= width_px) thin(y, x) = 255;
+            }
+        }
+    }
+    return thin;
+}
+
+// Shadows are broad: a narrow part that differs clearly from a plate of which noise and exposure are known is the
+// object's, wires and stripes of rods, even if a shadow of that depth would look the same. Not before a colour that
+// tells shadows from grey parts.
+void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options,
+                                  Image<float>& preference) {
+    constexpr int kThinShare = 45;  // of the picture's longer side: narrower than that is thin
+    constexpr float kThinRather = 2;
+    cv::Mat3f smooth;
+    cv::GaussianBlur(linear_mat(photo), smooth, {3, 3}, 0);
+    cv::Mat1f beyond_noise(smooth.size());
+    cv::Mat1b differs(smooth.size());
+    for (int y = 0; y < smooth.rows; ++y) {
+        for (int x = 0; x < smooth.cols; ++x) {
+            const cv::Vec3f& p = smooth(y, x);
+            const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
+            const float delta = delta_e(lab_from_linear({p[0], p[1], p[2]}), lab_from_linear(plate.light(x, y)));
+            beyond_noise(y, x) = delta - noise;
+            differs(y, x) = delta > std::max(options.plain_delta_e, 1.2F * noise) ? 255 : 0;
+        }
+    }
+    const cv::Mat1b thin = thin_parts(differs, std::max(1, std::max(smooth.cols, smooth.rows) / kThinShare));
+    for (int y = 0; y < smooth.rows; ++y) {
+        for (int x = 0; x < smooth.cols; ++x) {
+            float& own = preference(x, y);
+            if (std::abs(own) >= kDecided || thin(y, x) == 0 || beyond_noise(y, x) < options.thin_delta_e) continue;
+            if (!is_colourful(plate.light(x, y))) own = std::max(own, kThinRather);
+        }
+    }
+}
+
 }  // namespace
 
 MaskOptions mask_options_for(const Backdrop& backdrop) {
@@ -190,15 +259,19 @@ MaskOptions mask_options_for(const Backdrop& backdrop) {
         options.certain_delta_e = 14;
         options.shadow_tolerance = 0.5F;
         options.hole_share = 0.5;
+        options.thin_delta_e = 3;
     }
     return options;
 }
 
-Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options) {
+Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& anywhere) {
     RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
+    const MaskOptions ground = on_ground(anywhere);
+    const MaskOptions above = above_ground(anywhere);
     Image<float> preference(photo.width(), photo.height());
     for (int y = 0; y < photo.height(); ++y) {
         for (int x = 0; x < photo.width(); ++x) {
+            const MaskOptions& options = plate.ground.empty() ? anywhere : (plate.ground(x, y) != 0 ? ground : above);
             const LinearRgb pixel = linear_rgb(photo(x, y));
             const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
             const LinearRgb& behind = plate.light(x, y);
@@ -231,6 +304,7 @@ Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const PlateView& pl
     Image<std::uint8_t> result(photo.width(), photo.height());
     if (result.empty()) return result;
     Image<float> preference = object_preference(photo, plate, options);
+    if (options.thin_delta_e > 0) lean_to_object_in_thin_parts(photo, plate, options, preference);
     doubt_small_islands(preference, plate.light, options.max_island);
     result = cut_by_contrast(photo, preference, {});
     cv::Mat1b mask(result.height(), result.width(), result.data());

@@ -4,8 +4,9 @@
 // Every pixel gets a preference: above 0 for the object, below 0 for the backdrop. Pixels that look like the plate are
 // surely backdrop, pixels that no shadow on the plate explains are surely object. What lies between (shadows on the
 // ground, grey or glossy parts of the object on white) says little alone, so a minimum cut decides it by where the
-// contrast is: a soft shadow fades into the backdrop without an edge, the object has one all around. Then specks
-// (chalk, dust, noise) go and holes through which the backdrop is not really seen are closed.
+// contrast is: a soft shadow fades into the backdrop without an edge, the object has one all around. Where the plate is
+// known from a turn, it also counts that shadows are broad, and that they fall on the ground if one is known. Then
+// specks (chalk, dust, noise) go and holes through which the backdrop is not really seen are closed.
 
 #include "capture/photos/backdrop.hpp"
 #include "capture/photos/colour_difference.hpp"
@@ -29,6 +30,7 @@ struct MaskOptions {
     float min_shade = 0.25F;  // light left in the deepest shadow on a grey backdrop (or black were a shadow) ...
     float min_shade_colourful = 0.08F;  // ... and on one that has a colour
     float max_shade = 1.15F;
+    float thin_delta_e = 0;     // what differs by more from the plate and is narrow is no shadow; 0: it may be one
     double max_island = 0.003;  // plain grey patches smaller than this share of the picture may be the object's
     double min_part = 0.01;     // parts smaller than this share of the largest are specks
     // Of a true hole's inner part at least so much looks plain; measured on a shoe before white: loops of its straps
@@ -41,6 +43,7 @@ struct MaskOptions {
 struct PlateView {
     Image<LinearRgb> light;         // exposed like the photograph
     Image<std::uint8_t> hidden;     // 255 where the object always is before it; empty: nobody can tell
+    Image<std::uint8_t> ground;     // 255 where shadows fall; empty: they may fall anywhere
     std::vector<LinearRgb> screen;  // colours that are backdrop wherever they are seen, lit or in shadow
     Image<float> noise_delta_e;     // how far the photograph is from it where it shows it; empty: next to nothing
 };

@@ -26,10 +26,12 @@ constexpr double kKeptShare = 0.7;  // of a neighbour's witnesses must see the s
 // object.
 constexpr int kFront_px = 4;
 constexpr int kFewestInFront = 4;
+constexpr double kAlikeShare = 0.5;  // of the pixels in front that are the plate already
 
 // A plate that is only expected is confirmed by patches of 5 x 5 pixels; it may err by more than one that is seen.
-constexpr int kExpected_codes = 12;
+constexpr int kExpected_codes = 8;
 constexpr int kPatch_px = 2;
+constexpr int kGuessed_codes = 16;
 
 std::uint64_t witnesses_of(const EvenedSamples& samples, const Rgba8& colour, int x, int y,
                            int codes = kTolerance_codes) {
@@ -63,7 +65,7 @@ Rgba8 smooth_mean(const EvenedSamples& samples, std::uint64_t witnesses, int x, 
 }  // namespace
 
 void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, ConstImageView<std::uint8_t> seeds,
-                ConstImageView<std::uint8_t> barred, GrownPlate& plate) {
+                ConstImageView<std::uint8_t> barred, GrownPlate& plate, Growth growth) {
     const int width = samples.width();
     const int height = samples.height();
     RS_CHECK(guess.width() == width && guess.height() == height);
@@ -93,14 +95,16 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
     // Pixels of the plate around (u, v) that show the same in the same pictures.
     const auto support = [&](int u, int v, const Rgba8& colour, std::uint64_t witnesses) {
         int count = 0;
+        int known = 0;
         for (int y = std::max(0, v - kFront_px); y <= std::min(height - 1, v + kFront_px); ++y) {
             for (int x = std::max(0, u - kFront_px); x <= std::min(width - 1, u + kFront_px); ++x) {
                 const int held = std::popcount(plate.witnesses(x, y));
+                known += held == 0 ? 0 : 1;
                 if (held == 0 || !samples_agree(plate.colour(x, y), colour, kTolerance_codes)) continue;
                 count += std::popcount(witnesses & plate.witnesses(x, y)) >= kKeptShare * held ? 1 : 0;
             }
         }
-        return count;
+        return count >= kAlikeShare * known ? count : 0;
     };
     const auto try_from = [&](int x, int y, int u, int v) {
         const std::uint64_t before = plate.witnesses(x, y);
@@ -110,6 +114,7 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
         Rgba8 colour = smooth_mean(samples, witnesses, u, v);
         witnesses = witnesses_of(samples, colour, u, v);
         if (witnesses == 0 || support(u, v, colour, witnesses) < kFewestInFront) return 0;
+        if (growth == Growth::kNearGuess && !samples_agree(colour, guess(u, v), kGuessed_codes)) return 0;
         colour = smooth_mean(samples, witnesses, u, v);
         accept(u, v, colour, witnesses);
         return std::popcount(witnesses);

@@ -17,10 +17,14 @@ struct GrownPlate {
     Image<std::uint64_t> witnesses;  // [pixel] bit i: sample i shows the backdrop there
 };
 
+// How far the plate may grow from what it begins with: as far as its witnesses lead, or only where its colour is about
+// the guess's, too. Seeds that are no more than likely should not lead away from what made them so.
+enum class Growth { kFree, kNearGuess };
+
 // Adds the pixels where `seeds` is not 0, which are the backdrop of the colour `guess` (or almost so), to a plate of
 // their size or to an empty one, and grows it from there, but not to where `barred` is not 0. At most 64 samples.
 void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, ConstImageView<std::uint8_t> seeds,
-                ConstImageView<std::uint8_t> barred, GrownPlate& plate);
+                ConstImageView<std::uint8_t> barred, GrownPlate& plate, Growth growth = Growth::kFree);
 
 // The plate's colours as sharp as the pictures are; it is grown by smoothed ones. Black where it has no witnesses.
 Image<Rgba8> sharp_colours(const EvenedSamples& samples, const GrownPlate& plate);

@@ -1,6 +1,7 @@
 #include "capture/photos/turn_plate.hpp"
 
 #include "capture/photos/colour_difference.hpp"
+#include "capture/photos/disc_bridging.hpp"
 #include "capture/photos/plate.hpp"
 #include "capture/photos/plate_growth.hpp"
 #include "capture/photos/swept_region.hpp"
@@ -10,6 +11,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace rs::capture {
 namespace {
@@ -36,18 +39,106 @@ Image<std::uint8_t> where(ConstImageView<std::uint8_t> a, ConstImageView<std::ui
     return mask;
 }
 
-// Where the plate, fully lit or in a shadow, explains what never changes: a shadow that hardly moves, for the lamp
-// stands still, and backdrop that the region swept includes by mistake.
-Image<std::uint8_t> explained_by(ConstImageView<Rgba8> plate, ConstImageView<Rgba8> still) {
-    Image<std::uint8_t> explained(plate.width(), plate.height());
+// What a pixel that never changes within the swept region looks like, seen from the plate.
+struct Explained {
+    cv::Mat1b plain;   // 255 where it looks like the plate ...
+    cv::Mat1b shaded;  // ... and where only a shadow on it explains it
+};
+
+Explained explained_by(ConstImageView<Rgba8> plate, ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> hidden) {
+    Explained explained{cv::Mat1b(plate.height(), plate.width(), std::uint8_t{0}),
+                        cv::Mat1b(plate.height(), plate.width(), std::uint8_t{0})};
     tbb::parallel_for(0, plate.height(), [&](int y) {
         for (int x = 0; x < plate.width(); ++x) {
+            if (hidden(x, y) == 0) continue;
             const Explanation e =
                 explain_by_backdrop(linear_rgb(still(x, y)), linear_rgb(plate(x, y)), kDeepestShadow, kBrightest);
-            explained(x, y) = e.shaded <= kExplained_delta_e ? 255 : 0;
+            if (e.plain <= kExplained_delta_e) {
+                explained.plain(y, x) = 255;
+            } else if (e.shaded <= kExplained_delta_e) {
+                explained.shaded(y, x) = 255;
+            }
         }
     });
     return explained;
+}
+
+// The connected parts of a mask and what they end at, a few pixels away, for borders are blurred.
+class Ends {
+public:
+    struct Count {
+        int moving = 0;  // places beyond the part's border where something moves
+        int still = 0;   // where the backdrop stands still ...
+        int clear = 0;   // ... and of those, where it looks different
+    };
+    // `is_backdrop(x, y)` of a place that does not move.
+    template <class IsBackdrop>
+    Ends(const cv::Mat1b& mask, ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> motionless,
+         IsBackdrop is_backdrop) {
+        constexpr int kReach_px = 3;
+        constexpr float kClear_delta_e = 6;
+        counts_.resize(static_cast<std::size_t>(cv::connectedComponents(mask, label_, 8)));
+        for (int y = 0; y < mask.rows; ++y) {
+            for (int x = 0; x < mask.cols; ++x) {
+                if (mask(y, x) == 0) continue;
+                for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+                    const int u = x + kReach_px * dx;
+                    const int v = y + kReach_px * dy;
+                    if (u < 0 || v < 0 || u >= mask.cols || v >= mask.rows || mask(y + dy, x + dx) != 0) continue;
+                    Count& count = counts_[static_cast<std::size_t>(label_(y, x))];
+                    if (motionless(u, v) == 0) {
+                        ++count.moving;
+                    } else if (is_backdrop(u, v)) {
+                        const int in_x = std::clamp(x - kReach_px * dx, 0, mask.cols - 1);
+                        const int in_y = std::clamp(y - kReach_px * dy, 0, mask.rows - 1);
+                        ++count.still;
+                        count.clear += delta_e(lab_from_linear(linear_rgb(still(u, v))),
+                                               lab_from_linear(linear_rgb(still(in_x, in_y)))) > kClear_delta_e
+                                           ? 1
+                                           : 0;
+                    }
+                }
+            }
+        }
+    }
+    // Of the part that (x, y) belongs to.
+    [[nodiscard]] const Count& at(int x, int y) const { return counts_[static_cast<std::size_t>(label_(y, x))]; }
+
+private:
+    cv::Mat1i label_;
+    std::vector<Count> counts_;
+};
+
+// Where the object always hides the plate: what never changes within the region swept, less
+// - what looks like the plate: the region's border is coarse, and it spans hollows;
+// - shadows. The lamp stands still, so the core of a shadow never changes, but its outline does as the object turns;
+//   what ends at a still outline against the plain backdrop is a part of the object, of a colour like the backdrop's in
+//   a shadow, unless the backdrop has a colour to know it by;
+// - parts that go over into the backdrop without an edge.
+Image<std::uint8_t> hidden_within(ConstImageView<std::uint8_t> motionless, ConstImageView<std::uint8_t> swept,
+                                  ConstImageView<Rgba8> guess, ConstImageView<Rgba8> still) {
+    constexpr double kClearShare = 0.6;
+    Image<std::uint8_t> hidden = where(motionless, swept, [](bool rests, bool within) { return rests && within; });
+    const Explained explained = explained_by(guess, still, hidden);
+    const Ends shade_ends(explained.shaded, still, motionless,
+                          [&](int x, int y) { return hidden(x, y) == 0 || explained.plain(y, x) != 0; });
+    cv::Mat1b left(hidden.height(), hidden.width(), std::uint8_t{0});
+    for (int y = 0; y < hidden.height(); ++y) {
+        for (int x = 0; x < hidden.width(); ++x) {
+            if (hidden(x, y) == 0 || explained.plain(y, x) != 0) continue;
+            const bool shadow = explained.shaded(y, x) != 0 && (is_colourful(linear_rgb(guess(x, y))) ||
+                                                                shade_ends.at(x, y).moving > shade_ends.at(x, y).still);
+            left(y, x) = shadow ? 0 : 255;
+        }
+    }
+    const Ends ends(left, still, motionless, [&](int x, int y) { return left(y, x) == 0; });
+    for (int y = 0; y < hidden.height(); ++y) {
+        for (int x = 0; x < hidden.width(); ++x) {
+            const bool stays = left(y, x) != 0 && ends.at(x, y).clear >= kClearShare * ends.at(x, y).still;
+            hidden(x, y) = stays ? 255 : 0;
+        }
+    }
+    return hidden;
 }
 
 }  // namespace
@@ -55,23 +146,34 @@ Image<std::uint8_t> explained_by(ConstImageView<Rgba8> plate, ConstImageView<Rgb
 TurnPlate plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba8> still,
                         ConstImageView<std::uint8_t> motionless) {
     const Image<std::uint8_t> moves = where(motionless, motionless, [](bool rests, bool) { return !rests; });
-    const Image<std::uint8_t> swept = swept_region(still, moves);
+    Image<std::uint8_t> swept = swept_region(still, moves);
     TurnPlate result;
     result.untouched = where(motionless, swept, [](bool rests, bool within) { return rests && !within; });
     result.hidden = where(motionless, swept, [](bool rests, bool within) { return rests && within; });
     GrownPlate plate;
     grow_plate(samples, still, result.untouched, result.hidden, plate);
-    // What the row shows at both ends of what is hidden is a good guess; where pictures confirm it, for one through the
-    // holes of the object, the plate grows from there too.
     Image<Rgba8> guess = plate.colour;
-    const Image<std::uint8_t> known = seen_in(plate);
+    Image<std::uint8_t> known = seen_in(plate);
+    result.disc = find_turntable_disc(guess, known, swept);
+    if (result.disc) {  // a foot that looks the same from all sides was taken for the disc
+        const Image<std::uint8_t> foot = still_foot(*result.disc, still, known, swept);
+        for (int y = 0; y < foot.height(); ++y) {
+            for (int x = 0; x < foot.width(); ++x) {
+                if (foot(x, y) == 0) continue;
+                swept(x, y) = 255;
+                known(x, y) = result.untouched(x, y) = 0;
+                plate.witnesses(x, y) = 0;
+            }
+        }
+    }
+    // What the row, or the circle of a disc, shows at both ends of what is hidden is a good guess; where pictures
+    // confirm it, for one through the holes of the object, the plate grows from there too.
     Image<std::uint8_t> bridged = known;
-    bridge_rows(guess, bridged);
+    bridge_gaps(result.disc, guess, bridged);
     const Image<std::uint8_t> guessed = where(bridged, known, [](bool has, bool had) { return has && !had; });
     fill_unknown(guess, bridged);
-    result.hidden = where(result.hidden, explained_by(guess, still),
-                          [](bool never_changes, bool explained) { return never_changes && !explained; });
-    grow_plate(samples, guess, confirm_plate(samples, guess, guessed), result.hidden, plate);
+    result.hidden = hidden_within(motionless, swept, guess, still);
+    grow_plate(samples, guess, confirm_plate(samples, guess, guessed), result.hidden, plate, Growth::kNearGuess);
     result.colour = sharp_colours(samples, plate);
     result.known = seen_in(plate);
     return result;

@@ -3,7 +3,10 @@
 // the plate grows from the rest inwards, and from what the rows show at both ends of the region (plate_growth.hpp).
 
 #include "capture/photos/evened_samples.hpp"
+#include "capture/photos/turntable_disc.hpp"
 #include "rayspace/image.hpp"
+
+#include <optional>
 
 namespace rs::capture {
 
@@ -15,6 +18,7 @@ struct TurnPlate {
     // Where the object always does, although nothing moves there; not what the plate around explains, fully lit or in
     // a shadow that hardly moves.
     Image<std::uint8_t> hidden;
+    std::optional<TurntableDisc> disc;  // where one stands out
 };
 
 // `still` is the picture that most samples agree on; `motionless` is not 0 where they all do, backdrop or not. At most

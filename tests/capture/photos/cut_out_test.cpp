@@ -212,6 +212,38 @@ TEST(CutOut, LeavesAShadowOutThatNeverMoves) {
     }
 }
 
+// A block on a wire before a plate that is known exactly; beside it a shadow, broad and soft. The wire's colour is the
+// plate's in that very shadow.
+TEST(ObjectMask, ANarrowPartIsNoShadow) {
+    constexpr int kWidth = 240;
+    constexpr int kHeight = 180;
+    const Rgba8 behind{150, 142, 132, 255};
+    const Rgba8 shaded = test::mixed(behind, {0, 0, 0, 255}, 0.65);
+    Image<Rgba8> photo(kWidth, kHeight, behind);
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            if (x >= 60 && x < 100 && y >= 20 && y < 60) photo(x, y) = {40, 60, 170, 255};
+            if (x >= 78 && x < 81 && y >= 60 && y < 150) photo(x, y) = shaded;
+            const double outside_px =
+                std::hypot(std::max(0, std::abs(x - 180) - 20), std::max(0, std::abs(y - 100) - 20));
+            const double depth = std::clamp(1 - outside_px / 25, 0.0, 1.0);
+            if (depth > 0) photo(x, y) = test::mixed(shaded, behind, depth);
+        }
+    }
+    PlateView plate;
+    plate.light = Image<LinearRgb>(kWidth, kHeight, linear_rgb(behind));
+    Backdrop of_a_turn;
+    of_a_turn.kind = BackdropKind::kColour;
+    of_a_turn.untouched = Image<std::uint8_t>(kWidth, kHeight, 255);
+    MaskOptions options = mask_options_for(of_a_turn);
+    const Image<std::uint8_t> mask = find_object(photo, plate, options);
+    EXPECT_EQ(mask(70, 40), 255);
+    for (int y = 64; y < 148; ++y) ASSERT_EQ(mask(79, y), 255) << y;
+    EXPECT_EQ(mask(180, 100), 0);
+    options.thin_delta_e = 0;
+    EXPECT_EQ(find_object(photo, plate, options)(79, 110), 0) << "the rule is what keeps the wire";
+}
+
 TEST(CutOut, GivenAlphaComesOutExactly) {
     Image<Rgba8> photo(60, 40, Rgba8{9, 9, 9, 0});
     for (int y = 10; y < 30; ++y) {

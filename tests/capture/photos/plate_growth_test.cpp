@@ -106,6 +106,30 @@ TEST(GrowPlate, DoesNotPassThroughANarrowGap) {
     EXPECT_EQ(plate.witnesses(60, 24), 0U);
 }
 
+// A backdrop that gets lighter from left to right, four times in all by more than neighbours may differ.
+TEST(GrowPlate, StaysNearAGuessIfAsked) {
+    std::vector<Image<Rgba8>> photos(6, Image<Rgba8>(kPlateWidth, kPlateHeight));
+    for (Image<Rgba8>& photo : photos) {
+        for (int y = 0; y < kPlateHeight; ++y) {
+            for (int x = 0; x < kPlateWidth; ++x) {
+                const auto c = static_cast<std::uint8_t>(100 + x);
+                photo(x, y) = {c, c, c, 255};
+            }
+        }
+    }
+    const EvenedSamples samples(photos);
+    Image<Rgba8> guess = photos[0];
+    for (int y = 0; y < kPlateHeight; ++y) {
+        for (int x = kSeedColumns; x < kPlateWidth; ++x) guess(x, y) = {110, 110, 110, 255};
+    }
+    const GrownPlate free = grown(samples, guess, seeds(false));
+    EXPECT_NE(free.witnesses(70, 24), 0U);
+    GrownPlate near;
+    grow_plate(samples, guess, seeds(false), Image<std::uint8_t>(kPlateWidth, kPlateHeight), near, Growth::kNearGuess);
+    EXPECT_NE(near.witnesses(22, 24), 0U);
+    EXPECT_EQ(near.witnesses(40, 24), 0U);
+}
+
 TEST(ConfirmPlate, NeedsPatchesInThreePictures) {
     std::vector<Image<Rgba8>> photos(5, Image<Rgba8>(kPlateWidth, kPlateHeight, kObject));
     const Rgba8 behind{100, 110, 120, 255};
