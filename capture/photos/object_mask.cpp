@@ -40,16 +40,20 @@ float ramp(float value, float low, float high) {
     return std::clamp((value - low) / (high - low), 0.0F, 1.0F);
 }
 
+bool on_ground(const PlateView& plate, int x, int y) {
+    return !plate.ground.empty() && plate.ground(x, y) != 0;
+}
+
 // Where an object throws its shadow the light that it mirrors falls, too.
-MaskOptions on_ground(MaskOptions options) {
-    options.possible_delta_e = 9;
-    options.certain_delta_e = 20;
+MaskOptions options_on_ground(MaskOptions options) {
+    options.possible_delta_e = 12;
+    options.certain_delta_e = 26;
     options.shadow_tolerance = 1;
     return options;
 }
 
 // Far behind the object there are hardly any shadows of it.
-MaskOptions above_ground(MaskOptions options) {
+MaskOptions options_above_ground(MaskOptions options) {
     options.shadow_or_grey = 0.3F;
     return options;
 }
@@ -241,6 +245,7 @@ void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const PlateView& 
         for (int x = 0; x < smooth.cols; ++x) {
             float& own = preference(x, y);
             if (std::abs(own) >= kDecided || thin(y, x) == 0 || beyond_noise(y, x) < options.thin_delta_e) continue;
+            if (beyond_noise(y, x) < options.thin_on_ground_delta_e && on_ground(plate, x, y)) continue;
             if (!is_colourful(plate.light(x, y))) own = std::max(own, kThinRather);
         }
     }
@@ -260,14 +265,15 @@ MaskOptions mask_options_for(const Backdrop& backdrop) {
         options.shadow_tolerance = 0.5F;
         options.hole_share = 0.5;
         options.thin_delta_e = 3;
+        options.thin_on_ground_delta_e = 8;
     }
     return options;
 }
 
 Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& anywhere) {
     RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
-    const MaskOptions ground = on_ground(anywhere);
-    const MaskOptions above = above_ground(anywhere);
+    const MaskOptions ground = options_on_ground(anywhere);
+    const MaskOptions above = options_above_ground(anywhere);
     Image<float> preference(photo.width(), photo.height());
     for (int y = 0; y < photo.height(); ++y) {
         for (int x = 0; x < photo.width(); ++x) {

@@ -30,7 +30,10 @@ struct MaskOptions {
     float min_shade = 0.25F;  // light left in the deepest shadow on a grey backdrop (or black were a shadow) ...
     float min_shade_colourful = 0.08F;  // ... and on one that has a colour
     float max_shade = 1.15F;
-    float thin_delta_e = 0;     // what differs by more from the plate and is narrow is no shadow; 0: it may be one
+    // What is narrow and differs by more from the plate is no shadow; 0: it may be one. On the ground there are slivers
+    // of shadow, so more is asked there.
+    float thin_delta_e = 0;
+    float thin_on_ground_delta_e = 0;
     double max_island = 0.003;  // plain grey patches smaller than this share of the picture may be the object's
     double min_part = 0.01;     // parts smaller than this share of the largest are specks
     // Of a true hole's inner part at least so much looks plain; measured on a shoe before white: loops of its straps

@@ -4,7 +4,6 @@
 
 #include <tbb/parallel_for.h>
 #include <opencv2/core.hpp>
-#include <opencv2/core/optim.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,6 +24,21 @@ struct Rim {
     [[nodiscard]] double score() const { return contrast * std::min(1.0, known / 0.5); }
 };
 
+// A point of a circle in the picture, and which way is out of it.
+struct RimPlace {
+    glm::dvec2 px{};
+    glm::dvec2 normal{};  // of length 1; 0 where the circle is seen from its edge
+};
+
+RimPlace rim_place(const DiscPlane& plane, double radius, double angle_rad) {
+    constexpr double kApart_rad = 0.02;
+    const glm::dvec2 tangent =
+        plane.on_circle(radius, angle_rad + kApart_rad) - plane.on_circle(radius, angle_rad - kApart_rad);
+    const double length = glm::length(tangent);
+    const glm::dvec2 normal = length > 1e-9 ? glm::dvec2(tangent.y, -tangent.x) / length : glm::dvec2(0);
+    return {plane.on_circle(radius, angle_rad), normal};
+}
+
 class RimSearch {
 public:
     RimSearch(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> known)
@@ -40,33 +54,22 @@ public:
 
     // Of colours so far apart on either side; what differs by `clear_codes` stands out entirely.
     [[nodiscard]] Rim rim_of(const TurntableDisc& disc, int samples, double apart_px, double clear_codes) const {
-        const DiscPlane plane(disc, colour_.cols, colour_.rows);
+        const DiscPlane plane = this->plane(disc);
         if (!plane.below_horizon({disc.centre_x, disc.centre_y}) || !plane.visible(disc.radius)) return {};
         double sum = 0;
         int known = 0;
         std::array<double, 8> octant_sum{};
         std::array<int, 8> octant_known{};
-        glm::dvec2 before = plane.on_circle(disc.radius, -2 * std::numbers::pi / samples);
-        glm::dvec2 here = plane.on_circle(disc.radius, 0);
         for (int i = 0; i < samples; ++i) {
-            const glm::dvec2 after = plane.on_circle(disc.radius, 2 * std::numbers::pi * (i + 1) / samples);
-            const glm::dvec2 tangent = after - before;
-            const double length = glm::length(tangent);
-            if (length > 1e-9) {
-                const glm::dvec2 normal = glm::dvec2(tangent.y, -tangent.x) * (apart_px / length);
-                cv::Vec3f inner;
-                cv::Vec3f outer;
-                if (sample(here - normal, inner) && sample(here + normal, outer)) {
-                    const double contrast = std::min(1.0, cv::norm(inner - outer) / clear_codes);
-                    const auto octant = static_cast<std::size_t>(i * 8 / samples);
-                    ++known;
-                    sum += contrast;
-                    ++octant_known[octant];
-                    octant_sum[octant] += contrast;
-                }
-            }
-            before = here;
-            here = after;
+            const RimPlace place = rim_place(plane, disc.radius, 2 * std::numbers::pi * i / samples);
+            const std::optional<double> codes = contrast_at(place.px, place.normal * apart_px);
+            if (!codes) continue;
+            const double contrast = std::min(1.0, *codes / clear_codes);
+            const auto octant = static_cast<std::size_t>(i * 8 / samples);
+            ++known;
+            sum += contrast;
+            ++octant_known[octant];
+            octant_sum[octant] += contrast;
         }
         if (known == 0) return {};
         constexpr double kClearOctant = 0.5;
@@ -78,12 +81,33 @@ public:
         return {sum / known, static_cast<double>(known) / samples, clear_octants};
     }
 
-    // The width of a pixel at the disc's centre, in units of the plane.
-    [[nodiscard]] double unit(const TurntableDisc& disc) const {
-        return DiscPlane(disc, colour_.cols, colour_.rows).unit_per_px();
+    // How far along its normal the strongest edge near a place is.
+    [[nodiscard]] std::optional<double> edge_beside(const RimPlace& place, double reach_px) const {
+        constexpr double kStep_px = 0.5;
+        constexpr double kApart_px = 1;
+        double strongest_codes = 12;
+        std::optional<double> found;
+        for (double offset_px = -reach_px; offset_px <= reach_px; offset_px += kStep_px) {
+            const std::optional<double> codes =
+                contrast_at(place.px + offset_px * place.normal, place.normal * kApart_px);
+            if (!codes || *codes <= strongest_codes) continue;
+            strongest_codes = *codes;
+            found = offset_px;
+        }
+        return found;
     }
 
+    [[nodiscard]] DiscPlane plane(const TurntableDisc& disc) const { return {disc, colour_.cols, colour_.rows}; }
+
 private:
+    // Of what stands on either side; nothing where either is not known.
+    [[nodiscard]] std::optional<double> contrast_at(glm::dvec2 px, glm::dvec2 apart) const {
+        cv::Vec3f inner;
+        cv::Vec3f outer;
+        if (!sample(px - apart, inner) || !sample(px + apart, outer)) return std::nullopt;
+        return cv::norm(inner - outer);
+    }
+
     bool sample(glm::dvec2 px, cv::Vec3f& colour) const {
         const double x = px.x - 0.5;
         const double y = px.y - 0.5;
@@ -102,33 +126,45 @@ private:
     cv::Mat1b known_;
 };
 
-// For cv::DownhillSolver: what is to become small.
-class RimDescent : public cv::MinProblemSolver::Function {
-public:
-    RimDescent(const RimSearch& search, double f_px, double apart_px)
-        : search_(search), f_px_(f_px), apart_px_(apart_px) {}
-    [[nodiscard]] int getDims() const override { return 5; }
-    [[nodiscard]] double calc(const double* x) const override {
-        constexpr int kSamples = 240;
-        constexpr double kNeverEnough_codes = 120;  // a plateau has no slope
-        return -search_.rim_of(disc_of(x), kSamples, apart_px_, kNeverEnough_codes).score();
+// Draws the circle to the strongest edges at most `reach_px` beside it: one Gauss-Newton step with Huber's weights.
+TurntableDisc drawn_to_edges(const RimSearch& search, const TurntableDisc& start, double reach_px) {
+    constexpr int kSamples = 240;
+    constexpr double kHuber_px = 1;
+    constexpr double kDamping = 1e-3;
+    const auto disc_of = [&](const std::array<double, 5>& x) {
+        return TurntableDisc{start.f_px, x[0], x[1], x[2], x[3], x[4]};
+    };
+    const std::array<double, 5> from{start.tilt_rad, start.roll_rad, start.centre_x, start.centre_y, start.radius};
+    const std::array<double, 5> nudge{1e-4, 1e-4, 0.01, 0.01, 1e-4 * start.radius};
+    std::vector<DiscPlane> nudged;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+        std::array<double, 5> x = from;
+        x[k] += nudge[k];
+        nudged.push_back(search.plane(disc_of(x)));
     }
-    [[nodiscard]] TurntableDisc disc_of(const double* x) const { return {f_px_, x[0], x[1], x[2], x[3], x[4]}; }
-
-private:
-    const RimSearch& search_;
-    double f_px_, apart_px_;
-};
-
-TurntableDisc descended(const RimSearch& search, const TurntableDisc& start, double apart_px) {
-    const cv::Ptr<RimDescent> descent = cv::makePtr<RimDescent>(search, start.f_px, apart_px);
-    const cv::Mat1d first_step =
-        (cv::Mat1d(1, 5) << 0.01 * apart_px, 0.01, 2 * apart_px, 2 * apart_px, 0.02 * start.radius);
-    const cv::Ptr<cv::DownhillSolver> solver = cv::DownhillSolver::create(
-        descent, first_step, cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 600, 1e-6));
-    cv::Mat1d x = (cv::Mat1d(1, 5) << start.tilt_rad, start.roll_rad, start.centre_x, start.centre_y, start.radius);
-    solver->minimize(x);
-    return descent->disc_of(x.ptr<double>());
+    const DiscPlane plane = search.plane(start);
+    cv::Matx<double, 5, 5> information = cv::Matx<double, 5, 5>::zeros();
+    cv::Vec<double, 5> pull;
+    for (int i = 0; i < kSamples; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kSamples;
+        const RimPlace place = rim_place(plane, start.radius, angle);
+        const std::optional<double> offset_px = search.edge_beside(place, reach_px);
+        if (!offset_px) continue;
+        const double weight = 1 / std::max(1.0, std::abs(*offset_px) / kHuber_px);
+        cv::Vec<double, 5> slope;  // px along the normal per nudge
+        for (std::size_t k = 0; k < from.size(); ++k) {
+            const double radius = k == 4 ? start.radius + nudge[k] : start.radius;
+            slope[static_cast<int>(k)] = glm::dot(nudged[k].on_circle(radius, angle) - place.px, place.normal);
+        }
+        information += weight * (slope * slope.t());
+        pull += weight * *offset_px * slope;
+    }
+    for (int k = 0; k < 5; ++k) information(k, k) *= 1 + kDamping;
+    cv::Vec<double, 5> nudges;
+    if (!cv::solve(information, pull, nudges, cv::DECOMP_CHOLESKY)) return start;
+    std::array<double, 5> x = from;
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] += nudge[k] * nudges[static_cast<int>(k)];
+    return disc_of(x);
 }
 
 // The best circle of a finer grid around one of the coarse grid.
@@ -144,11 +180,11 @@ TurntableDisc best_beside(const RimSearch& search, const TurntableDisc& start, d
         for (int row = -4; row <= 4; ++row) {
             disc.centre_y = start.centre_y + row * step_px;
             // As wide as it was: the nearer the horizon the farther away is what looks as large.
-            const double wide = start.radius / search.unit(start) * search.unit(disc);
+            const double wide = start.radius / search.plane(start).unit_per_px() * search.plane(disc).unit_per_px();
             for (int column = -3; column <= 3; ++column) {
                 disc.centre_x = start.centre_x + column * step_px;
                 for (int a = -4; a <= 4; ++a) {
-                    disc.radius = wide + a * step_px * search.unit(disc);
+                    disc.radius = wide + a * step_px * search.plane(disc).unit_per_px();
                     const double score = search.rim_of(disc, kSamples, kApart_px, kNeverEnough_codes).score();
                     if (score > best_score) {
                         best_score = score;
@@ -222,7 +258,8 @@ std::optional<TurntableDisc> find_turntable_disc(ConstImageView<Rgba8> plate, Co
     if (start.score <= 0) return std::nullopt;
 
     TurntableDisc disc = start.disc;
-    disc = descended(search, best_beside(search, disc, step_px), 1.5);
+    disc = best_beside(search, disc, step_px);
+    for (const double reach_px : {6.0, 6.0, 4.0, 4.0, 3.0, 3.0, 3.0}) disc = drawn_to_edges(search, disc, reach_px);
     const Rim rim = search.rim_of(disc, 360, 2, kClear_codes);
     if (rim.contrast < kLeastContrast || rim.known < kLeastKnown || rim.clear_octants < kLeastOctants)
         return std::nullopt;
