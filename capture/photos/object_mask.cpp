@@ -229,10 +229,18 @@ void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const PlateView& 
     constexpr float kThinRather = 2;
     cv::Mat3f smooth;
     cv::GaussianBlur(linear_mat(photo), smooth, {3, 3}, 0);
-    cv::Mat1f beyond_noise(smooth.size());
-    cv::Mat1b differs(smooth.size());
+    const int width_px = std::max(1, std::max(smooth.cols, smooth.rows) / kThinShare);
+    // Only around what is undecided anything depends on it, which is little of a picture.
+    cv::Mat1b asked(smooth.size());
+    for (int y = 0; y < smooth.rows; ++y) {
+        for (int x = 0; x < smooth.cols; ++x) asked(y, x) = std::abs(preference(x, y)) < kDecided ? 255 : 0;
+    }
+    cv::dilate(asked, asked, cv::getStructuringElement(cv::MORPH_RECT, {2 * width_px + 1, 2 * width_px + 1}));
+    cv::Mat1f beyond_noise(smooth.size(), 0.0F);
+    cv::Mat1b differs(smooth.size(), std::uint8_t{0});
     for (int y = 0; y < smooth.rows; ++y) {
         for (int x = 0; x < smooth.cols; ++x) {
+            if (asked(y, x) == 0) continue;
             const cv::Vec3f& p = smooth(y, x);
             const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
             const float delta = delta_e(lab_from_linear({p[0], p[1], p[2]}), lab_from_linear(plate.light(x, y)));
@@ -240,7 +248,7 @@ void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const PlateView& 
             differs(y, x) = delta > std::max(options.plain_delta_e, 1.2F * noise) ? 255 : 0;
         }
     }
-    const cv::Mat1b thin = thin_parts(differs, std::max(1, std::max(smooth.cols, smooth.rows) / kThinShare));
+    const cv::Mat1b thin = thin_parts(differs, width_px);
     for (int y = 0; y < smooth.rows; ++y) {
         for (int x = 0; x < smooth.cols; ++x) {
             float& own = preference(x, y);
