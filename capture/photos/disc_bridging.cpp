@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -57,23 +58,31 @@ void bridge_circles(const TurntableDisc& disc, Image<Rgba8>& plate, Image<std::u
     cv::copyMakeBorder(unrolled, wide, 0, 0, kDirections, kDirections, cv::BORDER_WRAP);
     cv::GaussianBlur(wide, wide, {13, 1}, 4, 0, cv::BORDER_REPLICATE);
     const auto seen = [&](int row, int column) -> const cv::Vec4f& { return wide(row, column + kDirections); };
+    const auto at = [](int column) { return static_cast<std::size_t>(column); };
     constexpr float kSeen = 0.05F;
     cv::Mat3f filled(circles, kDirections, cv::Vec3f(-1, -1, -1));
     for (int row = 0; row < circles; ++row) {
+        // Steps to the nearest seen direction either way; the second time around they are right.
+        std::array<int, kDirections> left{};
+        std::array<int, kDirections> right{};
+        left.fill(kDirections);
+        right.fill(kDirections);
+        for (int i = 0; i < 2 * kDirections; ++i) {
+            const int on = i % kDirections;
+            const int before = (on + kDirections - 1) % kDirections;
+            const int back = kDirections - 1 - on;
+            const int after = (back + 1) % kDirections;
+            left[at(on)] = seen(row, on)[3] >= kSeen ? 0 : std::min(kDirections, left[at(before)] + 1);
+            right[at(back)] = seen(row, back)[3] >= kSeen ? 0 : std::min(kDirections, right[at(after)] + 1);
+        }
         for (int column = 0; column < kDirections; ++column) {
-            const auto reach = [&](int way) {
-                int steps = 0;
-                while (steps <= kDirections &&
-                       seen(row, (column + kDirections + way * steps % kDirections) % kDirections)[3] < kSeen)
-                    ++steps;
-                return steps;
-            };
-            const int left = reach(-1);
-            if (left > kDirections) break;  // nothing of this circle is known
-            const int right = reach(1);
-            const cv::Vec4f& a = seen(row, ((column - left) % kDirections + kDirections) % kDirections);
-            const cv::Vec4f& b = seen(row, (column + right) % kDirections);
-            const float t = left + right > 0 ? static_cast<float>(left) / static_cast<float>(left + right) : 0;
+            const int to_left = left[at(column)];
+            const int to_right = right[at(column)];
+            if (to_left >= kDirections) break;  // nothing of this circle is known
+            const cv::Vec4f& a = seen(row, (column + kDirections - to_left) % kDirections);
+            const cv::Vec4f& b = seen(row, (column + to_right) % kDirections);
+            const float t =
+                to_left + to_right > 0 ? static_cast<float>(to_left) / static_cast<float>(to_left + to_right) : 0;
             const cv::Vec4f mixed = a * ((1 - t) / a[3]) + b * (t / b[3]);
             filled(row, column) = {mixed[0], mixed[1], mixed[2]};
         }

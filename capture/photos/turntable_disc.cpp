@@ -54,8 +54,8 @@ public:
 
     // Of colours so far apart on either side; what differs by `clear_codes` stands out entirely.
     [[nodiscard]] Rim rim_of(const TurntableDisc& disc, int samples, double apart_px, double clear_codes) const {
+        if (!stands_before_camera(disc)) return {};
         const DiscPlane plane = this->plane(disc);
-        if (!plane.below_horizon({disc.centre_x, disc.centre_y}) || !plane.visible(disc.radius)) return {};
         double sum = 0;
         int known = 0;
         std::array<double, 8> octant_sum{};
@@ -97,6 +97,13 @@ public:
         return found;
     }
 
+    // Whether there is a picture of all of the circle.
+    [[nodiscard]] bool stands_before_camera(const TurntableDisc& disc) const {
+        if (!(disc.radius > 0) || !std::isfinite(disc.centre_x) || !std::isfinite(disc.centre_y)) return false;
+        const DiscPlane plane = this->plane(disc);
+        return plane.below_horizon({disc.centre_x, disc.centre_y}) && plane.visible(disc.radius);
+    }
+
     [[nodiscard]] DiscPlane plane(const TurntableDisc& disc) const { return {disc, colour_.cols, colour_.rows}; }
 
 private:
@@ -128,6 +135,7 @@ private:
 
 // Draws the circle to the strongest edges at most `reach_px` beside it: one Gauss-Newton step with Huber's weights.
 TurntableDisc drawn_to_edges(const RimSearch& search, const TurntableDisc& start, double reach_px) {
+    if (!search.stands_before_camera(start)) return start;
     constexpr int kSamples = 240;
     constexpr double kHuber_px = 1;
     constexpr double kDamping = 1e-3;
