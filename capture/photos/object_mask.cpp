@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -188,34 +189,30 @@ void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstI
     }
 }
 
-// 255 where `part` is at most `width_px` wide along a row, a column or a diagonal.
+// 255 where `part` is at most `width_px` wide along a row, a column or a diagonal; it is taken to go on beyond the
+// picture's border.
 cv::Mat1b thin_parts(const cv::Mat1b& part, int width_px) {
+    cv::Mat1b around;
+    cv::copyMakeBorder(part, around, width_px, width_px, width_px, width_px, cv::BORDER_CONSTANT, 255);
+    const cv::Rect inner(width_px, width_px, part.cols, part.rows);
+    const int length = width_px + 1;
+    cv::Mat1b diagonal(length, length, std::uint8_t{0});
+    cv::setIdentity(diagonal);
+    cv::Mat1b other_diagonal;
+    cv::flip(diagonal, other_diagonal, 0);
+    const std::array<cv::Mat1b, 4> lines{cv::Mat1b(1, length, std::uint8_t{1}), cv::Mat1b(length, 1, std::uint8_t{1}),
+                                         diagonal, other_diagonal};
     cv::Mat1b thin(part.size(), std::uint8_t{0});
-    for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
-        cv::Mat1i since(part.size(), 0);  // steps back along (dx, dy) that stay within the part
-        for (int i = 0; i < part.rows; ++i) {
-            const int y = dy < 0 ? part.rows - 1 - i : i;
-            for (int x = 0; x < part.cols; ++x) {
-                if (part(y, x) == 0) continue;
-                const int u = x - dx;
-                const int v = y - dy;
-                const bool inside = u >= 0 && v >= 0 && v < part.rows;
-                since(y, x) = inside ? since(v, u) + 1 : part.cols + part.rows;
-            }
-        }
-        // A run's length stands at its end: carried back along it.
-        cv::Mat1i run(part.size(), 0);
-        for (int i = 0; i < part.rows; ++i) {
-            const int y = dy < 0 ? i : part.rows - 1 - i;
-            for (int x = part.cols - 1; x >= 0; --x) {
-                if (part(y, x) == 0) continue;
-                const int u = x + dx;
-                const int v = y + dy;
-                const bool inside = u < part.cols && v >= 0 && v < part.rows;
-                run(y, x) = !inside ? part.cols + part.rows : (part(v, u) != 0 ? run(v, u) : since(y, x));
-                if (run(y, x) <= width_px) thin(y, x) = 255;
-            }
-        }
+    for (const cv::Mat1b& line : lines) {
+        // An opening; its anchors are the line's two ends, so that lines of even length shift nothing.
+        const cv::Point first(0, line(0, 0) != 0 ? 0 : line.rows - 1);
+        const cv::Point last(line.cols - 1, line.rows - 1 - first.y);
+        cv::Mat1b wide;
+        cv::erode(around, wide, line, first);
+        cv::dilate(wide, wide, line, last);
+        cv::Mat1b narrow;
+        cv::subtract(part, wide(inner), narrow);
+        cv::bitwise_or(thin, narrow, thin);
     }
     return thin;
 }
@@ -285,7 +282,7 @@ Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& pla
     Image<float> preference(photo.width(), photo.height());
     for (int y = 0; y < photo.height(); ++y) {
         for (int x = 0; x < photo.width(); ++x) {
-            const MaskOptions& options = plate.ground.empty() ? anywhere : (plate.ground(x, y) != 0 ? ground : above);
+            const MaskOptions& options = plate.ground.empty() ? anywhere : (on_ground(plate, x, y) ? ground : above);
             const LinearRgb pixel = linear_rgb(photo(x, y));
             const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
             const LinearRgb& behind = plate.light(x, y);

@@ -19,6 +19,12 @@ inline cv::Mat mat_over(ConstImageView<Rgba8> picture) {
             static_cast<std::size_t>(picture.stride()) * sizeof(Rgba8)};
 }
 
+// A mask's own bytes as CV_8UC1; likewise.
+inline cv::Mat1b mat_over(ConstImageView<std::uint8_t> mask) {
+    return {mask.height(), mask.width(), const_cast<std::uint8_t*>(mask.data()),
+            static_cast<std::size_t>(mask.stride())};
+}
+
 // Linear-light RGB, CV_32FC3.
 inline cv::Mat3f linear_mat(ConstImageView<Rgba8> picture) {
     cv::Mat3f linear(picture.height(), picture.width());

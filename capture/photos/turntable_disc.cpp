@@ -1,9 +1,11 @@
 #include "capture/photos/turntable_disc.hpp"
 
 #include "capture/photos/disc_plane.hpp"
+#include "capture/photos/opencv_image.hpp"
 
 #include <tbb/parallel_for.h>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <array>
@@ -54,8 +56,8 @@ public:
 
     // Of colours so far apart on either side; what differs by `clear_codes` stands out entirely.
     [[nodiscard]] Rim rim_of(const TurntableDisc& disc, int samples, double apart_px, double clear_codes) const {
-        if (!stands_before_camera(disc)) return {};
         const DiscPlane plane = this->plane(disc);
+        if (!stands_before_camera(disc, plane)) return {};
         double sum = 0;
         int known = 0;
         std::array<double, 8> octant_sum{};
@@ -98,9 +100,8 @@ public:
     }
 
     // Whether there is a picture of all of the circle.
-    [[nodiscard]] bool stands_before_camera(const TurntableDisc& disc) const {
+    [[nodiscard]] static bool stands_before_camera(const TurntableDisc& disc, const DiscPlane& plane) {
         if (!(disc.radius > 0) || !std::isfinite(disc.centre_x) || !std::isfinite(disc.centre_y)) return false;
-        const DiscPlane plane = this->plane(disc);
         return plane.below_horizon({disc.centre_x, disc.centre_y}) && plane.visible(disc.radius);
     }
 
@@ -135,7 +136,8 @@ private:
 
 // Draws the circle to the strongest edges at most `reach_px` beside it: one Gauss-Newton step with Huber's weights.
 TurntableDisc drawn_to_edges(const RimSearch& search, const TurntableDisc& start, double reach_px) {
-    if (!search.stands_before_camera(start)) return start;
+    const DiscPlane plane = search.plane(start);
+    if (!RimSearch::stands_before_camera(start, plane)) return start;
     constexpr int kSamples = 240;
     constexpr double kHuber_px = 1;
     constexpr double kDamping = 1e-3;
@@ -150,7 +152,6 @@ TurntableDisc drawn_to_edges(const RimSearch& search, const TurntableDisc& start
         x[k] += nudge[k];
         nudged.push_back(search.plane(disc_of(x)));
     }
-    const DiscPlane plane = search.plane(start);
     cv::Matx<double, 5, 5> information = cv::Matx<double, 5, 5>::zeros();
     cv::Vec<double, 5> pull;
     for (int i = 0; i < kSamples; ++i) {
@@ -182,17 +183,18 @@ TurntableDisc best_beside(const RimSearch& search, const TurntableDisc& start, d
     constexpr double kNeverEnough_codes = 120;
     TurntableDisc best = start;
     double best_score = 0;
+    const double start_px = start.radius / search.plane(start).unit_per_px();
     TurntableDisc disc = start;
     for (int tilt = -8; tilt <= 8; ++tilt) {
         disc.tilt_rad = start.tilt_rad + tilt * std::numbers::pi / 360;
         for (int row = -4; row <= 4; ++row) {
             disc.centre_y = start.centre_y + row * step_px;
             // As wide as it was: the nearer the horizon the farther away is what looks as large.
-            const double wide = start.radius / search.plane(start).unit_per_px() * search.plane(disc).unit_per_px();
+            const double unit = search.plane(disc).unit_per_px();
             for (int column = -3; column <= 3; ++column) {
                 disc.centre_x = start.centre_x + column * step_px;
                 for (int a = -4; a <= 4; ++a) {
-                    disc.radius = wide + a * step_px * search.plane(disc).unit_per_px();
+                    disc.radius = (start_px + a * step_px) * unit;
                     const double score = search.rim_of(disc, kSamples, kApart_px, kNeverEnough_codes).score();
                     if (score > best_score) {
                         best_score = score;
@@ -203,20 +205,6 @@ TurntableDisc best_beside(const RimSearch& search, const TurntableDisc& start, d
         }
     }
     return best;
-}
-
-cv::Rect box_of(ConstImageView<std::uint8_t> object) {
-    int left = object.width(), top = object.height(), right = 0, bottom = 0;
-    for (int y = 0; y < object.height(); ++y) {
-        for (int x = 0; x < object.width(); ++x) {
-            if (object(x, y) == 0) continue;
-            left = std::min(left, x);
-            right = std::max(right, x + 1);
-            top = std::min(top, y);
-            bottom = std::max(bottom, y + 1);
-        }
-    }
-    return {left, top, std::max(0, right - left), std::max(0, bottom - top)};
 }
 
 }  // namespace
@@ -230,7 +218,7 @@ std::optional<TurntableDisc> find_turntable_disc(ConstImageView<Rgba8> plate, Co
     constexpr double kLeastContrast = 0.7;
     constexpr double kLeastKnown = 0.4;
     constexpr int kLeastOctants = 4;
-    const cv::Rect box = box_of(object);
+    const cv::Rect box = cv::boundingRect(mat_over(object));
     if (box.area() == 0) return std::nullopt;
     const RimSearch search(plate, known);
     const double f_px = kNominalFocal_widths * plate.width();
@@ -265,8 +253,7 @@ std::optional<TurntableDisc> find_turntable_disc(ConstImageView<Rgba8> plate, Co
         *std::max_element(best.begin(), best.end(), [](const Found& a, const Found& b) { return a.score < b.score; });
     if (start.score <= 0) return std::nullopt;
 
-    TurntableDisc disc = start.disc;
-    disc = best_beside(search, disc, step_px);
+    TurntableDisc disc = best_beside(search, start.disc, step_px);
     for (const double reach_px : {6.0, 6.0, 4.0, 4.0, 3.0, 3.0, 3.0}) disc = drawn_to_edges(search, disc, reach_px);
     const Rim rim = search.rim_of(disc, 360, 2, kClear_codes);
     if (rim.contrast < kLeastContrast || rim.known < kLeastKnown || rim.clear_octants < kLeastOctants)
