@@ -3,9 +3,9 @@
 //
 // A pixel on the border shows alpha * F + (1 - alpha) * B in linear light. F and B are the object's and the backdrop's
 // colours near by, averaged on their own sides of the border with more weight farther away from it, so B holds whatever
-// shadow lies there; alpha is where the pixel's colour projects between them, less what either side's colours scatter.
-// The more they scatter and the less F and B differ, the more the distance to the mask's border says instead. How far a
-// pixel may differ from the yes-or-no mask depends on that distance, too.
+// shadow lies there. Where the pixel's colour lies between them is one reading of alpha, in doubt by how both sides'
+// colours scatter; the distance to the mask's border is another, with the blur and the looseness that the clear parts
+// of the same border have. Both are weighed by their variances.
 
 #include "capture/photos/colour_difference.hpp"
 #include "rayspace/image.hpp"
