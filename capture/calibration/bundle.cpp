@@ -1,7 +1,7 @@
 #include "capture/calibration/bundle.hpp"
 
-#include "capture/calibration/projection.hpp"
 #include "capture/calibration/quiet_ceres.hpp"
+#include "capture/calibration/reprojection.hpp"
 
 #include <ceres/ceres.h>
 
@@ -174,10 +174,10 @@ std::optional<double> adjust(Bundle& bundle, const BundleOptions& options) {
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
         for (const Observation& seen : bundle.tracks[i].seen) {
             double* angle = common ? &step : &model.angles_rad[static_cast<std::size_t>(seen.view)];
-            problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Reprojection, 2, 5, 3, 1, 3>(new Reprojection{
-                                         seen.p.x, seen.p.y, common ? static_cast<double>(seen.view) : 1.0,
-                                         seen.weight[0][0], seen.weight[1][0], seen.weight[1][1]}),
-                                     &loss, lens.data(), pose.data(), angle, &bundle.points[i].x);
+            problem.AddResidualBlock(
+                new Reprojection({seen.p.x, seen.p.y, common ? static_cast<double>(seen.view) : 1.0, seen.weight[0][0],
+                                  seen.weight[1][0], seen.weight[1][1]}),
+                &loss, lens.data(), pose.data(), angle, &bundle.points[i].x);
             ordering->AddElementToGroup(angle, 1);
             ++observations;
         }

@@ -1,10 +1,9 @@
 #include "capture/calibration/bundle_deviations.hpp"
 
 #include "capture/calibration/model_covariance.hpp"
-#include "capture/calibration/projection.hpp"
+#include "capture/calibration/reprojection.hpp"
 #include "rayspace/conventions.hpp"
 
-#include <ceres/autodiff_cost_function.h>
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -73,8 +72,7 @@ std::optional<Slopes> slopes_of(const TurntableModel& model, const NumberPlaces&
     const auto view = static_cast<std::size_t>(seen.view);
     const double turns = common_step ? static_cast<double>(seen.view) : 1.0;
     const double angle = common_step && seen.view == 0 ? 0.0 : model.angles_rad[view] / turns;
-    const ceres::AutoDiffCostFunction<Reprojection, 2, 5, 3, 1, 3> cost(
-        new Reprojection{seen.p.x, seen.p.y, turns, seen.weight[0][0], seen.weight[1][0], seen.weight[1][1]});
+    const Reprojection cost({seen.p.x, seen.p.y, turns, seen.weight[0][0], seen.weight[1][0], seen.weight[1][1]});
     const std::array<const double*, 4> blocks{lens.data(), pose.data(), &angle, &point.x};
     Slopes slopes;
     Eigen::Matrix<double, 2, 5, Eigen::RowMajor> by_lens;

@@ -34,24 +34,4 @@ bool project_turned(const T* lens, const T* pose, const T& angle_rad, const T* p
     return true;
 }
 
-// The residual of one observation as a cost functor: parameter blocks lens (5), pose (3), angle (1), point (3).
-struct Reprojection {
-    double x = 0;  // seen, px
-    double y = 0;
-    double turns = 1;  // the angle is this many times its parameter: the view's number where all share one step
-    // The residual is multiplied by this symmetric matrix.
-    double weight_xx = 1, weight_xy = 0, weight_yy = 1;
-
-    template <class T>
-    bool operator()(const T* lens, const T* pose, const T* angle, const T* point, T* residuals) const {
-        const T at = angle[0] * T(turns);
-        if (!project_turned(lens, pose, at, point, residuals)) return false;
-        const T dx = residuals[0] - T(x);
-        const T dy = residuals[1] - T(y);
-        residuals[0] = T(weight_xx) * dx + T(weight_xy) * dy;
-        residuals[1] = T(weight_xy) * dx + T(weight_yy) * dy;
-        return true;
-    }
-};
-
 }  // namespace rs::capture
