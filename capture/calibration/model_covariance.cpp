@@ -68,13 +68,13 @@ ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& p
         return place < 0 ? 0.0 : std::sqrt(std::max(0.0, covariance(place, place)));
     };
     ModelDeviations deviations;
-    deviations.f_px = one(0);
-    deviations.cx = one(1);
-    deviations.cy = one(2);
-    deviations.k1 = one(3);
-    deviations.k2 = one(4);
-    deviations.tilt_rad = one(6);
-    deviations.roll_rad = one(7);
+    deviations.f_px = one(CameraNumber::kF);
+    deviations.cx = one(CameraNumber::kCx);
+    deviations.cy = one(CameraNumber::kCy);
+    deviations.k1 = one(CameraNumber::kK1);
+    deviations.k2 = one(CameraNumber::kK2);
+    deviations.tilt_rad = one(CameraNumber::kTilt);
+    deviations.roll_rad = one(CameraNumber::kRoll);
     deviations.axis_direction_rad =
         std::hypot(deviations.tilt_rad, std::cos(model.pose.tilt_rad) * deviations.roll_rad);
     const auto slopes = axis_slopes(model, at_px);

@@ -12,9 +12,11 @@
 
 namespace rs::capture {
 
-// f, cx, cy, k1, k2, pan, tilt, roll
-inline constexpr std::size_t kCameraNumbers = 8;
-inline constexpr std::size_t kPan = 5;
+// The order of the camera's numbers.
+struct CameraNumber {
+    enum Place : std::size_t { kF, kCx, kCy, kK1, kK2, kPan, kTilt, kRoll, kCount };
+};
+inline constexpr std::size_t kCameraNumbers = CameraNumber::kCount;
 
 // Where the numbers of a model stand among the unknowns, camera first, then angles or the step; -1: held.
 struct NumberPlaces {

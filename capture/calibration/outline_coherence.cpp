@@ -12,14 +12,15 @@
 namespace rs::capture {
 namespace {
 
-constexpr Eigen::Index kMostDirections = 14;
 constexpr double kLoose_px = 0.01;  // combinations of numbers that move the picture by less are known
 constexpr int kCoherenceRounds = 8;
 constexpr int kCoherenceTries = 4;      // of a step, each more damped
 constexpr double kFarthestStretch = 8;  // a step is doubled while that helps
 constexpr double kLittle = 0.2;         // of cost, twice the log likelihood: no more rounds for less
 constexpr double kWidth = 0.5;          // of differences, in deviations
-constexpr double kOutlier_px = 1;       // of the turn: shortfalls far above it count no more
+// Px of the turn: shortfalls far above it count no more. Where outlines do not fit yet, far above what they are off.
+constexpr double kOutlier_px = 1;
+constexpr double kOutlierOfMean = 3;
 // Outlines that agree better are those of bodies that look alike from everywhere, and know no more for it.
 constexpr double kFinest_px = 0.12;
 // Neighbouring points of an outline are off alike: a view is worth this many independent ones.
@@ -27,8 +28,6 @@ constexpr double kIndependentRays = 24;
 // Outlines that leave more than this of the angles' variance are of a body that looks alike from all sides. What they
 // say of the camera is in the small print of their errors: it has been seen to bend lens and tilt.
 constexpr double kTellsOfAngles = 0.5;
-// Outlines err together, too, in ways no shortfall shows (as in outline_tangency.cpp).
-constexpr double kUntoldTogether = 6;
 
 // Px by which one unit of each number moves the outline, roughly: what makes numbers of different units comparable.
 Eigen::VectorXd px_per_unit(const TurntableModel& model, const NumberPlaces& places, const SilhouetteTurn& turn,
@@ -50,12 +49,12 @@ Eigen::VectorXd px_per_unit(const TurntableModel& model, const NumberPlaces& pla
 }
 
 // The loosest combinations of numbers, each column one deviation of one.
-Eigen::MatrixXd loosest(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& px) {
+Eigen::MatrixXd loosest(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& px, Eigen::Index most) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(px.asDiagonal() * covariance * px.asDiagonal());
     if (parts.info() != Eigen::Success) return {};
     const Eigen::Index n = covariance.rows();
     Eigen::Index count = 0;
-    while (count < std::min(n, kMostDirections) && parts.eigenvalues()(n - 1 - count) > kLoose_px * kLoose_px) ++count;
+    while (count < std::min(n, most) && parts.eigenvalues()(n - 1 - count) > kLoose_px * kLoose_px) ++count;
     Eigen::MatrixXd columns(n, count);
     for (Eigen::Index k = 0; k < count; ++k) {
         columns.col(k) = px.cwiseInverse().asDiagonal() * parts.eigenvectors().col(n - 1 - k) *
@@ -77,12 +76,12 @@ double angles_left(const NumberPlaces& places, const Eigen::MatrixXd& columns, c
     return before > 0 ? left / before : 1;
 }
 
-// Of combinations whose variances were 1: what `of_outlines` makes of them if outlines are off by kUntoldTogether times
+// Of combinations whose variances were 1: what `of_outlines` makes of them if outlines are off by untold_together times
 // as much as they say; never more than before.
-Eigen::MatrixXd variance_with(const Eigen::MatrixXd& of_outlines) {
+Eigen::MatrixXd variance_with(const Eigen::MatrixXd& of_outlines, double untold_together) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(of_outlines);
     const Eigen::ArrayXd told = parts.eigenvalues().array().max(0);
-    const Eigen::ArrayXd variance = (1 + kUntoldTogether * kUntoldTogether * told) / (1 + told).square();
+    const Eigen::ArrayXd variance = (1 + untold_together * untold_together * told) / (1 + told).square();
     return parts.eigenvectors() * variance.min(1).matrix().asDiagonal() * parts.eigenvectors().transpose();
 }
 
@@ -106,14 +105,15 @@ public:
     }
 
     // Geman-McClure's, so that what is cut out wrong counts little.
-    [[nodiscard]] static double robust_sum(const Eigen::VectorXd& shortfalls) {
-        return (shortfalls.array().square() / (1 + shortfalls.array().square() / (kOutlier_px * kOutlier_px))).sum();
+    [[nodiscard]] static double robust_sum(const Eigen::VectorXd& shortfalls, double outlier_px) {
+        return (shortfalls.array().square() / (1 + shortfalls.array().square() / (outlier_px * outlier_px))).sum();
     }
 
     // What a squared shortfall counts for, if those given are what outlines are usually off.
-    [[nodiscard]] double weight(const Eigen::VectorXd& shortfalls) const {
+    [[nodiscard]] double weight(const Eigen::VectorXd& shortfalls, double outlier_px) const {
         const double finest = kFinest_px * kFinest_px * static_cast<double>(shortfalls.size());
-        return kIndependentRays * static_cast<double>(turn_.views()) / std::max(robust_sum(shortfalls), finest);
+        return kIndependentRays * static_cast<double>(turn_.views()) /
+               std::max(robust_sum(shortfalls, outlier_px), finest);
     }
 
     [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::VectorXd& z, Eigen::Index rays) {
@@ -140,9 +140,10 @@ private:
 
 std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const NumberPlaces& places,
                                           const Eigen::MatrixXd& covariance, const SilhouetteTurn& turn,
-                                          double picture_px, double worst_px) {
+                                          double picture_px, const CoherenceOptions& options) {
     if (places.count == 0 || covariance.rows() != places.count || !covariance.allFinite()) return std::nullopt;
-    const Eigen::MatrixXd columns = loosest(covariance, px_per_unit(model, places, turn, picture_px));
+    const Eigen::MatrixXd columns =
+        loosest(covariance, px_per_unit(model, places, turn, picture_px), options.most_directions);
     const Eigen::Index n = columns.cols();
     if (n == 0) return std::nullopt;
     Outlines outlines(model, places, turn, picture_px, columns);
@@ -152,13 +153,14 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     double damping = 1e-3;
     Eigen::MatrixXd of_outlines;
     for (int round = 0; round < kCoherenceRounds; ++round) {
-        const double weight = outlines.weight(shortfalls);
+        const double outlier_px = std::max(kOutlier_px, kOutlierOfMean * shortfalls.mean());
+        const double weight = outlines.weight(shortfalls, outlier_px);
         const Eigen::MatrixXd slopes = outlines.slopes(z, shortfalls.size());
-        const Eigen::ArrayXd tail = 1 + shortfalls.array().square() / (kOutlier_px * kOutlier_px);
+        const Eigen::ArrayXd tail = 1 + shortfalls.array().square() / (outlier_px * outlier_px);
         const Eigen::VectorXd weights = weight / tail.square();
         of_outlines = slopes.transpose() * weights.asDiagonal() * slopes;
         const Eigen::VectorXd gradient = slopes.transpose() * weights.cwiseProduct(shortfalls) + z;
-        const double cost_before = weight * Outlines::robust_sum(shortfalls) + z.squaredNorm();
+        const double cost_before = weight * Outlines::robust_sum(shortfalls, outlier_px) + z.squaredNorm();
         double cost = cost_before;
         bool better = false;
         for (int i = 0; i < kCoherenceTries && !better; ++i) {
@@ -170,7 +172,7 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
             for (double stretch = 1; stretch <= kFarthestStretch; stretch *= 2) {
                 const Eigen::VectorXd there = start + stretch * step;
                 const Eigen::VectorXd tried = outlines.shortfalls(there);
-                const double tried_cost = weight * Outlines::robust_sum(tried) + there.squaredNorm();
+                const double tried_cost = weight * Outlines::robust_sum(tried, outlier_px) + there.squaredNorm();
                 if (!(tried_cost < cost)) break;
                 cost = tried_cost;
                 z = there;
@@ -183,9 +185,9 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     }
     CoherenceFit fit{outlines.at(z), covariance, 0};
     fit.shortfall_px = picture_px * std::sqrt(shortfalls.squaredNorm() / static_cast<double>(shortfalls.size()));
-    if (!(fit.shortfall_px <= worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
+    if (!(fit.shortfall_px <= options.worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
     if (!(angles_left(places, columns, of_outlines) <= kTellsOfAngles)) return std::nullopt;
-    fit.covariance += columns * (variance_with(of_outlines) - unit) * columns.transpose();
+    fit.covariance += columns * (variance_with(of_outlines, options.untold_together) - unit) * columns.transpose();
     return fit;
 }
 

@@ -42,7 +42,7 @@ void take(const TurntableModel& model, const Eigen::MatrixXd& covariance, TrackS
 // position's is made that of both. A line for the photographer where they disagree.
 std::optional<std::string> settle_axis(TrackSolution& solution, const TurnPictures& turn, std::size_t fewest_tracks) {
     const NumberPlaces& places = solution.places;
-    if (places.camera[kPan] < 0) return std::nullopt;
+    if (places.camera[CameraNumber::kPan] < 0) return std::nullopt;
     const TurntableModel& found = solution.bundle.model;
     const auto of_outlines = axis_of_outlines(covered_together(turn.pictures), turn.reduction, found);
     if (!of_outlines) return std::nullopt;
@@ -64,7 +64,7 @@ std::optional<std::string> settle_axis(TrackSolution& solution, const TurnPictur
 void settle_pairs(TrackSolution& solution, const TurnPictures& turn, std::size_t fewest_tracks) {
     Eigen::MatrixXd& covariance = solution.covariance;
     const TurntableModel& found = solution.bundle.model;
-    if (const int pan = solution.places.camera[kPan]; pan >= 0) {
+    if (const int pan = solution.places.camera[CameraNumber::kPan]; pan >= 0) {
         covariance.row(pan).setZero();
         covariance.col(pan).setZero();
         covariance(pan, pan) = std::pow(solution.deviations.axis_position_px / found.lens.f_px, 2);
@@ -88,7 +88,7 @@ void settle_all(TrackSolution& solution, const TurnPictures& turn, std::size_t f
     if (!outlines || outlines->touches_border()) return;
     const double picture_px = outlines->reduction() * turn.reduction;
     const auto fit = fit_coherence(solution.bundle.model, solution.places, solution.covariance, *outlines, picture_px,
-                                   kWorstTogether_px * turn.reduction);
+                                   {kWorstTogether_px * turn.reduction});
     if (fit) take(fit->model, fit->covariance, solution, fewest_tracks);
 }
 

@@ -127,7 +127,7 @@ double median_size(std::vector<double> values) {
 double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covariance, const Eigen::VectorXd& step) {
     std::vector<int> chosen;
     for (std::size_t k = 0; k < kCameraNumbers; ++k) {
-        if (k != kPan && places.camera[k] >= 0) chosen.push_back(places.camera[k]);
+        if (k != CameraNumber::kPan && places.camera[k] >= 0) chosen.push_back(places.camera[k]);
     }
     if (chosen.empty()) return 1;
     const Eigen::MatrixXd among = covariance(chosen, chosen);

@@ -1,5 +1,6 @@
 #include "capture/calibration/silhouettes.hpp"
 
+#include "capture/calibration/silhouette_angles.hpp"
 #include "capture/calibration/silhouette_fit.hpp"
 #include "capture/calibration/turn_diagnosis.hpp"
 #include "rayspace/conventions.hpp"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rs::capture {
@@ -210,7 +212,7 @@ void warn(Calibration& calibration, const SilhouetteTurn& turn) {
         warnings.emplace_back(
             "the outlines do not say how far the camera looks down (a round object looks alike from all sides): its "
             "height is assumed; put a printed board under the object");
-    } else if (calibration.model.pose.tilt_rad < -2 * d.tilt_rad && calibration.model.pose.tilt_rad < -radians(3)) {
+    } else if (seems_to_look_up(calibration)) {
         warnings.emplace_back(
             "the outlines fit a camera that looks up from below; if it looks down, the object turns the other way: "
             "give the other sense of turning");
@@ -232,6 +234,10 @@ void warn(Calibration& calibration, const SilhouetteTurn& turn) {
 }
 
 }  // namespace
+
+bool seems_to_look_up(const Calibration& found) {
+    return found.model.pose.tilt_rad < -std::max(2 * found.deviations.tilt_rad, radians(3));
+}
 
 Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start,
                                                const KnownInputs& known, bool estimate_step) {
@@ -258,18 +264,11 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     SilhouetteFit fit = nearest_to_start(best, best_cost, along);
     const double start_cost = silhouette_cost(problem, {}, {});
     const double start_rms = rms(shortfalls_px(*turn, problem.start, {}));
-    const std::vector<double> shortfalls = shortfalls_px(*turn, changed(problem.start, fit.at), {});
-    const double fit_rms = rms(shortfalls);
     if (start_rms > kGoodEnough_px && !(fit.cost < kImprovement * start_cost)) {
         return Error{
             "silhouettes: no axis, tilt, roll or focal length near the assumed ones makes the outlines agree "
             "better; check the steps, the sense of turning and the cut-outs"};
     }
-    if (fit_rms > kDisagree_px) {
-        return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(fit_rms * picture_px)) +
-                     " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
-    }
-
     Calibration calibration;
     calibration.method = CalibrationMethod::kSilhouettes;
     calibration.model = changed(problem.start, fit.at);
@@ -277,12 +276,27 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
     const std::array<double, Parameters::kCount> open = valley(fit, best_cost, along);
     // Outlines that fit worse than good ones should are surer of nothing.
-    const double doubt = std::max(1.0, fit_rms / kSilhouetteError_px);
+    const double supposed_rms = rms(shortfalls_px(*turn, changed(problem.start, fit.at), {}));
+    const double doubt = std::max(1.0, supposed_rms / kSilhouetteError_px);
     for (std::size_t k = 0; k < Parameters::kCount; ++k) {
         spread[k] = std::max(spread[k], doubt * open[k]);
         fit.deviation[k] *= doubt;
     }
     calibration.deviations = deviations_of(fit, spread, calibration.model, known, picture_px);
+    if (!estimate_step) {
+        if (auto found = angles_of_outlines(masks, calibration.model, calibration.deviations, known)) {
+            calibration.model = std::move(found->model);
+            calibration.deviations = std::move(found->deviations);
+        }
+    }
+    TurntableModel of_turn = calibration.model;
+    of_turn.lens = scaled(of_turn.lens, 1 / picture_px);
+    const std::vector<double> shortfalls = shortfalls_px(*turn, of_turn, {});
+    const double fit_rms = rms(shortfalls);
+    if (fit_rms > kDisagree_px) {
+        return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(fit_rms * picture_px)) +
+                     " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
+    }
     calibration.observations = static_cast<int>(shortfalls.size());
     calibration.rms_px = fit_rms * picture_px;
     calibration.views = fits_by_view(*turn, shortfalls, picture_px);

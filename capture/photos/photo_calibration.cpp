@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -74,6 +75,8 @@ Silhouettes silhouettes(const TurnPictures& turn) {
     return result;
 }
 
+// Where nobody knows the sense of turning it was guessed, and outlines may refute it: they agree with the other one
+// only, or else only with a camera that looks up from below the plate.
 Result<Calibration> from_silhouettes(const TurnPictures& turn, const CalibrationRequest& request) {
     const Silhouettes outlines = silhouettes(turn);
     // The part of the photographs that the outlines show, for their sides must be the outlines' times a whole number.
@@ -81,6 +84,18 @@ Result<Calibration> from_silhouettes(const TurnPictures& turn, const Calibration
     start.lens.width = outlines.reduction * outlines.masks.front().width();
     start.lens.height = outlines.reduction * outlines.masks.front().height();
     Result<Calibration> found = calibrate_with_silhouettes(outlines.masks, start, request.known);
+    const KnownInputs& known = request.known;
+    const bool is_guessed = !known.counter_clockwise && !known.step_rad && !known.angles_rad;
+    if (is_guessed && (!found || seems_to_look_up(*found))) {
+        for (double& angle : start.angles_rad) angle = -angle;
+        constexpr double kAsGood = 1.5;
+        Result<Calibration> other = calibrate_with_silhouettes(outlines.masks, start, known);
+        if (other && (!found || (!seems_to_look_up(*other) && other->rms_px < kAsGood * found->rms_px))) {
+            found = std::move(other);
+            found->warnings.emplace_back(
+                "the pictures seem to turn the other way, but the outlines fit this one better");
+        }
+    }
     if (!found) return found;
     found->model.lens.width = turn.width;
     found->model.lens.height = turn.height;

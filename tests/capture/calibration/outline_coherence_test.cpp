@@ -41,7 +41,7 @@ Known known_by_short_tracks(const TurntableModel& model) {
     Eigen::VectorXd deviation = Eigen::VectorXd::Constant(places.count, radians(0.03));
     deviation(places.camera[0]) = 0.01 * model.lens.f_px;
     deviation(places.camera[3]) = 0.02;
-    for (std::size_t k = kPan; k < kCameraNumbers; ++k) deviation(places.camera[k]) = radians(0.1);
+    for (std::size_t k = CameraNumber::kPan; k < kCameraNumbers; ++k) deviation(places.camera[k]) = radians(0.1);
     Eigen::MatrixXd covariance = deviation.cwiseAbs2().asDiagonal();
     for (const int harmonic : {1, 2}) {
         for (const double phase : {0.0, kPi / 2}) {
@@ -82,7 +82,7 @@ TEST(OutlineCoherence, MendsAnglesThatDriftAroundTheTurn) {
     const TurntableModel start = drifted(truth);
     const auto [places, covariance] = known_by_short_tracks(start);
     const SilhouetteTurn turn = turn_of(masks_of_figure());
-    const auto fit = fit_coherence(start, places, covariance, turn, turn.reduction(), 0.5);
+    const auto fit = fit_coherence(start, places, covariance, turn, turn.reduction(), {});
     ASSERT_TRUE(fit.has_value());
     EXPECT_GT(angles_error_rad(start, truth), radians(0.4));
     EXPECT_LT(angles_error_rad(fit->model, truth), radians(0.15));
@@ -102,9 +102,9 @@ TEST(OutlineCoherence, IsTheSameOnAnyNumberOfThreads) {
     const TurntableModel start = drifted(turn_of_figure(kCoherentViews));
     const auto [places, covariance] = known_by_short_tracks(start);
     const SilhouetteTurn turn = turn_of(masks_of_figure());
-    const auto many = fit_coherence(start, places, covariance, turn, turn.reduction(), 0.5);
+    const auto many = fit_coherence(start, places, covariance, turn, turn.reduction(), {});
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const auto alone = fit_coherence(start, places, covariance, turn, turn.reduction(), 0.5);
+    const auto alone = fit_coherence(start, places, covariance, turn, turn.reduction(), {});
     ASSERT_TRUE(many && alone);
     EXPECT_EQ(many->model.angles_rad, alone->model.angles_rad);
     EXPECT_EQ(many->model.lens.f_px, alone->model.lens.f_px);
@@ -115,9 +115,9 @@ TEST(OutlineCoherence, ABodyOfRevolutionSaysNothing) {
     const TurntableModel truth = turn_of_figure(kCoherentViews);
     const auto [places, covariance] = known_by_short_tracks(truth);
     const SilhouetteTurn turn = turn_of(drawn(bottle(), truth));
-    EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), 0.5).has_value());
+    EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), {}).has_value());
     const SilhouetteTurn of_figure = turn_of(masks_of_figure());
-    EXPECT_TRUE(fit_coherence(truth, places, covariance, of_figure, of_figure.reduction(), 0.5).has_value());
+    EXPECT_TRUE(fit_coherence(truth, places, covariance, of_figure, of_figure.reduction(), {}).has_value());
 }
 
 TEST(OutlineCoherence, AnglesThatAreHeldStay) {
@@ -127,7 +127,7 @@ TEST(OutlineCoherence, AnglesThatAreHeldStay) {
     const NumberPlaces places(free, std::vector<bool>(truth.angles_rad.size(), true));
     const Eigen::MatrixXd covariance = 1e-4 * Eigen::MatrixXd::Identity(places.count, places.count);
     const SilhouetteTurn turn = turn_of(masks_of_figure());
-    EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), 0.5).has_value());
+    EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), {}).has_value());
 }
 
 TEST(OutlineCoherence, OutlinesOfNoOneBodySayNothing) {
@@ -136,8 +136,8 @@ TEST(OutlineCoherence, OutlinesOfNoOneBodySayNothing) {
     std::vector<Image<std::uint8_t>> masks = masks_of_figure();
     std::rotate(masks.begin(), masks.begin() + 7, masks.begin() + 15);
     const SilhouetteTurn turn = turn_of(masks);
-    EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), 0.5).has_value());
-    EXPECT_FALSE(fit_coherence(truth, places, {}, turn, turn.reduction(), 1e6).has_value());
+    EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), {}).has_value());
+    EXPECT_FALSE(fit_coherence(truth, places, {}, turn, turn.reduction(), {.worst_px = 1e6}).has_value());
 }
 
 }  // namespace

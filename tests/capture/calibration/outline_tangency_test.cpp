@@ -73,7 +73,7 @@ Eigen::MatrixXd roughly_known(const NumberPlaces& places, const TurntableModel& 
     Eigen::VectorXd deviation = Eigen::VectorXd::Constant(places.count, radians(0.2));
     deviation(places.camera[0]) = 0.01 * model.lens.f_px;
     deviation(places.camera[3]) = 0.05;
-    for (std::size_t k = kPan; k < kCameraNumbers; ++k) deviation(places.camera[k]) = radians(0.1);
+    for (std::size_t k = CameraNumber::kPan; k < kCameraNumbers; ++k) deviation(places.camera[k]) = radians(0.1);
     return deviation.cwiseAbs2().asDiagonal();
 }
 
