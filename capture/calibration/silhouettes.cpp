@@ -283,11 +283,9 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
         fit.deviation[k] *= doubt;
     }
     calibration.deviations = deviations_of(fit, spread, calibration.model, known, picture_px);
-    if (!estimate_step) {
-        if (auto found = angles_of_outlines(masks, calibration.model, calibration.deviations, known)) {
-            calibration.model = std::move(found->model);
-            calibration.deviations = std::move(found->deviations);
-        }
+    if (auto found = angles_of_outlines(masks, calibration.model, calibration.deviations, known)) {
+        calibration.model = std::move(found->model);
+        calibration.deviations = std::move(found->deviations);
     }
     TurntableModel of_turn = calibration.model;
     of_turn.lens = scaled(of_turn.lens, 1 / picture_px);

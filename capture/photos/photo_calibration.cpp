@@ -7,7 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace rs::capture {
 namespace {
@@ -75,6 +79,31 @@ Silhouettes silhouettes(const TurnPictures& turn) {
     return result;
 }
 
+// How many times the object has stepped on before each view, for views whose outline is that of the view before did
+// not: a picture that was taken or copied twice.
+std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
+    constexpr double kRepeatRatio = 0.2;  // of what the outlines change before and behind
+    std::vector<std::int64_t> change;     // [view], to the next
+    for (std::size_t i = 0; i + 1 < masks.size(); ++i) {
+        std::int64_t sum = 0;
+        for (std::size_t k = 0; k < masks[i].pixels().size(); ++k) {
+            sum += std::abs(masks[i].pixels()[k] - masks[i + 1].pixels()[k]);
+        }
+        change.push_back(sum);
+    }
+    std::vector<int> steps(masks.size());
+    std::iota(steps.begin(), steps.end(), 0);
+    if (masks.size() < 4) return steps;
+    for (std::size_t i = 1; i < masks.size(); ++i) {
+        const std::int64_t before = i >= 2 ? change[i - 2] : change[i];
+        const std::int64_t behind = i < change.size() ? change[i] : before;
+        const bool repeats =
+            static_cast<double>(change[i - 1]) < kRepeatRatio * static_cast<double>(std::min(before, behind));
+        steps[i] = steps[i - 1] + (repeats ? 0 : 1);
+    }
+    return steps;
+}
+
 // Where nobody knows the sense of turning it was guessed, and outlines may refute it: they agree with the other one
 // only, or else only with a camera that looks up from below the plate.
 Result<Calibration> from_silhouettes(const TurnPictures& turn, const CalibrationRequest& request) {
@@ -83,13 +112,19 @@ Result<Calibration> from_silhouettes(const TurnPictures& turn, const Calibration
     TurntableModel start = request.nominal;
     start.lens.width = outlines.reduction * outlines.masks.front().width();
     start.lens.height = outlines.reduction * outlines.masks.front().height();
-    Result<Calibration> found = calibrate_with_silhouettes(outlines.masks, start, request.known);
     const KnownInputs& known = request.known;
+    if (const std::vector<int> steps = steps_before(outlines.masks);
+        steps.back() + 1 < static_cast<int>(steps.size())) {
+        const double whole_rad = start.angles_rad[1] * static_cast<double>(steps.size());
+        for (std::size_t i = 0; i < steps.size(); ++i) start.angles_rad[i] = whole_rad * steps[i] / (steps.back() + 1);
+    }
+    // A turn may lack its last picture, so the step that closes it is a guess.
+    Result<Calibration> found = calibrate_with_silhouettes(outlines.masks, start, known, true);
     const bool is_guessed = !known.counter_clockwise && !known.step_rad && !known.angles_rad;
     if (is_guessed && (!found || seems_to_look_up(*found))) {
         for (double& angle : start.angles_rad) angle = -angle;
         constexpr double kAsGood = 1.5;
-        Result<Calibration> other = calibrate_with_silhouettes(outlines.masks, start, known);
+        Result<Calibration> other = calibrate_with_silhouettes(outlines.masks, start, known, true);
         if (other && (!found || (!seems_to_look_up(*other) && other->rms_px < kAsGood * found->rms_px))) {
             found = std::move(other);
             found->warnings.emplace_back(

@@ -128,18 +128,36 @@ TEST_F(PhotoCalibrationTest, AChoiceIsTakenOrFails) {
     EXPECT_THAT(*plain_page, AllOf(HasSubstr("nothing but assumptions"), Not(HasSubstr("Estimates"))));
 }
 
+Image<Rgba8> grey_where(const Image<std::uint8_t>& mask) {
+    Image<Rgba8> picture(mask.width(), mask.height());
+    for (std::size_t i = 0; i < mask.pixels().size(); ++i) picture.pixels()[i] = {120, 120, 120, mask.pixels()[i]};
+    return picture;
+}
+
+// One picture is there twice, and the turn lacks its last.
+TEST_F(PhotoCalibrationTest, OutlinesMayRepeatAndLackAView) {
+    constexpr std::size_t kFigureViews = 24;
+    constexpr std::size_t kTwice = 9;
+    const TurntableModel truth = turn_of_figure(kFigureViews);
+    const auto masks = drawn(figure(), truth);
+    for (std::size_t i = 0; i < kFigureViews; ++i) write(i, grey_where(masks[i > kTwice ? i - 1 : i]));
+    options_.calibration = CalibrationChoice::kSilhouettes;
+    options_.known = {};
+    options_.turning = Turning::kCounterClockwise;
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_EQ(report->views, 23);
+    EXPECT_EQ(report->left_out, std::vector<std::string>{"10.png"});
+    EXPECT_NEAR(report->step_deg, 15, 0.1);
+    EXPECT_LT(report->calibration.calibration->rms_px, 0.3);
+}
+
 // Without texture nothing tells the sense of turning but that outlines of the other one disagree.
 TEST_F(PhotoCalibrationTest, OutlinesTellTheSenseOfTurning) {
     constexpr int kFigureViews = 16;
     const TurntableModel truth = turn_of_figure(kFigureViews);
     const auto masks = drawn(figure(), truth);
-    for (std::size_t i = 0; i < masks.size(); ++i) {
-        Image<Rgba8> picture(masks[i].width(), masks[i].height());
-        for (std::size_t k = 0; k < picture.pixels().size(); ++k) {
-            picture.pixels()[k] = {120, 120, 120, masks[i].pixels()[k]};
-        }
-        write(i, picture);
-    }
+    for (std::size_t i = 0; i < masks.size(); ++i) write(i, grey_where(masks[i]));
     options_.calibration = CalibrationChoice::kSilhouettes;
     options_.known = {};
     options_.turning.reset();
