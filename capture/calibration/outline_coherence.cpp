@@ -18,9 +18,7 @@ constexpr int kCoherenceTries = 4;      // of a step, each more damped
 constexpr double kFarthestStretch = 8;  // a step is doubled while that helps
 constexpr double kLittle = 0.2;         // of cost, twice the log likelihood: no more rounds for less
 constexpr double kWidth = 0.5;          // of differences, in deviations
-// Px of the turn: shortfalls far above it count no more. Where outlines do not fit yet, far above what they are off.
-constexpr double kOutlier_px = 1;
-constexpr double kOutlierOfMean = 3;
+constexpr double kOutlier_px = 1;       // of the turn: shortfalls far above it count no more
 // Outlines that agree better are those of bodies that look alike from everywhere, and know no more for it.
 constexpr double kFinest_px = 0.12;
 // Neighbouring points of an outline are off alike: a view is worth this many independent ones.
@@ -105,15 +103,14 @@ public:
     }
 
     // Geman-McClure's, so that what is cut out wrong counts little.
-    [[nodiscard]] static double robust_sum(const Eigen::VectorXd& shortfalls, double outlier_px) {
-        return (shortfalls.array().square() / (1 + shortfalls.array().square() / (outlier_px * outlier_px))).sum();
+    [[nodiscard]] static double robust_sum(const Eigen::VectorXd& shortfalls) {
+        return (shortfalls.array().square() / (1 + shortfalls.array().square() / (kOutlier_px * kOutlier_px))).sum();
     }
 
     // What a squared shortfall counts for, if those given are what outlines are usually off.
-    [[nodiscard]] double weight(const Eigen::VectorXd& shortfalls, double outlier_px) const {
+    [[nodiscard]] double weight(const Eigen::VectorXd& shortfalls) const {
         const double finest = kFinest_px * kFinest_px * static_cast<double>(shortfalls.size());
-        return kIndependentRays * static_cast<double>(turn_.views()) /
-               std::max(robust_sum(shortfalls, outlier_px), finest);
+        return kIndependentRays * static_cast<double>(turn_.views()) / std::max(robust_sum(shortfalls), finest);
     }
 
     [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::VectorXd& z, Eigen::Index rays) {
@@ -153,14 +150,13 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     double damping = 1e-3;
     Eigen::MatrixXd of_outlines;
     for (int round = 0; round < kCoherenceRounds; ++round) {
-        const double outlier_px = std::max(kOutlier_px, kOutlierOfMean * shortfalls.mean());
-        const double weight = outlines.weight(shortfalls, outlier_px);
+        const double weight = outlines.weight(shortfalls);
         const Eigen::MatrixXd slopes = outlines.slopes(z, shortfalls.size());
-        const Eigen::ArrayXd tail = 1 + shortfalls.array().square() / (outlier_px * outlier_px);
+        const Eigen::ArrayXd tail = 1 + shortfalls.array().square() / (kOutlier_px * kOutlier_px);
         const Eigen::VectorXd weights = weight / tail.square();
         of_outlines = slopes.transpose() * weights.asDiagonal() * slopes;
         const Eigen::VectorXd gradient = slopes.transpose() * weights.cwiseProduct(shortfalls) + z;
-        const double cost_before = weight * Outlines::robust_sum(shortfalls, outlier_px) + z.squaredNorm();
+        const double cost_before = weight * Outlines::robust_sum(shortfalls) + z.squaredNorm();
         double cost = cost_before;
         bool better = false;
         for (int i = 0; i < kCoherenceTries && !better; ++i) {
@@ -172,7 +168,7 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
             for (double stretch = 1; stretch <= kFarthestStretch; stretch *= 2) {
                 const Eigen::VectorXd there = start + stretch * step;
                 const Eigen::VectorXd tried = outlines.shortfalls(there);
-                const double tried_cost = weight * Outlines::robust_sum(tried, outlier_px) + there.squaredNorm();
+                const double tried_cost = weight * Outlines::robust_sum(tried) + there.squaredNorm();
                 if (!(tried_cost < cost)) break;
                 cost = tried_cost;
                 z = there;

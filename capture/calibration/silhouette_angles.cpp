@@ -22,7 +22,7 @@ const SilhouetteDetail kDetail{600, 200};
 constexpr double kWider = 3;
 constexpr double kDistortion = 0.1;  // k1 that lenses of photographs have
 constexpr double kWorst_px = 1;      // of the turn
-// On traced dolls, lattices errors were within .4 of what three times says.
+// So that twice the deviations covered the errors on ten traced dolls and a lattice.
 constexpr double kUntoldTogether = 3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
