@@ -16,7 +16,7 @@ enum class CalibrationMethod {
     kBoard,        // a printed board on the plate
     kGiven,        // lens, pose and angles are all known
     kTracks,       // points of the object followed around the turn
-    kSilhouettes,  // consistency of all outlines; the steps are given
+    kSilhouettes,  // consistency of all outlines; of round bodies the steps are assumed
     kNominal,      // equal steps, an assumed lens, a level camera
 };
 std::string to_string(CalibrationMethod method);  // "board", "given", "tracks", "silhouettes", "nominal"

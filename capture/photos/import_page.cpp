@@ -37,7 +37,8 @@ std::string what_it_rests_on(CalibrationMethod method) {
         case CalibrationMethod::kTracks:
             return "points of the object followed around the turn.";
         case CalibrationMethod::kSilhouettes:
-            return "the outlines of the object alone, which know little of the lens and nothing of the steps.";
+            return "the outlines of the object alone, which know little of the lens, and of round bodies nothing of "
+                   "the steps.";
         case CalibrationMethod::kNominal:
             return "nothing but assumptions: equal steps, a level camera, a usual lens.";
     }
