@@ -60,22 +60,33 @@ Side side_of(const cv::Mat3f& colour, const cv::Mat1f& weight, double sigma_px) 
     return side;
 }
 
-// Distance in px to the nearest pixel of the other side; 0 on the other side itself.
-cv::Mat1f depth_within(const cv::Mat1b& side) {
-    cv::Mat1f depth;
-    cv::distanceTransform(side, depth, cv::DIST_L2, cv::DIST_MASK_5);
-    return depth;
+// In px from the border, which runs half a pixel before the first pixel of either side; positive inside.
+cv::Mat1f signed_distance(const cv::Mat1b& inside) {
+    cv::Mat1f distance;  // to the nearest pixel of the other side
+    cv::distanceTransform(inside, distance, cv::DIST_L2, cv::DIST_MASK_5);
+    cv::Mat1b outside;
+    cv::bitwise_not(inside, outside);
+    cv::Mat1f beyond;
+    cv::distanceTransform(outside, beyond, cv::DIST_L2, cv::DIST_MASK_5);
+    for (int y = 0; y < inside.rows; ++y) {
+        for (int x = 0; x < inside.cols; ++x) {
+            distance(y, x) =
+                inside(y, x) != 0 ? std::max(0.5F, distance(y, x) - 0.5F) : -std::max(0.5F, beyond(y, x) - 0.5F);
+        }
+    }
+    return distance;
 }
 
-// How much a pixel's colour is its own side's: little at the border, where both sides mix, growing to band_px + 1. Not
-// nothing at the border either, for of a thin claw there may be no more than that.
-cv::Mat1f trust(const cv::Mat1f& depth, int band_px) {
+// How much a pixel's colour is that of `side` (1: the object, -1: the backdrop): little at the border, where both mix,
+// growing to band_px + 1. Not nothing at the border either, for of a thin claw there may be no more than that.
+cv::Mat1f trust(const cv::Mat1f& distance, int band_px, int side) {
     constexpr float kMixed = 0.02F;
-    cv::Mat1f weight(depth.size(), 0.0F);
-    for (int y = 0; y < depth.rows; ++y) {
-        for (int x = 0; x < depth.cols; ++x) {
-            if (depth(y, x) <= 0) continue;
-            const float own = std::min(depth(y, x), static_cast<float>(band_px + 1)) - 1;
+    cv::Mat1f weight(distance.size(), 0.0F);
+    for (int y = 0; y < distance.rows; ++y) {
+        for (int x = 0; x < distance.cols; ++x) {
+            const float depth = static_cast<float>(side) * distance(y, x) + 0.5F;
+            if (depth <= 0.5F) continue;
+            const float own = std::min(depth, static_cast<float>(band_px + 1)) - 1;
             weight(y, x) = kMixed + own * own;
         }
     }
@@ -159,43 +170,60 @@ float snapped(float alpha) {
     return std::clamp((alpha - kSnap) / (1 - 2 * kSnap), 0.0F, 1.0F);
 }
 
-SoftEdge softened(const cv::Mat3f& light, const cv::Mat1b& inside, int band_px, float leeway) {
-    const int width = light.cols;
-    const int height = light.rows;
-    SoftEdge edge{Image<float>(width, height), Image<LinearRgb>(width, height), Image<LinearRgb>(width, height)};
-    cv::Mat1b outside;
-    cv::bitwise_not(inside, outside);
-    const cv::Mat1f depth_inside = depth_within(inside);
-    const cv::Mat1f depth_outside = depth_within(outside);
-    const double sigma_px = band_px + 1.0;
-    const Side object = side_of(light, trust(depth_inside, band_px), sigma_px);
-    const Side backdrop = side_of(light, trust(depth_outside, band_px), sigma_px);
+struct InBand {
+    int x, y;
+    float distance_px;
+    Reading reading;
+};
 
-    struct InBand {
-        int x, y;
-        float distance_px;
-        Reading reading;
-    };
-    std::vector<InBand> in_band;
-    EdgeProfile profile(band_px);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            // From the border, which runs half a pixel before the first pixel of either side; positive inside.
-            const float distance = inside(y, x) != 0 ? std::max(0.5F, depth_inside(y, x) - 0.5F)
-                                                     : -std::max(0.5F, depth_outside(y, x) - 0.5F);
-            if (std::abs(distance) >= static_cast<float>(band_px)) {
-                edge.alpha(x, y) = distance > 0 ? 1.0F : 0.0F;
-                continue;
-            }
+// The band's pixels within `core` and what their colours say; both sides' colours go to `edge`.
+void read_band(const cv::Mat3f& light, const cv::Mat1f& distance, const cv::Rect& core, int band_px, SoftEdge& edge,
+               std::vector<InBand>& in_band) {
+    const double sigma_px = band_px + 1.0;
+    const int margin_px = static_cast<int>(std::ceil(4 * sigma_px)) + 1;  // beyond OpenCV's kernel
+    const cv::Rect around =
+        cv::Rect(core.x - margin_px, core.y - margin_px, core.width + 2 * margin_px, core.height + 2 * margin_px) &
+        cv::Rect(0, 0, light.cols, light.rows);
+    const Side object = side_of(light(around), trust(distance(around), band_px, 1), sigma_px);
+    const Side backdrop = side_of(light(around), trust(distance(around), band_px, -1), sigma_px);
+    for (int y = core.y; y < core.y + core.height; ++y) {
+        for (int x = core.x; x < core.x + core.width; ++x) {
+            if (std::abs(distance(y, x)) >= static_cast<float>(band_px)) continue;
+            const int v = y - around.y;
+            const int u = x - around.x;
             const Reading reading =
-                read_alpha(light(y, x), object.mean(y, x), backdrop.mean(y, x), object.covariance(y, x),
-                           backdrop.covariance(y, x), EdgeProfile::by_distance(distance));
-            edge.object(x, y) = rgb(object.mean(y, x));
-            edge.backdrop(x, y) = rgb(backdrop.mean(y, x));
-            profile.learn(distance, reading);
-            in_band.push_back({x, y, distance, reading});
+                read_alpha(light(y, x), object.mean(v, u), backdrop.mean(v, u), object.covariance(v, u),
+                           backdrop.covariance(v, u), EdgeProfile::by_distance(distance(y, x)));
+            edge.object(x, y) = rgb(object.mean(v, u));
+            edge.backdrop(x, y) = rgb(backdrop.mean(v, u));
+            in_band.push_back({x, y, distance(y, x), reading});
         }
     }
+}
+
+SoftEdge softened(const cv::Mat3f& light, const cv::Mat1b& inside, int band_px, float leeway) {
+    SoftEdge edge{Image<float>(light.cols, light.rows), Image<LinearRgb>(light.cols, light.rows),
+                  Image<LinearRgb>(light.cols, light.rows)};
+    const cv::Mat1f distance = signed_distance(inside);
+    std::vector<InBand> in_band;
+    // In strips, and of them what the band takes of their width: memory and time go with the border, not the picture.
+    constexpr int kStrip_px = 128;
+    for (int top = 0; top < light.rows; top += kStrip_px) {
+        const int bottom = std::min(light.rows, top + kStrip_px);
+        int left = light.cols;
+        int right = 0;
+        for (int y = top; y < bottom; ++y) {
+            for (int x = 0; x < light.cols; ++x) {
+                edge.alpha(x, y) = distance(y, x) > 0 ? 1.0F : 0.0F;
+                if (std::abs(distance(y, x)) >= static_cast<float>(band_px)) continue;
+                left = std::min(left, x);
+                right = std::max(right, x + 1);
+            }
+        }
+        if (left < right) read_band(light, distance, {left, top, right - left, bottom - top}, band_px, edge, in_band);
+    }
+    EdgeProfile profile(band_px);
+    for (const InBand& p : in_band) profile.learn(p.distance_px, p.reading);
     for (const InBand& p : in_band) {
         const Reading expected = profile.at(p.distance_px);
         const float variance = leeway * leeway * expected.variance;
