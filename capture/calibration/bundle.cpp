@@ -174,10 +174,8 @@ std::optional<double> adjust(Bundle& bundle, const BundleOptions& options) {
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
         for (const Observation& seen : bundle.tracks[i].seen) {
             double* angle = common ? &step : &model.angles_rad[static_cast<std::size_t>(seen.view)];
-            problem.AddResidualBlock(
-                new Reprojection({seen.p.x, seen.p.y, common ? static_cast<double>(seen.view) : 1.0, seen.weight[0][0],
-                                  seen.weight[1][0], seen.weight[1][1]}),
-                &loss, lens.data(), pose.data(), angle, &bundle.points[i].x);
+            problem.AddResidualBlock(new Reprojection(seen, common ? static_cast<double>(seen.view) : 1.0), &loss,
+                                     lens.data(), pose.data(), angle, &bundle.points[i].x);
             ordering->AddElementToGroup(angle, 1);
             ++observations;
         }

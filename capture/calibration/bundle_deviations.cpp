@@ -72,7 +72,7 @@ std::optional<Slopes> slopes_of(const TurntableModel& model, const NumberPlaces&
     const auto view = static_cast<std::size_t>(seen.view);
     const double turns = common_step ? static_cast<double>(seen.view) : 1.0;
     const double angle = common_step && seen.view == 0 ? 0.0 : model.angles_rad[view] / turns;
-    const Reprojection cost({seen.p.x, seen.p.y, turns, seen.weight[0][0], seen.weight[1][0], seen.weight[1][1]});
+    const Reprojection cost(seen, turns);
     const std::array<const double*, 4> blocks{lens.data(), pose.data(), &angle, &point.x};
     Slopes slopes;
     Eigen::Matrix<double, 2, 5, Eigen::RowMajor> by_lens;

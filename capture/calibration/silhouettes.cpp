@@ -271,13 +271,14 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     }
     Calibration calibration;
     calibration.method = CalibrationMethod::kSilhouettes;
-    calibration.model = changed(problem.start, fit.at);
+    TurntableModel of_turn = changed(problem.start, fit.at);
+    std::vector<double> shortfalls = shortfalls_px(*turn, of_turn, {});
+    calibration.model = of_turn;
     calibration.model.lens = scaled(calibration.model.lens, picture_px);
     std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
     const std::array<double, Parameters::kCount> open = valley(fit, best_cost, along);
     // Outlines that fit worse than good ones should are surer of nothing.
-    const double supposed_rms = rms(shortfalls_px(*turn, changed(problem.start, fit.at), {}));
-    const double doubt = std::max(1.0, supposed_rms / kSilhouetteError_px);
+    const double doubt = std::max(1.0, rms(shortfalls) / kSilhouetteError_px);
     for (std::size_t k = 0; k < Parameters::kCount; ++k) {
         spread[k] = std::max(spread[k], doubt * open[k]);
         fit.deviation[k] *= doubt;
@@ -286,10 +287,10 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     if (auto found = angles_of_outlines(masks, calibration.model, calibration.deviations, known)) {
         calibration.model = std::move(found->model);
         calibration.deviations = std::move(found->deviations);
+        of_turn = calibration.model;
+        of_turn.lens = scaled(of_turn.lens, 1 / picture_px);
+        shortfalls = shortfalls_px(*turn, of_turn, {});
     }
-    TurntableModel of_turn = calibration.model;
-    of_turn.lens = scaled(of_turn.lens, 1 / picture_px);
-    const std::vector<double> shortfalls = shortfalls_px(*turn, of_turn, {});
     const double fit_rms = rms(shortfalls);
     if (fit_rms > kDisagree_px) {
         return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(fit_rms * picture_px)) +

@@ -4,6 +4,7 @@
 #include "capture/photos/disc_plane.hpp"
 #include "capture/photos/opencv_image.hpp"
 #include "capture/photos/plate.hpp"
+#include "rayspace/median.hpp"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -152,11 +153,6 @@ Image<std::uint8_t> still_foot(const TurntableDisc& disc, ConstImageView<Rgba8> 
     }
     Image<std::uint8_t> foot(width, height);
     if (codes[0].empty()) return foot;
-    const auto median = [](std::vector<std::uint8_t>& values) {
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        return *middle;
-    };
     const LinearRgb bare = linear_rgb({median(codes[0]), median(codes[1]), median(codes[2]), 255});
     // What does not look like the bare disc, together with what is swept: what hangs together with that is the foot.
     cv::Mat1b joined(height, width, std::uint8_t{0});

@@ -3,12 +3,12 @@
 #include "capture/calibration/silhouettes.hpp"
 #include "capture/calibration/turn_diagnosis.hpp"
 #include "capture/photos/bounded_work.hpp"
+#include "capture/photos/opencv_image.hpp"
 #include "rayspace/picture_io.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -83,22 +83,17 @@ Silhouettes silhouettes(const TurnPictures& turn) {
 // not: a picture that was taken or copied twice.
 std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
     constexpr double kRepeatRatio = 0.2;  // of what the outlines change before and behind
-    std::vector<std::int64_t> change;     // [view], to the next
+    std::vector<double> change;           // [view], to the next
     for (std::size_t i = 0; i + 1 < masks.size(); ++i) {
-        std::int64_t sum = 0;
-        for (std::size_t k = 0; k < masks[i].pixels().size(); ++k) {
-            sum += std::abs(masks[i].pixels()[k] - masks[i + 1].pixels()[k]);
-        }
-        change.push_back(sum);
+        change.push_back(cv::norm(mat_over(masks[i]), mat_over(masks[i + 1]), cv::NORM_L1));
     }
     std::vector<int> steps(masks.size());
     std::iota(steps.begin(), steps.end(), 0);
     if (masks.size() < 4) return steps;
     for (std::size_t i = 1; i < masks.size(); ++i) {
-        const std::int64_t before = i >= 2 ? change[i - 2] : change[i];
-        const std::int64_t behind = i < change.size() ? change[i] : before;
-        const bool repeats =
-            static_cast<double>(change[i - 1]) < kRepeatRatio * static_cast<double>(std::min(before, behind));
+        const double before = i >= 2 ? change[i - 2] : change[i];
+        const double behind = i < change.size() ? change[i] : before;
+        const bool repeats = change[i - 1] < kRepeatRatio * std::min(before, behind);
         steps[i] = steps[i - 1] + (repeats ? 0 : 1);
     }
     return steps;

@@ -246,8 +246,7 @@ SoftEdge soften_edge(ConstImageView<Rgba8> photo, ConstImageView<std::uint8_t> m
     if (width == 0 || height == 0)
         return {Image<float>(width, height), Image<LinearRgb>(width, height), Image<LinearRgb>(width, height)};
     const cv::Mat3f light = linear_mat(photo);
-    cv::Mat1b inside(height, width);
-    for (int y = 0; y < height; ++y) std::copy_n(mask.row(y), width, inside[y]);
+    cv::Mat1b inside = mat_over(mask).clone();
     SoftEdge edge = softened(light, inside, band_px, kLeeway.front());
     for (std::size_t pass = 1; pass < kLeeway.size(); ++pass) {
         for (int y = 0; y < inside.rows; ++y) {

@@ -44,12 +44,11 @@ RimPlace rim_place(const DiscPlane& plane, double radius, double angle_rad) {
 class RimSearch {
 public:
     RimSearch(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> known)
-        : colour_(plate.height(), plate.width()), known_(plate.height(), plate.width()) {
+        : colour_(plate.height(), plate.width()), known_(mat_over(known)) {
         for (int y = 0; y < plate.height(); ++y) {
             for (int x = 0; x < plate.width(); ++x) {
                 const Rgba8& p = plate(x, y);
                 colour_(y, x) = {static_cast<float>(p.r), static_cast<float>(p.g), static_cast<float>(p.b)};
-                known_(y, x) = known(x, y);
             }
         }
     }

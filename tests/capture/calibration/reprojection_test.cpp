@@ -14,16 +14,17 @@ namespace {
 
 // The same residual, differentiated by Ceres.
 struct PlainReprojection {
-    Reprojection::Observation seen;
+    Observation seen;
+    double turns = 1;
 
     template <class T>
     bool operator()(const T* lens, const T* pose, const T* angle, const T* point, T* residuals) const {
-        const T at = angle[0] * T(seen.turns);
+        const T at = angle[0] * T(turns);
         if (!project_turned(lens, pose, at, point, residuals)) return false;
-        const T dx = residuals[0] - T(seen.x);
-        const T dy = residuals[1] - T(seen.y);
-        residuals[0] = T(seen.weight_xx) * dx + T(seen.weight_xy) * dy;
-        residuals[1] = T(seen.weight_xy) * dx + T(seen.weight_yy) * dy;
+        const T dx = residuals[0] - T(seen.p.x);
+        const T dy = residuals[1] - T(seen.p.y);
+        residuals[0] = T(seen.weight[0][0]) * dx + T(seen.weight[1][0]) * dy;
+        residuals[1] = T(seen.weight[0][1]) * dx + T(seen.weight[1][1]) * dy;
         return true;
     }
 };
@@ -63,16 +64,18 @@ TEST(Reprojection, EqualsItsAutomaticDerivatives) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> d(-1, 1);
     for (int i = 0; i < 500; ++i) {
-        const Reprojection::Observation seen{
-            300 + 200 * d(random), 200 + 200 * d(random), i % 3 == 0 ? 7.0 : 1.0, 1 + d(random), d(random),
-            1 + d(random)};
+        Observation seen;
+        seen.p = {300 + 200 * d(random), 200 + 200 * d(random)};
+        const double shared = d(random);
+        seen.weight = {{1 + d(random), shared}, {shared, 1 + d(random)}};
+        const double turns = i % 3 == 0 ? 7 : 1;
         const Numbers at{
             {900 + 300 * d(random), 320 + 20 * d(random), 240 + 20 * d(random), 0.2 * d(random), 0.1 * d(random)},
             {0.3 * d(random), 0.7 * d(random), 1.6 * d(random)},
             3 * d(random),
             {0.4 * d(random), 0.4 * d(random), 0.4 * d(random)}};
-        const Values written = evaluate(Reprojection(seen), at);
-        const ceres::AutoDiffCostFunction<PlainReprojection, 2, 5, 3, 1, 3> plain(new PlainReprojection{seen});
+        const Values written = evaluate(Reprojection(seen, turns), at);
+        const ceres::AutoDiffCostFunction<PlainReprojection, 2, 5, 3, 1, 3> plain(new PlainReprojection{seen, turns});
         const Values derived = evaluate(plain, at);
         ASSERT_TRUE(written.ok && derived.ok);
         expect_equal(written.residuals, derived.residuals, "residual");
@@ -85,19 +88,19 @@ TEST(Reprojection, EqualsItsAutomaticDerivatives) {
 
 TEST(Reprojection, FailsBehindTheCamera) {
     const Numbers behind{{900, 320, 240, 0, 0}, {0, 0, 0}, 0, {0, 0, 1.5}};
-    EXPECT_FALSE(evaluate(Reprojection({}), behind).ok);
+    EXPECT_FALSE(evaluate(Reprojection({}, 1), behind).ok);
 }
 
 TEST(Reprojection, WritesOnlyTheDerivativesAskedFor) {
     const Numbers at{{900, 320, 240, 0, 0}, {0.1, 0.2, 0}, 0.3, {0.1, 0, 0.2}};
     const std::array<const double*, 4> blocks{at.lens.data(), at.pose.data(), &at.angle, at.point.data()};
-    const Values all = evaluate(Reprojection({}), at);
+    const Values all = evaluate(Reprojection({}, 1), at);
     Values some;
     std::array<double*, 4> jacobians{nullptr, some.by_pose.data(), nullptr, nullptr};
-    ASSERT_TRUE(Reprojection({}).Evaluate(blocks.data(), some.residuals.data(), jacobians.data()));
+    ASSERT_TRUE(Reprojection({}, 1).Evaluate(blocks.data(), some.residuals.data(), jacobians.data()));
     EXPECT_EQ(some.residuals, all.residuals);
     EXPECT_EQ(some.by_pose, all.by_pose);
-    ASSERT_TRUE(Reprojection({}).Evaluate(blocks.data(), some.residuals.data(), nullptr));
+    ASSERT_TRUE(Reprojection({}, 1).Evaluate(blocks.data(), some.residuals.data(), nullptr));
     EXPECT_EQ(some.residuals, all.residuals);
 }
 
