@@ -165,21 +165,29 @@ void keep_enough_tracks(Bundle& bundle) {
     keep(bundle, [&](std::size_t i) { return i * kEnoughTracks / count != (i + 1) * kEnoughTracks / count; });
 }
 
-// The same points observed anew, by alignment of their patches.
-bool refine(Bundle& bundle, const TurnPictures& turn, BundleOptions& options) {
+// The same points observed anew, by alignment of their patches; leaves in `options` the loss that fits them. Nothing
+// where no bundle of them can be had.
+std::optional<Bundle> refined(Bundle bundle, const TurnPictures& turn, BundleOptions& options) {
     for (int round = 0; round < 2; ++round) {
         const std::vector<Track> tracks = aligned_tracks(turn.pictures, turn.reduction, bundle);
-        Bundle next = make_agreeing_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
-        keep_wide_tracks(next);
-        if (next.tracks.size() < kFewestTracks / 2) return false;
-        bundle = std::move(next);
+        bundle = make_agreeing_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
+        keep_wide_tracks(bundle);
         for (int again = 0; again < 2; ++again) {
             options.loss_px = std::max(0.05 * turn.reduction, kLossDeviations * robust_deviation_px(bundle));
-            if (!adjust(bundle, options)) return false;
+            if (!adjust(bundle, options)) return std::nullopt;
             drop_outliers(bundle, std::max(0.2 * turn.reduction, kOutlierDeviations * robust_deviation_px(bundle)));
         }
     }
-    return true;
+    return bundle;
+}
+
+// Tracks that had no part in a model, with their points and outliers found as those were that had; the model stays.
+Bundle judged_by(const TurntableModel& model, const Bundle& unseen, const TurnPictures& turn, bool aligned) {
+    Bundle bundle = make_agreeing_bundle(model, unseen.tracks, outlier_limit(unseen, turn.reduction));
+    if (!aligned) return bundle;
+    BundleOptions held;
+    held.free = {.f = false, .pan = false, .tilt = false, .roll = false, .angles = AngleFreedom::kHeld};
+    return refined(bundle, turn, held).value_or(bundle);
 }
 }  // namespace
 
@@ -230,21 +238,17 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     split(*guided, part, held_out);
     bundle = make_agreeing_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
     if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
-    Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
+    const Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
     keep_enough_tracks(bundle);
-    const bool refined = refine(bundle, turn, options);
-    if (!refined) bundle = settled;
+    std::optional<Bundle> finest = refined(bundle, turn, options);
+    const bool is_aligned = finest && finest->tracks.size() >= kFewestTracks / 2;
+    bundle = is_aligned ? std::move(*finest) : settled;
     TrackSolution solution{
         std::move(bundle), NumberPlaces(options.free, std::vector<bool>(views, true)), {}, at_px, {}};
     solution.covariance = bundle_covariance(solution.bundle, options, kSharedError_px * turn.reduction);
     solution.deviations = deviations_of(solution.bundle.model, solution.places, solution.covariance, at_px);
     const auto axis_disagrees = settle_with_outlines(solution, turn, kFewestTracks / 2);
     bundle = std::move(solution.bundle);
-    if (refined) {
-        unseen.model = bundle.model;
-        unseen = make_agreeing_bundle(bundle.model, aligned_tracks(turn.pictures, turn.reduction, unseen),
-                                      kAlignedLimit_px * turn.reduction);
-    }
     if (progress != nullptr) progress->advance();
 
     Calibration& calibration = result.calibration;
@@ -260,7 +264,7 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     calibration.points = static_cast<int>(bundle.tracks.size());
     calibration.observations = observation_count(bundle);
     calibration.rms_px = rms_px(bundle);
-    calibration.held_out_rms_px = rms_px(unseen);
+    calibration.held_out_rms_px = rms_px(judged_by(bundle.model, unseen, turn, is_aligned));
     calibration.views = fits(bundle);
     result.bundle = std::move(bundle);
     return result;
