@@ -26,9 +26,6 @@ constexpr float kShadowRather = -0.1F;
 // Where the object is known to hide the backdrop always, whatever the colour: the plate is a guess there.
 constexpr float kHidden = 2;
 
-// Light left in a shadow that is no crevice.
-constexpr float kLikelyShade = 0.3F;
-
 // A part of which no pixel is clearer than this is a shadow, not an object.
 constexpr float kStrong = 1;
 
@@ -45,11 +42,12 @@ bool on_ground(const PlateView& plate, int x, int y) {
     return !plate.ground.empty() && plate.ground(x, y) != 0;
 }
 
-// Where an object throws its shadow the light that it mirrors falls, too.
+// Where an object throws its shadow the light that it mirrors falls, too, and between its feet next to none.
 MaskOptions options_on_ground(MaskOptions options) {
     options.possible_delta_e = 12;
     options.certain_delta_e = 26;
     options.shadow_tolerance = 1;
+    options.min_shade = options.crevice_shade = 0.1F;
     return options;
 }
 
@@ -74,7 +72,7 @@ float preference_against(const LinearRgb& pixel, const LinearRgb& behind, float 
     if (object > 0) return std::max(std::abs(options.shadow_or_grey), object * kDecided);
     const float plain = 1 - ramp(e.plain, plain_delta_e, 2 * plain_delta_e);
     if (plain > 0) return plain * kAlmostPlain;
-    const bool likely = e.shade >= kLikelyShade && e.shaded <= 0.5F * possible_delta_e;
+    const bool likely = e.shade >= options.crevice_shade && e.shaded <= 0.8F * possible_delta_e;
     return likely ? options.shadow_or_grey : std::abs(options.shadow_or_grey);
 }
 

@@ -30,6 +30,7 @@ struct MaskOptions {
     float min_shade = 0.25F;  // light left in the deepest shadow on a grey backdrop (or black were a shadow) ...
     float min_shade_colourful = 0.08F;  // ... and on one that has a colour
     float max_shade = 1.15F;
+    float crevice_shade = 0.3F;  // what has less light left is rather a crevice of the object
     // What is narrow and differs by more from the plate is no shadow; 0: it may be one. On the ground there are slivers
     // of shadow, so more is asked there.
     float thin_delta_e = 0;

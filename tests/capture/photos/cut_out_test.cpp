@@ -1,6 +1,7 @@
 #include "capture/photos/cut_out.hpp"
 
 #include "capture/photos/foreground_colour.hpp"
+#include "rayspace/linear_light.hpp"
 #include "tests/capture/photos/turn_of_pictures.hpp"
 
 #include <gtest/gtest.h>
@@ -242,6 +243,39 @@ TEST(ObjectMask, ANarrowPartIsNoShadow) {
     EXPECT_EQ(mask(180, 100), 0);
     options.thin_delta_e = 0;
     EXPECT_EQ(find_object(photo, plate, options)(79, 110), 0) << "the rule is what keeps the wire";
+}
+
+// A body on two legs. Between them next to no light is left as far as its shadow goes: no part of it, where there is
+// ground for a shadow to fall on.
+TEST(ObjectMask, BetweenFeetTheGroundIsDark) {
+    constexpr int kWidth = 240;
+    constexpr int kHeight = 180;
+    const Rgba8 behind{190, 186, 180, 255};
+    Image<Rgba8> photo(kWidth, kHeight, behind);
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            if (x < 60 || x >= 180 || y < 40 || y >= 140) continue;
+            const bool between = x >= 90 && x < 150 && y >= 80;
+            const LinearRgb light = linear_rgb(behind);
+            const float left = y < 120 ? 0.12F : 0.5F + 0.5F * static_cast<float>(y - 120) / 20;
+            photo(x, y) = between ? Rgba8{srgb8_from_linear(left * light.r), srgb8_from_linear(left * light.g),
+                                          srgb8_from_linear(left * light.b), 255}
+                                  : Rgba8{150, 85, 40, 255};
+        }
+    }
+    PlateView plate;
+    plate.light = Image<LinearRgb>(kWidth, kHeight, linear_rgb(behind));
+    plate.ground = Image<std::uint8_t>(kWidth, kHeight, 255);
+    Backdrop of_a_turn;
+    of_a_turn.kind = BackdropKind::kColour;
+    of_a_turn.untouched = Image<std::uint8_t>(kWidth, kHeight, 255);
+    const MaskOptions options = mask_options_for(of_a_turn);
+    const Image<std::uint8_t> mask = find_object(photo, plate, options);
+    EXPECT_EQ(mask(120, 60), 255);
+    EXPECT_EQ(mask(75, 120), 255);
+    for (int y = 84; y < 140; ++y) ASSERT_EQ(mask(120, y), 0) << y;
+    plate.ground = Image<std::uint8_t>(kWidth, kHeight, 0);
+    EXPECT_EQ(find_object(photo, plate, options)(120, 90), 255) << "high above the ground it is the object's";
 }
 
 TEST(CutOut, GivenAlphaComesOutExactly) {
