@@ -35,7 +35,7 @@ public:
     void put_zeros(std::size_t count) { bytes_.resize(bytes_.size() + count); }
     void reserve(std::size_t count) { bytes_.reserve(count); }
 
-    [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+    [[nodiscard]] const std::vector<std::byte>& bytes() const { return bytes_; }
     [[nodiscard]] std::size_t size() const { return bytes_.size(); }
 
 private:

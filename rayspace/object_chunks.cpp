@@ -23,15 +23,6 @@ Error wrong_size(std::uint64_t found, std::uint64_t expected) {
     return Error{"is " + std::to_string(found) + " bytes long instead of " + std::to_string(expected)};
 }
 
-Error out_of_range(const char* what, std::uint64_t found, std::uint64_t lowest, std::uint64_t highest) {
-    return Error{std::string(what) + " is " + std::to_string(found) + "; it must be " + std::to_string(lowest) + ".." +
-                 std::to_string(highest)};
-}
-
-Payload payload_of(const ByteWriter& writer) {
-    return {writer.bytes().begin(), writer.bytes().end()};
-}
-
 void put_line(const CapturedLine& line, ByteWriter& out) {
     out.put(line.l0_q20);
     out.put(line.l1_q30);
@@ -63,12 +54,9 @@ Result<std::vector<CapturedLine>> parse_lines(ByteReader& in, std::size_t views,
     if (coding != static_cast<std::uint8_t>(LineCoding::kResiduals)) {
         return Error{"has line coding " + std::to_string(coding) + ", which is not known here; update these tools"};
     }
-    constexpr const char* kWhat = "its lines";
-    const std::span<const std::byte> frame = in.take(in.left());
-    if (Status s = check_zstd_frame(frame, plain_bytes, kWhat); !s) return s.error();
-    std::vector<std::uint8_t> plane;
-    if (Status s = expand_zstd_frame(frame, plain_bytes, kWhat, plane); !s) return s.error();
-    line_coding::put_residuals(plane, planes, lines);
+    const Result<std::vector<std::uint8_t>> plane = zstd_content(in.take(in.left()), plain_bytes, "its lines");
+    if (!plane) return plane.error();
+    line_coding::put_residuals(*plane, planes, lines);
     return lines;
 }
 
@@ -89,7 +77,7 @@ Payload head_payload(const RaySpaceObject& object) {
     out.put(object.units_per_radius);
     out.put(static_cast<std::uint32_t>(object.name.size()));
     out.put(object.name);
-    return payload_of(out);
+    return out.bytes();
 }
 
 Status parse_head(std::span<const std::byte> payload, RaySpaceObject& object) {
@@ -136,11 +124,9 @@ Status parse_rig_text(std::span<const std::byte> payload, RaySpaceObject& object
     if (*expanded_bytes > kMaxRigJson_bytes) {
         return out_of_range("the rig's length, expanded,", *expanded_bytes, 0, kMaxRigJson_bytes);
     }
-    constexpr const char* kWhat = "the words of its rig";
-    if (Status s = check_zstd_frame(payload, *expanded_bytes, kWhat); !s) return s;
-    std::vector<std::uint8_t> text;
-    if (Status s = expand_zstd_frame(payload, *expanded_bytes, kWhat, text); !s) return s;
-    object.rig_json.assign(text.begin(), text.end());
+    const Result<std::vector<std::uint8_t>> text = zstd_content(payload, *expanded_bytes, "the words of its rig");
+    if (!text) return text.error();
+    object.rig_json.assign(text->begin(), text->end());
     return {};
 }
 
@@ -154,7 +140,7 @@ Payload views_payload(const RaySpaceObject& object) {
         out.put(view.fl_y_q16);
         out.put(view.height_q20);
     }
-    return payload_of(out);
+    return out.bytes();
 }
 
 Status parse_views(std::span<const std::byte> payload, RaySpaceObject& object) {
@@ -176,7 +162,7 @@ Status parse_views(std::span<const std::byte> payload, RaySpaceObject& object) {
 Payload foot_payload(const RaySpaceObject& object) {
     ByteWriter out;
     out.put(object.foot_q20.value());
-    return payload_of(out);
+    return out.bytes();
 }
 
 Status parse_foot(std::span<const std::byte> payload, RaySpaceObject& object) {
@@ -211,7 +197,7 @@ Payload ring_payload(const RaySpaceObject& object, std::size_t index, LineCoding
     } else {
         out.put(std::span<const std::byte>(zstd_frame(line_coding::residual_plane(lines, ring.planes))));
     }
-    return payload_of(out);
+    return out.bytes();
 }
 
 Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, std::size_t index) {
@@ -277,7 +263,7 @@ Payload map_payload(const Ring& ring) {
             out.put(length);
         }
     }
-    return payload_of(out);
+    return out.bytes();
 }
 
 Status parse_map(std::span<const std::byte> payload, Ring& ring) {
@@ -325,7 +311,7 @@ Payload picture_payload(const PlanarPicture& picture) {
     out.put(kRawCoding);
     out.put_zeros(kPictureHeader_bytes - sizeof kRawCoding);
     for (const Image<std::uint8_t>* plane : {&picture.y, &picture.u, &picture.v, &picture.a}) out.put(plane->pixels());
-    return payload_of(out);
+    return out.bytes();
 }
 
 Status parse_picture(std::span<const std::byte> payload, int width, int height, PlanarPicture& picture) {

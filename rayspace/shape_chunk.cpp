@@ -107,7 +107,7 @@ Payload shape_payload(const Ring& ring) {
     }
     out.put(std::span<const std::byte>(rays));
     for (const Payload& frame : depths) out.put(std::span<const std::byte>(frame));
-    return {out.bytes().begin(), out.bytes().end()};
+    return out.bytes();
 }
 
 Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Ring& ring) {

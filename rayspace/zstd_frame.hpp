@@ -26,4 +26,8 @@ Status check_zstd_frame(std::span<const std::byte> frame, std::uint64_t size_byt
 Status expand_zstd_frame(std::span<const std::byte> frame, std::uint64_t size_bytes, const char* what,
                          std::vector<std::uint8_t>& bytes);
 
+// Both, one after the other.
+Result<std::vector<std::uint8_t>> zstd_content(std::span<const std::byte> frame, std::uint64_t size_bytes,
+                                               const char* what);
+
 }  // namespace rs

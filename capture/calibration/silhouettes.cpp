@@ -240,7 +240,7 @@ bool seems_to_look_up(const Calibration& found) {
 }
 
 Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start,
-                                               const KnownInputs& known, bool estimate_step) {
+                                               const KnownInputs& known) {
     auto turn = SilhouetteTurn::of(masks);
     if (!turn) return turn.error();
     TurntableModel held = start;
@@ -254,8 +254,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     problem.start = held;
     problem.start.lens = scaled(held.lens, 1 / picture_px);
     const bool pose_free = !known.pose;
-    problem.free = {pose_free, pose_free, pose_free, !known.f_px,
-                    estimate_step && !known.step_rad && !known.angles_rad};
+    problem.free = {pose_free, pose_free, pose_free, !known.f_px, !known.step_rad && !known.angles_rad};
 
     const SilhouetteFit best = search(problem);
     const RaySelection half{2, {}};

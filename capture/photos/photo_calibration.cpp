@@ -114,12 +114,12 @@ Result<Calibration> from_silhouettes(const TurnPictures& turn, const Calibration
         for (std::size_t i = 0; i < steps.size(); ++i) start.angles_rad[i] = whole_rad * steps[i] / (steps.back() + 1);
     }
     // A turn may lack its last picture, so the step that closes it is a guess.
-    Result<Calibration> found = calibrate_with_silhouettes(outlines.masks, start, known, true);
+    Result<Calibration> found = calibrate_with_silhouettes(outlines.masks, start, known);
     const bool is_guessed = !known.counter_clockwise && !known.step_rad && !known.angles_rad;
     if (is_guessed && (!found || seems_to_look_up(*found))) {
         for (double& angle : start.angles_rad) angle = -angle;
         constexpr double kAsGood = 1.5;
-        Result<Calibration> other = calibrate_with_silhouettes(outlines.masks, start, known, true);
+        Result<Calibration> other = calibrate_with_silhouettes(outlines.masks, start, known);
         if (other && (!found || (!seems_to_look_up(*other) && other->rms_px < kAsGood * found->rms_px))) {
             found = std::move(other);
             found->warnings.emplace_back(

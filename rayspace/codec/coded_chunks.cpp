@@ -14,15 +14,6 @@ namespace {
 constexpr std::uint16_t kEven = 2048;  // the probability of contexts that are not listed
 constexpr int kProbabilityUnit = 16;   // of those that are
 
-Error out_of_range(const std::string& what, long long found, long long lowest, long long highest) {
-    return Error{what + " is " + std::to_string(found) + "; it must be " + std::to_string(lowest) + ".." +
-                 std::to_string(highest)};
-}
-
-std::vector<std::byte> payload_of(const ByteWriter& writer) {
-    return {writer.bytes().begin(), writer.bytes().end()};
-}
-
 // Bits, the lowest of each byte first.
 void put_bits(ByteWriter& out, const std::vector<bool>& bits) {
     for (std::size_t begin = 0; begin < bits.size(); begin += 8) {
@@ -134,7 +125,7 @@ std::vector<std::byte> code_payload(const CodedPictures& coded) {
     out.put(std::span<const std::uint8_t>(coded.levels));
     if (board) {
         put_board_code(coded.board, out);
-        return payload_of(out);
+        return out.bytes();
     }
     if (coded.dense.has_edge_alpha()) out.put(std::span<const std::uint8_t>(coded.dense.edge_alpha));
     std::vector<bool> listed(static_cast<std::size_t>(coded.dense.contexts()));
@@ -143,7 +134,7 @@ std::vector<std::byte> code_payload(const CodedPictures& coded) {
     for (std::size_t c = 0; c < listed.size(); ++c) {
         if (listed[c]) out.put(static_cast<std::uint8_t>(coded.dense.probabilities[c] / kProbabilityUnit));
     }
-    return payload_of(out);
+    return out.bytes();
 }
 
 Status parse_code(std::span<const std::byte> payload, std::size_t views, int width, int height, CodedPictures& coded) {
@@ -226,7 +217,7 @@ std::vector<std::byte> coded_picture_payload(const CodedPictures& coded, std::si
         if (tile.present) put_size(out, tile.size);
     }
     out.put(std::span<const std::byte>(picture.bytes));
-    return payload_of(out);
+    return out.bytes();
 }
 
 Status parse_coded_picture(std::span<const std::byte> payload, std::size_t view, CodedPictures& coded) {

@@ -98,8 +98,11 @@ TEST(Silhouettes, FindStepsThatAreNotEqual) {
     equal.equal_steps = true;
     const auto held = calibrate_with_silhouettes(masks, start, equal);
     ASSERT_TRUE(held.ok()) << held.error().message;
-    EXPECT_EQ(held->model.angles_rad, start.angles_rad);
-    EXPECT_TRUE(std::isinf(held->deviations.angles_rad[3]));
+    const std::vector<double>& angles_rad = held->model.angles_rad;
+    for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+        EXPECT_NEAR(angles_rad[i], static_cast<double>(i) * angles_rad[1], 1e-9) << i;
+    }
+    EXPECT_NEAR(degrees(angles_rad[1]), 360.0 / kViews, 0.1);
 }
 
 // With masks that are smaller than the photographs.
@@ -143,7 +146,7 @@ TEST(Silhouettes, DoNotPretendToKnowWhatABodyOfRevolutionHides) {
     EXPECT_GT(3 * d.f_px, std::abs(found->model.lens.f_px - truth.lens.f_px));
     EXPECT_LT(std::abs(found->model.pose.tilt_rad), radians(20));
     EXPECT_TRUE(std::isinf(d.angles_rad[3]));
-    EXPECT_EQ(found->model.angles_rad, truth.angles_rad);
+    EXPECT_LT(angles_rms_deg(found->model, truth), 0.01);  // where the start has them
     ASSERT_FALSE(found->warnings.empty());
     EXPECT_NE(found->warnings[0].find("how far the camera looks down"), std::string::npos);
 }
