@@ -20,8 +20,8 @@ namespace rs::capture {
 // `masks`: coverage 0..255 per view, of the size of start.lens or smaller by a common factor (about 300 px of object
 // are enough). `start`: lens with an assumed f, a pose, one angle per view; in px of the photographs. What `known`
 // holds is taken instead and not estimated. First the common step of equally spaced views is, around start's to within
-// some 3 %, then single angles and the distortion with them, where the outlines tell them and they are neither known nor
-// held equal. The principal point never is.
+// some 3 %, then single angles and the distortion with them, where the outlines tell them and they are neither known
+// nor held equal. The principal point never is.
 //
 // Fails where masks and start do not fit together, where the outlines of no model near the start agree, and where the
 // start cannot be improved although it does not fit. Works on the threads of the calling tbb arena, deterministic;
