@@ -18,6 +18,11 @@ namespace {
 constexpr int kFinest = 0;
 constexpr int kCoarsest = 60;
 
+// Pictures of such fidelity deserve edges of more than one bit of alpha, however coarse the step that reaches it: what
+// one bit costs at the edges is more than all else together.
+constexpr double kFineEdges_db = 31;
+constexpr int kFineAlphaBits = 2;
+
 double step_of_index(int index) {
     return std::exp2(index / 8.0);
 }
@@ -51,6 +56,7 @@ public:
     }
 
     Result<EncodedPictures> for_psnr(double psnr_db) {
+        if (psnr_db >= kFineEdges_db && !alpha_bits_) alpha_bits_ = kFineAlphaBits;
         // A decibel is some 1.6 steps of the scale.
         const auto reached = [&](const EncodedPictures& e) { return e.psnr_db >= psnr_db; };
         const auto off = [&](const EncodedPictures& e) { return 1.6 * (e.psnr_db - psnr_db); };

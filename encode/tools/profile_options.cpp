@@ -52,7 +52,8 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
     psnr->excludes(size);
     command.add_option(
         "--alpha-bits", arguments.alpha_bits,
-        "bits of compressed pictures' alpha, 1..4; without it 2, or 1 for dense pictures below a quality of 54");
+        "bits of compressed pictures' alpha, 1..4; without it 2, or 1 for dense pictures of a --psnr below 31 "
+        "or a quality below 54");
 }
 
 Result<std::optional<PictureGoal>> goal_of(const ProfileArguments& arguments) {

@@ -16,6 +16,7 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 
 namespace rs::encode {
@@ -247,7 +248,9 @@ protected:
         set_ = std::move(*set);
         object_ = test::small_object({.views_per_ring = 9, .width = 96, .height = 80});
     }
-    Result<EncodedPictures> encode(const PictureGoal& goal) const { return encode_pictures(set_, object_, goal, 2); }
+    Result<EncodedPictures> encode(const PictureGoal& goal, std::optional<int> alpha_bits = 2) const {
+        return encode_pictures(set_, object_, goal, alpha_bits);
+    }
 
     test::TemporaryFolder work_;
     CaptureSet set_;
@@ -263,6 +266,19 @@ TEST_F(Goals, FidelityIsReachedAndNotFarExceeded) {
         EXPECT_GE(encoded->psnr_db, wanted);
         EXPECT_LE(encoded->psnr_db, wanted + 1.5);
     }
+}
+
+TEST_F(Goals, FineColoursHaveFineEdges) {
+    PictureGoal goal;
+    for (const double wanted : {30.9, 31.0}) {
+        goal.psnr_db = wanted;
+        const auto encoded = encode(goal, std::nullopt);
+        ASSERT_TRUE(encoded.ok()) << encoded.error().message;
+        EXPECT_EQ(encoded->coded.dense.alpha_bits, wanted < 31 ? 1 : 2) << wanted;
+    }
+    const auto asked = encode(goal, 1);
+    ASSERT_TRUE(asked.ok()) << asked.error().message;
+    EXPECT_EQ(asked->coded.dense.alpha_bits, 1);
 }
 
 TEST_F(Goals, SizeIsKeptAndUsed) {
