@@ -28,8 +28,10 @@ struct DenseSettings {
 };
 
 // The alpha bits that are worth their cost at a step: one, of which the decoder makes soft edges, from a step of 20 on.
-constexpr int dense_alpha_bits(double step) {
-    return step >= 20 ? 1 : 2;
+// Not where pictures of 31 dB and more are asked for (wanted_db; 0: nothing is), however coarse the step that reaches
+// them: what one bit costs at the edges is more than all else together.
+constexpr int dense_alpha_bits(double step, double wanted_db) {
+    return step >= 20 && wanted_db < 31 ? 1 : 2;
 }
 
 // `sources`: one per view, of settings.alpha_bits. The object gives rings and sizes. The same input gives the same

@@ -18,11 +18,6 @@ namespace {
 constexpr int kFinest = 0;
 constexpr int kCoarsest = 60;
 
-// Pictures of such fidelity deserve edges of more than one bit of alpha, however coarse the step that reaches it: what
-// one bit costs at the edges is more than all else together.
-constexpr double kFineEdges_db = 31;
-constexpr int kFineAlphaBits = 2;
-
 double step_of_index(int index) {
     return std::exp2(index / 8.0);
 }
@@ -50,13 +45,13 @@ public:
         }
         DenseSettings settings;
         settings.step = step;
-        settings.alpha_bits = alpha_bits_.value_or(dense_alpha_bits(step));
+        settings.alpha_bits = alpha_bits_.value_or(dense_alpha_bits(step, wanted_db_));
         prepare_sources(settings.alpha_bits);
         return encode_dense(object_, sources_, settings, progress_);
     }
 
     Result<EncodedPictures> for_psnr(double psnr_db) {
-        if (psnr_db >= kFineEdges_db && !alpha_bits_) alpha_bits_ = kFineAlphaBits;
+        wanted_db_ = psnr_db;
         // A decibel is some 1.6 steps of the scale.
         const auto reached = [&](const EncodedPictures& e) { return e.psnr_db >= psnr_db; };
         const auto off = [&](const EncodedPictures& e) { return 1.6 * (e.psnr_db - psnr_db); };
@@ -130,7 +125,8 @@ private:
     std::vector<SourcePicture>& sources_;
     codec::Profile profile_;
     std::optional<int> alpha_bits_;
-    int source_bits_ = 0;  // those that the sources have now
+    double wanted_db_ = 0;  // 0: no fidelity is asked for
+    int source_bits_ = 0;   // those that the sources have now
     Progress* progress_;
     std::map<int, EncodedPictures> tried_;
     double reached_db_ = 0;
