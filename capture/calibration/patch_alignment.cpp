@@ -14,20 +14,10 @@ namespace {
 
 constexpr double kFarthest_rad = 0.75;  // from the reference view; beyond, a surface is seen too aslant
 constexpr double kMostCurvature = 0.1;  // 1/px
+constexpr std::size_t kFewestAligned = 3;
 
 double nearest_turn(double angle_rad) {
     return std::remainder(angle_rad, 2 * kPi);
-}
-
-// Of a track, the view nearest to the middle of the arc it is seen from.
-const Observation& reference_of(const TurntableModel& model, const Track& track) {
-    glm::dvec2 sum(0.0);
-    const auto angle = [&](const Observation& seen) { return model.angles_rad[static_cast<std::size_t>(seen.view)]; };
-    for (const Observation& seen : track.seen) sum += glm::dvec2(std::cos(angle(seen)), std::sin(angle(seen)));
-    const double middle = std::atan2(sum.y, sum.x);
-    return *std::min_element(track.seen.begin(), track.seen.end(), [&](const Observation& a, const Observation& b) {
-        return std::abs(nearest_turn(angle(a) - middle)) < std::abs(nearest_turn(angle(b) - middle));
-    });
 }
 
 // A point with a piece of surface through it, as the reference camera sees it: two vectors across the line of sight and
@@ -50,7 +40,7 @@ struct Facet {
 std::optional<Facet> facet_of(const Bundle& bundle, std::size_t i, int reduction) {
     const TurntableModel& model = bundle.model;
     Facet facet;
-    facet.reference = reference_of(model, bundle.tracks[i]);
+    facet.reference = middle_of_arc(model, bundle.tracks[i]);
     facet.point = bundle.points[i];
     const auto view = static_cast<std::size_t>(facet.reference.view);
     const Camera camera = object_camera(model, view);
@@ -139,7 +129,18 @@ void shape(Facet& facet, const TurntableModel& model, int reduction,
 
 }  // namespace
 
-std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int reduction, const Bundle& bundle) {
+const Observation& middle_of_arc(const TurntableModel& model, const Track& track) {
+    glm::dvec2 sum(0.0);
+    const auto angle = [&](const Observation& seen) { return model.angles_rad[static_cast<std::size_t>(seen.view)]; };
+    for (const Observation& seen : track.seen) sum += glm::dvec2(std::cos(angle(seen)), std::sin(angle(seen)));
+    const double middle = std::atan2(sum.y, sum.x);
+    return *std::min_element(track.seen.begin(), track.seen.end(), [&](const Observation& a, const Observation& b) {
+        return std::abs(nearest_turn(angle(a) - middle)) < std::abs(nearest_turn(angle(b) - middle));
+    });
+}
+
+std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int reduction, const Bundle& bundle,
+                                  std::size_t known) {
     const TurntableModel& model = bundle.model;
     const std::size_t points = bundle.points.size();
     std::vector<std::optional<Facet>> facets(points);
@@ -171,11 +172,12 @@ std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int 
             tracks[i].seen.push_back(found[view][i]->seen);
         }
     }
-    for (std::size_t i = 0; i < points; ++i) {
-        if (tracks[i].seen.size() >= 3) continue;
+    for (std::size_t i = 0; i < std::min(known, points); ++i) {
+        if (tracks[i].seen.size() >= kFewestAligned) continue;
         tracks[i] = bundle.tracks[i];
         for (Observation& seen : tracks[i].seen) seen.weight = glm::dmat2(kDetectedWeight);
     }
+    std::erase_if(tracks, [](const Track& track) { return track.seen.size() < kFewestAligned; });
     return tracks;
 }
 

@@ -18,9 +18,14 @@ namespace rs::capture {
 // What an observation by a detector counts beside aligned ones.
 inline constexpr double kDetectedWeight = 0.3;
 
-// One track per point of the bundle, its reference observation unchanged and the others found by alignment; a point
-// that is not found in three views keeps its own observations, with kDetectedWeight. Positions in px of the
-// photographs, `turn` reduced by `reduction`. Works side by side; the result does not depend on the number of threads.
-std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int reduction, const Bundle& bundle);
+// Of a track, the observation nearest to the middle of the arc it is seen from: its reference.
+const Observation& middle_of_arc(const TurntableModel& model, const Track& track);
+
+// The tracks of the bundle's points, in their order, their reference observation unchanged and the others found by
+// alignment. Of points that are not found in three views the first `known` keep their own observations, with
+// kDetectedWeight; others are left out. Positions in px of the photographs, `turn` reduced by `reduction`. Works side
+// by side; the result does not depend on the number of threads.
+std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int reduction, const Bundle& bundle,
+                                  std::size_t known);
 
 }  // namespace rs::capture

@@ -4,6 +4,7 @@
 #include "capture/calibration/model_covariance.hpp"
 #include "capture/calibration/outline_settling.hpp"
 #include "capture/calibration/patch_alignment.hpp"
+#include "capture/calibration/patch_growth.hpp"
 #include "capture/calibration/start_search.hpp"
 #include "capture/calibration/turn_diagnosis.hpp"
 #include "rayspace/conventions.hpp"
@@ -27,7 +28,10 @@ constexpr double kSharedError_px = 0.2;  // what the true errors on photographs 
 constexpr std::size_t kEnoughWideTracks = 80;
 constexpr double kWideArc_rad = 0.35;
 constexpr std::size_t kEnoughTracks = 2000;  // more would only take time
-constexpr double kRoom = 1.15;               // around the points known, for those not known yet
+constexpr int kObservationsPerView = 280;    // until so many, points are grown beside those there are
+constexpr int kAlignmentRounds = 2;
+constexpr int kMostAlignmentRounds = 3;  // where points still grow
+constexpr double kRoom = 1.15;           // around the points known, for those not known yet
 constexpr double kLeastOutlierLimit_px = 0.8;
 constexpr double kAlignedLimit_px = 1;  // alignment that went to another place
 
@@ -165,11 +169,14 @@ void keep_enough_tracks(Bundle& bundle) {
     keep(bundle, [&](std::size_t i) { return i * kEnoughTracks / count != (i + 1) * kEnoughTracks / count; });
 }
 
-// The same points observed anew, by alignment of their patches; leaves in `options` the loss that fits them. Nothing
-// where no bundle of them can be had.
-std::optional<Bundle> refined(Bundle bundle, const TurnPictures& turn, BundleOptions& options) {
-    for (int round = 0; round < 2; ++round) {
-        const std::vector<Track> tracks = aligned_tracks(turn.pictures, turn.reduction, bundle);
+// The same points observed anew, by alignment of their patches, and points beside them, until there are `most`
+// observations; leaves in `options` the loss that fits them. Nothing where no bundle of them can be had.
+std::optional<Bundle> refined(Bundle bundle, const TurnPictures& turn, BundleOptions& options, int most) {
+    for (int round = 0; round < kMostAlignmentRounds; ++round) {
+        const std::size_t known = bundle.tracks.size();
+        grow(bundle, turn.reduction, most);
+        if (round >= kAlignmentRounds && bundle.tracks.size() == known) break;
+        const std::vector<Track> tracks = aligned_tracks(turn.pictures, turn.reduction, bundle, known);
         bundle = make_agreeing_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
         keep_wide_tracks(bundle);
         for (int again = 0; again < 2; ++again) {
@@ -187,7 +194,7 @@ Bundle judged_by(const TurntableModel& model, const Bundle& unseen, const TurnPi
     if (!aligned) return bundle;
     BundleOptions held;
     held.free = {.f = false, .pan = false, .tilt = false, .roll = false, .angles = AngleFreedom::kHeld};
-    return refined(bundle, turn, held).value_or(bundle);
+    return refined(bundle, turn, held, 0).value_or(bundle);
 }
 }  // namespace
 
@@ -240,7 +247,7 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
     const Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
     keep_enough_tracks(bundle);
-    std::optional<Bundle> finest = refined(bundle, turn, options);
+    std::optional<Bundle> finest = refined(bundle, turn, options, kObservationsPerView * static_cast<int>(views));
     const bool is_aligned = finest && finest->tracks.size() >= kFewestTracks / 2;
     bundle = is_aligned ? std::move(*finest) : settled;
     TrackSolution solution{
