@@ -15,6 +15,11 @@ namespace {
 constexpr int kColours = 5;
 constexpr double kPoint_px = 2.5;
 
+// The legend stands beside the curves: a line of its colour and a name each.
+constexpr double kLegendText_px = 42;     // from the curves to the name
+constexpr double kLegendLetter_px = 7.5;  // broad enough for the mean letter of 13 px
+constexpr double kLeastLegend_px = 130;
+
 std::string decimal(double value, int digits) {
     std::array<char, 64> text{};
     if (!std::isfinite(value) || std::abs(value) > 1e15) return "0";
@@ -139,12 +144,16 @@ PlotFrame plot_frame(const LinePlot& plot) {
             y_most = std::max(y_most, series.y[i]);
         }
     }
+    std::size_t longest = 0;
+    for (const PlotSeries& series : plot.series) longest = std::max(longest, series.name.size());
+    const double legend_px =
+        std::max(kLeastLegend_px, kLegendText_px + kLegendLetter_px * static_cast<double>(longest));
     PlotFrame frame;
     frame.x = axis_ticks(x_least, x_most);
     frame.y = axis_ticks(y_least, y_most);
     frame.left = 64;
     frame.top = 30;
-    frame.right = plot.width_px - 130.0;  // the legend stands beside the curves
+    frame.right = plot.width_px - legend_px;
     frame.bottom = plot.height_px - 46.0;
     return frame;
 }
@@ -162,7 +171,7 @@ std::string svg_of(const LinePlot& plot) {
         svg += curve(plot.series[n], frame, colour);
         const double y = frame.top + 10 + 20 * static_cast<double>(n);
         svg += line(frame.right + 14, y, frame.right + 36, y, "stroke:" + colour + ";stroke-width:3");
-        svg += text_at(frame.right + 42, y + 4, "start", plot.series[n].name);
+        svg += text_at(frame.right + kLegendText_px, y + 4, "start", plot.series[n].name);
     }
     return svg + "</svg>";
 }

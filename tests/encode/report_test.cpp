@@ -205,6 +205,14 @@ TEST(LinePlot, PointsStandWhereTheirNumbersSay) {
     EXPECT_EQ(unbalanced_tag(svg_of({})), "") << "a plot of nothing is still a plot";
 }
 
+TEST(LinePlot, LongNamesGetRoom) {
+    LinePlot plot{"t", "x", "y", {{"residual, px RMS", {0, 1}, {2, 3}}}};
+    const PlotFrame usual = plot_frame(plot);
+    EXPECT_GE(plot.width_px - usual.right, 42 + 100) << "16 letters of 13 px are at most 100 px wide";
+    plot.series[0].name.append(16, 'm');
+    EXPECT_GT(usual.right, plot_frame(plot).right + 100);
+}
+
 TEST(RingPlan, AMissingPictureOfAnEvenTurnIsSeen) {
     std::vector<double> azimuths;
     for (int n = 0; n < 36; ++n) azimuths.push_back(radians(10.0 * n));
