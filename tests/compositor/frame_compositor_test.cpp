@@ -2,10 +2,10 @@
 
 #include "compositor/viewer/frame_compositor.hpp"
 
-#include "compositor/gl/context.hpp"
 #include "engine/core/view_registers.hpp"
 #include "engine/model/simulated_board.hpp"
 #include "rayspace/linear_light.hpp"
+#include "tests/compositor/gl_test.hpp"
 #include "tests/compositor/objects.hpp"
 
 #include <epoxy/gl.h>
@@ -41,19 +41,8 @@ int count_different(const Image<Rgba8>& a, const Image<Rgba8>& b, int tolerance)
     return count;
 }
 
-class Compositing : public ::testing::Test {
+class Compositing : public test::GlTest {
 protected:
-    void SetUp() override {
-        Result<gl::Context> context = gl::Context::create_surfaceless({.debug = true});
-        if (!context) GTEST_SKIP() << context.error().message;
-        context_.emplace(std::move(*context));
-    }
-    void TearDown() override {
-        if (!context_) return;
-        EXPECT_THAT(context_->take_errors(), ::testing::IsEmpty());
-        EXPECT_THAT(context_->names_alive(), ::testing::IsEmpty());
-    }
-
     Image<Rgba8> compose(const Scene& scene, const std::vector<PlacedObject>& objects, const Camera& camera = kFront,
                          int samples = 4) {
         Result<FrameCompositor> compositor = FrameCompositor::create(
@@ -67,7 +56,6 @@ protected:
 
     static Rgba8 middle(const Image<Rgba8>& frame) { return frame(frame.width() / 2, frame.height() / 2); }
 
-    std::optional<gl::Context> context_;
     FrameStatistics statistics_;
 };
 

@@ -6,11 +6,11 @@
 // changed. Tolerance: drivers
 // rasterise edges in their own ways, so one pixel in a hundred may differ, all others by up to kTolerance codes.
 
-#include "compositor/gl/context.hpp"
 #include "compositor/viewer/frame_compositor.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/picture_io.hpp"
 #include "rayspace/picture_metrics.hpp"
+#include "tests/compositor/gl_test.hpp"
 #include "tests/compositor/occlusion_scene.hpp"
 
 #include <gmock/gmock.h>
@@ -66,19 +66,8 @@ struct Case {
     ObjectDepth depth = ObjectDepth::kPlane;
 };
 
-class Occlusion : public ::testing::Test {
+class Occlusion : public test::GlTest {
 protected:
-    void SetUp() override {
-        Result<gl::Context> context = gl::Context::create_surfaceless({.debug = true});
-        if (!context) GTEST_SKIP() << context.error().message;
-        context_.emplace(std::move(*context));
-    }
-    void TearDown() override {
-        if (!context_) return;
-        EXPECT_THAT(context_->take_errors(), ::testing::IsEmpty());
-        EXPECT_THAT(context_->names_alive(), ::testing::IsEmpty());
-    }
-
     static PlacedObject placed(const NodeTransform& transform = {}) {
         return {test::captured_signpost().viewable, transform.parent_from_node()};
     }
@@ -132,8 +121,6 @@ protected:
         ASSERT_TRUE(golden->width() == kGoldenWidth && golden->height() == kGoldenHeight);
         EXPECT_LE(share_different(frame, *golden), kMayDiffer) << made.name;
     }
-
-    std::optional<gl::Context> context_;
 };
 
 NodeTransform turned(const glm::dvec3& place, double angle_rad, double scale = 1, bool mirrored = false) {

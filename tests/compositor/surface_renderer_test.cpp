@@ -1,10 +1,10 @@
 // The colours of lit geometry against the formula of ISO/IEC 14772-1, 4.14.4, computed here in linear light. Skipped
 // where no OpenGL context can be had.
 
-#include "compositor/gl/context.hpp"
 #include "compositor/scene/vrml_file.hpp"
 #include "compositor/viewer/frame_compositor.hpp"
 #include "rayspace/linear_light.hpp"
+#include "tests/compositor/gl_test.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,19 +23,8 @@ glm::dvec3 linear(const glm::dvec3& srgb) {
             linear_from_srgb(static_cast<float>(srgb.b))};
 }
 
-class Surfaces : public ::testing::Test {
+class Surfaces : public test::GlTest {
 protected:
-    void SetUp() override {
-        Result<gl::Context> context = gl::Context::create_surfaceless({.debug = true});
-        if (!context) GTEST_SKIP() << context.error().message;
-        context_.emplace(std::move(*context));
-    }
-    void TearDown() override {
-        if (!context_) return;
-        EXPECT_THAT(context_->take_errors(), ::testing::IsEmpty());
-        EXPECT_THAT(context_->names_alive(), ::testing::IsEmpty());
-    }
-
     Image<Rgba8> picture_of(const std::string& body, const glm::dvec3& eye = kEye, bool wire_frame = false) {
         const Result<Scene> scene = scene_from_vrml("#VRML V2.0 utf8\n" + body, "test.wrl");
         RS_CHECK(scene.ok());
@@ -59,7 +48,6 @@ protected:
         EXPECT_NEAR(pixel.b, code(light.b), 2) << what;
     }
 
-    std::optional<gl::Context> context_;
     FrameStatistics statistics_;
 };
 

@@ -1,7 +1,7 @@
 // Composited frames against the same room traced with the meshes in the objects' places, small; bench_truth is the full
 // comparison. Skipped where no OpenGL context can be had.
 
-#include "compositor/gl/context.hpp"
+#include "tests/compositor/gl_test.hpp"
 #include "tests/compositor/occlusion_scene.hpp"
 #include "tests/compositor/truth_comparison.hpp"
 #include "tests/compositor/truth_scene.hpp"
@@ -18,12 +18,11 @@ namespace {
 constexpr int kTruthWidth = 320;
 constexpr int kTruthHeight = 180;
 
-class Truth : public ::testing::Test {
+class Truth : public GlTest {
 protected:
     void SetUp() override {
-        Result<gl::Context> context = gl::Context::create_surfaceless({.debug = true});
-        if (!context) GTEST_SKIP() << context.error().message;
-        context_.emplace(std::move(*context));
+        GlTest::SetUp();
+        if (!context_) return;
         // The room's own objects take minutes to capture; the signpost stands in for them all.
         Result<compositor::Scene> scene = write_truth_room(folder_.path());
         ASSERT_TRUE(scene) << scene.error().message;
@@ -33,13 +32,8 @@ protected:
             traced_.push_back({captured_signpost().traced, placed_.back().world_from_object});
         }
     }
-    void TearDown() override {
-        if (!context_) return;
-        EXPECT_THAT(context_->take_errors(), ::testing::IsEmpty());
-    }
 
     TemporaryFolder folder_;
-    std::optional<gl::Context> context_;
     compositor::Scene scene_;
     std::vector<compositor::PlacedObject> placed_;
     std::vector<TracedNode> traced_;

@@ -15,17 +15,6 @@
 namespace rs::encode {
 namespace {
 
-Rig small_ring(double elevation_deg, int count = 8) {
-    Rig rig = make_ring({.count = count,
-                         .distance = 3.5,
-                         .elevation_rad = radians(elevation_deg),
-                         .fl_px = 130,
-                         .width = 96,
-                         .height = 80});
-    rig.object_radius = 0.9;
-    return rig;
-}
-
 std::string error_of_set(const std::filesystem::path& folder) {
     const Result<CaptureSet> set = open_capture_set(folder);
     if (!set) return set.error().message;
@@ -35,7 +24,7 @@ std::string error_of_set(const std::filesystem::path& folder) {
 
 TEST(Build, UprightPicturesAreStoredAsTheyAreAndComeBackFromTheFile) {
     const test::TemporaryFolder folder;
-    test::write_drawn_set(folder / "set", small_ring(0));
+    test::write_drawn_set(folder / "set", test::drawn_ring(8));
     const Result<CaptureSet> set = open_capture_set(folder / "set");
     ASSERT_TRUE(set.ok()) << set.error().message;
     EXPECT_FALSE(set->resampled);
@@ -64,7 +53,7 @@ TEST(Build, UprightPicturesAreStoredAsTheyAreAndComeBackFromTheFile) {
 
 TEST(Build, TheFootIsStoredWhereTheRigTellsIt) {
     const test::TemporaryFolder folder;
-    Rig rig = small_ring(20);  // looks down: made upright about the same axis
+    Rig rig = test::drawn_ring(8, 20);  // looks down: made upright about the same axis
     rig.foot_height = -0.45;
     rig.object_radius = 0.9;
     test::write_drawn_set(folder / "set", rig);
@@ -81,7 +70,7 @@ TEST(Build, TheFootIsStoredWhereTheRigTellsIt) {
 
 TEST(Build, TheRadiusComesFromTheSilhouettesWhereTheRigDoesNotSay) {
     const test::TemporaryFolder folder;
-    Rig rig = small_ring(0, 36);
+    Rig rig = test::drawn_ring(36);
     rig.object_radius = 0;
     test::write_drawn_set(folder / "set", rig);
     const Result<CaptureSet> set = open_capture_set(folder / "set");
@@ -92,7 +81,7 @@ TEST(Build, TheRadiusComesFromTheSilhouettesWhereTheRigDoesNotSay) {
 
 TEST(Build, CamerasThatLookDownAreMadeUpright) {
     const test::TemporaryFolder folder;
-    test::write_drawn_set(folder / "set", small_ring(20));
+    test::write_drawn_set(folder / "set", test::drawn_ring(8, 20));
     const Result<CaptureSet> set = open_capture_set(folder / "set");
     ASSERT_TRUE(set.ok()) << set.error().message;
     EXPECT_TRUE(set->resampled);
@@ -111,7 +100,7 @@ TEST(Build, CamerasThatLookDownAreMadeUpright) {
 
 TEST(Build, TheRadiusIsThatOfTheSilhouetteAlsoFromSteeplyAbove) {
     const test::TemporaryFolder folder;
-    Rig rig = small_ring(45, 12);
+    Rig rig = test::drawn_ring(12, 45);
     rig.object_radius = 0;
     test::write_drawn_set(folder / "set", rig);
     const Result<CaptureSet> set = open_capture_set(folder / "set");
@@ -121,7 +110,7 @@ TEST(Build, TheRadiusIsThatOfTheSilhouetteAlsoFromSteeplyAbove) {
 
 TEST(BuildErrors, APictureThatShowsWhatIsStraightBelowIsRefused) {
     const test::TemporaryFolder folder;
-    Rig rig = small_ring(58, 3);
+    Rig rig = test::drawn_ring(3, 58);
     for (RigView& view : rig.views) {
         view.camera.height = 600;
         view.camera.cy = 300;
@@ -135,7 +124,7 @@ TEST(BuildErrors, APictureThatShowsWhatIsStraightBelowIsRefused) {
 }
 
 TEST(UprightResampling, TheSameCameraGivesTheSamePicture) {
-    const Camera camera = small_ring(0).views[1].camera;
+    const Camera camera = test::drawn_ring(8).views[1].camera;
     const Image<Rgba8> picture = test::drawn_picture(camera);
     EXPECT_GT(compare_pictures_psnr(resampled_picture(camera, camera, picture), picture).psnr_db(), 55);
 }
@@ -154,7 +143,7 @@ TEST(UprightResampling, OccupiedBoxIsTight) {
 
 TEST(BuildErrors, NameThePictureAndTheRemedy) {
     const test::TemporaryFolder folder;
-    test::write_drawn_set(folder / "set", small_ring(0));
+    test::write_drawn_set(folder / "set", test::drawn_ring(8));
     EXPECT_EQ(error_of_set(folder / "set"), "");
 
     std::filesystem::rename(folder / "set" / "3.png", folder / "away.png");
@@ -175,7 +164,7 @@ TEST(BuildErrors, NameThePictureAndTheRemedy) {
 
 TEST(BuildErrors, ASetThatIsAllTransparentHasNoRadius) {
     const test::TemporaryFolder folder;
-    Rig rig = small_ring(0, 3);
+    Rig rig = test::drawn_ring(3);
     rig.object_radius = 0;
     test::write_drawn_set(folder / "set", rig);
     for (int i = 0; i < 3; ++i) {
@@ -186,7 +175,7 @@ TEST(BuildErrors, ASetThatIsAllTransparentHasNoRadius) {
 
 TEST(BuildErrors, ACameraInsideOfTheObjectIsRefused) {
     const test::TemporaryFolder folder;
-    Rig rig = small_ring(0, 3);
+    Rig rig = test::drawn_ring(3);
     rig.object_radius = 3.4;
     test::write_drawn_set(folder / "set", rig);
     EXPECT_NE(error_of_set(folder / "set").find("object_radius"), std::string::npos);
@@ -194,7 +183,7 @@ TEST(BuildErrors, ACameraInsideOfTheObjectIsRefused) {
 
 TEST(BuildErrors, DistortedPicturesAreRefused) {
     const test::TemporaryFolder folder;
-    Rig rig = small_ring(0, 3);
+    Rig rig = test::drawn_ring(3);
     rig.extras["k1"] = 0.0;
     test::write_drawn_set(folder / "straight", rig);
     EXPECT_EQ(error_of_set(folder / "straight"), "");
@@ -205,7 +194,7 @@ TEST(BuildErrors, DistortedPicturesAreRefused) {
 
 TEST(BuildErrors, OptionsOutOfRangeAreNamed) {
     const test::TemporaryFolder folder;
-    test::write_drawn_set(folder / "set", small_ring(0, 3));
+    test::write_drawn_set(folder / "set", test::drawn_ring(3));
     const Result<CaptureSet> set = open_capture_set(folder / "set");
     ASSERT_TRUE(set.ok());
     for (const PlaneMapOptions map : {PlaneMapOptions{.planes = 2}, PlaneMapOptions{.planes = 65},

@@ -20,36 +20,25 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Rig ring_of(int count, double elevation_deg = 0) {
-    Rig rig = make_ring({.count = count,
-                         .distance = 3.5,
-                         .elevation_rad = radians(elevation_deg),
-                         .fl_px = 130,
-                         .width = 96,
-                         .height = 80});
-    rig.object_radius = 0.9;
-    return rig;
-}
-
 TEST(HoldOut, OfEachRunTheMiddleViewIsHeldOut) {
-    const Result<HoldOut> second = choose_hold_out(ring_of(7), 2, "set");
+    const Result<HoldOut> second = choose_hold_out(test::drawn_ring(7), 2, "set");
     ASSERT_TRUE(second.ok()) << second.error().message;
     EXPECT_THAT(second->held, ElementsAre(1, 3, 5));
     EXPECT_THAT(second->kept, ElementsAre(0, 2, 4, 6));
     // The last run of three has two views, of which index 1 is there.
-    const Result<HoldOut> third = choose_hold_out(ring_of(8), 3, "set");
+    const Result<HoldOut> third = choose_hold_out(test::drawn_ring(8), 3, "set");
     ASSERT_TRUE(third.ok());
     EXPECT_THAT(third->held, ElementsAre(1, 4, 7));
-    const Result<HoldOut> fourth = choose_hold_out(ring_of(6), 4, "set");
+    const Result<HoldOut> fourth = choose_hold_out(test::drawn_ring(6), 4, "set");
     ASSERT_TRUE(fourth.ok());
     EXPECT_THAT(fourth->held, ElementsAre(2));
 }
 
 TEST(HoldOut, RunsFollowTheTurnAndEachRingHasItsOwn) {
-    Rig rig = ring_of(4);
+    Rig rig = test::drawn_ring(4);
     // The order of the file is not the order of the turn: 0, 2, 1, 3.
     std::swap(rig.views[1], rig.views[2]);
-    const Rig above = ring_of(3, 20);
+    const Rig above = test::drawn_ring(3, 20);
     rig.views.insert(rig.views.end(), above.views.begin(), above.views.end());
     const Result<HoldOut> hold_out = choose_hold_out(rig, 2, "set");
     ASSERT_TRUE(hold_out.ok());
@@ -59,12 +48,12 @@ TEST(HoldOut, RunsFollowTheTurnAndEachRingHasItsOwn) {
 
 TEST(HoldOut, TooFewViewsAreAnErrorThatSaysSo) {
     for (const auto& [views, every] : {std::pair{2, 2}, {1, 2}, {3, 8}}) {
-        const Result<HoldOut> hold_out = choose_hold_out(ring_of(views), every, "the-set");
+        const Result<HoldOut> hold_out = choose_hold_out(test::drawn_ring(views), every, "the-set");
         ASSERT_FALSE(hold_out.ok()) << views << " views, every " << every;
         EXPECT_THAT(hold_out.error().message, HasSubstr("the-set"));
         EXPECT_THAT(hold_out.error().message, HasSubstr("too few"));
     }
-    EXPECT_TRUE(choose_hold_out(ring_of(3), 2, "set").ok());
+    EXPECT_TRUE(choose_hold_out(test::drawn_ring(3), 2, "set").ok());
 }
 
 TEST(HoldOut, OrdinalsAreRead) {
@@ -83,7 +72,7 @@ TEST(HoldOut, OrdinalsAreRead) {
 }
 
 TEST(NearestKeptView, IsNearestInTheTurnOfTheNearestRing) {
-    const Rig ring = ring_of(12);
+    const Rig ring = test::drawn_ring(12);
     const HoldOut hold_out = *choose_hold_out(ring, 3, "set");  // held 1 4 7 10
     EXPECT_EQ(nearest_kept_view(ring, hold_out, 1), 0);         // as near as 2, but first in the turn
     EXPECT_EQ(nearest_kept_view(ring, hold_out, 4), 3);
@@ -91,8 +80,8 @@ TEST(NearestKeptView, IsNearestInTheTurnOfTheNearestRing) {
     EXPECT_EQ(nearest_kept_view(ring, {{0, 5}, {11}}, 4), 5);
 
     // The ring above has a view at the very azimuth; the view's own ring answers all the same.
-    Rig two = ring_of(4);
-    const Rig above = ring_of(8, 30);
+    Rig two = test::drawn_ring(4);
+    const Rig above = test::drawn_ring(8, 30);
     two.views.insert(two.views.end(), above.views.begin(), above.views.end());
     EXPECT_EQ(nearest_kept_view(two, {{0, 2, 5, 6}, {1}}, 1), 0);
     // No view of its ring is kept: the other ring answers.
@@ -101,8 +90,8 @@ TEST(NearestKeptView, IsNearestInTheTurnOfTheNearestRing) {
 
 TEST(WithViews, KeepsWhatTheWholeSetHas) {
     const test::TemporaryFolder folder;
-    Rig rig = ring_of(8, 20);  // looks down: pictures are made upright, in one frame for all
-    rig.object_radius = 0;     // measured over all pictures
+    Rig rig = test::drawn_ring(8, 20);  // looks down: pictures are made upright, in one frame for all
+    rig.object_radius = 0;              // measured over all pictures
     test::write_drawn_set(folder / "set", rig);
     const Result<CaptureSet> all = open_capture_set(folder / "set");
     ASSERT_TRUE(all.ok()) << all.error().message;
@@ -133,7 +122,7 @@ TEST(Evaluation, MethodsAreRead) {
 
 TEST(Evaluation, ScoresOnlyWhatWasHeldOutAgainstItsOwnPicture) {
     const test::TemporaryFolder folder;
-    test::write_drawn_set(folder / "set", ring_of(24));
+    test::write_drawn_set(folder / "set", test::drawn_ring(24));
     const Result<CaptureSet> set = open_capture_set(folder / "set");
     ASSERT_TRUE(set.ok()) << set.error().message;
     const HoldOut hold_out = *choose_hold_out(set->upright, 2, "set");
@@ -172,7 +161,7 @@ TEST(Evaluation, ScoresOnlyWhatWasHeldOutAgainstItsOwnPicture) {
 
 TEST(Evaluation, WhatLookingFailsWithIsReturned) {
     const test::TemporaryFolder folder;
-    test::write_drawn_set(folder / "set", ring_of(4));
+    test::write_drawn_set(folder / "set", test::drawn_ring(4));
     const Result<CaptureSet> set = open_capture_set(folder / "set");
     ASSERT_TRUE(set.ok());
     EvaluationOptions options;

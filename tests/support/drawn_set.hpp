@@ -1,6 +1,7 @@
 #pragma once
 // A capture set on disk with pictures drawn by arithmetic: coloured balls around the axis, seen by the set's cameras.
 
+#include "rayspace/conventions.hpp"
 #include "rayspace/image.hpp"
 #include "rayspace/picture_io.hpp"
 #include "rayspace/rig.hpp"
@@ -44,6 +45,18 @@ inline Image<Rgba8> drawn_picture(const Camera& camera) {
         }
     }
     return picture;
+}
+
+// A ring of small cameras around the balls.
+inline Rig drawn_ring(int count, double elevation_deg = 0) {
+    Rig rig = make_ring({.count = count,
+                         .distance = 3.5,
+                         .elevation_rad = radians(elevation_deg),
+                         .fl_px = 130,
+                         .width = 96,
+                         .height = 80});
+    rig.object_radius = 0.9;
+    return rig;
 }
 
 // Draws every view of `rig` into `folder`.

@@ -60,4 +60,19 @@ inline void compare_random_views(Board& board, const RaySpaceObject& object, con
     }
 }
 
+// Two runs of the same work: every picture, when it was done, and how long every block was at what.
+inline void expect_same_run(const BoardRun& run, const BoardRun& expected, const Board& board) {
+    ASSERT_EQ(run.cycles.size(), expected.cycles.size());
+    for (std::size_t c = 0; c < run.cycles.size(); ++c) {
+        EXPECT_EQ(run.cycles[c].started, expected.cycles[c].started);
+        EXPECT_EQ(run.cycles[c].rendered, expected.cycles[c].rendered);
+        EXPECT_EQ(run.cycles[c].arrived, expected.cycles[c].arrived);
+        EXPECT_EQ(run.cycles[c].pictures, expected.cycles[c].pictures);
+    }
+    ASSERT_EQ(run.end.blocks.size(), expected.end.blocks.size());
+    for (std::size_t b = 0; b < run.end.blocks.size(); ++b) {
+        EXPECT_EQ(run.end.blocks[b].cycles, expected.end.blocks[b].cycles) << board.blocks()[b]->name();
+    }
+}
+
 }  // namespace rs::engine::model::test

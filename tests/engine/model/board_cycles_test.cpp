@@ -3,6 +3,7 @@
 
 #include "engine/core/ray_setup.hpp"
 #include "engine/model/report.hpp"
+#include "tests/engine/model/board_comparison.hpp"
 #include "tests/engine/model/board_test_objects.hpp"
 
 namespace rs::engine::model {
@@ -62,16 +63,7 @@ TEST(BoardCycles, TickOrderChangesNeitherCyclesNorBits) {
         Board board(test::prototype(), seed);
         const Result<BoardRun> run = drawn_while_loading(board, scene);
         ASSERT_TRUE(run.ok());
-        ASSERT_EQ(run->cycles.size(), expected->cycles.size());
-        for (std::size_t c = 0; c < run->cycles.size(); ++c) {
-            EXPECT_EQ(run->cycles[c].started, expected->cycles[c].started);
-            EXPECT_EQ(run->cycles[c].rendered, expected->cycles[c].rendered);
-            EXPECT_EQ(run->cycles[c].arrived, expected->cycles[c].arrived);
-            EXPECT_EQ(run->cycles[c].pictures, expected->cycles[c].pictures);
-        }
-        for (std::size_t b = 0; b < run->end.blocks.size(); ++b) {
-            EXPECT_EQ(run->end.blocks[b].cycles, expected->end.blocks[b].cycles) << board.blocks()[b]->name();
-        }
+        test::expect_same_run(*run, *expected, board);
     }
 }
 

@@ -3,6 +3,7 @@
 #include "engine/core/ray_setup.hpp"
 #include "engine/model/coded_layout.hpp"
 #include "engine/model/report.hpp"
+#include "tests/engine/model/board_comparison.hpp"
 #include "tests/engine/model/coded_test_objects.hpp"
 
 namespace rs::engine::model {
@@ -144,12 +145,7 @@ TEST(CodedBoardCycles, TickOrderChangesNeitherCyclesNorBits) {
         Board board(test::compressed(), seed);
         const Result<BoardRun> run = drawn(board, object, 40, 4);
         ASSERT_TRUE(run.ok());
-        EXPECT_EQ(run->cycles[0].rendered, expected->cycles[0].rendered);
-        EXPECT_EQ(run->cycles[0].arrived, expected->cycles[0].arrived);
-        EXPECT_EQ(run->cycles[0].pictures, expected->cycles[0].pictures);
-        for (std::size_t b = 0; b < run->end.blocks.size(); ++b) {
-            EXPECT_EQ(run->end.blocks[b].cycles, expected->end.blocks[b].cycles) << board.blocks()[b]->name();
-        }
+        test::expect_same_run(*run, *expected, board);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "engine/model/coded_layout.hpp"
 #include "engine/model/parallel_layout.hpp"
 #include "engine/model/report.hpp"
+#include "tests/engine/model/board_comparison.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"
 
 namespace rs::engine::model {
@@ -134,12 +135,7 @@ TEST(ParallelBoardCycles, TickOrderChangesNeitherCyclesNorBits) {
             Board board(test::parallel(3), seed);
             const Result<BoardRun> run = drawn(board, object, 50, 40);
             ASSERT_TRUE(run.ok());
-            EXPECT_EQ(run->cycles[0].rendered, expected->cycles[0].rendered);
-            EXPECT_EQ(run->cycles[0].arrived, expected->cycles[0].arrived);
-            EXPECT_EQ(run->cycles[0].pictures, expected->cycles[0].pictures);
-            for (std::size_t b = 0; b < run->end.blocks.size(); ++b) {
-                EXPECT_EQ(run->end.blocks[b].cycles, expected->end.blocks[b].cycles) << board.blocks()[b]->name();
-            }
+            test::expect_same_run(*run, *expected, board);
         }
     }
 }

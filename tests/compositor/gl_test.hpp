@@ -1,0 +1,31 @@
+#pragma once
+// Tests that draw: each has an OpenGL context of its own, and is skipped where none can be had. At the end of each the
+// context must have seen no error and hold nothing that was not released.
+
+#include "compositor/gl/context.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <utility>
+
+namespace rs::test {
+
+class GlTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        Result<gl::Context> context = gl::Context::create_surfaceless({.debug = true});
+        if (!context) GTEST_SKIP() << context.error().message;
+        context_.emplace(std::move(*context));
+    }
+    void TearDown() override {
+        if (!context_) return;
+        EXPECT_THAT(context_->take_errors(), ::testing::IsEmpty());
+        EXPECT_THAT(context_->names_alive(), ::testing::IsEmpty());
+    }
+
+    std::optional<gl::Context> context_;
+};
+
+}  // namespace rs::test
