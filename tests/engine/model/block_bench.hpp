@@ -2,11 +2,20 @@
 // A block alone on a clock, with its FIFOs.
 
 #include "engine/model/clock/block.hpp"
+#include "engine/model/clock/fifo.hpp"
 
 #include <initializer_list>
+#include <utility>
 #include <vector>
 
 namespace rs::engine::model::test {
+
+// What stands in the FIFO before the first cycle.
+template <class Item>
+void put(Fifo<Item>& fifo, Item item) {
+    fifo.push(std::move(item));
+    fifo.commit();
+}
 
 class Bench {
 public:

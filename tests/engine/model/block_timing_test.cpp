@@ -7,6 +7,7 @@ namespace rs::engine::model {
 namespace {
 
 using test::Bench;
+using test::put;
 
 // A view of an object, in a register file.
 struct PlaneRegisters {
@@ -28,8 +29,7 @@ TEST(BlockTiming, RasterGeneratorMakesAColumnInPlanesPlusOneCycles) {
     Fifo<ColumnRay> columns("columns", 20, 72);
     RasterGenerator block(r.file, jobs, columns);
     Bench bench({&jobs, &columns});
-    jobs.push({0});
-    jobs.commit();
+    put(jobs, {0});
     EXPECT_EQ(bench.until(block, columns), 1 + 12 + 1);
     for (int column = 1; column < 9; ++column) EXPECT_EQ(bench.until(block, columns), 13);
     EXPECT_EQ(bench.until(block, columns, 40), -1);  // the view has 9 columns
@@ -42,13 +42,11 @@ void expect_latency(const RegisterFile& file, const In& item, int latency, bool 
     Fifo<Out> out("out", 4, 1);
     Stage stage(file, in, out);
     Bench bench({&in, &out});
-    in.push(item);
-    in.commit();
+    put(in, item);
     EXPECT_EQ(bench.until(stage, out), latency);
     EXPECT_EQ(out.front().has_ray, has_ray);
     for (int n = 0; n < 2; ++n) {
-        in.push(item);
-        in.commit();
+        put(in, item);
     }
     EXPECT_EQ(bench.until(stage, out), latency);
     EXPECT_EQ(bench.until(stage, out), latency);
@@ -60,8 +58,7 @@ std::vector<ColumnRay> columns_of(const RegisterFile& file) {
     Fifo<ColumnRay> columns("columns", 20, 72);
     RasterGenerator block(file, jobs, columns);
     Bench bench({&jobs, &columns});
-    jobs.push({0});
-    jobs.commit();
+    put(jobs, {0});
     std::vector<ColumnRay> all;
     while (all.size() < 9) {
         if (columns.can_pop()) all.push_back(columns.pop());
@@ -106,8 +103,7 @@ TEST(BlockTiming, RowScanGivesAPairEverySecondCycleAndOneMoreForAnOddRow) {
     Fifo<PixelPair> out("out", 8, 1);
     RowScan block(r.file, in, out);
     Bench bench({&in, &out});
-    in.push({0, true, 0, 1 << 16, 10, 20, 30});
-    in.commit();
+    put(in, {0, true, 0, 1 << 16, 10, 20, 30});
     EXPECT_EQ(bench.until(block, out), 3);  // the column, two pixels
     for (int pair = 1; pair < 4; ++pair) EXPECT_EQ(bench.until(block, out), 2);
     EXPECT_EQ(bench.until(block, out, 20), -1);  // 7 rows: four pairs
@@ -126,10 +122,8 @@ TEST(BlockTiming, SampleFetchTakesFiveSlotsAndSixAcrossAlphaWords) {
     Fifo<SampleTag> tags("tags", 16, 1);
     SampleFetch block(in, reads, tags);
     Bench bench({&in, &reads, &tags});
-    in.push({0, {true, true}, {30, 31}, 100, 200, 300});
-    in.commit();
-    in.push({0, {true, true}, {31, 32}, 100, 200, 300});
-    in.commit();
+    put(in, {0, {true, true}, {30, 31}, 100, 200, 300});
+    put(in, {0, {true, true}, {31, 32}, 100, 200, 300});
     for (int n = 0; n < 5; ++n) bench.step(block);
     EXPECT_EQ(in.count(), 1);
     EXPECT_EQ(reads.count(), 5);
@@ -151,8 +145,7 @@ TEST(BlockTiming, ColourConversionHasLatencyFiveAndAPixelPerCycle) {
     ColourConversion block(in, out);
     Bench bench({&in, &out});
     for (int n = 0; n < 3; ++n) {
-        in.push({0, 10 * n, 128, 128, 255});
-        in.commit();
+        put(in, {0, 10 * n, 128, 128, 255});
     }
     EXPECT_EQ(bench.until(block, out), 5);
     EXPECT_EQ(bench.until(block, out), 1);
@@ -167,8 +160,7 @@ TEST(BlockTiming, ImageWriterPacksTwoPixels) {
     ImageWriter block(r.file, in, out);
     Bench bench({&in, &out});
     for (std::uint32_t n = 1; n <= 4; ++n) {
-        in.push({0, n});
-        in.commit();
+        put(in, {0, n});
     }
     EXPECT_EQ(bench.until(block, out), 2);
     EXPECT_EQ(bench.until(block, out), 2);
@@ -184,13 +176,11 @@ TEST(BlockTiming, MapReaderAsksOnceAndHandsOnTheByte) {
     Fifo<MappedRay> out("out", 2, 1);
     MapReader block(in, reads, words, out);
     Bench bench({&in, &reads, &words, &out});
-    in.push({0, true, 1, 2, 3, 8 * 50 + 3});
-    in.commit();
+    put(in, {0, true, 1, 2, 3, 8 * 50 + 3});
     EXPECT_EQ(bench.until(block, reads), 1);
     EXPECT_EQ(reads.front().address, 50U);
     EXPECT_EQ(bench.until(block, out, 10), -1);
-    words.push({0xFFFFFFFF'2AFFFFFF});
-    words.commit();
+    put(words, {0xFFFFFFFF'2AFFFFFF});
     EXPECT_EQ(bench.until(block, out), 1);
     EXPECT_EQ(out.front().picture, 42);
     EXPECT_TRUE(out.front().has_ray);

@@ -8,6 +8,7 @@ namespace rs::engine::model {
 namespace {
 
 using test::Bench;
+using test::put;
 
 // A view of an object of 12 views whose classes are known.
 struct CodedRegisters {
@@ -88,8 +89,7 @@ TEST(CodedBlockTiming, TileFinderTakesABlockPerCycleAndAsksOncePerTile) {
     Bench bench({&in, &reads, &out});
     const std::pair<int, bool> asked[] = {{2, true}, {3, false}, {4, false}, {4, true}};
     for (const auto& [block_row, first] : asked) {
-        in.push(ask_of(block_row, first));
-        in.commit();
+        put(in, ask_of(block_row, first));
     }
     for (int n = 0; n < 4; ++n) EXPECT_EQ(bench.until(block, out), 1);
     const ObjectRegisters& object = r.file.objects[0];
@@ -112,19 +112,16 @@ TEST(CodedBlockTiming, TileReaderAsksInTheCycleOfTheWord) {
     Bench bench({&in, &words, &reads, &out});
     for (const FoundTile& found :
          {FoundTile{{}, false, true}, FoundTile{{}, true, false}, FoundTile{{}, false, false}}) {
-        in.push(found);
-        in.commit();
+        put(in, found);
     }
     EXPECT_EQ(bench.until(block, out, 9), -1);
-    words.push({(std::uint64_t{777} << 32U) | 5U});
-    words.commit();
+    put(words, {(std::uint64_t{777} << 32U) | 5U});
     EXPECT_EQ(bench.until(block, out), 1);
     ASSERT_EQ(reads.count(), 1);
     EXPECT_EQ(reads.front().address, 777U);
     EXPECT_EQ(bench.until(block, out), 1);  // the same tile: no word
     EXPECT_EQ(bench.until(block, out, 9), -1);
-    words.push({kNoTile});
-    words.commit();
+    put(words, {kNoTile});
     EXPECT_EQ(bench.until(block, out), 1);
     EXPECT_EQ(reads.count(), 1);
 }
@@ -139,13 +136,10 @@ TEST(CodedBlockTiming, RecordReaderTakesACyclePerWordAndOneForANewTile) {
     Bench bench({&in, &heads, &reads, &out});
     // Column 40 is the second block of a tile: blocks 4 .. 7 of classes 1, 2, 0, 1.
     const std::uint64_t classes = (std::uint64_t{1} << 12U) | (std::uint64_t{2} << 15U) | (std::uint64_t{1} << 21U);
-    heads.push({classes | std::uint64_t{0xFFFF} << 48U});
-    heads.commit();
-    in.push({ask_of(0, true), AskedTile::Kind::read, 1000});
-    in.commit();
+    put(heads, {classes | std::uint64_t{0xFFFF} << 48U});
+    put(in, {ask_of(0, true), AskedTile::Kind::read, 1000});
     for (int row = 1; row < 4; ++row) {
-        in.push({ask_of(row, false), AskedTile::Kind::same, 0});
-        in.commit();
+        put(in, {ask_of(row, false), AskedTile::Kind::same, 0});
     }
     EXPECT_EQ(bench.until(block, out), 2);
     EXPECT_EQ(reads.count(), 1);
@@ -177,12 +171,10 @@ TEST(CodedBlockTiming, BlockMotionTakesACyclePerWordOneToHandOverAndOneForASecon
     BlockMotion block(0, r.file, in, words, out, &asks);
     Bench bench({&in, &words, &out, &asks});
     AskedRecord asked{ask_of(2, true), 3, true, {7, 9}, 6, 2};
-    in.push(asked);
-    in.commit();
+    put(in, asked);
     for (const std::uint64_t word :
          {std::uint64_t{codec::board_motion_word({1, -3, 4})} << 48U, std::uint64_t{0x060504030201}}) {
-        words.push({word});
-        words.commit();
+        put(words, {word});
     }
     EXPECT_EQ(bench.until(block, out), 3);
     ASSERT_EQ(asks.count(), 1);
@@ -195,8 +187,7 @@ TEST(CodedBlockTiming, BlockMotionTakesACyclePerWordOneToHandOverAndOneForASecon
     EXPECT_EQ(out.front().block[1], 2);
     EXPECT_EQ(out.front().quarter[0][3], 6);
     asked.class_number = asked.words = 0;  // an empty block
-    in.push(asked);
-    in.commit();
+    put(in, asked);
     EXPECT_EQ(bench.until(block, out), 1);
     EXPECT_EQ(asks.count(), 2);
 }
@@ -213,19 +204,16 @@ TEST(CodedBlockTiming, RecordSelectGivesAPixelPerCycle) {
         pixel.shows = pixel.pending = true;
         pixel.begins = row == 6;
         pixel.row = row;
-        in.push(pixel);
-        in.commit();
+        put(in, pixel);
     }
     BlockRecord record;
     record.flat = {1, 2, 3};
-    records.push(record);
-    records.commit();
+    put(records, record);
     EXPECT_EQ(bench.until(block, out), 1);
     EXPECT_EQ(bench.until(block, out), 1);
     EXPECT_EQ(bench.until(block, out, 9), -1);  // row 8 is in the next block
     record.block_row = 1;
-    records.push(record);
-    records.commit();
+    put(records, record);
     EXPECT_EQ(bench.until(block, out), 1);
     EXPECT_EQ(bench.until(block, out), 1);
     EXPECT_EQ(records.count(), 0);
@@ -242,8 +230,7 @@ TEST(CodedBlockTiming, BookLookupLoadsAWordPerCycleThenGivesAPixelPerCycleOfLate
     CodedPixel pixel;
     pixel.shows = true;
     pixel.hops = 1;
-    in.push(pixel);
-    in.commit();
+    put(in, pixel);
     const auto all = static_cast<std::uint64_t>(r.file.objects[0].book_words);
     std::uint64_t steps = 0;
     std::uint64_t answered = 0;
@@ -260,13 +247,11 @@ TEST(CodedBlockTiming, BookLookupLoadsAWordPerCycleThenGivesAPixelPerCycleOfLate
     EXPECT_EQ(out.count(), 0);
     EXPECT_EQ(bench.until(block, out), 7);
     pixel.hops = 2;  // one prediction
-    in.push(pixel);
-    in.commit();
+    put(in, pixel);
     EXPECT_EQ(bench.until(block, out), 7);
     for (const int hops : {4, 1}) {
         pixel.hops = hops;
-        in.push(pixel);
-        in.commit();
+        put(in, pixel);
     }
     EXPECT_EQ(bench.until(block, out), 9);  // three predictions
     EXPECT_EQ(bench.until(block, out), 1);

@@ -15,6 +15,7 @@ namespace rs::engine::model {
 namespace {
 
 using test::Bench;
+using test::put;
 
 struct ColumnRegisters {
     explicit ColumnRegisters(bool shape, int width = 48)
@@ -65,8 +66,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
     Fifo<BracketedRay> out("out", 4, 1);
     BracketFinder block(r.file, in, reads, words, out);
     Bench bench({&in, &reads, &words, &out});
-    in.push({0, false, 0, 0, 0, 0, 0, 0, 0});
-    in.commit();
+    put(in, {0, false, 0, 0, 0, 0, 0, 0, 0});
     EXPECT_EQ(bench.until(block, out), 1);
     EXPECT_EQ(out.pop().kind, RayKind::none);
     out.commit();
@@ -77,8 +77,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
         const auto at = static_cast<int>((address - lines) % static_cast<WordAddress>(record_words(4)));
         return at == 2 ? std::uint64_t{3} | (3 * n) << 32U : n * 1000;
     };
-    in.push({0, true, 1, 3400, 7, 3, 0, 1 << 28, 0});
-    in.commit();
+    put(in, {0, true, 1, 3400, 7, 3, 0, 1 << 28, 0});
     // Crossing of 3: ask, take, 9; gap 3: ask, take; crossing of 4: ask, take, 9; decide.
     EXPECT_EQ(until_answered(bench, block, reads, words, out, word), 11 + 2 + 11 + 1);
     BracketedRay found = out.pop();
@@ -97,8 +96,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
     found = out.pop();
     out.commit();
     EXPECT_EQ(found.first, 3);
-    in.push({0, true, 1, 3400, 7, 3, 0, 1 << 28, 0});
-    in.commit();
+    put(in, {0, true, 1, 3400, 7, 3, 0, 1 << 28, 0});
     const auto no_lines = [&](WordAddress address) {
         return word(address) == (3U | std::uint64_t{9} << 32U) ? 0 : word(address);
     };
@@ -114,8 +112,7 @@ TEST(ParallelColumnTiming, RaysOfPlaneObjectsPassTheBracketFinder) {
     Fifo<BracketedRay> out("out", 4, 1);
     BracketFinder block(r.file, in, reads, words, out);
     Bench bench({&in, &reads, &words, &out});
-    in.push({0, true, 1, 3400, 7, 3, 0, 0, 0});
-    in.commit();
+    put(in, {0, true, 1, 3400, 7, 3, 0, 0, 0});
     EXPECT_EQ(bench.until(block, out), 1);
     EXPECT_EQ(out.front().kind, RayKind::plane);
     EXPECT_EQ(out.front().first, 3);
@@ -139,8 +136,7 @@ TEST(ParallelColumnTiming, PictureReaderAsksAWordPerCycle) {
         ray.plane = 2;
         ray.first = 1;
         ray.second = 5;
-        in.push(ray);
-        in.commit();
+        put(in, ray);
         EXPECT_EQ(until_answered(bench, block, reads, words, out, word), cycles);
         if (kind == RayKind::shape) {
             EXPECT_EQ(out.front().picture[0].fl_y_q16, record_words(4) + 1);
@@ -158,8 +154,7 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     ColumnSetupStage block(r.file, in, out);
     Bench bench({&in, &out});
     LinedRay ray;
-    in.push(ray);
-    in.commit();
+    put(in, ray);
     EXPECT_EQ(bench.until(block, out), 2);  // no ray
     ray.ray.kind = RayKind::shape;
     ray.ray.n_q28 = 1 << 28;
@@ -168,8 +163,7 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     ray.ray.width_q20 = 4000;
     ray.ray.lines = 2;
     ray.ray.first_line = 5;
-    in.push(ray);
-    in.commit();
+    put(in, ray);
     EXPECT_EQ(ColumnSetupStage::kShapeLatency, 159);
     EXPECT_EQ(bench.until(block, out), 159);
     out.pop();
@@ -183,15 +177,13 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     Fifo<LinedRay> far_in("in", 4, 1);
     ColumnSetupStage far_block(far, far_in, out);
     Bench far_bench({&far_in, &out});
-    far_in.push(ray);
-    far_in.commit();
+    put(far_in, ray);
     EXPECT_EQ(far_bench.until(far_block, out), ColumnSetupStage::kTooFarLatency);
     ray.ray.kind = RayKind::plane;
     ray.picture[0].l0_q20 = 3 << 20;
     ray.picture[0].fl_y_q16 = 60 << 16;
     ray.picture[0].cx_q16 = 20 << 16;
-    in.push(ray);
-    in.commit();
+    put(in, ray);
     EXPECT_EQ(bench.until(block, out), VerticalCompensation::kLatency);
 }
 
@@ -209,8 +201,7 @@ TEST(ParallelColumnTiming, BandReaderAsksAWordPerCycleAndWaitsForAStripe) {
     column.kind = RayKind::shape;
     column.map_line = 1;
     column.map_place = 2;
-    in.push(column);
-    in.commit();
+    put(in, column);
     EXPECT_EQ(bench.until(block, march), 19);
     EXPECT_EQ(rise.count(), 1);
     EXPECT_EQ(place.count(), 1);
@@ -222,13 +213,11 @@ TEST(ParallelColumnTiming, BandReaderAsksAWordPerCycleAndWaitsForAStripe) {
     EXPECT_EQ(bench.until(block, reads, 5), -1);
     column.kind = RayKind::none;
     for (int n = 1; n < 48; ++n) {
-        in.push(column);
-        in.commit();
+        put(in, column);
     }
     for (int n = 1; n < 32; ++n) EXPECT_EQ(bench.until(block, march), 1);
     EXPECT_EQ(bench.until(block, march, 50), -1);  // two stripes are under way
-    stripe_free.push({});
-    stripe_free.commit();
+    put(stripe_free, {});
     EXPECT_EQ(bench.until(block, march), 1);
     EXPECT_EQ(march.count(), 33);
 }

@@ -11,6 +11,7 @@ namespace rs::engine::model {
 namespace {
 
 using test::Bench;
+using test::put;
 using test::ViewsOfThreeObjects;
 
 struct Lookup {
@@ -29,17 +30,13 @@ struct Lookup {
         }
         return asked;
     }
-    void view(int number) {
-        jobs.push({number});
-        jobs.commit();
-    }
+    void view(int number) { put(jobs, {number}); }
     void pixel(int number, int hops) {
         CodedPixel p;
         p.view = number;
         p.shows = true;
         p.hops = hops;
-        in.push(p);
-        in.commit();
+        put(in, p);
     }
     ViewsOfThreeObjects r;
     Fifo<ViewJob> jobs{"jobs", 8, 1};
@@ -87,8 +84,7 @@ TEST(ParallelTexelTiming, TwinLookupReplacesNoBooksOfAViewUnderWay) {
     l.view(0);
     EXPECT_EQ(l.run(100), 0);
     EXPECT_EQ(l.block.book_loads(), 2U);
-    l.done.push({});
-    l.done.commit();
+    put(l.done, {});
     EXPECT_GT(l.run(100), 90);
     EXPECT_EQ(l.block.book_loads(), 3U);
 }
@@ -115,8 +111,7 @@ TEST(ParallelFans, AViewIsWrittenWhenAllPipesWithAShareHaveWrittenTheirs) {
         for (auto& fifo : done) fifo->commit();
     };
     for (const int v : {0, 1}) {
-        in.push({v});
-        in.commit();
+        put(in, {v});
         step();
     }
     // 40 columns: three stripes, one each. 20 columns of view 1: pipes 1 and 2.
@@ -147,8 +142,7 @@ TEST(ParallelFans, LoadedWordsGoToAllChannelsInTheSameCycle) {
     LoadFan block(in, {{&words[0], &done[0]}, {&words[1], &done[1]}}, loaded);
     Bench bench({&in, &loaded, &words[0], &words[1], &done[0], &done[1]});
     for (std::uint64_t n = 0; n < 3; ++n) {
-        in.push({1, n, n == 2});
-        in.commit();
+        put(in, {1, n, n == 2});
     }
     EXPECT_EQ(bench.until(block, words[1]), 1);
     EXPECT_EQ(words[0].count(), 1);
@@ -156,11 +150,9 @@ TEST(ParallelFans, LoadedWordsGoToAllChannelsInTheSameCycle) {
     words[0].pop();
     words[0].commit();
     EXPECT_EQ(bench.until(block, words[0], 9), -1);  // the other channel has no room
-    done[1].push({});
-    done[1].commit();
+    put(done[1], {});
     EXPECT_EQ(bench.until(block, loaded, 9), -1);
-    done[0].push({});
-    done[0].commit();
+    put(done[0], {});
     EXPECT_EQ(bench.until(block, loaded), 1);
 }
 

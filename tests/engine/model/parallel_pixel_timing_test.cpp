@@ -16,6 +16,7 @@ namespace rs::engine::model {
 namespace {
 
 using test::Bench;
+using test::put;
 
 // A view of 40x30 pixels; a shape map of 7 bands.
 struct PixelRegisters {
@@ -61,14 +62,12 @@ TEST(ParallelPixelTiming, PixelScanGivesAPixelPerCycleOfFourPatches) {
     Fifo<ScannedPixel> out("out", 2048, 1);
     PixelScan block(r.file, {}, jobs, patch_free, view_done, patches, out);
     Bench bench({&jobs, &patch_free, &view_done, &patches, &out});
-    jobs.push({0});
-    jobs.commit();
+    put(jobs, {0});
     EXPECT_EQ(bench.until(block, out), 2);
     for (int n = 1; n < 16 * 30; ++n) EXPECT_EQ(bench.until(block, out), 1) << n;
     EXPECT_EQ(patches.count(), 4);  // 8 + 8 + 8 + 6 rows
     EXPECT_EQ(bench.until(block, out, 20), -1);
-    patch_free.push({});
-    patch_free.commit();
+    put(patch_free, {});
     EXPECT_EQ(bench.until(block, out), 1);
     for (int n = 0; n < 17; ++n) {
         out.pop();
@@ -93,14 +92,12 @@ TEST(ParallelPixelTiming, PixelScanHasTwoViewsUnderWay) {
     PixelScan block(file, {}, jobs, patch_free, view_done, patches, out);
     Bench bench({&jobs, &patch_free, &view_done, &patches, &out});
     for (int v = 0; v < 3; ++v) {
-        jobs.push({v});
-        jobs.commit();
+        put(jobs, {v});
     }
     EXPECT_EQ(bench.until(block, out), 2);
     EXPECT_EQ(bench.until(block, out), 2);
     EXPECT_EQ(bench.until(block, out, 20), -1);
-    view_done.push({});
-    view_done.commit();
+    put(view_done, {});
     EXPECT_EQ(bench.until(block, out), 2);
     EXPECT_TRUE(patches.front().ends_view);
 }
@@ -113,12 +110,10 @@ TEST(ParallelPixelTiming, RayRiseWaitsForItsColumnThenGivesAPixelPerCycle) {
     RayRise block(r.file, columns, in, out);
     Bench bench({&columns, &in, &out});
     for (const int id : {0, 16, 1}) {
-        in.push(pixel_of(id));
-        in.commit();
+        put(in, pixel_of(id));
     }
     EXPECT_EQ(bench.until(block, out, 60), -1);
-    columns.push(column_of(RayKind::shape, 0));
-    columns.commit();
+    put(columns, column_of(RayKind::shape, 0));
     EXPECT_EQ(bench.until(block, out), 1 + RayRise::kStages + 1);
     EXPECT_EQ(RayRise::kStages, 25);
     EXPECT_EQ(bench.until(block, out), 1);
@@ -127,23 +122,19 @@ TEST(ParallelPixelTiming, RayRiseWaitsForItsColumnThenGivesAPixelPerCycle) {
 
 struct March {
     March() {
-        columns.push(column_of(RayKind::none, 0));
-        columns.commit();
+        put(columns, column_of(RayKind::none, 0));
         ColumnSetup shape = column_of(RayKind::shape, 1);
         shape.band_words = 4;
-        columns.push(shape);
-        columns.commit();
+        put(columns, shape);
         for (int n = 0; n < 2; ++n) bench.step(block);
         for (int word = 0; word < 4; ++word) {  // bands 2 and 6 have a surface at depth 100, band 2 up to 120
             const std::uint64_t cell = packed_cell({{100, 0}, 120, 3});
-            words.push({word == 1 ? cell : word == 3 ? cell : 0});
-            words.commit();
+            put(words, {word == 1 ? cell : word == 3 ? cell : 0});
             bench.step(block);
         }
     }
     void push(int id, std::int32_t foot_q12, std::int32_t per_d_q20) {
-        in.push({pixel_of(id), foot_q12, foot_q12, per_d_q20});
-        in.commit();
+        put(in, {pixel_of(id), foot_q12, foot_q12, per_d_q20});
     }
     PixelRegisters r;
     Fifo<ColumnSetup> columns{"columns", 4, 1};
@@ -197,14 +188,11 @@ TEST(ParallelPixelTiming, CellMarchWaitsForTheLastWordOfItsColumn) {
     March m;
     ColumnSetup shape = column_of(RayKind::shape, 2);
     shape.band_words = 2;
-    m.columns.push(shape);
-    m.columns.commit();
+    put(m.columns, shape);
     m.push(2, 9 << 12, 0);
-    m.words.push({0});
-    m.words.commit();
+    put(m.words, {0});
     EXPECT_EQ(m.bench.until(m.block, m.empty, 20), -1);
-    m.words.push({0});
-    m.words.commit();
+    put(m.words, {0});
     EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
 }
 
@@ -215,17 +203,14 @@ TEST(ParallelPixelTiming, SamplePlaceGivesASamplePerCycleOfLatency53) {
     Fifo<PlacedSample> out("out", 16, 1);
     SamplePlace block(r.file, columns, in, out);
     Bench bench({&columns, &in, &out});
-    columns.push(column_of(RayKind::shape, 0));
-    columns.commit();
+    put(columns, column_of(RayKind::shape, 0));
     bench.step(block);
     MetCell met;
     met.pixel = pixel_of(0);
     met.cell.rays = 15;
-    in.push(met);
-    in.commit();
+    put(in, met);
     met.cell.rays = 0;
-    in.push(met);
-    in.commit();
+    put(in, met);
     EXPECT_EQ(bench.until(block, out), SamplePlace::kStages + 1);
     EXPECT_EQ(SamplePlace::kStages + 1, 53);
     for (int n = 1; n < 5; ++n) EXPECT_EQ(bench.until(block, out), 1);
@@ -256,8 +241,7 @@ TEST(ParallelPixelTiming, FilterChoiceAndResolveArePipelines) {
         quad.head.weight = 64;
         quad.fx = 8 - 4 * (1 + n);
         quad.rgba = {0xFF000000U + 100U * static_cast<unsigned>(n + 1), 0, 0xFF000000U, 0};
-        quads.push(quad);
-        quads.commit();
+        put(quads, quad);
     }
     EXPECT_EQ(filter_bench.until(filter, filtered), 7);
     EXPECT_EQ(filter_bench.until(filter, filtered), 1);
@@ -275,8 +259,7 @@ TEST(ParallelPixelTiming, FilterChoiceAndResolveArePipelines) {
     FilteredSample none;
     none.head.last = true;
     none.head.next.begin = 77;
-    filtered.push(none);
-    filtered.commit();
+    put(filtered, none);
     EXPECT_EQ(choice_bench.until(choice, again), 9);
     EXPECT_EQ(again.front().state.begin, 77);
 
@@ -302,15 +285,12 @@ TEST(ParallelPixelTiming, PatchStoreWritesAPatchWhenItsLastPixelIsThere) {
     patches.push({0, 0, 32, 24, 2, 3, true, true});  // two columns of three rows
     patches.commit();
     for (const int id : {17, 0, 33, 1}) {
-        pixels.push({id, 1000U + static_cast<unsigned>(id)});
-        pixels.commit();
+        put(pixels, {id, 1000U + static_cast<unsigned>(id)});
     }
-    empty.push({32, 0});
-    empty.commit();
+    put(empty, {32, 0});
     EXPECT_EQ(bench.until(block, writes, 40), -1);
     EXPECT_EQ(pixels.count() + empty.count(), 0);
-    pixels.push({16, 1016});
-    pixels.commit();
+    put(pixels, {16, 1016});
     EXPECT_EQ(bench.until(block, writes), 2);  // one to take it
     for (int n = 1; n < 4; ++n) EXPECT_EQ(bench.until(block, writes), 1);
     EXPECT_EQ(writes.front().address, r.file.image(0, 0) + 32U * 15U + 12U);

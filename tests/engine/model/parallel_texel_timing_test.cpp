@@ -13,6 +13,7 @@ namespace rs::engine::model {
 namespace {
 
 using test::Bench;
+using test::put;
 using test::ViewsOfThreeObjects;
 
 PlacedSample sample_at(int picture, int left, int top, int fx, int fy, int view = 0) {
@@ -28,10 +29,7 @@ PlacedSample sample_at(int picture, int left, int top, int fx, int fy, int view 
 }
 
 struct Tags {
-    void push(const PlacedSample& sample) {
-        in.push(sample);
-        in.commit();
-    }
+    void push(const PlacedSample& sample) { put(in, sample); }
     ViewsOfThreeObjects r;
     Fifo<PlacedSample> in{"in", 8, 1};
     Fifo<TexelFill> fills{"fills", 32, 1};
@@ -90,16 +88,14 @@ TEST(ParallelTexelTiming, FillFetchTakes64CyclesForACodedBlockAndAWordPerCycleFo
     Fifo<FillTarget> targets("targets", 4, 1);
     FillFetch block(r.file, in, asks, pixels, raw, kinds, targets);
     Bench bench({&in, &asks, &pixels, &raw, &kinds, &targets});
-    in.push({0, 2, 3, 1, 9, 0});
-    in.commit();
+    put(in, {0, 2, 3, 1, 9, 0});
     for (int n = 0; n < 64; ++n) EXPECT_EQ(bench.until(block, pixels), 1) << n;
     ASSERT_EQ(asks.count(), 8);
     EXPECT_TRUE(asks.front().first);
     EXPECT_EQ(asks.front().column, 24);
     EXPECT_EQ(asks.front().rows, 0xFFU);
     EXPECT_EQ(targets.front().line, 9);
-    in.push({2, 2, 3, 1, 10, 0});
-    in.commit();
+    put(in, {2, 2, 3, 1, 10, 0});
     for (int n = 0; n < kRawBlockWords; ++n) EXPECT_EQ(bench.until(block, raw), 1) << n;
     EXPECT_EQ(bench.until(block, raw, 9), -1);
     const ObjectRegisters& object = r.file.objects[static_cast<std::size_t>(r.slots[1])];
@@ -115,17 +111,14 @@ TEST(ParallelTexelTiming, TexelMergeKeepsTheOrderOfTheBlocks) {
     TexelMerge block(kinds, coded, words, out);
     Bench bench({&kinds, &coded, &words, &out});
     for (const bool is_coded : {false, true}) {
-        kinds.push({is_coded});
-        kinds.commit();
+        put(kinds, {is_coded});
     }
     for (int n = 0; n < 64; ++n) {
-        coded.push({0, n, 1, 2, 3});
-        coded.commit();
+        put(coded, {0, n, 1, 2, 3});
     }
     EXPECT_EQ(bench.until(block, out, 9), -1);  // the raw block is first
     for (std::uint64_t n = 0; n < kRawBlockWords; ++n) {
-        words.push({0x0101010101010101U * (n + 1)});
-        words.commit();
+        put(words, {0x0101010101010101U * (n + 1)});
     }
     EXPECT_EQ(bench.until(block, out), 4);  // three words
     EXPECT_EQ(out.front().u, 1);
@@ -144,8 +137,7 @@ TEST(ParallelTexelTiming, TexelMergeKeepsTheOrderOfTheBlocks) {
 struct Cache {
     void texels_of_a_block(int n, std::uint32_t value) {
         for (int i = 0; i < n; ++i) {
-            texels.push({0, value});
-            texels.commit();
+            put(texels, {0, value});
         }
     }
     void wait_for(int line, int fills) {
@@ -153,8 +145,7 @@ struct Cache {
         sample.inside = true;
         sample.line = {line, line, line, line};
         sample.fills = fills;
-        in.push(sample);
-        in.commit();
+        put(in, sample);
     }
     Fifo<WaitingSample> in{"in", 8, 1};
     Fifo<FillTarget> targets{"targets", 4, 1};
@@ -168,8 +159,7 @@ TEST(ParallelTexelTiming, TexelCacheReadsInTheCycleBehindTheLastTexel) {
     Cache c;
     c.wait_for(5, 1);
     c.wait_for(5, 0);
-    c.targets.push({5, 0});
-    c.targets.commit();
+    put(c.targets, {5, 0});
     c.texels_of_a_block(63, 7);
     EXPECT_EQ(c.bench.until(c.block, c.out, 100), -1);
     c.texels_of_a_block(1, 7);
@@ -183,10 +173,8 @@ TEST(ParallelTexelTiming, TexelCacheWritesNoLineBeforeItsLastReaderHasRead) {
     c.wait_for(5, 0);
     c.wait_for(5, 1);  // waits for the block, and so does
     c.wait_for(6, 1);  // this one, whose block comes into a line that the one before reads
-    c.targets.push({5, 1});
-    c.targets.commit();
-    c.targets.push({5, 2});
-    c.targets.commit();
+    put(c.targets, {5, 1});
+    put(c.targets, {5, 2});
     c.texels_of_a_block(64, 8);
     c.texels_of_a_block(64, 9);
     EXPECT_EQ(c.bench.until(c.block, c.out), 1);
