@@ -96,6 +96,23 @@ TEST(TurntableDisc, IsNotFoundOnAnEvenTableNorInALine) {
     EXPECT_FALSE(find_turntable_disc(drawn.plate, drawn.known, drawn.object).has_value());
 }
 
+// As a circle through the foot of an object and what it stands on: a part of it goes over into the table.
+TEST(TurntableDisc, IsNotFoundWhereAPartOfTheRimIsNoEdge) {
+    for (const double from_rad : {-0.2, -0.9}) {
+        Scene drawn = scene(true);
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                const glm::dvec2 p = on_table(x, y);
+                const double angle_rad = std::atan2(p.y, p.x);
+                const bool runs_on = angle_rad > from_rad && angle_rad < from_rad + 1.1;
+                const bool even = runs_on || glm::length(p) <= kRadius;  // no rings either
+                if (even && !hides(x, y)) drawn.plate(x, y) = disc_colour(0);
+            }
+        }
+        EXPECT_FALSE(find_turntable_disc(drawn.plate, drawn.known, drawn.object).has_value()) << from_rad;
+    }
+}
+
 TEST(TurntableDisc, NothingIsFoundWithoutAnObjectOrWithoutAPlate) {
     const Scene drawn = scene(true);
     const Image<std::uint8_t> none(kWidth, kHeight);
