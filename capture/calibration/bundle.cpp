@@ -48,9 +48,12 @@ void hold(ceres::Problem& problem, double* block, const std::vector<bool>& free)
 
 }  // namespace
 
+std::optional<glm::dvec2> projected(const TurntableModel& model, const glm::dvec3& point, int view) {
+    return project(model.lens, model.pose, turned(point, model.angles_rad[static_cast<std::size_t>(view)]));
+}
+
 std::optional<glm::dvec2> residual(const TurntableModel& model, const glm::dvec3& point, const Observation& seen) {
-    const auto p =
-        project(model.lens, model.pose, turned(point, model.angles_rad[static_cast<std::size_t>(seen.view)]));
+    const auto p = projected(model, point, seen.view);
     if (!p) return std::nullopt;
     return *p - seen.p;
 }

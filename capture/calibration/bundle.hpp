@@ -57,6 +57,9 @@ struct Bundle {
 // parallel, the point is not before the camera in every view, or it lies farther from the axis than the camera.
 std::optional<glm::dvec3> triangulated(const TurntableModel& model, const Track& track);
 
+// Where the model expects a point in a view, px; nothing where it is not before the camera.
+std::optional<glm::dvec2> projected(const TurntableModel& model, const glm::dvec3& point, int view);
+
 // Residual vector of one observation, px; nothing where the point is not before the camera.
 std::optional<glm::dvec2> residual(const TurntableModel& model, const glm::dvec3& point, const Observation& seen);
 

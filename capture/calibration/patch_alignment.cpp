@@ -54,7 +54,7 @@ std::optional<Facet> facet_of(const Bundle& bundle, std::size_t i, int reduction
 
 // Where the facet is expected in a view, px of the reduced pictures.
 std::optional<Warp> expected(const TurntableModel& model, const Facet& facet, int view, int reduction) {
-    const auto seen = [&](const glm::dvec3& p) { return residual(model, p, Observation{view, glm::dvec2(0.0)}); };
+    const auto seen = [&](const glm::dvec3& p) { return projected(model, p, view); };
     // Differences over a few px, like the patch: a quadratic is what the patch sees of it.
     constexpr double kReach_px = 4;
     const auto centre = seen(facet.point);

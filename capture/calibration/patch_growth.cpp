@@ -50,7 +50,7 @@ private:
 std::optional<Track> expected_track(const TurntableModel& model, const glm::dvec3& point, const Track& like) {
     Track track;
     for (const Observation& seen : like.seen) {
-        const auto p = residual(model, point, Observation{seen.view, glm::dvec2(0.0)});
+        const auto p = projected(model, point, seen.view);
         if (!p) return std::nullopt;
         track.seen.push_back({seen.view, *p});
     }

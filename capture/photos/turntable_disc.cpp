@@ -62,17 +62,14 @@ public:
         int known = 0;
         std::array<double, 8> octant_sum{};
         std::array<int, 8> octant_known{};
-        for (int i = 0; i < samples; ++i) {
-            const RimPlace place = rim_place(plane, disc.radius, 2 * std::numbers::pi * i / samples);
-            const std::optional<double> codes = contrast_at(place.px, place.normal * apart_px);
-            if (!codes) continue;
-            const double contrast = std::min(1.0, *codes / clear_codes);
+        visit_known(disc, plane, samples, apart_px, [&](int i, double codes) {
+            const double contrast = std::min(1.0, codes / clear_codes);
             const auto octant = static_cast<std::size_t>(i * 8 / samples);
             ++known;
             sum += contrast;
             ++octant_known[octant];
             octant_sum[octant] += contrast;
-        }
+        });
         if (known == 0) return {};
         constexpr double kClearOctant = 0.5;
         int clear_octants = 0;
@@ -86,13 +83,8 @@ public:
     // Of what is known of a circle, the share that stands out by at least a third of what the median of it does. A
     // disc has one colour against one table; a circle through the foot of the object and something else has not.
     [[nodiscard]] double evenness(const TurntableDisc& disc, int samples, double apart_px) const {
-        const DiscPlane plane = this->plane(disc);
         std::vector<double> known_codes;
-        for (int i = 0; i < samples; ++i) {
-            const RimPlace place = rim_place(plane, disc.radius, 2 * std::numbers::pi * i / samples);
-            const std::optional<double> codes = contrast_at(place.px, place.normal * apart_px);
-            if (codes) known_codes.push_back(*codes);
-        }
+        visit_known(disc, plane(disc), samples, apart_px, [&](int, double codes) { known_codes.push_back(codes); });
         if (known_codes.empty()) return 0;
         const double third = median(known_codes) / 3;
         const auto even = std::count_if(known_codes.begin(), known_codes.end(), [&](double c) { return c >= third; });
@@ -124,6 +116,17 @@ public:
     [[nodiscard]] DiscPlane plane(const TurntableDisc& disc) const { return {disc, colour_.cols, colour_.rows}; }
 
 private:
+    // Calls visit(i, contrast in codes) for those of a circle's samples that are known.
+    template <class Visit>
+    void visit_known(const TurntableDisc& disc, const DiscPlane& plane, int samples, double apart_px,
+                     Visit visit) const {
+        for (int i = 0; i < samples; ++i) {
+            const RimPlace place = rim_place(plane, disc.radius, 2 * std::numbers::pi * i / samples);
+            const std::optional<double> codes = contrast_at(place.px, place.normal * apart_px);
+            if (codes) visit(i, *codes);
+        }
+    }
+
     // Of what stands on either side; nothing where either is not known.
     [[nodiscard]] std::optional<double> contrast_at(glm::dvec2 px, glm::dvec2 apart) const {
         cv::Vec3f inner;

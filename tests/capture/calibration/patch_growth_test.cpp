@@ -22,7 +22,7 @@ Bundle one_point(int views) {
     bundle.points = {{0, -std::tan(radians(20)), 0.1}};
     Track track;
     for (int view = 0; view < views; ++view) {
-        track.seen.push_back({view, *residual(bundle.model, bundle.points[0], Observation{view, glm::dvec2(0.0)})});
+        track.seen.push_back({view, *projected(bundle.model, bundle.points[0], view)});
     }
     bundle.tracks = {track};
     return bundle;
@@ -49,7 +49,7 @@ TEST(PatchGrowth, PointsComeOneStepBesideAsFarFromTheCamera) {
             EXPECT_NEAR(glm::length(aside), kStep_px * reduction, 0.05 * kStep_px * reduction);
             sum += aside;
             for (const Observation& seen : bundle.tracks[i].seen) {
-                const auto expected = residual(bundle.model, bundle.points[i], {seen.view, glm::dvec2(0.0)});
+                const auto expected = projected(bundle.model, bundle.points[i], seen.view);
                 EXPECT_LT(glm::distance(*expected, seen.p), 1e-9);
             }
         }

@@ -1,5 +1,5 @@
 #pragma once
-// A board's pictures beside those of the scalar definition.
+// A board's pictures beside those of the scalar definition, and one run of it beside another.
 
 #include "tests/engine/model/board_test_objects.hpp"
 

@@ -41,8 +41,7 @@ TEST(CodedBlockTiming, BlockScanGivesAPixelPerCycleAndAnAskBehindItsRun) {
     Fifo<CodedPixel> pixels("pixels", 64, 1);
     BlockScan block(r.file, in, asks, pixels);
     Bench bench({&in, &asks, &pixels});
-    in.push({0, true, 2, 40, std::int64_t{5} << 16, 1 << 16});  // rows 5 .. 45
-    in.commit();
+    put(in, {0, true, 2, 40, std::int64_t{5} << 16, 1 << 16});  // rows 5 .. 45
     EXPECT_EQ(bench.until(block, pixels), 2);
     for (int n = 1; n < 3; ++n) EXPECT_EQ(bench.until(block, pixels), 1);
     EXPECT_EQ(asks.count(), 0);  // rows 5, 6 and 7 have come
@@ -64,8 +63,7 @@ TEST(CodedBlockTiming, BlockScanEndsARunAfterSixteenPixels) {
     Fifo<CodedPixel> pixels("pixels", 64, 1);
     BlockScan block(r.file, in, asks, pixels);
     Bench bench({&in, &asks, &pixels});
-    in.push({0, true, 2, 40, std::int64_t{9} << 16, 0});  // row 9, for 41 pixels
-    in.commit();
+    put(in, {0, true, 2, 40, std::int64_t{9} << 16, 0});  // row 9, for 41 pixels
     for (int n = 0; n < 17; ++n) bench.step(block);
     EXPECT_EQ(asks.count(), 0);
     bench.step(block);

@@ -282,8 +282,7 @@ TEST(ParallelPixelTiming, PatchStoreWritesAPatchWhenItsLastPixelIsThere) {
     Fifo<Done> done_books("done_books", 2, 1);
     PatchStore block(r.file, patches, pixels, empty, writes, patch_free, stripe_free, done_scan, done_books);
     Bench bench({&patches, &pixels, &empty, &writes, &patch_free, &stripe_free, &done_scan, &done_books});
-    patches.push({0, 0, 32, 24, 2, 3, true, true});  // two columns of three rows
-    patches.commit();
+    put(patches, {0, 0, 32, 24, 2, 3, true, true});  // two columns of three rows
     for (const int id : {17, 0, 33, 1}) {
         put(pixels, {id, 1000U + static_cast<unsigned>(id)});
     }
