@@ -12,8 +12,8 @@ namespace rs::encode {
 inline constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
 
 struct SmoothnessOptions {
-    int small_step = 3;    // penalty of a change by one level, in units of cost
-    int large_step = 480;  // of any larger change; less across an edge of the picture
+    int small_step = 2;    // penalty of a change by one level, in units of cost
+    int large_step = 250;  // of any larger change; less across an edge of the picture
 };
 
 // Levels (with fractions) of the pixels of `view`, transposed as WorkView::columns is; kNoDepth where alpha is 0.

@@ -87,86 +87,22 @@ private:
     Image<float> depth_;  // (h, p)
 };
 
-struct Found {
-    float depth = 0;
-    bool second = false;  // by which picture
-};
-
-struct Surface {
-    double depth = 0;
-    int by_first = 0;
-    int by_second = 0;
-    [[nodiscard]] int count() const { return by_first + by_second; }
-};
-
-Surface surface_of(const std::vector<Found>& found, std::size_t begin, std::size_t end) {
-    Surface surface;
-    for (std::size_t n = begin; n < end; ++n) (found[n].second ? surface.by_second : surface.by_first) += 1;
-    surface.depth = static_cast<double>(found[(begin + end) / 2].depth);
-    return surface;
-}
-
-// Where to cut sorted depths in two so that the squares of the distances to the two means are least.
-std::size_t best_cut(const std::vector<Found>& found) {
-    double sum = 0;
-    for (const Found& f : found) sum += static_cast<double>(f.depth);
-    double before = 0;
-    double best = -1;
-    std::size_t cut = 1;
-    for (std::size_t n = 1; n < found.size(); ++n) {
-        before += static_cast<double>(found[n - 1].depth);
-        const auto left = static_cast<double>(n);
-        const auto right = static_cast<double>(found.size() - n);
-        const double gain = before * before / left + (sum - before) * (sum - before) / right;
-        if (best < 0 || gain > best) {
-            best = gain;
-            cut = n;
-        }
-    }
-    return cut;
-}
-
-ShapeCell make_cell(std::vector<Found>& found, double low, double step, double tolerance) {
+// One surface, which both pictures show.
+ShapeCell cell_at_depth(float depth, double low, double step) {
     ShapeCell cell;
-    if (found.empty()) return cell;
-    std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.depth < b.depth; });
-    std::vector<Surface> surfaces;
-    if (static_cast<double>(found.back().depth - found.front().depth) > tolerance) {
-        const std::size_t cut = best_cut(found);
-        surfaces = {surface_of(found, 0, cut), surface_of(found, cut, found.size())};
-        if (surfaces[1].count() > surfaces[0].count()) std::swap(surfaces[0], surfaces[1]);
-    } else {
-        surfaces = {surface_of(found, 0, found.size())};
-    }
-    for (std::size_t n = 0; n < surfaces.size(); ++n) {
-        const Surface& surface = surfaces[n];
-        cell.depth[n] = static_cast<std::uint8_t>(std::clamp(std::lround((surface.depth - low) / step), 0L, 255L));
-        const int enough = (std::max(surface.by_first, surface.by_second) + 3) / 4;
-        if (surface.by_first >= enough)
-            cell.rays = static_cast<std::uint8_t>(cell.rays | (kFirstSeesLayer0 << (2 * n)));
-        if (surface.by_second >= enough)
-            cell.rays = static_cast<std::uint8_t>(cell.rays | (kSecondSeesLayer0 << (2 * n)));
-    }
+    if (std::isnan(depth)) return cell;
+    cell.depth[0] =
+        static_cast<std::uint8_t>(std::clamp(std::lround((static_cast<double>(depth) - low) / step), 0L, 255L));
+    cell.rays = kFirstSeesLayer0 | kSecondSeesLayer0;
     return cell;
 }
 
-// Cells without a surface beside ones with one take theirs: silhouettes are cut by alpha, not by cells.
-void grow(ShapeCell* cells, int p_cells, int bands) {
-    const std::vector<ShapeCell> before(cells, cells + p_cells * bands);
-    for (int p = 0; p < p_cells; ++p) {
-        for (int h = 0; h < bands; ++h) {
-            ShapeCell& cell = cells[p * bands + h];
-            if (cell.rays != 0) continue;
-            for (const auto& [dp, dh] :
-                 {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}}) {
-                if (p + dp < 0 || p + dp >= p_cells || h + dh < 0 || h + dh >= bands) continue;
-                const ShapeCell& other = before[static_cast<std::size_t>((p + dp) * bands + h + dh)];
-                if (other.rays == 0) continue;
-                cell = other;
-                break;
-            }
-        }
-    }
+// Of the upper half the least; kNoDepth of nothing. Reorders.
+float median(std::vector<float>& values) {
+    if (values.empty()) return kNoDepth;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 // The ray of a line's viewpoint that passes the axis at distance p, seen from above.
@@ -181,27 +117,48 @@ HorizontalRay line_ray(const glm::dvec2& viewpoint, double p) {
     return ray;
 }
 
-// Where the object ends behind the nearest layer of each cell of a column: the last depth within the hull.
-void find_backs(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
-                ShapeCell* cells) {
-    constexpr int kStride = 8;  // a coarse back is enough, and packs well
+// Moves surfaces that lie outside of the hull to the nearest place in it, and finds where the object ends behind them:
+// the last depth within the hull.
+void heed_hull(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
+               ShapeCell* cells) {
     const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
     const HorizontalRay ray = line_ray(viewpoint, p);
     const double rho = grid.rho(p);
-    for (int h = 0; h < grid.bands; ++h) cells[h].back = static_cast<std::uint8_t>(cells[h].nearest());
+    std::vector<std::uint8_t> within(static_cast<std::size_t>(grid.bands * kDepths));
     std::vector<Interval> heights;
-    for (int d = 0; d < kDepths; d += kStride) {
+    for (int d = 0; d < kDepths; ++d) {
         const double depth = -kHalfWidth + d * step;
         hull.heights_above(ray.place_at(depth), heights);
-        for (int h = 0; h < grid.bands; ++h) {
-            ShapeCell& cell = cells[h];
-            if (cell.rays == 0 || d <= cell.back) continue;
-            const double reference_h = grid.h_low + (h + 0.5) / grid.bands_per_unit;
-            const double y = grid.height + (reference_h - grid.height) * (rho + depth) / rho;
-            const bool within = std::any_of(heights.begin(), heights.end(),
-                                            [&](const Interval& i) { return y >= i.low && y <= i.high; });
-            if (within) cell.back = static_cast<std::uint8_t>(d);
+        const double per_y = rho / (rho + depth);
+        for (const Interval& i : heights) {
+            const double low = (grid.height + (i.low - grid.height) * per_y - grid.h_low) * grid.bands_per_unit - 0.5;
+            const double high = (grid.height + (i.high - grid.height) * per_y - grid.h_low) * grid.bands_per_unit - 0.5;
+            const int first = std::max(static_cast<int>(std::ceil(low)), 0);
+            const int last = std::min(static_cast<int>(std::floor(high)), grid.bands - 1);
+            for (int h = first; h <= last; ++h) within[static_cast<std::size_t>(h * kDepths + d)] = 1;
         }
+    }
+    for (int h = 0; h < grid.bands; ++h) {
+        ShapeCell& cell = cells[h];
+        if (cell.rays == 0) continue;
+        const std::uint8_t* const inside = within.data() + h * kDepths;
+        std::uint8_t& depth = cell.depth[0];
+        for (int away = 0; away < kDepths; ++away) {
+            const int behind = depth + away;
+            const int before = depth - away;
+            if (behind < kDepths && inside[behind] != 0) {
+                depth = static_cast<std::uint8_t>(behind);
+                break;
+            }
+            if (before >= 0 && inside[before] != 0) {
+                depth = static_cast<std::uint8_t>(before);
+                break;
+            }
+        }
+        int last = kDepths - 1;
+        while (last > depth && inside[last] == 0) --last;
+        constexpr int kStride = 8;  // a coarse back is enough, and packs well
+        cell.back = static_cast<std::uint8_t>(std::max(last / kStride * kStride, static_cast<int>(depth)));
     }
 }
 
@@ -265,7 +222,7 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& 
     grid.h_low = heights.low - cell;
     grid.cells_per_unit = map.p_cells / (2 * kHalfWidth);
     grid.bands_per_unit = 1 / cell;
-    grid.fine = std::max(1, static_cast<int>(std::lround(options.cell_px)));
+    grid.fine = std::max(1, static_cast<int>(std::lround(options.cell_px / options.raster_px)));
 
     std::uint32_t lines = 0;
     for (std::size_t n = 0; n < ring.size(); ++n) {
@@ -283,9 +240,8 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& 
         const ShapeGap& gap = map.gaps[n];
         const DepthView& first = ring[n];
         const DepthView& second = ring[(n + 1) % ring.size()];
-        const double tolerance = 0.7 / (scale * gap_width(ring, n));
         LineRaster from_first(grid), from_second(grid);
-        std::vector<Found> found;
+        std::vector<float> found;
         for (int s = 0; s < gap.lines; ++s) {
             const double part = (s + 0.5) / gap.lines;
             const glm::dvec2 viewpoint = glm::mix(first.view.centre, second.view.centre, part);
@@ -297,15 +253,14 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& 
                     found.clear();
                     for (int x = p * grid.fine; x < (p + 1) * grid.fine; ++x) {
                         for (int y = h * grid.fine; y < (h + 1) * grid.fine; ++y) {
-                            if (!std::isnan(from_first.at(x, y))) found.push_back({from_first.at(x, y), false});
-                            if (!std::isnan(from_second.at(x, y))) found.push_back({from_second.at(x, y), true});
+                            if (!std::isnan(from_first.at(x, y))) found.push_back(from_first.at(x, y));
+                            if (!std::isnan(from_second.at(x, y))) found.push_back(from_second.at(x, y));
                         }
                     }
-                    cells[p * map.bands + h] = make_cell(found, -kHalfWidth, step, tolerance);
+                    cells[p * map.bands + h] = cell_at_depth(median(found), -kHalfWidth, step);
                 }
             }
-            grow(cells, map.p_cells, map.bands);
-            for (int p = 0; p < map.p_cells; ++p) find_backs(grid, hull, viewpoint, p, step, cells + p * map.bands);
+            for (int p = 0; p < map.p_cells; ++p) heed_hull(grid, hull, viewpoint, p, step, cells + p * map.bands);
         }
     });
     return map;

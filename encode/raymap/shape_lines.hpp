@@ -19,7 +19,8 @@ struct DepthView {
 };
 
 struct ShapeLinesOptions {
-    double cell_px = 4.8;           // side of a cell in pixels of the working pictures
+    double cell_px = 3.2;           // side of a cell in pixels of the working pictures
+    double raster_px = 0.8;         // of the raster on which depths meet: a coarser one fattens what stands in front
     double line_deg = 2;            // lines of a gap are at most so far apart
     double widest_gap_deg = 45.01;  // wider ones stay without lines
 };

@@ -42,15 +42,17 @@ public:
     Status read(Progress* progress) {
         const int longest = std::max(set_.width, set_.height);
         const int reduction = (longest + options_.working_size_px - 1) / options_.working_size_px;
-        return for_each_in_parallel(
-            static_cast<int>(views_.size()), "pictures for depth", progress, [&](int n) -> Status {
-                const int v = ring_.views[static_cast<std::size_t>(n)];
-                const Result<Image<Rgba8>> picture = read_upright_picture(set_, v);
-                if (!picture) return picture.error();
-                const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
-                views_[static_cast<std::size_t>(n)].view = make_work_view(camera, *picture, reduction);
-                return {};
-            });
+        return for_each_in_parallel(static_cast<int>(views_.size()), "pictures for depth", progress,
+                                    [&](int n) -> Status {
+                                        const int v = ring_.views[static_cast<std::size_t>(n)];
+                                        const Result<Image<Rgba8>> picture = read_upright_picture(set_, v);
+                                        if (!picture) return picture.error();
+                                        const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
+                                        WorkView& view = views_[static_cast<std::size_t>(n)].view;
+                                        view = make_work_view(camera, *picture, reduction);
+                                        weaken_shading(view);
+                                        return {};
+                                    });
     }
 
     // The hull and the depths; the first kSampleViews evenly spread ones are kept for people. `rings` are those next
@@ -80,7 +82,7 @@ public:
     }
 
     [[nodiscard]] ShapeMap lines(int planes) const {
-        ShapeMap shape = make_shape_lines(views_, *outline_, options_.lines);
+        ShapeMap shape = make_shape_lines(views_, *hull_, options_.lines);
         for (const int v : ring_.views) {
             for (int k = 0; k < planes; ++k) {
                 const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
@@ -132,7 +134,6 @@ private:
             hull_ = std::make_unique<VisualHull>(all, margin_px_);
             if (margin_px_ >= options_.widest_hull_margin_px || agree(all, *hull_)) break;
         }
-        outline_ = std::make_unique<VisualHull>(all, margin_px_ - 1);
     }
 
     // The rings whose silhouettes this one's, with the margin that these need among themselves, do not contradict:
@@ -211,7 +212,6 @@ private:
     const ShapeOptions& options_;
     std::vector<DepthView> views_;
     std::unique_ptr<VisualHull> hull_;
-    std::unique_ptr<VisualHull> outline_;  // a pixel narrower
     int margin_px_ = 1;
 };
 

@@ -1,6 +1,8 @@
 #include "encode/raymap/work_view.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
 namespace rs::encode {
 namespace {
@@ -58,6 +60,48 @@ WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int
         }
     }
     return view;
+}
+
+void weaken_shading(WorkView& view) {
+    constexpr int kRadius_px = 4;
+    constexpr int kGrey = 128;
+    constexpr int kKept = 4;  // one part in so many of the mean's distance from grey
+    const int width = view.columns.width();
+    const int height = view.columns.height();
+    // Sums over all pixels above and to the left: of red, green and blue times alpha, and of alpha.
+    using Sums = std::array<std::int64_t, 4>;
+    Image<Sums> sums(width + 1, height + 1, Sums{});
+    for (int y = 0; y < height; ++y) {
+        Sums row{};
+        for (int x = 0; x < width; ++x) {
+            const Rgba8 c = view.columns(x, y);
+            const std::array<int, 4> weighted = {c.r * c.a, c.g * c.a, c.b * c.a, c.a};
+            for (std::size_t k = 0; k < row.size(); ++k) {
+                row[k] += weighted[k];
+                sums(x + 1, y + 1)[k] = sums(x + 1, y)[k] + row[k];
+            }
+        }
+    }
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            Rgba8& pixel = view.columns(x, y);
+            if (pixel.a == 0) continue;
+            const int left = std::max(x - kRadius_px, 0);
+            const int top = std::max(y - kRadius_px, 0);
+            const int right = std::min(x + kRadius_px + 1, width);
+            const int bottom = std::min(y + kRadius_px + 1, height);
+            const auto around = [&](std::size_t k) {
+                return sums(right, bottom)[k] - sums(left, bottom)[k] - sums(right, top)[k] + sums(left, top)[k];
+            };
+            const std::int64_t weight = around(3);  // at least this pixel's alpha
+            const auto weakened = [&](std::uint8_t value, std::size_t k) {
+                const std::int64_t mean = (around(k) + weight / 2) / weight;
+                const std::int64_t result = value - mean + kGrey + (mean - kGrey) / kKept;
+                return static_cast<std::uint8_t>(std::clamp<std::int64_t>(result, 0, 255));
+            };
+            pixel = {weakened(pixel.r, 0), weakened(pixel.g, 1), weakened(pixel.b, 2), pixel.a};
+        }
+    }
 }
 
 }  // namespace rs::encode

@@ -50,4 +50,8 @@ struct WorkView {
 // (colour weighted by alpha); what is left over at the right and lower edges is dropped.
 WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int reduction);
 
+// Moves each pixel's mean colour of the object around it (9x9 pixels) towards grey, to a quarter of its contrast, and
+// keeps what differs from it: gloss and shading change from picture to picture, detail stays. Alpha is not changed.
+void weaken_shading(WorkView& view);
+
 }  // namespace rs::encode

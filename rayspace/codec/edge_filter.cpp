@@ -1,5 +1,7 @@
 #include "rayspace/codec/edge_filter.hpp"
 
+#include "rayspace/codec/part_syntax.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 

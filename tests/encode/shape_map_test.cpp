@@ -73,34 +73,6 @@ double psnr_of(const BuiltObject& built, const std::filesystem::path& truth) {
     return comparison->mean_psnr_db;
 }
 
-TEST(WorkView, PixelsGoToPointsAndBack) {
-    const Rig rig = ring(7, 11);
-    const std::vector<WorkView> views = drawn_views(rig);
-    for (const WorkView& view : views) {
-        for (const double column : {3.5, 64.5, 120.5}) {
-            const HorizontalRay ray = view.ray_of(column);
-            EXPECT_NEAR(glm::dot(ray.foot, ray.along), 0, 1e-12);
-            for (const double depth : {-0.8, 0.0, 0.7}) {
-                const SeenColumn seen = view.see(ray.foot + depth * ray.along);
-                EXPECT_NEAR(seen.column, column, 1e-9);
-                EXPECT_NEAR(seen.axial, (ray.to_foot + depth) / ray.horizontal_per_axial, 1e-12);
-                EXPECT_NEAR(view.row_of(view.height_of(17.25, seen.axial), seen.axial), 17.25, 1e-9);
-            }
-        }
-    }
-}
-
-TEST(WorkView, ReductionAveragesByAlpha) {
-    Image<Rgba8> picture(5, 4);
-    picture(0, 0) = {200, 100, 0, 255};
-    picture(1, 0) = {0, 0, 200, 85};
-    const WorkView view = make_work_view(ring(1).views[0].camera, picture, 2);
-    EXPECT_EQ(view.width, 2);
-    EXPECT_EQ(view.height, 2);
-    EXPECT_EQ(view.at(0, 0), (Rgba8{150, 75, 50, 85}));
-    EXPECT_EQ(view.at(1, 1), Rgba8{});
-}
-
 // The plain twin of heights_above: ask every silhouette about one point.
 bool is_allowed(const std::vector<WorkView>& views, const glm::dvec2& place, double y, int margin) {
     for (const WorkView& view : views) {
@@ -258,6 +230,11 @@ TEST(ShapeMap, BeatsThePlaneHalfwayAndKeepsCapturedPictures) {
     const BuiltObject plane = build(folder / "set", MapKind::kPlane);
     EXPECT_THAT(shape.warnings, IsEmpty());
     EXPECT_EQ(shape.depths.size(), 4U);
+    for (const ShapeCell& cell : shape.object.rings[0].shape.cells) {
+        if (cell.rays == 0) continue;
+        ASSERT_EQ(cell.rays, kFirstSeesLayer0 | kSecondSeesLayer0);  // one surface, which both pictures show
+        ASSERT_GE(cell.back, cell.depth[0]);
+    }
     const double shape_db = psnr_of(shape, folder / "halfway");
     EXPECT_GT(shape_db, psnr_of(plane, folder / "halfway") + 5);
     EXPECT_GT(shape_db, 24);
