@@ -91,9 +91,9 @@ private:
 ShapeCell cell_at_depth(float depth, double low, double step) {
     ShapeCell cell;
     if (std::isnan(depth)) return cell;
-    cell.depth =
+    cell.depth[0] =
         static_cast<std::uint8_t>(std::clamp(std::lround((static_cast<double>(depth) - low) / step), 0L, 255L));
-    cell.back = std::max<std::uint8_t>(cell.depth, 1);
+    cell.rays = kFirstSeesLayer0 | kSecondSeesLayer0;
     return cell;
 }
 
@@ -140,24 +140,25 @@ void heed_hull(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& v
     }
     for (int h = 0; h < grid.bands; ++h) {
         ShapeCell& cell = cells[h];
-        if (!cell.has_surface()) continue;
+        if (cell.rays == 0) continue;
         const std::uint8_t* const inside = within.data() + h * kDepths;
+        std::uint8_t& depth = cell.depth[0];
         for (int away = 0; away < kDepths; ++away) {
-            const int behind = cell.depth + away;
-            const int before = cell.depth - away;
+            const int behind = depth + away;
+            const int before = depth - away;
             if (behind < kDepths && inside[behind] != 0) {
-                cell.depth = static_cast<std::uint8_t>(behind);
+                depth = static_cast<std::uint8_t>(behind);
                 break;
             }
             if (before >= 0 && inside[before] != 0) {
-                cell.depth = static_cast<std::uint8_t>(before);
+                depth = static_cast<std::uint8_t>(before);
                 break;
             }
         }
         int last = kDepths - 1;
-        while (last > cell.depth && inside[last] == 0) --last;
+        while (last > depth && inside[last] == 0) --last;
         constexpr int kStride = 8;  // a coarse back is enough, and packs well
-        cell.back = static_cast<std::uint8_t>(std::max({last / kStride * kStride, static_cast<int>(cell.depth), 1}));
+        cell.back = static_cast<std::uint8_t>(std::max(last / kStride * kStride, static_cast<int>(depth)));
     }
 }
 
@@ -215,7 +216,6 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& 
     const double step = 2 * kHalfWidth / (kDepths - 1);
     map.depth_low_q20 = fixed_point(-kHalfWidth, 20);
     map.depth_step_q24 = fixed_point(step, 24);
-    map.jump = options.jump;
     grid.p_cells = map.p_cells;
     grid.bands = map.bands;
     grid.p_low = -kHalfWidth;
@@ -229,7 +229,7 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& 
         const double width_deg = degrees(gap_width(ring, n));
         const bool wide = ring.size() < 2 || width_deg > options.widest_gap_deg;
         const int count_of_gap =
-            wide ? 0 : std::clamp(static_cast<int>(std::ceil(width_deg / options.line_deg - 0.01)) - 1, 1, 1024);
+            wide ? 0 : std::clamp(static_cast<int>(std::ceil(width_deg / options.line_deg - 0.01)), 1, 1024);
         map.gaps.push_back({static_cast<std::uint16_t>(count_of_gap), lines});
         lines += static_cast<std::uint32_t>(count_of_gap);
     }

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cstring>
 
-#if 1
+#if HWY_TARGET == HWY_SCALAR
 
 HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
@@ -230,7 +230,7 @@ bool can_walk_shape() {
 
 void walk_shape(const ShapeWalk& walk, const ShapeStrip& strip, const std::int32_t* rise_q24, int rows, int columns,
                 const ShapeWalkOutput& out) {
-    static_assert(sizeof(Rgba8) == sizeof(std::int32_t));
+    static_assert(sizeof(Rgba8) == sizeof(std::int32_t) && sizeof(ShapeCell) == sizeof(std::int32_t));
     const auto width = static_cast<std::size_t>(columns);
     if (strip.empty) {
         for (int j = 0; j < rows; ++j) {
