@@ -4,6 +4,7 @@
 #include "encode/raymap/fixed_point.hpp"
 #include "encode/raymap/semi_global.hpp"
 #include "rayspace/conventions.hpp"
+#include "rayspace/median.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -87,22 +88,14 @@ private:
     Image<float> depth_;  // (h, p)
 };
 
-// One surface, which both pictures show.
-ShapeCell cell_at_depth(float depth, double low, double step) {
+// One surface, which both pictures show: the median of the depths that they found.
+ShapeCell make_cell(const std::vector<float>& found, double low, double step) {
     ShapeCell cell;
-    if (std::isnan(depth)) return cell;
-    cell.depth[0] =
-        static_cast<std::uint8_t>(std::clamp(std::lround((static_cast<double>(depth) - low) / step), 0L, 255L));
+    if (found.empty()) return cell;
+    const auto depth = static_cast<double>(median(found));
+    cell.depth[0] = static_cast<std::uint8_t>(std::clamp(std::lround((depth - low) / step), 0L, 255L));
     cell.rays = kFirstSeesLayer0 | kSecondSeesLayer0;
     return cell;
-}
-
-// Of the upper half the least; kNoDepth of nothing. Reorders.
-float median(std::vector<float>& values) {
-    if (values.empty()) return kNoDepth;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 // The ray of a line's viewpoint that passes the axis at distance p, seen from above.
@@ -117,10 +110,21 @@ HorizontalRay line_ray(const glm::dvec2& viewpoint, double p) {
     return ray;
 }
 
+// The depth nearest to `depth` that is inside, the farther one of two; `depth` where there is none.
+std::uint8_t nearest_inside(const std::uint8_t* inside, int depth) {
+    for (int away = 0; away < kDepths; ++away) {
+        for (const int d : {depth + away, depth - away}) {
+            if (d >= 0 && d < kDepths && inside[d] != 0) return static_cast<std::uint8_t>(d);
+        }
+    }
+    return static_cast<std::uint8_t>(depth);
+}
+
 // Moves surfaces that lie outside of the hull to the nearest place in it, and finds where the object ends behind them:
 // the last depth within the hull.
 void heed_hull(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
                ShapeCell* cells) {
+    if (std::all_of(cells, cells + grid.bands, [](const ShapeCell& cell) { return cell.rays == 0; })) return;
     const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
     const HorizontalRay ray = line_ray(viewpoint, p);
     const double rho = grid.rho(p);
@@ -143,18 +147,7 @@ void heed_hull(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& v
         if (cell.rays == 0) continue;
         const std::uint8_t* const inside = within.data() + h * kDepths;
         std::uint8_t& depth = cell.depth[0];
-        for (int away = 0; away < kDepths; ++away) {
-            const int behind = depth + away;
-            const int before = depth - away;
-            if (behind < kDepths && inside[behind] != 0) {
-                depth = static_cast<std::uint8_t>(behind);
-                break;
-            }
-            if (before >= 0 && inside[before] != 0) {
-                depth = static_cast<std::uint8_t>(before);
-                break;
-            }
-        }
+        depth = nearest_inside(inside, depth);
         int last = kDepths - 1;
         while (last > depth && inside[last] == 0) --last;
         constexpr int kStride = 8;  // a coarse back is enough, and packs well
@@ -257,7 +250,7 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& 
                             if (!std::isnan(from_second.at(x, y))) found.push_back(from_second.at(x, y));
                         }
                     }
-                    cells[p * map.bands + h] = cell_at_depth(median(found), -kHalfWidth, step);
+                    cells[p * map.bands + h] = make_cell(found, -kHalfWidth, step);
                 }
             }
             for (int p = 0; p < map.p_cells; ++p) heed_hull(grid, hull, viewpoint, p, step, cells + p * map.bands);
