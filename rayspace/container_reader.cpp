@@ -90,12 +90,16 @@ Status ContainerReader::Source::read_header(std::uint32_t& chunk_count, std::uin
     ByteReader header(*start);
     header.take(kMagic.size());
     const auto major = header.get<std::uint16_t>();
-    // Another major version may have another header, so nothing behind this field is looked at.
+    const auto minor = header.get<std::uint16_t>();  // a newer one adds nothing that may not be skipped
+    // Another major version may have another header, so nothing behind these fields is looked at.
     if (major > kVersionMajor) {
         return wrong("is written in format version " + std::to_string(major) + ", newer than the " +
                      std::to_string(kVersionMajor) + " that is read here; update these tools");
     }
-    header.get<std::uint16_t>();  // minor: a newer one adds nothing that may not be skipped
+    if (major == 1) {
+        return wrong("is written in format 1." + std::to_string(minor) +
+                     ", which is read no more; encode its set anew with these tools (rs-encode build)");
+    }
     chunk_count = header.get<std::uint32_t>();
     const auto table_offset = header.get<std::uint64_t>();
     const auto stated_size = header.get<std::uint64_t>();

@@ -12,18 +12,16 @@
 namespace rs::object_chunks {
 namespace {
 
-using shape_coding::Depth;
 using shape_coding::kDepths;
 using Plane = std::vector<std::uint8_t>;
 
 constexpr std::uint8_t kZstdCoding = 0;
-constexpr std::size_t kReserved_bytes = 3;
-constexpr std::size_t kFixed_bytes = 64;
+constexpr std::size_t kReserved_bytes = 2;
+constexpr std::size_t kFixed_bytes = 56;
 constexpr std::size_t kNormalLine_bytes = 16;
 
-constexpr const char* kRaysName = "its rays";
-constexpr std::array<const char*, kDepths.size()> kDepthNames = {"its depths of layer 0", "its depths of layer 1",
-                                                                 "its backs"};
+constexpr const char* kSurfacesName = "its surfaces";
+constexpr std::array<const char*, kDepths.size()> kDepthNames = {"its depths", "its backs"};
 
 void put_numbers(const ShapeMap& shape, ByteWriter& out) {
     out.put(static_cast<std::uint16_t>(shape.p_cells));
@@ -71,10 +69,9 @@ Status check_counts(const CodedShapeCells& coded) {
         return Error{"has " + std::to_string(coded.cells) + " cells; at most " + std::to_string(kMaxShapeCells) +
                      " are possible"};
     }
-    const auto& [layer0, layer1, back] = coded.cells_with;
-    if (layer0 > coded.cells || layer1 > layer0) {
-        return Error{"claims " + std::to_string(layer0) + " cells with layer 0 and " + std::to_string(layer1) +
-                     " with layer 1 among " + std::to_string(coded.cells)};
+    if (coded.surfaces > coded.cells) {
+        return Error{"claims " + std::to_string(coded.surfaces) + " cells with a surface among " +
+                     std::to_string(coded.cells)};
     }
     return {};
 }
@@ -84,19 +81,18 @@ Status check_counts(const CodedShapeCells& coded) {
 Payload shape_payload(const Ring& ring) {
     const ShapeMap& shape = ring.shape;
     RS_CHECK(!shape.empty());
-    const Payload rays = zstd_frame(shape_coding::rays_plane(shape));
+    const Payload surfaces = zstd_frame(shape_coding::surface_plane(shape));
     std::array<Payload, kDepths.size()> depths;
     for (std::size_t i = 0; i < kDepths.size(); ++i) {
         depths[i] = zstd_frame(shape_coding::residual_plane(shape, kDepths[i]));
     }
     ByteWriter out;
     out.put(kZstdCoding);
+    out.put(static_cast<std::uint8_t>(shape.jump));
     out.put_zeros(kReserved_bytes);
     put_numbers(shape, out);
-    for (const Depth depth : {Depth::kLayer0, Depth::kLayer1}) {
-        out.put(static_cast<std::uint32_t>(shape_coding::cells_with(shape, depth)));
-    }
-    out.put(static_cast<std::uint32_t>(rays.size()));
+    out.put(static_cast<std::uint32_t>(shape_coding::surfaces_of(shape)));
+    out.put(static_cast<std::uint32_t>(surfaces.size()));
     for (const Payload& frame : depths) out.put(static_cast<std::uint32_t>(frame.size()));
     for (const ShapeGap& gap : shape.gaps) out.put(gap.lines);
     for (const NormalLine& line : shape.normal_lines) {
@@ -105,7 +101,7 @@ Payload shape_payload(const Ring& ring) {
         out.put(line.a_q20);
         out.put(line.c_q20);
     }
-    out.put(std::span<const std::byte>(rays));
+    out.put(std::span<const std::byte>(surfaces));
     for (const Payload& frame : depths) out.put(std::span<const std::byte>(frame));
     return out.bytes();
 }
@@ -118,13 +114,12 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
     if (coding != kZstdCoding) {
         return Error{"has shape coding " + std::to_string(coding) + ", which is not known here; update these tools"};
     }
+    shape.jump = in.get<std::uint8_t>();
     const bool is_reserved_zero = in.take_zeros(kReserved_bytes);
     get_numbers(in, shape);
     CodedShapeCells coded;
-    const auto layer0_cells = in.get<std::uint32_t>();
-    const auto layer1_cells = in.get<std::uint32_t>();
-    coded.cells_with = {layer0_cells, layer1_cells, layer0_cells};
-    const auto rays_bytes = in.get<std::uint32_t>();
+    coded.surfaces = in.get<std::uint32_t>();
+    const auto surface_bytes = in.get<std::uint32_t>();
     std::array<std::uint32_t, kDepths.size()> depths_bytes{};
     for (std::uint32_t& bytes : depths_bytes) bytes = in.get<std::uint32_t>();
     if (!in.ok()) return Error{"is too short"};
@@ -137,7 +132,7 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
 
     const std::size_t normal_lines = ring.views.size() * static_cast<std::size_t>(ring.planes);
     const std::uint64_t expected_bytes = kFixed_bytes + ring.views.size() * sizeof(std::uint16_t) +
-                                         normal_lines * kNormalLine_bytes + rays_bytes +
+                                         normal_lines * kNormalLine_bytes + surface_bytes +
                                          std::accumulate(depths_bytes.begin(), depths_bytes.end(), std::uint64_t{0});
     if (payload.size() != expected_bytes) {
         return Error{"is " + std::to_string(payload.size()) + " bytes long instead of " +
@@ -155,12 +150,14 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
     }
     coded.cells = *lines * static_cast<std::uint64_t>(shape.p_cells) * static_cast<std::uint64_t>(shape.bands);
     if (Status status = check_counts(coded); !status) return status.error();
-    coded.rays = in.take(rays_bytes);
-    const std::uint64_t rays_plane_bytes = shape_coding::rays_plane_bytes(coded.cells);
-    if (Status status = check_zstd_frame(coded.rays, rays_plane_bytes, kRaysName); !status) return status.error();
+    coded.surface_bits = in.take(surface_bytes);
+    const std::uint64_t plane_bytes = shape_coding::surface_plane_bytes(coded.cells);
+    if (Status status = check_zstd_frame(coded.surface_bits, plane_bytes, kSurfacesName); !status) {
+        return status.error();
+    }
     for (std::size_t i = 0; i < kDepths.size(); ++i) {
         coded.depths[i] = in.take(depths_bytes[i]);
-        const Status status = check_zstd_frame(coded.depths[i], coded.cells_with[i], kDepthNames[i]);
+        const Status status = check_zstd_frame(coded.depths[i], coded.surfaces, kDepthNames[i]);
         if (!status) return status.error();
     }
     return coded;
@@ -169,19 +166,22 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
 Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
     shape.cells.assign(static_cast<std::size_t>(coded.cells), ShapeCell{});
     Plane plane;  // one at a time
-    const std::uint64_t rays_plane_bytes = shape_coding::rays_plane_bytes(shape.cells.size());
-    if (Status status = expand_zstd_frame(coded.rays, rays_plane_bytes, kRaysName, plane); !status) return status;
-    if (Status status = shape_coding::put_rays(plane, shape); !status) return status;
+    const std::uint64_t plane_bytes = shape_coding::surface_plane_bytes(shape.cells.size());
+    if (Status status = expand_zstd_frame(coded.surface_bits, plane_bytes, kSurfacesName, plane); !status) {
+        return status;
+    }
+    if (Status status = shape_coding::put_surfaces(plane, shape); !status) return status;
+    const std::uint64_t found = shape_coding::surfaces_of(shape);
+    if (found != coded.surfaces) {
+        return Error{"claims " + std::to_string(coded.surfaces) + " cells with a surface, but its bits show " +
+                     std::to_string(found)};
+    }
     for (std::size_t i = 0; i < kDepths.size(); ++i) {
-        const std::uint64_t cells = coded.cells_with[i];
-        const std::uint64_t found = shape_coding::cells_with(shape, kDepths[i]);
-        if (found != cells) {
-            return Error{"claims " + std::to_string(cells) + " cells with layer " + std::to_string(i) +
-                         ", but its rays show " + std::to_string(found)};
-        }
-        if (Status status = expand_zstd_frame(coded.depths[i], cells, kDepthNames[i], plane); !status) return status;
+        const Status status = expand_zstd_frame(coded.depths[i], coded.surfaces, kDepthNames[i], plane);
+        if (!status) return status;
         shape_coding::put_residuals(plane, kDepths[i], shape);
     }
+    if (shape_coding::surfaces_of(shape) != coded.surfaces) return Error{"has a cell with a surface whose back is 0"};
     return {};
 }
 

@@ -23,9 +23,9 @@ Payload shape_payload(const Ring& ring);
 // What parse_shape_head() leaves for parse_shape_cells(): the sizes were compared with each other and with the payload,
 // which must live on.
 struct CodedShapeCells {
-    std::uint64_t cells = 0;                                               // at most kMaxShapeCells
-    std::span<const std::byte> rays;                                       // compressed planes
-    std::array<std::uint64_t, shape_coding::kDepths.size()> cells_with{};  // cells that have the depth
+    std::uint64_t cells = 0;                  // at most kMaxShapeCells
+    std::uint64_t surfaces = 0;               // cells that have one
+    std::span<const std::byte> surface_bits;  // compressed planes
     std::array<std::span<const std::byte>, shape_coding::kDepths.size()> depths;
 };
 

@@ -8,19 +8,11 @@
 namespace rs::shape_coding {
 namespace {
 
-constexpr unsigned kBitsPerCell = 4;
-constexpr unsigned kCellMask = (1U << kBitsPerCell) - 1;
 constexpr int kNone = -1;
-
-bool has(const ShapeCell& cell, Depth depth) {
-    constexpr unsigned kLayer0 = kFirstSeesLayer0 | kSecondSeesLayer0;
-    constexpr unsigned kLayer1 = kFirstSeesLayer1 | kSecondSeesLayer1;
-    return (cell.rays & (depth == Depth::kLayer1 ? kLayer1 : kLayer0)) != 0;
-}
 
 template <class Cell>  // ShapeCell, const or not
 auto& depth_in(Cell& cell, Depth depth) {
-    return depth == Depth::kBack ? cell.back : cell.depth[depth == Depth::kLayer1 ? 1 : 0];
+    return depth == Depth::kBack ? cell.back : cell.depth;
 }
 
 // The depths around one cell of the map, by their distance from it in lines, in p and in bands; kNone: no such cell, or
@@ -51,7 +43,7 @@ public:
         if (line_ + line_step < 0 || p < 0 || p >= p_cells_ || band < 0 || band >= bands_) return kNone;
         const std::ptrdiff_t index = index_ + line_step * line_stride_ + std::ptrdiff_t{p_step} * bands_ + band_step;
         const ShapeCell& cell = shape_.cells[static_cast<std::size_t>(index)];
-        return has(cell, depth_) ? depth_in(cell, depth_) : kNone;
+        return cell.has_surface() ? depth_in(cell, depth_) : kNone;
     }
 
 private:
@@ -105,38 +97,38 @@ std::uint8_t predict(const Neighbourhood& around) {
 
 }  // namespace
 
-std::size_t cells_with(const ShapeMap& shape, Depth depth) {
-    return static_cast<std::size_t>(
-        std::count_if(shape.cells.begin(), shape.cells.end(), [&](const ShapeCell& cell) { return has(cell, depth); }));
+std::size_t surfaces_of(const ShapeMap& shape) {
+    return static_cast<std::size_t>(std::count_if(shape.cells.begin(), shape.cells.end(),
+                                                  [](const ShapeCell& cell) { return cell.has_surface(); }));
 }
 
-std::vector<std::uint8_t> rays_plane(const ShapeMap& shape) {
-    std::vector<std::uint8_t> plane(rays_plane_bytes(shape.cells.size()));
+std::vector<std::uint8_t> surface_plane(const ShapeMap& shape) {
+    std::vector<std::uint8_t> plane(surface_plane_bytes(shape.cells.size()));
     for (std::size_t i = 0; i < shape.cells.size(); ++i) {
-        const unsigned rays = shape.cells[i].rays & kCellMask;
-        plane[i / 2] = static_cast<std::uint8_t>(plane[i / 2] | rays << (i % 2 * kBitsPerCell));
+        const unsigned bit = shape.cells[i].has_surface() ? 1 : 0;
+        plane[i / 8] = static_cast<std::uint8_t>(plane[i / 8] | bit << (i % 8));
     }
     return plane;
 }
 
 std::vector<std::uint8_t> residual_plane(const ShapeMap& shape, Depth depth) {
     std::vector<std::uint8_t> plane;
-    plane.reserve(cells_with(shape, depth));
+    plane.reserve(surfaces_of(shape));
     Neighbourhood around(shape, depth);
     for (; around.index() < shape.cells.size(); around.go_to_next()) {
         const ShapeCell& cell = shape.cells[around.index()];
-        if (has(cell, depth)) plane.push_back(static_cast<std::uint8_t>(depth_in(cell, depth) - predict(around)));
+        if (cell.has_surface()) plane.push_back(static_cast<std::uint8_t>(depth_in(cell, depth) - predict(around)));
     }
     return plane;
 }
 
-Status put_rays(std::span<const std::uint8_t> plane, ShapeMap& shape) {
-    RS_CHECK(plane.size() == rays_plane_bytes(shape.cells.size()));
+Status put_surfaces(std::span<const std::uint8_t> plane, ShapeMap& shape) {
+    RS_CHECK(plane.size() == surface_plane_bytes(shape.cells.size()));
     for (std::size_t i = 0; i < shape.cells.size(); ++i) {
-        shape.cells[i].rays = static_cast<std::uint8_t>(plane[i / 2] >> (i % 2 * kBitsPerCell) & kCellMask);
+        shape.cells[i].back = static_cast<std::uint8_t>(plane[i / 8] >> (i % 8) & 1);
     }
-    if (shape.cells.size() % 2 != 0 && plane.back() >> kBitsPerCell != 0) {
-        return Error{"has ray bits behind its last cell"};
+    if (shape.cells.size() % 8 != 0 && plane.back() >> (shape.cells.size() % 8) != 0) {
+        return Error{"has bits behind its last cell"};
     }
     return {};
 }
@@ -146,7 +138,7 @@ void put_residuals(std::span<const std::uint8_t> plane, Depth depth, ShapeMap& s
     Neighbourhood around(shape, depth);
     for (; around.index() < shape.cells.size(); around.go_to_next()) {
         ShapeCell& cell = shape.cells[around.index()];
-        if (!has(cell, depth)) continue;
+        if (!cell.has_surface()) continue;
         RS_CHECK(taken < plane.size());
         depth_in(cell, depth) = static_cast<std::uint8_t>(predict(around) + plane[taken++]);
     }

@@ -1,9 +1,9 @@
 #pragma once
-// The RS map with height: which two captured rays answer a view ray, and at what depth they meet it.
+// The RS map with height: at what depth the two captured rays that answer a view ray meet it.
 //
 // The paper's RS map has one depth per object, the reference plane's. Here ray space gets its third dimension, height:
 // for every ray of a vertical plane (two numbers) and every band of height there is a cell that says how far along the
-// ray the surface is, and which of the two neighbouring pictures see it.
+// ray the surface is.
 //
 // A *gap* is the piece of ray space between two neighbouring views of a ring, `first` and `second` in turning order.
 // It is sampled along `lines`: line s of S lies at the fraction (s + 1/2) / S between the two captured lines. A ray of
@@ -17,35 +17,23 @@
 // h is that of a ray from the ring's own distance and height (`reference`); for a ray of another slope the engine
 // follows the surface to the reference ray that sees the same point (engine/RECONSTRUCTION.md).
 //
-// A cell holds up to two *layers*, two surfaces that rays of the cell may meet. The engine takes, pixel by pixel, the
-// one at which the two captured rays agree. depth d means depth_low + d * depth_step along the ray from the foot,
-// away from the viewer.
+// A cell holds one surface, which both pictures show: depth d means depth_low + d * depth_step along the ray from the
+// foot, away from the viewer. Cells are samples at their middles: between neighbouring cells, in p, in height and from
+// line to line, the engine interpolates where their depths differ by at most `jump`.
 //
 // Lengths are in object radii; everything is integer. Stored as in encode/FORMAT.md, chunk `shap`.
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 namespace rs {
 
-// Bits of ShapeCell::rays: which captured picture sees which layer. Layer 1 without a bit does not exist; where layer 1
-// exists so does layer 0.
-enum ShapeRays : std::uint8_t {
-    kFirstSeesLayer0 = 1,
-    kSecondSeesLayer0 = 2,
-    kFirstSeesLayer1 = 4,
-    kSecondSeesLayer1 = 8,
-};
-
 struct ShapeCell {
-    std::uint8_t depth[2] = {0, 0};
-    std::uint8_t back = 0;  // where the object ends behind its nearest layer, as far as silhouettes tell
-    std::uint8_t rays = 0;  // ShapeRays bits; 0 = no surface
+    std::uint8_t depth = 0;
+    std::uint8_t back = 0;  // where the object ends behind the surface, as far as silhouettes tell: at least depth
 
-    [[nodiscard]] bool has_layer1() const { return (rays & (kFirstSeesLayer1 | kSecondSeesLayer1)) != 0; }
-    // Depth of the nearest layer; rays is not 0.
-    [[nodiscard]] int nearest() const { return has_layer1() ? std::min(depth[0], depth[1]) : depth[0]; }
+    // An empty cell is all 0; of one with a surface `back` is not.
+    [[nodiscard]] bool has_surface() const { return back != 0; }
 
     bool operator==(const ShapeCell&) const = default;
 };
@@ -79,6 +67,7 @@ struct ShapeMap {
     std::int32_t reference_height_q20 = 0;
     std::int32_t depth_low_q20 = 0;
     std::int32_t depth_step_q24 = 0;
+    int jump = 0;                          // 1..255, depth steps
     std::vector<ShapeGap> gaps;            // [n], one per view of the ring
     std::vector<NormalLine> normal_lines;  // [n * planes + k]
     std::vector<ShapeCell> cells;

@@ -14,8 +14,6 @@ namespace {
 
 constexpr std::int32_t kMaxBandsPerUnit_q12 = 1 << 26;
 constexpr std::int32_t kMaxDepthStep_q24 = 1 << 18;
-constexpr unsigned kLayer0 = kFirstSeesLayer0 | kSecondSeesLayer0;
-constexpr unsigned kLayer1 = kFirstSeesLayer1 | kSecondSeesLayer1;
 
 bool is_within(std::int32_t number, std::int64_t lowest, std::int64_t highest) {
     return number >= lowest && number <= highest;
@@ -47,6 +45,7 @@ Status check_numbers(const ShapeMap& shape) {
     if (!is_within(shape.depth_step_q24, 1, kMaxDepthStep_q24)) {
         return Error{"its depth step is not between 0 and 1/64"};
     }
+    if (!is_within(shape.jump, 1, 255)) return Error{"its jump is not between 1 and 255 depth steps"};
     return {};
 }
 
@@ -85,13 +84,8 @@ Status check_gaps(const Ring& ring) {
 
 // What does not exist is 0, so that equal maps are equal in memory and the file need not hold it.
 Status check_cell(const ShapeCell& cell) {
-    if ((cell.rays & ~(kLayer0 | kLayer1)) != 0) return Error{"has unknown ray bits"};
-    const bool has_layer0 = (cell.rays & kLayer0) != 0;
-    const bool has_layer1 = (cell.rays & kLayer1) != 0;
-    if (has_layer1 && !has_layer0) return Error{"has layer 1 without layer 0"};
-    if ((!has_layer0 && (cell.depth[0] != 0 || cell.back != 0)) || (!has_layer1 && cell.depth[1] != 0)) {
-        return Error{"has a depth for a layer that does not exist"};
-    }
+    if (!cell.has_surface() && cell.depth != 0) return Error{"has a depth and no surface"};
+    if (cell.back < cell.depth) return Error{"has its back in front of its surface"};
     return {};
 }
 

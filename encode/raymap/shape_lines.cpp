@@ -93,8 +93,8 @@ ShapeCell make_cell(const std::vector<float>& found, double low, double step) {
     ShapeCell cell;
     if (found.empty()) return cell;
     const auto depth = static_cast<double>(median(found));
-    cell.depth[0] = static_cast<std::uint8_t>(std::clamp(std::lround((depth - low) / step), 0L, 255L));
-    cell.rays = kFirstSeesLayer0 | kSecondSeesLayer0;
+    cell.depth = static_cast<std::uint8_t>(std::clamp(std::lround((depth - low) / step), 0L, 255L));
+    cell.back = std::max<std::uint8_t>(cell.depth, 1);
     return cell;
 }
 
@@ -124,7 +124,7 @@ std::uint8_t nearest_inside(const std::uint8_t* inside, int depth) {
 // the last depth within the hull.
 void heed_hull(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
                ShapeCell* cells) {
-    if (std::all_of(cells, cells + grid.bands, [](const ShapeCell& cell) { return cell.rays == 0; })) return;
+    if (std::all_of(cells, cells + grid.bands, [](const ShapeCell& cell) { return !cell.has_surface(); })) return;
     const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
     const HorizontalRay ray = line_ray(viewpoint, p);
     const double rho = grid.rho(p);
@@ -144,14 +144,13 @@ void heed_hull(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& v
     }
     for (int h = 0; h < grid.bands; ++h) {
         ShapeCell& cell = cells[h];
-        if (cell.rays == 0) continue;
+        if (!cell.has_surface()) continue;
         const std::uint8_t* const inside = within.data() + h * kDepths;
-        std::uint8_t& depth = cell.depth[0];
-        depth = nearest_inside(inside, depth);
+        cell.depth = nearest_inside(inside, cell.depth);
         int last = kDepths - 1;
-        while (last > depth && inside[last] == 0) --last;
+        while (last > cell.depth && inside[last] == 0) --last;
         constexpr int kStride = 8;  // a coarse back is enough, and packs well
-        cell.back = static_cast<std::uint8_t>(std::max(last / kStride * kStride, static_cast<int>(depth)));
+        cell.back = static_cast<std::uint8_t>(std::max({last / kStride * kStride, static_cast<int>(cell.depth), 1}));
     }
 }
 
@@ -209,6 +208,7 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& 
     const double step = 2 * kHalfWidth / (kDepths - 1);
     map.depth_low_q20 = fixed_point(-kHalfWidth, 20);
     map.depth_step_q24 = fixed_point(step, 24);
+    map.jump = options.jump;
     grid.p_cells = map.p_cells;
     grid.bands = map.bands;
     grid.p_low = -kHalfWidth;
@@ -222,7 +222,7 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& 
         const double width_deg = degrees(gap_width(ring, n));
         const bool wide = ring.size() < 2 || width_deg > options.widest_gap_deg;
         const int count_of_gap =
-            wide ? 0 : std::clamp(static_cast<int>(std::ceil(width_deg / options.line_deg - 0.01)), 1, 1024);
+            wide ? 0 : std::clamp(static_cast<int>(std::ceil(width_deg / options.line_deg - 0.01)) - 1, 1, 1024);
         map.gaps.push_back({static_cast<std::uint16_t>(count_of_gap), lines});
         lines += static_cast<std::uint32_t>(count_of_gap);
     }

@@ -19,9 +19,11 @@ struct DepthView {
 };
 
 struct ShapeLinesOptions {
-    double cell_px = 3.2;           // side of a cell in pixels of the working pictures
-    double raster_px = 0.8;         // of the raster on which depths meet: a coarser one fattens what stands in front
-    double line_deg = 2;            // lines of a gap are at most so far apart
+    double cell_px = 3.2;  // side of a cell in pixels of the working pictures
+    double raster_px =
+        0.8;              // of the raster on which pictures' depths meet: finer ones fatten what stands in front less
+    double line_deg = 2;  // a gap of n times that has n - 1 lines, rounded up, and one at least
+    int jump = 24;        // depth steps between neighbouring cells that are still one surface, 1..255
     double widest_gap_deg = 45.01;  // wider ones stay without lines
 };
 

@@ -1,7 +1,8 @@
 #pragma once
-// Section 6 of engine/RECONSTRUCTION.md: which cells of a shape map a view ray meets.
+// Section 6 of engine/RECONSTRUCTION.md: which surfaces of a shape map a view ray meets.
 
 #include "engine/core/fixed_point.hpp"
+#include "engine/core/shape_cells.hpp"
 #include "engine/core/shape_setup.hpp"
 #include "rayspace/shape_map.hpp"
 
@@ -12,8 +13,8 @@
 namespace rs::engine {
 
 // A ray with the slope of the reference viewpoint's stays in one band. Any other passes from band to band, linearly in
-// depth: band = zero + d * per_depth. It is followed away from the viewer in steps of half a band, and gives the cells
-// whose object, between nearest layer and back, it meets, one after the other; at the end the one that a ray of
+// depth: band = zero + d * per_depth. It is followed away from the viewer in steps of half a band, and gives the
+// surfaces whose object, between surface and back, it meets, one after the other; at the end the one that a ray of
 // reference slope would meet.
 class CellMarch {
 public:
@@ -21,7 +22,7 @@ public:
     static constexpr std::int32_t kMostPerDepth_q20 = 1 << 22;
 
     CellMarch(const ShapeMap& shape, const ShapeSetup& setup, std::int32_t b_q20, std::int32_t rise_q24)
-        : cells_(setup.cells), bands_(shape.bands) {
+        : cells_(setup.cells), bands_(shape.bands), jump_(shape.jump) {
         const std::int32_t h_q16 = (b_q20 >> 4) + multiply_shift(setup.lambda_foot_q20, rise_q24, 28);
         const std::int32_t slope_q20 = multiply_shift(rise_q24, setup.inverse_r_q20, 24);
         const std::int32_t reference_q20 =
@@ -36,33 +37,44 @@ public:
         if (steps == 1) begin_ = 256;
     }
 
-    // The next cell; one without rays at the end.
-    ShapeCell next() {
+    // The next surface; none at the end.
+    SurfaceCell next() {
         while (begin_ < 256) {
             const int begin = begin_;
             begin_ += step_;
-            ShapeCell cell = cell_at(band_q12(begin + step_ / 2));
-            if (cell.rays == 0 || cell.nearest() > begin_ || cell.back < begin) continue;
-            for (std::uint8_t& d : cell.depth) d = static_cast<std::uint8_t>(std::max<int>(d, begin));
+            SurfaceCell cell = surface_at(band_q12(begin + step_ / 2));
+            if (!cell.exists() || cell.depth_q3 > 8 * begin_ || cell.back < begin) continue;
+            cell.depth_q3 = std::max(cell.depth_q3, 8 * begin);
             return cell;
         }
         if (ended_) return {};
         ended_ = true;
-        const ShapeCell cell = cell_at(foot_q12_);
-        if (cell.rays == 0) return cell;
-        const ShapeCell there = cell_at(band_q12(cell.depth[0]));
-        return there.rays == 0 ? cell : there;
+        const SurfaceCell cell = surface_at(foot_q12_);
+        if (!cell.exists()) return cell;
+        const SurfaceCell there = surface_at(band_q12(cell.depth_q3 >> 3));
+        return there.exists() ? there : cell;
     }
 
 private:
-    [[nodiscard]] ShapeCell cell_at(std::int32_t at_q12) const {
-        const std::int32_t band = at_q12 >> 12;
-        return band >= 0 && band < bands_ ? cells_[band] : ShapeCell{};
+    // Cells are samples at the middles of their bands.
+    [[nodiscard]] SurfaceCell surface_at(std::int32_t at_q12) const {
+        const std::int32_t from_middle_q12 = at_q12 - (1 << 11);
+        const std::int32_t band = from_middle_q12 >> 12;
+        SurfaceCell around[2][2];
+        for (int p = 0; p < 2; ++p) {
+            for (int h = 0; h < 2; ++h) {
+                if (band + h < 0 || band + h >= bands_) continue;
+                around[p][h] =
+                    between_lines(cells_.at[p][0][band + h], cells_.at[p][1][band + h], cells_.line_part, jump_);
+            }
+        }
+        return between_cells(around, cells_.p_part, (from_middle_q12 >> 9) & 7, jump_);
     }
     [[nodiscard]] std::int32_t band_q12(int d) const { return zero_q12_ + ((d * per_depth_q20_) >> 8); }
 
-    const ShapeCell* cells_;
+    const CellColumns& cells_;
     int bands_;
+    int jump_;
     std::int32_t foot_q12_ = 0;
     std::int32_t zero_q12_ = 0;
     std::int32_t per_depth_q20_ = 0;

@@ -7,18 +7,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
 
-// ShapeCell, field by field.
-struct CellLanes {
-    Vector depth0;
-    Vector depth1;
-    Vector back;
-    Vector rays;
-};
-
-HWY_INLINE LaneMask has_bits(Vector v, std::int32_t bits) {
-    return hn::Ne(hn::And(v, number(bits)), hn::Zero(Lanes()));
-}
-
 HWY_INLINE LaneMask none() {
     return hn::Lt(hn::Zero(Lanes()), hn::Zero(Lanes()));
 }
@@ -28,18 +16,62 @@ HWY_INLINE LaneMask within(Vector v, Vector limit) {
     return hn::And(hn::Gt(limit, v), at_least(v, hn::Zero(Lanes())));
 }
 
-HWY_INLINE CellLanes choose(LaneMask mask, const CellLanes& yes, const CellLanes& no) {
-    return {hn::IfThenElse(mask, yes.depth0, no.depth0), hn::IfThenElse(mask, yes.depth1, no.depth1),
-            hn::IfThenElse(mask, yes.back, no.back), hn::IfThenElse(mask, yes.rays, no.rays)};
+HWY_INLINE LaneMask is_surface(Vector depth_q3) {
+    return at_least(depth_q3, hn::Zero(Lanes()));
 }
 
-// CellMarch of shape_pixel.hpp for the lanes of one view row. Lanes march each at its own step until each has a cell.
+// between_cells() of four depths [p][band], -1 where there is nothing; -1 where the answer is nothing. Their backs are
+// known beforehand.
+HWY_INLINE Vector between_steps(const Vector (&depth)[2][2], Vector p_part, Vector h_part, int jump) {
+    const Vector zero = hn::Zero(Lanes());
+    Vector nearest = number(1 << 12);
+    Vector farthest = number(-1);
+    for (const auto& column : depth) {
+        for (const Vector d : column) {
+            nearest = hn::Min(nearest, hn::IfThenElse(is_surface(d), d, nearest));
+            farthest = hn::Max(farthest, d);
+        }
+    }
+    const LaneMask steps = hn::Gt(hn::Sub(farthest, nearest), number(8 * jump));
+    const Vector twice_middle = hn::IfThenElse(steps, hn::Add(nearest, farthest), number(1 << 13));
+    const Vector p_h = hn::Mul(p_part, h_part);
+    const Vector of_p = hn::Sub(hn::ShiftLeft<3>(p_part), p_h);  // p 1, the lower band
+    const Vector of_h = hn::Sub(hn::ShiftLeft<3>(h_part), p_h);  // p 0, the upper band
+    const Vector of_neither = hn::Sub(hn::Sub(number(64), p_h), hn::Add(of_p, of_h));
+    const Vector weights[2][2] = {{of_neither, of_h}, {of_p, p_h}};
+    Vector weight[2] = {zero, zero};  // of the nearer group, of the farther one
+    Vector sum[2] = {zero, zero};
+    for (int p = 0; p < 2; ++p) {
+        for (int h = 0; h < 2; ++h) {
+            const Vector d = depth[p][h];
+            const LaneMask farther = hn::Gt(hn::Add(d, d), twice_middle);
+            const Vector part = hn::IfThenElseZero(is_surface(d), weights[p][h]);
+            const Vector parts[2] = {hn::IfThenZeroElse(farther, part), hn::IfThenElseZero(farther, part)};
+            for (int group = 0; group < 2; ++group) {
+                weight[group] = hn::Add(weight[group], parts[group]);
+                sum[group] = hn::Add(sum[group], hn::Mul(parts[group], d));
+            }
+        }
+    }
+    const LaneMask nearer = at_least(weight[0], weight[1]);
+    const Vector divisor = hn::IfThenElse(nearer, weight[0], weight[1]);
+    const Vector dividend = hn::Add(hn::IfThenElse(nearer, sum[0], sum[1]), hn::ShiftRight<1>(divisor));
+    // Below 2^18 by at most 64: a float quotient that is no whole number keeps clear of them.
+    const Floats floats;
+    const Vector quotient = hn::ConvertTo(
+        Lanes(), hn::Div(hn::ConvertTo(floats, dividend), hn::ConvertTo(floats, hn::Max(divisor, number(1)))));
+    return hn::IfThenElse(hn::Gt(divisor, zero), quotient, number(-1));
+}
+
+// CellMarch for the lanes of one view row. Lanes march each at its own step until each has a surface.
 class MarchLanes {
 public:
     HWY_INLINE MarchLanes(const ShapeWalk& walk, const ShapeStrip& strip, int lane, Vector rise)
-        : cells_(reinterpret_cast<const std::int32_t*>(walk.cells)),
-          start_(hn::Load(Lanes(), strip.cell_start + lane)),
-          bands_(hn::Load(Lanes(), strip.bands + lane)),
+        : entries_(strip.entries),
+          jump_(walk.jump),
+          start_(hn::Load(Lanes(), strip.entry_start + lane)),
+          last_(hn::Load(Lanes(), strip.last_entry + lane)),
+          p_part_(hn::Load(Lanes(), strip.p_part + lane)),
           beyond_(hn::Load(Lanes(), strip.beyond + lane)) {
         const Vector per_unit = number(walk.bands_per_unit_q12);
         const Vector h = hn::Add(number(walk.b_q16),
@@ -48,8 +80,9 @@ public:
         const Vector reference = multiply_shift<16>(hn::Sub(h, number(walk.reference_height_q16)),
                                                     hn::Load(Lanes(), strip.inverse_rho_q20 + lane));
         const Vector per_radius = multiply_shift<12>(hn::Sub(slope, reference), per_unit);
+        // Counted from the middle of the first entry's band.
         foot_ = hn::Sub(multiply_shift<16>(hn::Sub(h, number(walk.h_low_q16)), per_unit),
-                        hn::ShiftLeft<12>(hn::Load(Lanes(), strip.low_band + lane)));
+                        hn::Load(Lanes(), strip.first_middle_q12 + lane));
         zero_ = hn::Add(foot_, multiply_shift_within<28>(per_radius, number(walk.depth_low_q20)));
         per_depth_ = multiply_shift_within<24>(per_radius, number(walk.depth_step_q24));
         per_depth_ =
@@ -63,7 +96,7 @@ public:
         // Whole numbers by float division: the halves keep the quotients clear of them.
         const Floats floats;
         step_ = hn::ConvertTo(Lanes(), hn::Div(hn::Set(floats, 256.5F), hn::ConvertTo(floats, steps)));
-        // The first step that reaches the nearest layer, (nearest - 1) / step; those before it can meet no cell.
+        // The first step that reaches the nearest surface, (nearest - 1) / step; those before it can meet none.
         const auto before =
             hn::Sub(hn::ConvertTo(floats, hn::Load(Lanes(), strip.nearest + lane)), hn::Set(floats, 0.5F));
         const Vector first = hn::ConvertTo(Lanes(), hn::Div(before, hn::ConvertTo(floats, step_)));
@@ -72,62 +105,83 @@ public:
         const Vector from = band(begin);
         const Vector to = band(hn::Add(beyond_, step_));
         const LaneMask below = hn::Lt(hn::Max(from, to), hn::Zero(Lanes()));
-        const LaneMask above = at_least(hn::Min(from, to), hn::ShiftLeft<12>(bands_));
+        const LaneMask above = at_least(hn::Min(from, to), hn::ShiftLeft<12>(last_));
         begin_ = hn::IfThenElse(hn::Or(one, hn::Or(below, above)), number(256), begin);
     }
 
-    // Of the lanes `looking`; others get any cell.
-    HWY_INLINE CellLanes next(LaneMask looking) {
-        CellLanes found{hn::Zero(Lanes()), hn::Zero(Lanes()), hn::Zero(Lanes()), hn::Zero(Lanes())};
-        const LaneMask ended = looking;
+    // Depths of the lanes `looking`, -1 where there is nothing; others get any.
+    HWY_INLINE Vector next(LaneMask looking) {
+        Vector found = number(-1);
         LaneMask marching = hn::And(looking, hn::Lt(begin_, beyond_));
         while (!hn::AllFalse(Lanes(), marching)) {
             const Vector begin = begin_;
             const Vector end = hn::Add(begin, step_);
-            CellLanes cell = cell_at(band(hn::Add(begin, hn::ShiftRight<1>(step_))), marching);
-            const Vector nearest = hn::IfThenElse(has_bits(cell.rays, kFirstSeesLayer1 | kSecondSeesLayer1),
-                                                  hn::Min(cell.depth0, cell.depth1), cell.depth0);
-            const LaneMask hit = hn::And(hn::And(hn::Ne(cell.rays, hn::Zero(Lanes())), at_least(end, nearest)),
-                                         hn::And(at_least(cell.back, begin), marching));
-            cell.depth0 = hn::Max(cell.depth0, begin);
-            cell.depth1 = hn::Max(cell.depth1, begin);
-            found = choose(hit, cell, found);
-            begin_ = hn::IfThenElse(marching, end, begin);
-            marching = hn::AndNot(hit, hn::And(marching, hn::Lt(end, beyond_)));
+            const Vector at = band(hn::Add(begin, hn::ShiftRight<1>(step_)));
+            const Vector depth = surface_at(at, marching);
+            const LaneMask reached = hn::And(is_surface(depth), at_least(hn::ShiftLeft<3>(end), depth));
+            const LaneMask in_reach = hn::And(reached, marching);
+            if (!hn::AllFalse(Lanes(), in_reach)) {
+                const Vector back = hn::GatherIndex(Lanes(), entries_.backs.data(), entry_at(at));
+                const LaneMask hit = hn::And(in_reach, at_least(back, begin));
+                found = hn::IfThenElse(hit, hn::Max(depth, hn::ShiftLeft<3>(begin)), found);
+                begin_ = hn::IfThenElse(marching, end, begin);
+                marching = hn::AndNot(hit, hn::And(marching, hn::Lt(end, beyond_)));
+            } else {
+                begin_ = hn::IfThenElse(marching, end, begin);
+                marching = hn::And(marching, hn::Lt(end, beyond_));
+            }
         }
-        const LaneMask last = hn::And(ended, hn::AndNot(ended_, hn::Eq(found.rays, hn::Zero(Lanes()))));
+        const LaneMask last = hn::And(looking, hn::AndNot(ended_, hn::Not(is_surface(found))));
         if (hn::AllFalse(Lanes(), last)) return found;
         ended_ = hn::Or(ended_, last);
-        CellLanes cell = cell_at(foot_, last);
-        const Vector there_at = band(cell.depth0);
-        const LaneMask elsewhere = hn::AndNot(hn::Eq(hn::ShiftRight<12>(there_at), hn::ShiftRight<12>(foot_)),
-                                              hn::Ne(cell.rays, hn::Zero(Lanes())));
+        Vector depth = surface_at(foot_, last);
+        const Vector there_at = band(hn::ShiftRight<3>(depth));
+        const LaneMask elsewhere = hn::AndNot(hn::Eq(hn::ShiftRight<9>(there_at), hn::ShiftRight<9>(foot_)),
+                                              hn::And(last, is_surface(depth)));
         if (!hn::AllFalse(Lanes(), elsewhere)) {
-            const CellLanes there = cell_at(there_at, elsewhere);
-            cell = choose(hn::Ne(there.rays, hn::Zero(Lanes())), there, cell);
+            const Vector there = surface_at(there_at, elsewhere);
+            depth = hn::IfThenElse(hn::And(elsewhere, is_surface(there)), there, depth);
         }
-        return choose(last, cell, found);
+        return hn::IfThenElse(last, depth, found);
     }
 
-    // Lanes that have no cell left.
+    // Lanes that have no surface left.
     [[nodiscard]] HWY_INLINE LaneMask ended() const { return ended_; }
 
 private:
     HWY_INLINE Vector band(Vector d) const { return hn::Add(zero_, hn::ShiftRight<8>(hn::Mul(d, per_depth_))); }
 
-    HWY_INLINE CellLanes cell_at(Vector at_q12, LaneMask wanted) const {
-        const Vector band = hn::ShiftRight<12>(at_q12);
-        const LaneMask exists = hn::And(wanted, within(band, bands_));
-        const Vector index = hn::IfThenElseZero(exists, hn::Add(start_, band));
-        const Vector cell = hn::IfThenElseZero(exists, hn::GatherIndex(Lanes(), cells_, index));
-        const auto byte = [](Vector v) { return hn::And(v, number(255)); };
-        return {byte(cell), byte(hn::ShiftRight<8>(cell)), byte(hn::ShiftRight<16>(cell)),
-                byte(hn::ShiftRight<24>(cell))};
+    // Index of a place's entry: the first or the last one for those beyond, which say nothing.
+    HWY_INLINE Vector entry_at(Vector at_q12) const {
+        const Vector entry = hn::Min(hn::Max(hn::ShiftRight<12>(at_q12), hn::Zero(Lanes())), last_);
+        return hn::Add(start_, entry);
     }
 
-    const std::int32_t* cells_;
+    HWY_INLINE Vector surface_at(Vector at_q12, LaneMask wanted) const {
+        const Vector entry = entry_at(at_q12);
+        const Vector h_part = hn::And(hn::ShiftRight<9>(at_q12), number(7));
+        const Vector smooth = hn::GatherIndex(Lanes(), entries_.smooth.data(), entry);
+        const Vector low = hn::And(smooth, number((1 << kLowBits) - 1));
+        const Vector sum = hn::Add(hn::ShiftLeft<3>(low), hn::Mul(h_part, hn::ShiftRight<16>(smooth)));
+        const Vector depth = hn::ShiftRight<6>(hn::Add(sum, number(32)));
+        const auto says = [&](std::int32_t bit) { return hn::Ne(hn::And(smooth, number(bit)), hn::Zero(Lanes())); };
+        const Vector known = hn::IfThenElse(says(kSurfaceNothing), number(-1), depth);
+        const LaneMask steps = says(kSurfaceSteps);
+        if (hn::AllFalse(Lanes(), hn::And(steps, wanted))) return known;
+        const auto pair_at = [&](Vector index) { return hn::GatherIndex(Lanes(), entries_.pairs.data(), index); };
+        const Vector lower = pair_at(entry);
+        const Vector upper = pair_at(hn::Add(entry, hn::IfThenElseZero(steps, number(1))));
+        const auto first = [](Vector pair) { return hn::ShiftRight<16>(hn::ShiftLeft<16>(pair)); };
+        const auto second = [](Vector pair) { return hn::ShiftRight<16>(pair); };
+        const Vector depths[2][2] = {{first(lower), first(upper)}, {second(lower), second(upper)}};
+        return hn::IfThenElse(steps, between_steps(depths, p_part_, h_part, jump_), known);
+    }
+
+    const SurfaceEntries& entries_;
+    int jump_;
     Vector start_;
-    Vector bands_;
+    Vector last_;
+    Vector p_part_;
     Vector beyond_;
     Vector foot_;
     Vector zero_;

@@ -211,16 +211,19 @@ void Renderer::render_shape_upright(const ViewRegisters& registers, ImageView<Rg
     for (int j = 0; j < registers.height; ++j) {
         rise_q24.push_back(registers.rise_q24(0, j));
     }
-    tbb::parallel_for(0, strips_of(registers), [&](int s) {
-        const int first = s * kStripColumns;
-        const ShapeStrip strip = set_up_shape_strip(object_, texels_, registers, first);
-        ShapeWalkOutput to{out.row(0) + first, out.stride(), nullptr, 0};
-        if (!lambda.empty()) {
-            to.lambda_q20 = lambda.row(0) + first;
-            to.lambda_stride = lambda.stride();
+    tbb::parallel_for(tbb::blocked_range<int>(0, strips_of(registers)), [&](const tbb::blocked_range<int>& range) {
+        ShapeStrip strip;
+        for (int s = range.begin(); s < range.end(); ++s) {
+            const int first = s * kStripColumns;
+            set_up_shape_strip(object_, texels_, registers, first, strip);
+            ShapeWalkOutput to{out.row(0) + first, out.stride(), nullptr, 0};
+            if (!lambda.empty()) {
+                to.lambda_q20 = lambda.row(0) + first;
+                to.lambda_stride = lambda.stride();
+            }
+            walk_shape(walk, strip, rise_q24.data(), registers.height, std::min(kStripColumns, registers.width - first),
+                       to);
         }
-        walk_shape(walk, strip, rise_q24.data(), registers.height, std::min(kStripColumns, registers.width - first),
-                   to);
     });
 }
 

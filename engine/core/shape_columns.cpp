@@ -26,16 +26,16 @@ ColumnRange columns_read(const RaySpaceObject& object, const ShapePicture& pictu
     // is above zero at both.
     std::int64_t least_q8 = 0;
     std::int64_t most_q8 = 0;
-    for (const int d : {0, 255}) {
-        const std::int64_t l_q20 = picture.l0_q20 + ((std::int64_t{d} * picture.l1_q24) >> 4);
-        const std::int64_t n_q12 = picture.n0_q12 + ((std::int64_t{d} * picture.n1_q14) >> 2);
+    for (const int d_q3 : {0, 255 * 8}) {
+        const std::int64_t l_q20 = picture.l0_q20 + ((std::int64_t{d_q3} * picture.l1_q24) >> 7);
+        const std::int64_t n_q12 = picture.n0_q12 + ((std::int64_t{d_q3} * picture.n1_q12) >> 3);
         if (l_q20 < kNearest_q20 || l_q20 > kFarthestBracket_q20) return whole;
         if (n_q12 < -kMostLateral_q12 || n_q12 > kMostLateral_q12) return whole;
         const auto inverse_q20 = static_cast<std::int32_t>((std::int64_t{1} << 40) / l_q20);
         const std::int64_t column_q8 =
             std::int64_t{cx_q8} + multiply_shift(static_cast<std::int32_t>(n_q12), inverse_q20, 24);
-        least_q8 = d == 0 ? column_q8 : std::min(least_q8, column_q8);
-        most_q8 = d == 0 ? column_q8 : std::max(most_q8, column_q8);
+        least_q8 = d_q3 == 0 ? column_q8 : std::min(least_q8, column_q8);
+        most_q8 = d_q3 == 0 ? column_q8 : std::max(most_q8, column_q8);
     }
     const std::int64_t first = std::max<std::int64_t>((least_q8 >> 8) - kMargin, 0);
     const std::int64_t last = std::min<std::int64_t>((most_q8 >> 8) + kMargin, object.width - 1);

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 
 namespace rs::engine {
 
@@ -20,9 +19,6 @@ struct ShapePixel {
 };
 
 inline constexpr std::int32_t kNearest_q20 = 1 << 17;  // axial depth in a captured picture
-inline constexpr int kTransparentScore = 96;           // of a layer that a silhouette rules out
-inline constexpr int kSingleScore = 48;                // of a layer that one picture alone sees
-inline constexpr int kOpaque = 64 * 255;               // alpha of a bilinear sample
 
 // A bilinear sample: sums over four texels of weight * alpha (the weights add up to 64) and of weight * alpha * colour.
 struct SampleSum {
@@ -30,24 +26,9 @@ struct SampleSum {
     std::int32_t a = 0, r = 0, g = 0, b = 0;
 };
 
-// A surface that the view ray may show.
-struct ShapeLayer {
-    bool exists = false;
-    int score = 0;  // the lower the better
-    SampleSum sum;  // of both pictures: the weights add up to 64 * 256
-    std::int32_t lambda_q20 = 0;
-};
-
 inline SampleSum mix(const SampleSum& first, const SampleSum& second, int weight) {
     const auto of = [&](int a, int b) { return a * (256 - weight) + b * weight; };
     return {true, of(first.a, second.a), of(first.r, second.r), of(first.g, second.g), of(first.b, second.b)};
-}
-
-// Mean absolute difference of premultiplied colours, summed over R, G, B and twice alpha.
-inline int disagreement(const SampleSum& first, const SampleSum& second) {
-    return (std::abs(first.r - second.r) + std::abs(first.g - second.g) + std::abs(first.b - second.b) +
-            2 * 255 * std::abs(first.a - second.a)) /
-           kOpaque;
 }
 
 inline Rgba8 resolve(const SampleSum& sum) {
@@ -59,13 +40,13 @@ inline Rgba8 resolve(const SampleSum& sum) {
 
 // Section 7. `texel(view, column, row)` gives a stored pixel as Rgba8.
 template <class Texel>
-SampleSum sample_picture(const RaySpaceObject& object, const ShapePicture& picture, int d, std::int32_t y_q16,
+SampleSum sample_picture(const RaySpaceObject& object, const ShapePicture& picture, int d_q3, std::int32_t y_q16,
                          const Texel& texel) {
     const CapturedView& view = object.views[static_cast<std::size_t>(picture.view)];
-    const std::int32_t l_q20 = picture.l0_q20 + ((d * picture.l1_q24) >> 4);
+    const std::int32_t l_q20 = picture.l0_q20 + ((d_q3 * picture.l1_q24) >> 7);
     if (l_q20 < kNearest_q20) return {};
     const auto inverse_q20 = static_cast<std::int32_t>((std::int64_t{1} << 40) / l_q20);
-    const std::int32_t n_q12 = picture.n0_q12 + ((d * picture.n1_q14) >> 2);
+    const std::int32_t n_q12 = picture.n0_q12 + ((d_q3 * picture.n1_q12) >> 3);
     const std::int32_t column_q8 = (view.cx_q16 >> 8) + multiply_shift(n_q12, inverse_q20, 24);
     const std::int32_t m_q12 = multiply_shift(view.fl_y_q16 >> 8, inverse_q20, 16);
     const std::int32_t row_q8 = (view.cy_q16 >> 8) - multiply_shift(m_q12, y_q16 - (view.height_q20 >> 4), 20);
@@ -95,68 +76,48 @@ SampleSum sample_picture(const RaySpaceObject& object, const ShapePicture& pictu
     return sum;
 }
 
-// Section 8, for layer n of a cell. `rise_q24`: rise of the pixel's direction.
-template <class Texel>
-ShapeLayer shape_layer(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
-                       const ShapeCell& cell, int n, std::int32_t rise_q24, const Texel& texel) {
-    const int d = cell.depth[n];
-    const bool first_sees = (cell.rays & (kFirstSeesLayer0 << (2 * n))) != 0;
-    const bool second_sees = (cell.rays & (kSecondSeesLayer0 << (2 * n))) != 0;
-    ShapeLayer layer;
-    layer.lambda_q20 = setup.lambda0_q20 + ((d * setup.lambda1_q24) >> 4);
-    if (layer.lambda_q20 <= 0 || !(first_sees || second_sees)) return {};
-    const std::int32_t y_q16 = (registers.b_q20 >> 4) + multiply_shift(layer.lambda_q20, rise_q24, 28);
-    const bool use_first = setup.weight < 256;
-    const bool use_second = setup.weight > 0;
-    const SampleSum first = use_first ? sample_picture(object, setup.first, d, y_q16, texel) : SampleSum{};
-    const SampleSum second = use_second ? sample_picture(object, setup.second, d, y_q16, texel) : SampleSum{};
+// Section 8: what both pictures show of a surface at depth d_q3. `rise_q24`: the view's rise form at the pixel, q32,
+// shifted right by 8.
+struct ShownSurface {
+    SampleSum sum;  // does not exist, or has a = 0, where neither shows it; the weights add up to 64 * 256
+    std::int32_t lambda_q20 = 0;
+};
 
-    // Every point of the object lies within every silhouette, also of a picture that does not see it.
-    if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) {
-        layer.exists = true;
-        layer.score = kTransparentScore;
-        return layer;
-    }
-    const bool show_first = first.exists && first_sees;
-    const bool show_second = second.exists && second_sees;
-    layer.exists = show_first || show_second;
-    if (show_first && show_second) {
-        layer.sum = mix(first, second, setup.weight);
-        layer.score = disagreement(first, second);
-    } else if (layer.exists) {
-        const SampleSum& one = show_first ? first : second;
-        layer.sum = mix(one, one, 0);
-        layer.score = kSingleScore;
-    }
-    return layer;
+template <class Texel>
+ShownSurface shown_surface(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
+                           std::int32_t d_q3, std::int32_t rise_q24, const Texel& texel) {
+    ShownSurface shown;
+    shown.lambda_q20 = setup.lambda0_q20 + ((d_q3 * setup.lambda1_q21) >> 4);
+    if (shown.lambda_q20 <= 0) return {};
+    const std::int32_t y_q16 = (registers.b_q20 >> 4) + multiply_shift(shown.lambda_q20, rise_q24, 28);
+    const SampleSum first = setup.weight < 256 ? sample_picture(object, setup.first, d_q3, y_q16, texel) : SampleSum{};
+    const SampleSum second = setup.weight > 0 ? sample_picture(object, setup.second, d_q3, y_q16, texel) : SampleSum{};
+    // Every point of the object lies within every silhouette.
+    if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) return {};
+    if (first.exists && second.exists) shown.sum = mix(first, second, setup.weight);
+    if (first.exists != second.exists) shown.sum = first.exists ? mix(first, first, 0) : mix(second, second, 0);
+    return shown;
 }
 
-// `rise_q24`: the view's rise form at the pixel, q32, shifted right by 8.
 template <class Texel>
 ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
                        std::int32_t rise_q24, const Texel& texel) {
-    const auto layer = [&](const ShapeCell& cell, int n) {
-        return shape_layer(object, registers, setup, cell, n, rise_q24, texel);
+    const auto shown_at = [&](std::int32_t d_q3) {
+        return shown_surface(object, registers, setup, d_q3, rise_q24, texel);
     };
-    const auto shown = [](const ShapeLayer& found) {
-        return ShapePixel{found.exists ? resolve(found.sum) : Rgba8{}, found.lambda_q20};
-    };
-    if (setup.cells == nullptr) return shown(layer({{0, 0}, 0, kFirstSeesLayer0}, 0));
+    const auto pixel = [](const ShownSurface& shown) { return ShapePixel{resolve(shown.sum), shown.lambda_q20}; };
+    if (!setup.has_shape()) return pixel(shown_at(0));
 
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
     CellMarch march(shape, setup, registers.b_q20, rise_q24);
-    ShapeCell cell = march.next();
+    SurfaceCell cell = march.next();
     if (setup.weight == 0 || setup.weight == 256) {
         // On a captured line that picture answers alone, whatever the depth.
-        if (cell.rays == 0) cell.depth[0] = setup.foot_depth;
-        cell.rays = setup.weight == 0 ? kFirstSeesLayer0 : kSecondSeesLayer0;
-        return shown(layer(cell, 0));
+        return pixel(shown_at(cell.exists() ? cell.depth_q3 : setup.foot_depth_q3));
     }
-    for (; cell.rays != 0; cell = march.next()) {
-        ShapeLayer best = layer(cell, 0);
-        const ShapeLayer other = layer(cell, 1);
-        if (other.exists && (!best.exists || other.score < best.score)) best = other;
-        if (best.exists && best.sum.a > 0) return shown(best);
+    for (; cell.exists(); cell = march.next()) {
+        const ShownSurface shown = shown_at(cell.depth_q3);
+        if (shown.sum.a > 0) return pixel(shown);
     }
     return {};
 }

@@ -8,7 +8,7 @@
 namespace rs::engine {
 namespace {
 
-constexpr std::int64_t kMostPerStep = std::int64_t{1} << 22;
+constexpr std::int64_t kMostPerStep = std::int64_t{1} << 20;
 constexpr std::int64_t kFarthestView_q20 = std::int64_t{1} << 29;
 
 // A ray of a vertical plane: through its foot, in direction (sine, -cosine) along (tangent, normal).
@@ -61,6 +61,42 @@ Bracket find_bracket(const Ring& ring, int hint, const PlanePoint& point) {
     return {};
 }
 
+// Two neighbouring samples and a place between them, in eighths.
+struct Between {
+    std::int64_t first = 0;  // the second is first + 1
+    std::int32_t part = 0;
+};
+
+// `at_q8`: in samples; sample n lies at n + 1/2.
+Between between_samples(std::int64_t at_q8) {
+    const std::int64_t from_middle_q8 = at_q8 - 128;
+    return {from_middle_q8 >> 8, static_cast<std::int32_t>((from_middle_q8 >> 5) & 7)};
+}
+
+// Beyond the first and the last line of a gap come those of the gaps beside it, where they have any.
+CellColumns cells_around(const ShapeMap& shape, const Bracket& bracket, std::int64_t p_q20) {
+    const std::size_t gaps = shape.gaps.size();
+    const auto n = static_cast<std::size_t>(bracket.gap);
+    const ShapeGap& gap = shape.gaps[n];
+    const ShapeGap& before = shape.gaps[(n + gaps - 1) % gaps];
+    const ShapeGap& after = shape.gaps[(n + 1) % gaps];
+    const Between p = between_samples(((p_q20 + shape.p_half_q20) * shape.p_cells_per_unit_q12) >> 24);
+    const Between line = between_samples(bracket.from_first_q20 * (std::int64_t{256} * gap.lines) / bracket.width_q20);
+    CellColumns columns;
+    columns.p_part = p.part;
+    columns.line_part = line.part;
+    for (int l = 0; l < 2; ++l) {
+        std::int64_t number = gap.first_line + std::clamp<std::int64_t>(line.first + l, 0, gap.lines - 1);
+        if (line.first + l < 0 && before.lines > 0) number = before.first_line + before.lines - 1;
+        if (line.first + l >= gap.lines && after.lines > 0) number = after.first_line;
+        for (int c = 0; c < 2; ++c) {
+            const std::int64_t cell = std::clamp<std::int64_t>(p.first + c, 0, shape.p_cells - 1);
+            columns.at[c][l] = shape.cells.data() + (number * shape.p_cells + cell) * shape.bands;
+        }
+    }
+    return columns;
+}
+
 ShapePicture along_ray(const RaySpaceObject& object, const Ring& ring, int n, int plane, const VerticalPlaneRay& ray,
                        std::int64_t depth_low_q20, std::int64_t depth_step_q24) {
     const int view = ring.views[static_cast<std::size_t>(n)];
@@ -79,8 +115,8 @@ ShapePicture along_ray(const RaySpaceObject& object, const Ring& ring, int n, in
     picture.l0_q20 = static_cast<std::int32_t>(l_foot_q20 + ((depth_low_q20 * l_along_q30) >> 30));
     picture.l1_q24 = static_cast<std::int32_t>((depth_step_q24 * l_along_q30) >> 30);
     picture.n0_q12 = static_cast<std::int32_t>((n_foot_q16 + ((depth_low_q20 * n_along_q16) >> 20)) >> 4);
-    picture.n1_q14 =
-        static_cast<std::int32_t>(std::clamp((depth_step_q24 * n_along_q16) >> 26, -kMostPerStep, kMostPerStep));
+    picture.n1_q12 =
+        static_cast<std::int32_t>(std::clamp((depth_step_q24 * n_along_q16) >> 28, -kMostPerStep, kMostPerStep));
     return picture;
 }
 
@@ -116,13 +152,9 @@ ShapeSetup set_up_shape(const RaySpaceObject& object, const ViewRegisters& regis
     if (bracket.gap >= 0) {
         depth_low_q20 = shape.depth_low_q20;
         depth_step_q24 = shape.depth_step_q24;
-        const ShapeGap& gap = shape.gaps[static_cast<std::size_t>(bracket.gap)];
-        const std::int64_t pi = ((ray.p_q20 + shape.p_half_q20) * shape.p_cells_per_unit_q12) >> 32;
-        const std::int64_t line = gap.first_line + bracket.from_first_q20 * gap.lines / bracket.width_q20;
-        const std::int64_t column = line * shape.p_cells + std::clamp<std::int64_t>(pi, 0, shape.p_cells - 1);
-        setup.cells = shape.cells.data() + column * shape.bands;
-        setup.foot_depth =
-            static_cast<std::uint8_t>(std::clamp<std::int64_t>(-depth_low_q20 * 16 / depth_step_q24, 0, 255));
+        setup.cells = cells_around(shape, bracket, ray.p_q20);
+        setup.foot_depth_q3 =
+            static_cast<std::int32_t>(std::clamp<std::int64_t>(-depth_low_q20 * 128 / depth_step_q24, 0, 255 * 8));
         setup.weight =
             static_cast<std::int32_t>((bracket.from_first_q20 * 512 + bracket.width_q20) / (2 * bracket.width_q20));
         const int next = (bracket.gap + 1) % static_cast<int>(ring.views.size());
@@ -133,7 +165,7 @@ ShapeSetup set_up_shape(const RaySpaceObject& object, const ViewRegisters& regis
     }
     setup.lambda0_q20 =
         static_cast<std::int32_t>(lambda_foot_q20 + floor_divide(depth_low_q20 * (std::int64_t{1} << 28), ray.r_q28));
-    setup.lambda1_q24 = static_cast<std::int32_t>((depth_step_q24 << 28) / ray.r_q28);
+    setup.lambda1_q21 = static_cast<std::int32_t>((depth_step_q24 << 25) / ray.r_q28);
     return setup;
 }
 

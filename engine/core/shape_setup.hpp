@@ -3,6 +3,7 @@
 // and everything along it becomes linear in the cell's depth d. One piece of code, shared by the scalar definition and
 // the fast core; in an upright view one set-up serves a whole column.
 
+#include "engine/core/shape_cells.hpp"
 #include "engine/core/view_registers.hpp"
 #include "rayspace/ray_space_object.hpp"
 
@@ -10,14 +11,14 @@
 
 namespace rs::engine {
 
-// A captured picture along the view ray. At depth d: axial depth l = l0 + (d * l1 >> 4), lateral offset times focal
-// length n = n0 + (d * n1 >> 2).
+// A captured picture along the view ray. At depth d_q3, eighths of a step: axial depth l = l0 + (d_q3 * l1 >> 7),
+// lateral offset times focal length n = n0 + (d_q3 * n1 >> 3).
 struct ShapePicture {
     std::int32_t view = -1;
     std::int32_t l0_q20 = 0;
     std::int32_t l1_q24 = 0;
     std::int32_t n0_q12 = 0;
-    std::int32_t n1_q14 = 0;
+    std::int32_t n1_q12 = 0;
 };
 
 struct ShapeSetup {
@@ -25,13 +26,15 @@ struct ShapeSetup {
     ShapePicture first;
     ShapePicture second;
     std::int32_t weight = 0;           // of the second picture, 0..256
-    const ShapeCell* cells = nullptr;  // the ray's bands; null: there is no shape, d = 0 is the foot
-    std::uint8_t foot_depth = 0;       // the depth nearest to the foot
+    CellColumns cells;                 // without columns there is no shape, and d = 0 is the foot
+    std::int32_t foot_depth_q3 = 0;    // the depth of the foot
     std::int32_t lambda_foot_q20 = 0;  // axial depth in the view
-    std::int32_t lambda0_q20 = 0;      // at depth d: lambda0 + (d * lambda1 >> 4)
-    std::int32_t lambda1_q24 = 0;
+    std::int32_t lambda0_q20 = 0;      // at depth d_q3: lambda0 + (d_q3 * lambda1 >> 4)
+    std::int32_t lambda1_q21 = 0;
     std::int32_t inverse_r_q20 = 0;    // 1 / horizontal length of the ray's direction
     std::int32_t inverse_rho_q20 = 0;  // 1 / distance from the reference viewpoint to the foot
+
+    [[nodiscard]] bool has_shape() const { return cells.at[0][0] != nullptr; }
 };
 
 // `registers` was prepared for `object`, whose ring has a shape map; 0 <= i < width, 0 <= j < height. In an upright

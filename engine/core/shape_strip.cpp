@@ -4,6 +4,7 @@
 #include "engine/core/shape_walk.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rs::engine {
 namespace {
@@ -20,42 +21,33 @@ void set_picture(const RaySpaceObject& object, const TexelStore& texels, const S
     lanes.l0_q20[lane] = picture.l0_q20;
     lanes.l1_q24[lane] = picture.l1_q24;
     lanes.n0_q12[lane] = picture.n0_q12;
-    lanes.n1_q14[lane] = picture.n1_q14;
+    lanes.n1_q12[lane] = picture.n1_q12;
     lanes.cx_q8[lane] = view.cx_q16 >> 8;
     lanes.cy_q8[lane] = view.cy_q16 >> 8;
     lanes.fl_y_q8[lane] = view.fl_y_q16 >> 8;
     lanes.height_q16[lane] = view.height_q20 >> 4;
 }
 
-// Between which bands and depths a ray of the lane can meet a cell: the march need not look elsewhere.
-void set_cells(const ShapeMap& shape, const ShapeCell* cells, int lane, ShapeStrip& strip) {
-    int low = 0;
-    int high = 0;
-    int nearest = 256;
-    int beyond = 0;
-    for (int band = 0; band < shape.bands; ++band) {
-        const ShapeCell& cell = cells[band];
-        if (cell.rays == 0) continue;
-        if (high == 0) low = band;
-        high = band + 1;
-        nearest = std::min(nearest, cell.nearest());
-        beyond = std::max(beyond, cell.back + 1);
-    }
-    strip.low_band[lane] = low;
-    strip.cell_start[lane] = static_cast<std::int32_t>(cells + low - shape.cells.data());
-    strip.bands[lane] = high - low;
-    strip.nearest[lane] = nearest;
-    strip.beyond[lane] = beyond;
+void set_surfaces(const ShapeMap& shape, const ShapeSetup& setup, int lane, ShapeStrip& strip) {
+    const std::size_t start = static_cast<std::size_t>(lane) * surface_entries(shape.bands);
+    const SurfaceColumn column = setup.has_shape()
+                                     ? lay_surfaces(setup.cells, shape.bands, shape.jump, start, strip.entries)
+                                     : lay_nothing(start, strip.entries);
+    strip.entry_start[lane] = static_cast<std::int32_t>(start);
+    strip.last_entry[lane] = column.last;
+    strip.first_middle_q12[lane] = (column.first_band << 12) + (1 << 11);
+    strip.nearest[lane] = column.nearest;
+    strip.beyond[lane] = column.beyond;
+    strip.p_part[lane] = setup.cells.p_part;
 }
 
 }  // namespace
 
 ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers) {
-    static constexpr ShapeCell kNoCell;
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
     ShapeWalk walk;
-    walk.cells = shape.cells.empty() ? &kNoCell : shape.cells.data();
     walk.texels = texels.texels();
+    walk.jump = shape.jump;
     walk.column_stride = texels.column_stride();
     walk.width_q8 = object.width << 8;
     walk.height_q8 = object.height << 8;
@@ -68,10 +60,13 @@ ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, co
     return walk;
 }
 
-ShapeStrip set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
-                              int first_column) {
+void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
+                        int first_column, ShapeStrip& strip) {
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
-    ShapeStrip strip{};
+    SurfaceEntries entries = std::move(strip.entries);
+    strip = {};
+    strip.entries = std::move(entries);
+    strip.entries.hold(kStripColumns * surface_entries(shape.bands));
     const int columns = std::min(kStripColumns, registers.width - first_column);
     for (int lane = 0; lane < columns; ++lane) {
         const ShapeSetup setup = set_up_shape(object, registers, first_column + lane, 0);
@@ -80,18 +75,16 @@ ShapeStrip set_up_shape_strip(const RaySpaceObject& object, const TexelStore& te
         if (setup.weight < 256) set_picture(object, texels, setup.first, lane, strip.first);
         if (setup.weight > 0) set_picture(object, texels, setup.second, lane, strip.second);
         strip.weight[lane] = setup.weight;
-        if (setup.weight == 0) strip.alone[lane] = kFirstSeesLayer0;
-        if (setup.weight == 256) strip.alone[lane] = kSecondSeesLayer0;
-        // Without a shape a ray shows the foot's depth 0: what a lane without bands does, since its weight is 0.
-        if (setup.cells != nullptr) set_cells(shape, setup.cells, lane, strip);
-        strip.foot_depth[lane] = setup.foot_depth;
+        strip.alone[lane] = setup.weight == 0 || setup.weight == 256 ? -1 : 0;
+        // Without a shape a ray shows the foot's depth 0: what a lane without surfaces does, since its weight is 0.
+        set_surfaces(shape, setup, lane, strip);
+        strip.foot_depth_q3[lane] = setup.foot_depth_q3;
         strip.lambda_foot_q20[lane] = setup.lambda_foot_q20;
         strip.lambda0_q20[lane] = setup.lambda0_q20;
-        strip.lambda1_q24[lane] = setup.lambda1_q24;
+        strip.lambda1_q21[lane] = setup.lambda1_q21;
         strip.inverse_r_q20[lane] = setup.inverse_r_q20;
         strip.inverse_rho_q20[lane] = setup.inverse_rho_q20;
     }
-    return strip;
 }
 
 }  // namespace rs::engine

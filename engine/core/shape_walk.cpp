@@ -42,9 +42,9 @@ struct SampleLanes {
 HWY_INLINE SampleLanes sample_lanes(const ShapeWalk& walk, const ShapePictureLanes& picture, int lane, Vector d,
                                     Vector y_q16, LaneMask wanted) {
     const auto load = [&](const std::int32_t* lanes) { return hn::Load(Lanes(), lanes + lane); };
-    const Vector l = hn::Add(load(picture.l0_q20), hn::ShiftRight<4>(hn::Mul(d, load(picture.l1_q24))));
+    const Vector l = hn::Add(load(picture.l0_q20), hn::ShiftRight<7>(hn::Mul(d, load(picture.l1_q24))));
     const Vector inverse_l = inverse(l);
-    const Vector n = hn::Add(load(picture.n0_q12), hn::ShiftRight<2>(hn::Mul(d, load(picture.n1_q14))));
+    const Vector n = hn::Add(load(picture.n0_q12), hn::ShiftRight<3>(hn::Mul(d, load(picture.n1_q12))));
     const Vector column = hn::Add(load(picture.cx_q8), multiply_shift<24>(n, inverse_l));
     const Vector m = multiply_shift_within<16>(load(picture.fl_y_q8), inverse_l);
     const Vector row = hn::Sub(load(picture.cy_q8), multiply_shift<20>(m, hn::Sub(y_q16, load(picture.height_q16))));
@@ -81,90 +81,37 @@ HWY_INLINE SampleLanes sample_lanes(const ShapeWalk& walk, const ShapePictureLan
     return sample;
 }
 
-struct LayerLanes {
-    LaneMask exists;
-    Vector score;
+struct ShownLanes {
+    LaneMask shown;
     Vector a;
     Channels sum;
     Vector lambda_q20;
 };
 
-// disagreement() of shape_pixel.hpp. 16320 = 64 * 255, and the float quotient by 255 keeps clear of whole numbers.
-HWY_INLINE Vector disagreement_lanes(const SampleLanes& first, const SampleLanes& second) {
-    Channels apart;
-    for (int n = 0; n < 4; ++n) apart.of[n] = hn::Abs(hn::Sub(first.sum.of[n], second.sum.of[n]));
-    const Vector colours = hn::Sub(across(apart), hn::Abs(hn::Sub(first.a, second.a)));
-    const Vector sum = hn::Add(colours, hn::Mul(hn::Abs(hn::Sub(first.a, second.a)), number(2 * 255)));
-    const Floats floats;
-    const auto whole = hn::Add(hn::ConvertTo(floats, hn::ShiftRight<6>(sum)), hn::Set(floats, 0.5F));
-    static_assert(kOpaque == 64 * 255);
-    return hn::ConvertTo(Lanes(), hn::Mul(whole, hn::Set(floats, 1.0F / 255)));
-}
-
-// shape_layer() of the lanes `wanted`, for a surface at depth `d`. The score is left out where nobody asks.
-template <bool kScored>
-HWY_INLINE LayerLanes layer_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int lane, Vector rise, Vector d,
-                                  LaneMask first_sees, LaneMask second_sees, LaneMask wanted) {
+// shown_surface() of the lanes `wanted`, at depth `d`.
+HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int lane, Vector rise, Vector d,
+                                  LaneMask wanted) {
     const auto load = [&](const std::int32_t* lanes) { return hn::Load(Lanes(), lanes + lane); };
     const auto used = [&](const ShapePictureLanes& picture) { return hn::MaskFromVec(load(picture.used)); };
     const Vector zero = hn::Zero(Lanes());
-    LayerLanes layer;
-    layer.lambda_q20 = hn::Add(load(strip.lambda0_q20), hn::ShiftRight<4>(hn::Mul(d, load(strip.lambda1_q24))));
-    const LaneMask looked_at =
-        hn::And(hn::And(wanted, hn::Gt(layer.lambda_q20, zero)), hn::Or(first_sees, second_sees));
-    const Vector y_q16 = hn::Add(number(walk.b_q16), multiply_shift_within<28>(layer.lambda_q20, rise));
+    ShownLanes surface;
+    surface.lambda_q20 = hn::Add(load(strip.lambda0_q20), hn::ShiftRight<4>(hn::Mul(d, load(strip.lambda1_q21))));
+    const LaneMask looked_at = hn::And(wanted, hn::Gt(surface.lambda_q20, zero));
+    const Vector y_q16 = hn::Add(number(walk.b_q16), multiply_shift_within<28>(surface.lambda_q20, rise));
     const SampleLanes first = sample_lanes(walk, strip.first, lane, d, y_q16, hn::And(looked_at, used(strip.first)));
     const SampleLanes second = sample_lanes(walk, strip.second, lane, d, y_q16, hn::And(looked_at, used(strip.second)));
 
     const LaneMask transparent =
         hn::Or(hn::And(first.exists, hn::Eq(first.a, zero)), hn::And(second.exists, hn::Eq(second.a, zero)));
-    const LaneMask show_first = hn::AndNot(transparent, hn::And(first.exists, first_sees));
-    const LaneMask show_second = hn::AndNot(transparent, hn::And(second.exists, second_sees));
-    const LaneMask shown = hn::Or(show_first, show_second);
-    const LaneMask both = hn::And(show_first, show_second);
-    layer.exists = hn::Or(shown, transparent);
-    const Vector weight = hn::IfThenElse(both, load(strip.weight), hn::IfThenZeroElse(show_first, number(256)));
+    surface.shown = hn::AndNot(transparent, hn::Or(first.exists, second.exists));
+    const LaneMask both = hn::And(first.exists, second.exists);
+    const Vector weight = hn::IfThenElse(both, load(strip.weight), hn::IfThenZeroElse(first.exists, number(256)));
     const auto mixed = [](Vector f, Vector s, Vector w) {
         return hn::Add(hn::ShiftLeft<8>(f), hn::Mul(hn::Sub(s, f), w));
     };
-    layer.a = hn::IfThenElseZero(shown, mixed(first.a, second.a, weight));
-    layer.sum = for_channels(weight, [&](int n, Vector w) { return mixed(first.sum.of[n], second.sum.of[n], w); });
-    layer.score = zero;
-    if constexpr (kScored) {
-        const Vector of_shown = hn::IfThenElse(both, disagreement_lanes(first, second), number(kSingleScore));
-        layer.score = hn::IfThenElse(transparent, number(kTransparentScore), of_shown);
-    }
-    return layer;
-}
-
-HWY_INLINE LayerLanes choose(LaneMask mask, const LayerLanes& yes, const LayerLanes& no) {
-    LayerLanes chosen;
-    chosen.exists = hn::Or(hn::And(mask, yes.exists), hn::AndNot(mask, no.exists));
-    chosen.score = hn::IfThenElse(mask, yes.score, no.score);
-    chosen.a = hn::IfThenElse(mask, yes.a, no.a);
-    chosen.lambda_q20 = hn::IfThenElse(mask, yes.lambda_q20, no.lambda_q20);
-    chosen.sum = for_channels(hn::VecFromMask(Lanes(), mask), [&](int n, Vector which) {
-        return hn::IfThenElse(hn::MaskFromVec(which), yes.sum.of[n], no.sum.of[n]);
-    });
-    return chosen;
-}
-
-// The better layer of the lanes `wanted`.
-HWY_INLINE LayerLanes best_layer(const ShapeWalk& walk, const ShapeStrip& strip, int lane, Vector rise,
-                                 const CellLanes& cell, LaneMask wanted) {
-    const LaneMask first_sees = has_bits(cell.rays, kFirstSeesLayer0);
-    const LaneMask second_sees = has_bits(cell.rays, kSecondSeesLayer0);
-    const LaneMask two = hn::And(wanted, has_bits(cell.rays, kFirstSeesLayer1 | kSecondSeesLayer1));
-    if (HWY_LIKELY(hn::AllFalse(Lanes(), two))) {
-        return layer_lanes<false>(walk, strip, lane, rise, cell.depth0, first_sees, second_sees, wanted);
-    }
-    const LayerLanes best = layer_lanes<true>(walk, strip, lane, rise, cell.depth0, first_sees, second_sees, wanted);
-    const LayerLanes other =
-        layer_lanes<true>(walk, strip, lane, rise, cell.depth1, has_bits(cell.rays, kFirstSeesLayer1),
-                          has_bits(cell.rays, kSecondSeesLayer1), two);
-    const LaneMask better = hn::Lt(other.score, best.score);
-    const LaneMask only = hn::AndNot(best.exists, other.exists);
-    return choose(hn::Or(only, hn::And(other.exists, better)), other, best);
+    surface.a = mixed(first.a, second.a, weight);
+    surface.sum = for_channels(weight, [&](int n, Vector w) { return mixed(first.sum.of[n], second.sum.of[n], w); });
+    return surface;
 }
 
 // shape_pixel() of as many lanes as a vector has, from `lane` on.
@@ -172,25 +119,22 @@ HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int l
                            std::int32_t* colour, std::int32_t* lambda) {
     const Vector zero = hn::Zero(Lanes());
     const Vector rise = number(rise_q24);
-    const Vector alone_ray = hn::Load(Lanes(), strip.alone + lane);
-    const LaneMask alone = hn::Ne(alone_ray, zero);
+    const LaneMask alone = hn::MaskFromVec(hn::Load(Lanes(), strip.alone + lane));
     MarchLanes march(walk, strip, lane, rise);
     Vector shown_colour = zero;
     Vector shown_lambda = zero;
     LaneMask looking = hn::MaskFromVec(
         hn::Or(hn::Load(Lanes(), strip.first.used + lane), hn::Load(Lanes(), strip.second.used + lane)));
     while (!hn::AllFalse(Lanes(), looking)) {
-        CellLanes cell = march.next(looking);
-        const LaneMask at_foot = hn::And(alone, hn::Eq(cell.rays, zero));
-        cell.depth0 = hn::IfThenElse(at_foot, hn::Load(Lanes(), strip.foot_depth + lane), cell.depth0);
-        cell.rays = hn::IfThenElse(alone, alone_ray, cell.rays);
-        looking = hn::And(looking, hn::Ne(cell.rays, zero));
+        Vector depth = march.next(looking);
+        const LaneMask at_foot = hn::AndNot(is_surface(depth), alone);
+        depth = hn::IfThenElse(at_foot, hn::Load(Lanes(), strip.foot_depth_q3 + lane), depth);
+        looking = hn::And(looking, is_surface(depth));
         if (hn::AllFalse(Lanes(), looking)) break;
-        const LayerLanes layer = best_layer(walk, strip, lane, rise, cell, looking);
-        const LaneMask shown = hn::And(layer.exists, hn::Gt(layer.a, zero));
-        shown_colour = hn::IfThenElse(shown, resolve_lanes(layer.sum, layer.a), shown_colour);
-        shown_lambda = hn::IfThenElse(shown, layer.lambda_q20, shown_lambda);
-        looking = hn::AndNot(hn::Or(hn::Or(shown, alone), march.ended()), looking);
+        const ShownLanes surface = shown_lanes(walk, strip, lane, rise, depth, looking);
+        shown_colour = hn::IfThenElse(surface.shown, resolve_lanes(surface.sum, surface.a), shown_colour);
+        shown_lambda = hn::IfThenElse(surface.shown, surface.lambda_q20, shown_lambda);
+        looking = hn::AndNot(hn::Or(hn::Or(surface.shown, alone), march.ended()), looking);
     }
     hn::StoreU(shown_colour, Lanes(), colour);
     if (lambda != nullptr) hn::StoreU(hn::IfThenZeroElse(hn::Eq(shown_colour, zero), shown_lambda), Lanes(), lambda);
@@ -230,7 +174,7 @@ bool can_walk_shape() {
 
 void walk_shape(const ShapeWalk& walk, const ShapeStrip& strip, const std::int32_t* rise_q24, int rows, int columns,
                 const ShapeWalkOutput& out) {
-    static_assert(sizeof(Rgba8) == sizeof(std::int32_t) && sizeof(ShapeCell) == sizeof(std::int32_t));
+    static_assert(sizeof(Rgba8) == sizeof(std::int32_t));
     const auto width = static_cast<std::size_t>(columns);
     if (strip.empty) {
         for (int j = 0; j < rows; ++j) {

@@ -7,6 +7,7 @@
 
 #include "engine/core/column_walk.hpp"
 #include "engine/core/shape_setup.hpp"
+#include "engine/core/surface_column.hpp"
 #include "engine/core/texel_store.hpp"
 #include "engine/core/view_registers.hpp"
 #include "rayspace/image.hpp"
@@ -24,7 +25,7 @@ struct ShapePictureLanes {
     alignas(64) std::int32_t l0_q20[kStripColumns];
     alignas(64) std::int32_t l1_q24[kStripColumns];
     alignas(64) std::int32_t n0_q12[kStripColumns];
-    alignas(64) std::int32_t n1_q14[kStripColumns];
+    alignas(64) std::int32_t n1_q12[kStripColumns];
     alignas(64) std::int32_t cx_q8[kStripColumns];
     alignas(64) std::int32_t cy_q8[kStripColumns];
     alignas(64) std::int32_t fl_y_q8[kStripColumns];
@@ -36,27 +37,28 @@ struct ShapeStrip {
     ShapePictureLanes first;
     ShapePictureLanes second;
     alignas(64) std::int32_t weight[kStripColumns];
-    alignas(64) std::int32_t alone[kStripColumns];  // ShapeRays bit of the picture that answers alone; 0: both do
-    // Of the lane's bands those between the lowest and the highest that are not empty: the number of the lowest one,
-    // its index in ShapeMap::cells, and how many there are (0: there is no shape).
-    alignas(64) std::int32_t low_band[kStripColumns];
-    alignas(64) std::int32_t cell_start[kStripColumns];
-    alignas(64) std::int32_t bands[kStripColumns];
-    alignas(64) std::int32_t nearest[kStripColumns];  // of the layers of all bands; 256 where there are none
-    alignas(64) std::int32_t beyond[kStripColumns];   // one more than the farthest back of all bands, or 0
-    alignas(64) std::int32_t foot_depth[kStripColumns];
+    alignas(64) std::int32_t alone[kStripColumns];  // -1: one picture answers alone
+    // SurfaceColumn, in `entries` from entry_start on; first_middle: the middle of the first entry's band.
+    alignas(64) std::int32_t entry_start[kStripColumns];
+    alignas(64) std::int32_t last_entry[kStripColumns];
+    alignas(64) std::int32_t first_middle_q12[kStripColumns];
+    alignas(64) std::int32_t nearest[kStripColumns];
+    alignas(64) std::int32_t beyond[kStripColumns];
+    alignas(64) std::int32_t p_part[kStripColumns];
+    alignas(64) std::int32_t foot_depth_q3[kStripColumns];
     alignas(64) std::int32_t lambda_foot_q20[kStripColumns];
     alignas(64) std::int32_t lambda0_q20[kStripColumns];
-    alignas(64) std::int32_t lambda1_q24[kStripColumns];
+    alignas(64) std::int32_t lambda1_q21[kStripColumns];
     alignas(64) std::int32_t inverse_r_q20[kStripColumns];
     alignas(64) std::int32_t inverse_rho_q20[kStripColumns];
+    SurfaceEntries entries;
     bool empty = true;  // no lane has a ray
 };
 
 // What all lanes of all strips share.
 struct ShapeWalk {
-    const ShapeCell* cells = nullptr;  // at least one
-    const Rgba8* texels = nullptr;     // TexelStore's
+    const Rgba8* texels = nullptr;  // TexelStore's
+    int jump = 0;
     std::int32_t column_stride = 0;
     std::int32_t width_q8 = 0;  // of the captured pictures
     std::int32_t height_q8 = 0;
@@ -71,8 +73,9 @@ struct ShapeWalk {
 ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers);
 
 // View columns first_column .. first_column + kStripColumns - 1, those that exist. Ensures the texels that they read.
-ShapeStrip set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
-                              int first_column);
+// What `strip` was before does not matter, but for its memory, which is used again.
+void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
+                        int first_column, ShapeStrip& strip);
 
 // Where the pixels go: row j of the strip to colour + j * colour_stride and, where it is wanted, lambda_q20 + j *
 // lambda_stride.

@@ -70,6 +70,14 @@ constexpr std::int64_t square_root_serially(std::uint64_t square) {
     return static_cast<std::int64_t>(root);
 }
 
+// floor(sum / weight) by a table of 64 reciprocals and a product: weight 1 .. 64, sum below 2041 * weight, as sums of
+// weighted depths are.
+constexpr std::int32_t divide_by_weight(std::int32_t sum, int weight) {
+    constexpr int kShift = 23;
+    const std::int64_t reciprocal = ((std::int64_t{1} << kShift) + weight - 1) / weight;
+    return static_cast<std::int32_t>((sum * reciprocal) >> kShift);
+}
+
 // a * b for |b| below 2^35, by nine steps of 4 bits of b; the product must fit 64 bits.
 constexpr std::int64_t multiply_serially(std::int64_t a, std::int64_t b) {
     std::uint64_t sum = 0;

@@ -39,7 +39,9 @@ BoardFootprint board_footprint(const RaySpaceObject& object, const BoardLimits& 
         footprint.lines_bytes += ring.views.size() * 16 * (1 + static_cast<std::uint64_t>(ring.planes));
         if (!limits.any_object) continue;
         footprint.lines_bytes += ring.views.size() * 16 * (1 + static_cast<std::uint64_t>(ring.planes));
-        footprint.shape_bytes += 4 * ring.shape.cells.size();
+        if (ring.shape.empty()) continue;
+        const auto bands = static_cast<std::uint64_t>(ring.shape.bands);
+        footprint.shape_bytes += ring.shape.cells.size() / bands * ((bands + 3) / 4) * 8;  // columns in whole words
     }
     return footprint;
 }

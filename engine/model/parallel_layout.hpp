@@ -3,10 +3,13 @@
 //
 //     RS map           a byte per cell: picture, 255 without
 //     picture record   4 + 4 K words, of picture n from n * (4 + 4 K):
-//                          cx | cy << 32,  fl_y | height << 32,  S | first_line << 32,  0      (S: of the gap behind n)
+//                          cx | cy << 32,  fl_y | height << 32,  S | b << 16 | first_line << 32,  0
+//                                                          (of the gap behind n; b: 1 where the gap before it has
+//                                                          lines, plus 2 where the one behind it has)
 //                      then for plane k:
 //                          l0 | l1 << 32,  q0 | q1 << 32,  l2 | q2 << 32,  va | vc << 32
-//     shape cells      two to a word, low half first: depth0 | depth1 << 8 | back << 16 | rays << 24
+//     shape cells      four to a word, the lowest bits first: depth | back << 8; every column (a place in p of a line)
+//                      begins with a word
 //     raw pictures     blocks of 8x8 texels, a picture's column by column, 20 words each: for each pair of texel
 //     columns
 //                      their four (U, V) pairs, then Y and alpha of the left one, Y and alpha of the right one; what
@@ -33,18 +36,18 @@ constexpr int plane_words(int plane) {
     return 4 + 4 * plane;
 }
 
-constexpr std::uint32_t packed_cell(const ShapeCell& cell) {
-    return std::uint32_t{cell.depth[0]} | std::uint32_t{cell.depth[1]} << 8U | std::uint32_t{cell.back} << 16U |
-           std::uint32_t{cell.rays} << 24U;
+constexpr int kCellsPerWord = 4;
+
+// Words of a column of cells.
+constexpr int column_words(int bands) {
+    return (bands + kCellsPerWord - 1) / kCellsPerWord;
 }
-constexpr ShapeCell unpacked_cell(std::uint32_t bits) {
-    const auto byte = [&](unsigned n) { return static_cast<std::uint8_t>(bits >> (8 * n)); };
-    ShapeCell cell;
-    cell.depth[0] = byte(0);
-    cell.depth[1] = byte(1);
-    cell.back = byte(2);
-    cell.rays = byte(3);
-    return cell;
+
+constexpr std::uint16_t packed_cell(const ShapeCell& cell) {
+    return static_cast<std::uint16_t>(cell.depth | cell.back << 8);
+}
+constexpr ShapeCell unpacked_cell(std::uint16_t bits) {
+    return {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
 }
 
 // Halves of a word as numbers of 32 bits.

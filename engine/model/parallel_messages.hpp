@@ -8,7 +8,6 @@
 
 #include "engine/model/messages.hpp"
 #include "engine/model/stripes.hpp"
-#include "rayspace/shape_map.hpp"
 
 #include <array>
 
@@ -32,7 +31,7 @@ enum class RayKind {
 
 // Bracket finder: the two pictures beside the ray (section 5).
 struct BracketedRay {
-    static constexpr int kBits = 4 + 2 + 4 + 23 + 29 + 31 + 32 + 7 + 7 + 31 + 31 + 11 + 27;
+    static constexpr int kBits = 4 + 2 + 4 + 23 + 29 + 31 + 32 + 7 + 7 + 31 + 31 + 11 + 27 + 2;
     int view = 0;
     RayKind kind = RayKind::none;
     int plane = 0;
@@ -43,6 +42,8 @@ struct BracketedRay {
     std::int64_t width_q20 = 0;       // w
     int lines = 0;                    // S
     std::int64_t first_line = 0;
+    bool lines_before = false;  // the gap before this one has lines; the one behind it
+    bool lines_behind = false;
 };
 
 // A picture's camera, and its line of the plane with what belongs to it along the normal.
@@ -60,20 +61,21 @@ struct LinedRay {
     std::array<PictureLine, 2> picture{};
 };
 
-// A captured picture along the ray: everything linear in the depth d of a cell (section 5).
+// A captured picture along the ray: everything linear in the depth (section 5).
 struct PictureSetup {
-    static constexpr int kBits = 7 + 30 + 20 + 31 + 24 + 3 * 31 + 29;
+    static constexpr int kBits = 7 + 30 + 20 + 31 + 22 + 3 * 31 + 29;
     int picture = 0;
-    std::int64_t l0_q20 = 0, l1_q24 = 0, q0_q12 = 0, q1_q14 = 0;
+    std::int64_t l0_q20 = 0, l1_q24 = 0, q0_q12 = 0, q1_q12 = 0;
     std::int32_t cx_q16 = 0, cy_q16 = 0, fl_y_q16 = 0, height_q20 = 0;
 };
 
 // Column set-up: all that the pixels of a column share. Goes to three blocks, each of which keeps a part of it.
 struct ColumnSetup {
     static constexpr int kHeadBits = 4 + 2 + 2 + 4;
-    static constexpr int kBits = kHeadBits + 7 + 9 + 46 + 36 + 2 * PictureSetup::kBits + 9 + 3 * 30 + 25 + 22 + 27;
+    static constexpr int kBits =
+        kHeadBits + 7 + 9 + 46 + 36 + 2 * PictureSetup::kBits + 9 + 3 * 30 + 25 + 22 + 2 * 27 + 2 * 13 + 2 * 3;
     static constexpr int kRiseBits = kHeadBits + 30 + 25 + 22;
-    static constexpr int kMarchBits = kHeadBits + 1 + 8 + 9;
+    static constexpr int kMarchBits = kHeadBits + 9 + 3 + 3;
     static constexpr int kPlaceBits = kHeadBits + 46 + 36 + 9 + 2 * PictureSetup::kBits + 9 + 30 + 23;
     int view = 0;
     RayKind kind = RayKind::none;
@@ -85,12 +87,12 @@ struct ColumnSetup {
     // foot, shape
     std::array<PictureSetup, 2> pictures{};
     int weight = 0;
-    std::int64_t lambda_foot_q20 = 0, lambda0_q20 = 0, lambda1_q24 = 0;
+    std::int64_t lambda_foot_q20 = 0, lambda0_q20 = 0, lambda1_q21 = 0;
     std::int64_t inverse_r_q20 = 0, inverse_rho_q20 = 0;
-    std::int64_t map_line = 0;
-    int map_place = 0;      // pi
-    int band_words = 0;     // band reader: words of memory that hold the ray's cells
-    bool odd_cell = false;  // the first of them begins with the cell before
+    std::array<std::int64_t, 2> map_line{};  // the two lines beside the ray
+    std::array<int, 2> map_place{};          // the two cells along p
+    int line_part = 0;                       // eighths of the second one
+    int p_part = 0;
 };
 
 // Pixel scan: a patch is begun.
@@ -131,12 +133,12 @@ struct MarchState {
     int begin = 0;  // depth; 256: at the foot
 };
 
-// Cell march: a cell that the pixel's ray meets.
-struct MetCell {
-    static constexpr int kBits = ScannedPixel::kBits + 3 * 8 + 1 + MarchState::kBits;
+// Cell march: a surface that the pixel's ray meets.
+struct MetSurface {
+    static constexpr int kBits = ScannedPixel::kBits + 11 + 1 + MarchState::kBits;
     ScannedPixel pixel;
-    ShapeCell cell;
-    bool final = false;  // no other cell is asked for when this one does not answer
+    int depth_q3 = 0;
+    bool final = false;  // no other surface is asked for when this one does not answer
     MarchState next;
 };
 
@@ -154,16 +156,14 @@ struct MarchAgain {
     MarchState state;
 };
 
-// What belongs to a sample behind its place: of which layer and picture, and what follows when the cell is complete.
+// What belongs to a sample behind its place: of which picture, and what follows when the surface is complete.
 struct SampleHead {
-    static constexpr int kBits = 9 + 1 + 1 + 1 + 1 + 9 + 1 + 1 + MarchState::kBits;
+    static constexpr int kBits = 9 + 1 + 1 + 9 + 1 + 1 + MarchState::kBits;
     int id = 0;
-    bool is_there = false;  // else: no layer exists, the token only ends its cell
-    int layer = 0;
-    bool second = false;  // picture
-    bool sees = false;    // the picture sees the layer
-    int weight = 0;       // of the second picture
-    bool last = false;    // of its cell
+    bool is_there = false;  // else: a token that only ends its surface
+    bool second = false;    // picture
+    int weight = 0;         // of the second picture
+    bool last = false;      // of its surface
     bool final = false;
     MarchState next;
 };
@@ -228,13 +228,6 @@ struct FilteredSample {
     std::int32_t a = 0, r = 0, g = 0, b = 0;
 };
 
-// Layer choice: the sums of the layer that is shown.
-struct ChosenPixel {
-    static constexpr int kBits = 9 + 22 + 3 * 30;
-    int id = 0;
-    std::int32_t a = 0, r = 0, g = 0, b = 0;
-};
-
 inline std::string id_text(int id) {
     return "pixel " + std::to_string(id);
 }
@@ -259,7 +252,7 @@ inline std::string text(const ScannedPixel& m) {
 inline std::string text(const RisenPixel& m) {
     return id_text(m.pixel.id);
 }
-inline std::string text(const MetCell& m) {
+inline std::string text(const MetSurface& m) {
     return id_text(m.pixel.id) + (m.final ? " final" : "");
 }
 inline std::string text(const FinishedPixel& m) {
@@ -289,9 +282,6 @@ inline std::string text(const TexelQuad& m) {
 }
 inline std::string text(const FilteredSample& m) {
     return id_text(m.head.id) + " a " + std::to_string(m.a);
-}
-inline std::string text(const ChosenPixel& m) {
-    return id_text(m.id) + " a " + std::to_string(m.a);
 }
 
 }  // namespace rs::engine::model

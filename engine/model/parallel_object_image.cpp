@@ -43,6 +43,13 @@ void append_map(const Ring& ring, const PictureOrder& order, std::vector<std::ui
     }
 }
 
+std::uint64_t gap_word(const ShapeMap& shape, std::size_t n) {
+    const std::size_t count = shape.gaps.size();
+    const auto has_lines = [&](std::size_t gap) { return shape.gaps[gap % count].lines > 0 ? 1 : 0; };
+    const int beside = has_lines(n + count - 1) + 2 * has_lines(n + 1);
+    return word_pair(shape.gaps[n].lines | beside << 16, static_cast<std::int32_t>(shape.gaps[n].first_line));
+}
+
 void append_records(const RaySpaceObject& object, const PictureOrder& order, std::vector<std::uint64_t>& out) {
     const Ring& ring = object.rings.front();
     const bool has_shape = !ring.shape.empty();
@@ -50,8 +57,7 @@ void append_records(const RaySpaceObject& object, const PictureOrder& order, std
         const CapturedView& view = object.views[order.view_at[n]];
         out.push_back(word_pair(view.cx_q16, view.cy_q16));
         out.push_back(word_pair(view.fl_y_q16, view.height_q20));
-        const ShapeGap gap = has_shape ? ring.shape.gaps[n] : ShapeGap{};
-        out.push_back(word_pair(gap.lines, static_cast<std::int32_t>(gap.first_line)));
+        out.push_back(has_shape ? gap_word(ring.shape, n) : 0);
         out.push_back(0);
         for (std::size_t k = 0; k < static_cast<std::size_t>(ring.planes); ++k) {
             const CapturedLine& line = view.lines[k];
@@ -67,13 +73,17 @@ void append_records(const RaySpaceObject& object, const PictureOrder& order, std
 
 void append_cells(const ShapeMap& shape, std::vector<std::uint64_t>& out) {
     for (std::size_t n = 0; n < shape.cells.size(); ++n) {
+        const std::size_t band = n % static_cast<std::size_t>(shape.bands);
         const std::uint64_t bits = packed_cell(shape.cells[n]);
-        if (n % 2 == 0) {
-            out.push_back(bits);
-        } else {
-            out.back() |= bits << 32U;
-        }
+        if (band % kCellsPerWord == 0) out.push_back(0);
+        out.back() |= bits << (16 * (band % kCellsPerWord));
     }
+}
+
+std::uint64_t cell_words(const ShapeMap& shape) {
+    if (shape.empty()) return 0;
+    return shape.cells.size() / static_cast<std::size_t>(shape.bands) *
+           static_cast<std::uint64_t>(column_words(shape.bands));
 }
 
 void append_raw_block(const PlanarPicture& picture, int x0, int y0, std::vector<std::uint64_t>& out) {
@@ -140,8 +150,10 @@ ShapeRegisters shape_registers(const ShapeMap& shape, WordAddress cells) {
     r.reference_height_q20 = shape.reference_height_q20;
     r.depth_low_q20 = shape.depth_low_q20;
     r.depth_step_q24 = shape.depth_step_q24;
-    r.foot_d = static_cast<int>(
-        std::clamp<std::int64_t>(-std::int64_t{shape.depth_low_q20} * 16 / shape.depth_step_q24, 0, 255));
+    r.foot_d_q3 = static_cast<int>(
+        std::clamp<std::int64_t>(-std::int64_t{shape.depth_low_q20} * 128 / shape.depth_step_q24, 0, 255 * 8));
+    r.jump = shape.jump;
+    r.lines = static_cast<std::int64_t>(shape.cells.size()) / (shape.p_cells * shape.bands);
     r.cells = cells;
     return r;
 }
@@ -159,7 +171,7 @@ std::array<std::uint64_t, kObjectRegions> parallel_object_words(const RaySpaceOb
     }
     words[static_cast<std::size_t>(Region::tables)] +=
         map_words(ring) + ring.views.size() * static_cast<std::uint64_t>(record_words(ring.planes)) +
-        (ring.shape.cells.size() + 1) / 2;
+        cell_words(ring.shape);
     return words;
 }
 

@@ -54,7 +54,7 @@ ParallelFifos::ParallelFifos(const std::string& suffix)
       risen("risen" + suffix, 4, RisenPixel::kBits),
       again("again" + suffix, 512, MarchAgain::kBits),
       empty("empty" + suffix, 4, FinishedPixel::kBitsOfEmpty),
-      met("met" + suffix, 8, MetCell::kBits),
+      met("met" + suffix, 8, MetSurface::kBits),
       placed("placed" + suffix, 4, PlacedSample::kBits),
       fills("fills" + suffix, 8, TexelFill::kBits),
       waiting("waiting" + suffix, 256, WaitingSample::kBits),
@@ -69,7 +69,6 @@ ParallelFifos::ParallelFifos(const std::string& suffix)
       texels("texels" + suffix, 16, RgbaPixel::kBits),
       quads("quads" + suffix, 4, TexelQuad::kBits),
       filtered("filtered" + suffix, 4, FilteredSample::kBits),
-      chosen("chosen" + suffix, 4, ChosenPixel::kBits),
       resolved("resolved" + suffix, 4, FinishedPixel::kBits),
       image_writes("image_writes" + suffix, 32, MemoryWrite::kBits),
       view_written("view_written" + suffix, 2, Done::kBits),
@@ -86,8 +85,8 @@ std::vector<FifoState*> ParallelFifos::all() {
         &patches,    &patch_free,    &view_done_scan, &view_done_books, &scanned,       &risen,         &again,
         &empty,      &met,           &placed,         &fills,           &waiting,       &targets,       &kinds,
         &raw_reads,  &raw_words,     &book_reads,     &book_words,      &samples,       &merged,        &texels,
-        &quads,      &filtered,      &chosen,         &resolved,        &image_writes,  &view_written,  &host_reads,
-        &host_words, &load_words,    &object_loaded};
+        &quads,      &filtered,      &resolved,       &image_writes,    &view_written,  &host_reads,    &host_words,
+        &load_words, &object_loaded};
 }
 
 ParallelPipe::ParallelPipe(const BoardConfig& config, const RegisterFile& registers, const StripeShare& share)
@@ -116,8 +115,7 @@ ParallelPipe::ParallelPipe(const BoardConfig& config, const RegisterFile& regist
       colour_conversion(fifos.merged, fifos.texels),
       texel_cache(fifos.waiting, fifos.targets, fifos.texels, fifos.quads),
       texel_filter(fifos.quads, fifos.filtered),
-      layer_choice(fifos.filtered, fifos.chosen, fifos.again),
-      pixel_resolve(fifos.chosen, fifos.resolved),
+      surface_blend(fifos.filtered, fifos.resolved, fifos.again),
       patch_store(registers, fifos.patches, fifos.resolved, fifos.empty, fifos.image_writes, fifos.patch_free,
                   fifos.stripe_free, fifos.view_done_scan, fifos.view_done_books),
       memory("memory_controller", config.memory, sdram, read_ports(*this), fifos.image_writes, fifos.view_written,
@@ -126,11 +124,10 @@ ParallelPipe::ParallelPipe(const BoardConfig& config, const RegisterFile& regist
 }
 
 std::vector<Block*> ParallelPipe::blocks() {
-    return {&raster_generator,  &ray_position, &map_reader,   &bracket_finder, &picture_reader,
-            &column_setup,      &band_reader,  &pixel_scan,   &ray_rise,       &cell_march,
-            &sample_place,      &texel_tags,   &fill_fetch,   &twin_lookup,    &texel_merge,
-            &colour_conversion, &texel_cache,  &texel_filter, &layer_choice,   &pixel_resolve,
-            &patch_store,       &memory};
+    return {&raster_generator, &ray_position, &map_reader,  &bracket_finder,    &picture_reader, &column_setup,
+            &band_reader,      &pixel_scan,   &ray_rise,    &cell_march,        &sample_place,   &texel_tags,
+            &fill_fetch,       &twin_lookup,  &texel_merge, &colour_conversion, &texel_cache,    &texel_filter,
+            &surface_blend,    &patch_store,  &memory};
 }
 
 void ParallelPipe::add_to(Simulator& simulator) {

@@ -8,8 +8,9 @@
 //                                  ^                               | fills         ^ texels                |
 //                                  |              fill_fetch <-----+               |                       |
 //                                  | again        [record chains] -> twin_lookup -> texel_merge -> colour  |
-//                                  +------------------------------------------------------------- layer_choice
-//                                  empty -> patch_store -> memory        pixel_resolve <- chosen ----------+
+//                                  +------------------------------------------------------------ surface_blend
+//                                  empty -> patch_store -> memory                       | resolved
+//                                           ^-------------------------------------------+
 
 #include "engine/model/block_decompression.hpp"
 #include "engine/model/blocks/band_reader.hpp"
@@ -18,17 +19,16 @@
 #include "engine/model/blocks/colour_conversion.hpp"
 #include "engine/model/blocks/column_setup.hpp"
 #include "engine/model/blocks/fill_fetch.hpp"
-#include "engine/model/blocks/layer_choice.hpp"
 #include "engine/model/blocks/map_reader.hpp"
 #include "engine/model/blocks/memory_controller.hpp"
 #include "engine/model/blocks/patch_store.hpp"
 #include "engine/model/blocks/picture_reader.hpp"
-#include "engine/model/blocks/pixel_resolve.hpp"
 #include "engine/model/blocks/pixel_scan.hpp"
 #include "engine/model/blocks/raster_generator.hpp"
 #include "engine/model/blocks/ray_position.hpp"
 #include "engine/model/blocks/ray_rise.hpp"
 #include "engine/model/blocks/sample_place.hpp"
+#include "engine/model/blocks/surface_blend.hpp"
 #include "engine/model/blocks/texel_cache.hpp"
 #include "engine/model/blocks/texel_filter.hpp"
 #include "engine/model/blocks/texel_merge.hpp"
@@ -73,7 +73,7 @@ struct ParallelFifos {
     Fifo<RisenPixel> risen;
     Fifo<MarchAgain> again;
     Fifo<FinishedPixel> empty;
-    Fifo<MetCell> met;
+    Fifo<MetSurface> met;
     Fifo<PlacedSample> placed;
     Fifo<TexelFill> fills;
     Fifo<WaitingSample> waiting;
@@ -88,7 +88,6 @@ struct ParallelFifos {
     Fifo<RgbaPixel> texels;
     Fifo<TexelQuad> quads;
     Fifo<FilteredSample> filtered;
-    Fifo<ChosenPixel> chosen;
     Fifo<FinishedPixel> resolved;
     Fifo<MemoryWrite> image_writes;
     Fifo<Done> view_written;
@@ -127,8 +126,7 @@ struct ParallelPipe {
     ColourConversion colour_conversion;
     TexelCache texel_cache;
     TexelFilter texel_filter;
-    LayerChoice layer_choice;
-    PixelResolve pixel_resolve;
+    SurfaceBlend surface_blend;
     PatchStore patch_store;
     MemoryController memory;
 };

@@ -14,7 +14,7 @@
 namespace rs::codec {
 
 enum class AlphaCoding : std::uint8_t {
-    kLevels = 0,  // every sample's level (format 1.2)
+    kLevels = 0,  // every sample's level
     kMask = 1,    // which samples are half covered at least, and of more than one bit, how much
 };
 
@@ -27,9 +27,9 @@ struct DenseCode {
     AlphaCoding alpha_coding = AlphaCoding::kMask;
     int alpha_bits = 2;                              // 1 .. kMaxAlphaBits
     EdgeAlpha edge_alpha = {};                       // 0 .. kMaxEdgeAlpha; of masks of one bit only
-    bool edge_filter = true;                         // edge_filter.hpp; false in format 1.4 and before
-    bool learning = true;                            // context_states.hpp; false in format 1.5 and before
-    bool hidden_signs = true;                        // syntax.hpp; false in format 1.5 and before
+    bool edge_filter = true;                         // edge_filter.hpp
+    bool learning = true;                            // context_states.hpp
+    bool hidden_signs = true;                        // syntax.hpp
     std::array<int, 2> chroma_step_offset = {0, 0};  // of U and V, added to the step index of Y; +-kMaxChromaOffset
     std::array<std::uint16_t, context::kCount> probabilities = {};  // of 0, in 4096ths; 8 .. 4088
 

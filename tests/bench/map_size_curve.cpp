@@ -60,7 +60,7 @@ Status write_plot(const std::string& path, const std::vector<Measured>& measured
     plot.title = "Views held out against the size of the RS map";
     plot.x_label = "RS map in the file, % of the raw pictures (YUV 4:2:0)";
     plot.y_label = "mean PSNR, dB";
-    plot.series.push_back({"cells of 24, 16, 12, 8, 6, 4.8 px", {}, {}});
+    plot.series.push_back({"cells of 12, 8, 6, 4.8, 3.2, 2.4 px", {}, {}});
     for (const Measured& point : measured) {
         plot.series[0].x.push_back(100 * point.share);
         plot.series[0].y.push_back(point.psnr_db);
@@ -74,7 +74,7 @@ Status run(const Arguments& arguments) {
     if (!set) return set.error();
     std::printf("cell_px,file_bytes,file_percent,memory_bytes,memory_percent,psnr_db\n");
     std::vector<Measured> measured;
-    for (const double cell_px : {24.0, 16.0, 12.0, 8.0, 6.0, 4.8}) {
+    for (const double cell_px : {12.0, 8.0, 6.0, 4.8, 3.2, 2.4}) {
         const Result<Measured> point = measure(*set, arguments.held_out, cell_px);
         if (!point) return point.error();
         measured.push_back(*point);

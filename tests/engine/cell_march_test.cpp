@@ -1,5 +1,6 @@
-// Which cells a ray meets (engine/RECONSTRUCTION.md, section 6), on rays made by hand: the viewpoint stands over the
+// Which surfaces a ray meets (engine/RECONSTRUCTION.md, section 6), on rays made by hand: the viewpoint stands over the
 // axis at height b, so that the foot is at height b too and the reference slope is 0 where b is the reference height.
+// The ray passes right through the middle of one column of cells; shape_cells_test.cpp looks between columns.
 #include "engine/core/cell_march.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,6 @@ namespace {
 
 constexpr std::int32_t kOne_q20 = 1 << 20;
 constexpr std::int32_t kStep_q24 = 1 << 18;  // so per_depth_q20 = slope_q20 * bands per unit / 64
-constexpr std::uint8_t kBoth = kFirstSeesLayer0 | kSecondSeesLayer0;
 
 struct Column {
     ShapeMap shape;
@@ -29,54 +29,59 @@ struct Column {
         shape.depth_step_q24 = kStep_q24;
         setup.inverse_r_q20 = kOne_q20;
         setup.inverse_rho_q20 = kOne_q20 / 3;
-        setup.cells = cells.data();
+        shape.jump = 20;
+        for (auto& of_p : setup.cells.at) of_p[0] = of_p[1] = cells.data();
     }
     Column(const Column&) = delete;
     Column& operator=(const Column&) = delete;
 
-    [[nodiscard]] std::vector<ShapeCell> met(std::int32_t slope_q20, std::int32_t b_q20 = 0) const {
+    [[nodiscard]] std::vector<SurfaceCell> met(std::int32_t slope_q20, std::int32_t b_q20 = 0) const {
         CellMarch march(shape, setup, b_q20, slope_q20 * 16);
-        std::vector<ShapeCell> result;
-        for (ShapeCell cell = march.next(); cell.rays != 0; cell = march.next()) result.push_back(cell);
-        EXPECT_EQ(march.next().rays, 0);
+        std::vector<SurfaceCell> result;
+        for (SurfaceCell cell = march.next(); cell.exists(); cell = march.next()) result.push_back(cell);
+        EXPECT_FALSE(march.next().exists());
         return result;
     }
 };
 
-TEST(CellMarch, ARayOfReferenceSlopeMeetsTheCellOfItsFootAlone) {
+TEST(CellMarch, ARayOfReferenceSlopeMeetsTheSurfaceOfItsFootAlone) {
     Column column(8, {});
-    for (int band = 0; band < 8; ++band)
-        column.cells[static_cast<std::size_t>(band)] = {{std::uint8_t(band * 10), 0}, 255, kBoth};
+    for (int band = 0; band < 8; ++band) column.cells[static_cast<std::size_t>(band)] = {std::uint8_t(band * 10), 255};
     const auto at = [&](std::int32_t b_q20) {
         column.shape.reference_height_q20 = b_q20;
         return column.met(0, b_q20);
     };
-    EXPECT_EQ(at(0), (std::vector<ShapeCell>{{{40, 0}, 255, kBoth}}));
-    // The first and the last band, each on both sides of its outer border; heights are q16.
-    EXPECT_EQ(at(-4 * kOne_q20), (std::vector<ShapeCell>{{{0, 0}, 255, kBoth}}));
-    EXPECT_TRUE(at(-4 * kOne_q20 - 16).empty());
-    EXPECT_EQ(at(4 * kOne_q20 - 16 * 16), (std::vector<ShapeCell>{{{70, 0}, 255, kBoth}}));
-    EXPECT_TRUE(at(4 * kOne_q20).empty());
+    // On the border of bands 3 and 4, and an eighth of a band below and above it.
+    EXPECT_EQ(at(0), (std::vector<SurfaceCell>{{35 * 8, 255}}));
+    EXPECT_EQ(at(-kOne_q20 / 8), (std::vector<SurfaceCell>{{35 * 8 - 10, 255}}));
+    EXPECT_EQ(at(kOne_q20 / 8), (std::vector<SurfaceCell>{{35 * 8 + 10, 255}}));
+    EXPECT_EQ(at(kOne_q20 / 8 - 256), (std::vector<SurfaceCell>{{35 * 8, 255}}));
+    // The first and the last cell reach half a band beyond their middles and half a band more: as far as they are
+    // given weight.
+    EXPECT_EQ(at(-9 * kOne_q20 / 2 + kOne_q20 / 8), (std::vector<SurfaceCell>{{0, 255}}));
+    EXPECT_TRUE(at(-9 * kOne_q20 / 2 + kOne_q20 / 8 - 256).empty());
+    EXPECT_EQ(at(9 * kOne_q20 / 2 - 256), (std::vector<SurfaceCell>{{70 * 8, 255}}));
+    EXPECT_TRUE(at(9 * kOne_q20 / 2).empty());
 }
 
 // A ray that rises as the one from the reference viewpoint through the same foot stays in its band.
 TEST(CellMarch, TheReferenceViewpointSeesEveryBandAlongItself) {
-    Column column(8, {{100, 0}, 110, kBoth});
+    Column column(8, {100, 110});
     column.setup.lambda_foot_q20 = 3 * kOne_q20;
     EXPECT_EQ(column.met(kOne_q20 / 2).size(), 1U);
     column.setup.lambda_foot_q20 = kOne_q20;
     EXPECT_GT(column.met(kOne_q20 / 2).size(), 1U);
 }
 
-// Cells that are met wherever they are looked at: their number is that of the steps, and one at the end.
+// Surfaces that are met wherever they are looked at: their number is that of the steps, and one at the end.
 TEST(CellMarch, CountsItsSteps) {
-    const Column column(4096, {{0, 0}, 255, kBoth});
+    const Column column(4096, {0, 255});
     const auto steps = [&](std::int32_t per_depth_q20) {
-        const std::vector<ShapeCell> met = column.met(per_depth_q20 * 64);
+        const std::vector<SurfaceCell> met = column.met(per_depth_q20 * 64);
         if (met.size() < 2) return static_cast<int>(met.size()) - 1;
-        const int size = met[1].depth[0];
-        for (std::size_t i = 0; i + 1 < met.size(); ++i) EXPECT_EQ(met[i].depth[0], static_cast<int>(i) * size);
-        EXPECT_EQ(met.back().depth[0], 0);
+        const int size_q3 = met[1].depth_q3;
+        for (std::size_t i = 0; i + 1 < met.size(); ++i) EXPECT_EQ(met[i].depth_q3, static_cast<int>(i) * size_q3);
+        EXPECT_EQ(met.back().depth_q3, 0);
         return static_cast<int>(met.size()) - 1;
     };
     for (const int sign : {1, -1}) {
@@ -94,7 +99,7 @@ TEST(CellMarch, CountsItsSteps) {
 }
 
 TEST(CellMarch, NeverTakesMoreThanItsMostSteps) {
-    Column column(4096, {{0, 0}, 255, kBoth});
+    Column column(4096, {0, 255});
     column.shape.bands_per_unit_q12 = 1 << 26;
     column.shape.h_low_q20 = -kOne_q20 / 8;
     for (const std::int32_t slope_q20 : {kOne_q20, -kOne_q20, 127 * kOne_q20, -127 * kOne_q20}) {
@@ -104,67 +109,67 @@ TEST(CellMarch, NeverTakesMoreThanItsMostSteps) {
     EXPECT_EQ(column.met(7 * kOne_q20).size(), CellMarch::kMostSteps + 1U);
 }
 
-// Half a band per step, bands -4 .. 4 of the foot, of which the map has the upper or lower half.
+// Half a band per step, bands -4 .. 4 of the foot, of which the map has the upper or lower half; its last cell reaches
+// half a band, one step, farther.
 TEST(CellMarch, LeavesTheBandsAndEntersThem) {
-    Column column(8, {{0, 0}, 255, kBoth});
+    Column column(8, {0, 255});
     const auto begins = [&](std::int32_t slope_q20, std::int32_t h_low_q20) {
         column.shape.h_low_q20 = h_low_q20;
         std::vector<int> depths;
-        for (const ShapeCell& cell : column.met(slope_q20)) depths.push_back(cell.depth[0]);
+        for (const SurfaceCell& cell : column.met(slope_q20)) depths.push_back(cell.depth_q3 / 8);
         return depths;
     };
     const std::int32_t slope_q20 = 16 * 2048 * 64 - 64;  // sixteen steps of 16
     std::vector<int> all;
     for (int begin = 0; begin < 256; begin += 16) all.push_back(begin);
-    const std::vector<int> nearer(all.begin(), all.begin() + 8);
-    const std::vector<int> farther(all.begin() + 8, all.end());
+    std::vector<int> nearer(all.begin(), all.begin() + 9);
+    std::vector<int> farther(all.begin() + 7, all.end());
+    nearer.push_back(0);  // the foot itself is met last, wherever
+    farther.push_back(0);
     // Behind the foot (depth 128) the rising ray is above 0, a sinking one below.
     EXPECT_EQ(begins(-slope_q20, -8 * kOne_q20), farther);
     EXPECT_EQ(begins(slope_q20, -8 * kOne_q20), nearer);
-    auto with_foot = farther;
-    with_foot.push_back(0);  // the foot itself is in band 0
-    EXPECT_EQ(begins(slope_q20, 0), with_foot);
-    with_foot = nearer;
-    with_foot.push_back(0);
-    EXPECT_EQ(begins(-slope_q20, 0), with_foot);
+    EXPECT_EQ(begins(slope_q20, 0), farther);
+    EXPECT_EQ(begins(-slope_q20, 0), nearer);
     EXPECT_TRUE(begins(slope_q20, 5 * kOne_q20).empty());
     EXPECT_TRUE(begins(slope_q20, -13 * kOne_q20).empty());
 }
 
-TEST(CellMarch, MeetsACellBetweenItsNearestLayerAndItsBack) {
+TEST(CellMarch, MeetsASurfaceBetweenItsDepthAndItsBack) {
     const std::int32_t four_steps_q20 = 3 * 2048 * 64;
-    const auto met = [&](ShapeCell cell) {
-        auto found = Column(64, cell).met(four_steps_q20);
-        EXPECT_EQ(found.back(), cell);  // the one at the end is as the map has it
+    const auto met = [&](int depth, int back) {
+        auto found =
+            Column(64, {static_cast<std::uint8_t>(depth), static_cast<std::uint8_t>(back)}).met(four_steps_q20);
+        EXPECT_EQ(found.back(), (SurfaceCell{8 * depth, back}));  // the one at the end is as the map has it
         found.pop_back();
         return found;
     };
-    const auto one = [&](int depth, int back) {
-        return met({{static_cast<std::uint8_t>(depth), 0}, static_cast<std::uint8_t>(back), kBoth});
-    };
-    EXPECT_EQ(one(200, 210), (std::vector<ShapeCell>{{{200, 192}, 210, kBoth}}));
-    EXPECT_EQ(one(193, 193).size(), 1U);
-    EXPECT_EQ(one(192, 192).size(), 2U);  // on the border of two steps
-    EXPECT_EQ(one(20, 63).size(), 1U);
-    EXPECT_EQ(one(20, 64), (std::vector<ShapeCell>{{{20, 0}, 64, kBoth}, {{64, 64}, 64, kBoth}}));
-    // Layer 1 is nearer, and counts only where it exists.
-    const std::uint8_t all = kBoth | kFirstSeesLayer1;
-    EXPECT_EQ(met({{200, 100}, 210, all}),
-              (std::vector<ShapeCell>{{{200, 100}, 210, all}, {{200, 128}, 210, all}, {{200, 192}, 210, all}}));
-    EXPECT_EQ(met({{200, 100}, 210, kBoth}).size(), 1U);
+    EXPECT_EQ(met(200, 210), (std::vector<SurfaceCell>{{8 * 200, 210}}));
+    EXPECT_EQ(met(193, 193).size(), 1U);
+    EXPECT_EQ(met(192, 192).size(), 2U);  // on the border of two steps
+    EXPECT_EQ(met(20, 63).size(), 1U);
+    EXPECT_EQ(met(20, 64), (std::vector<SurfaceCell>{{8 * 20, 64}, {8 * 64, 64}}));
 }
 
-// At the end: the foot's cell says at what depth a reference ray would meet the object; the cell of that place answers.
-TEST(CellMarch, EndsWithTheCellThatAReferenceRayWouldMeet) {
+// At the end: the foot's surface says at what depth a reference ray would meet the object; that of the place answers.
+TEST(CellMarch, EndsWithTheSurfaceThatAReferenceRayWouldMeet) {
     Column column(8, {});
-    const std::int32_t one_step_q20 = 2047 * 64;  // an eighth of a band per radius and 4 radii: half a band
-    column.cells[4] = {{0, 0}, 0, kBoth};         // where nothing is met on the way
-    column.cells[3] = {{77, 0}, 77, kBoth};
-    EXPECT_EQ(column.met(one_step_q20), (std::vector<ShapeCell>{column.cells[3]}));
-    column.cells[3] = {};
-    EXPECT_EQ(column.met(one_step_q20), (std::vector<ShapeCell>{column.cells[4]}));
+    column.shape.h_low_q20 -= kOne_q20 / 2;       // the foot is in the middle of band 4
+    const std::int32_t one_step_q20 = 2047 * 64;  // an eighth of a band per radius: a quarter down at depth 0
+    const auto end = [&](ShapeCell band3, ShapeCell band4) {
+        column.cells[3] = band3;
+        column.cells[4] = band4;
+        return column.met(one_step_q20);
+    };
+    // Depth 0 lies 2 eighths below the middle, and a quarter of the weight says there is band 3.
+    EXPECT_EQ(end({16, 16}, {0, 1}), (std::vector<SurfaceCell>{{2 * 16, 16}}));
+    EXPECT_EQ(end({77, 77}, {0, 1}), (std::vector<SurfaceCell>{{0, 77}}));  // beyond a jump: the one with more weight
+    EXPECT_EQ(end({}, {0, 1}), (std::vector<SurfaceCell>{{0, 1}}));
+    EXPECT_TRUE(end({77, 77}, {}).empty());
+    // Where the second look finds nothing, the first one answers.
+    column.setup.cells.p_part = 0;
     column.cells[4] = {};
-    column.cells[3] = {{77, 0}, 77, kBoth};
+    const std::vector<ShapeCell> nothing(8);
     EXPECT_TRUE(column.met(one_step_q20).empty());
 }
 

@@ -68,9 +68,8 @@ TEST_P(CapturedPoseWithShape, GivesBackTheStoredPictureWhateverTheCells) {
         for (ShapeCell& cell : shape.cells) {
             const std::uint64_t bits = random();
             if (bits % 4 == 0) continue;
-            cell = {{std::uint8_t(bits >> 8), std::uint8_t(bits >> 16)},
-                    std::uint8_t(bits >> 24),
-                    std::uint8_t(bits % 3 + 13)};
+            const auto depth = std::uint8_t(bits >> 8);
+            cell = {depth, std::max({depth, std::uint8_t(bits >> 16), std::uint8_t{1}})};
         }
     }
 }
@@ -99,24 +98,24 @@ TEST(ShapeSample, FallsWhereFloatingPointProjectionSays) {
         const ViewRegisters registers = registers_of(object, camera);
         for (int n = 0; n < 60; ++n) {
             const int i = static_cast<int>(in(0, 64)), j = static_cast<int>(in(0, 64)),
-                      d = static_cast<int>(in(0, 256));
+                      d_q3 = static_cast<int>(in(0, 8 * 255));
             const ShapeSetup setup = set_up_shape(object, registers, i, j);
-            if (setup.cells == nullptr) continue;
+            if (!setup.has_shape()) continue;
             // The ray by its horizontal length, the foot, and the point at depth d.
             const glm::dvec3 ray = camera.ray(i + 0.5, j + 0.5) /
                                    std::hypot(camera.ray(i + 0.5, j + 0.5).x, camera.ray(i + 0.5, j + 0.5).z);
             const double to_foot = -(eye.x * ray.x + eye.z * ray.z);
             const double depth = std::ldexp(object.rings[0].shape.depth_low_q20, -20) +
-                                 d * std::ldexp(object.rings[0].shape.depth_step_q24, -24);
+                                 d_q3 * std::ldexp(object.rings[0].shape.depth_step_q24, -27);
             const glm::dvec3 point = eye + (to_foot + depth) * ray;
             const auto y_q16 = static_cast<std::int32_t>(std::lround(std::ldexp(point.y, 16)));
             for (const ShapePicture& picture : {setup.first, setup.second}) {
                 const glm::dvec3 pixel = rig.views[static_cast<std::size_t>(picture.view)].camera.project(point);
-                const SampleSum sum = sample_picture(object, picture, d, y_q16, place);
+                const SampleSum sum = sample_picture(object, picture, d_q3, y_q16, place);
                 const bool inside = pixel.x > 1 && pixel.x < 119 && pixel.y > 1 && pixel.y < 119;
                 if (!inside) continue;
                 ASSERT_TRUE(sum.exists);
-                EXPECT_EQ(sum.a, kOpaque);
+                EXPECT_EQ(sum.a, 64 * 255);
                 EXPECT_NEAR(0.5 * sum.r / sum.a + 0.5, pixel.x, 0.125);
                 EXPECT_NEAR(0.5 * sum.g / sum.a + 0.5, pixel.y, 0.125);
                 ++compared;
@@ -126,7 +125,7 @@ TEST(ShapeSample, FallsWhereFloatingPointProjectionSays) {
     EXPECT_GT(compared, 2000);
 }
 
-// --- Layers ---------------------------------------------------------------------------------------------------------
+// --- Blending -------------------------------------------------------------------------------------------------------
 
 // A view midway between views 0 and 1, all of whose rays meet the same cell.
 class Midway : public testing::Test {
@@ -138,30 +137,12 @@ protected:
         std::fill(object_.rings[0].shape.cells.begin(), object_.rings[0].shape.cells.end(), cell);
         return pixel_at(object_, camera_, kPixel, kPixel, texel);
     }
-    // Where the pixel's ray at depth d falls in a picture.
-    [[nodiscard]] glm::dvec3 place(std::size_t view, int d) const {
-        const glm::dvec3 ray = camera_.ray(kPixel + 0.5, kPixel + 0.5);
-        const double horizontal = std::hypot(ray.x, ray.z);
-        const glm::dvec3 eye = camera_.centre();
-        const double to_foot = -(eye.x * ray.x + eye.z * ray.z) / horizontal;
-        const double depth = (2 * d / 255.0 - 1) * (1 + 1.0 / 32);
-        return test::ring_rig(options_).views[view].camera.project(eye + (to_foot + depth) / horizontal * ray);
-    }
-    // Grey 100 in view 0 and 200 in view 1, but 50 near where both see depth d.
-    [[nodiscard]] Texel agreeing_at(int d) const {
-        const double column[] = {place(0, d).x, place(1, d).x};
-        return [=](int view, int x, int) {
-            const bool agrees = std::abs(x + 0.5 - column[view]) < 2;
-            return agrees ? Rgba8{50, 50, 50, 255} : by_view(view);
-        };
-    }
     static Rgba8 by_view(int view) {
         const auto grey = static_cast<std::uint8_t>(view == 0 ? 100 : 200);
         return {grey, grey, grey, 255};
     }
 
     static constexpr int kPixel = 60;
-    static constexpr std::uint8_t kAll = 15;
     RingObjectOptions options_{.views = 18, .width = 128, .height = 128, .fl_px = 200};
     Camera camera_ = test::between_views(options_, 0, 0.5);
     RaySpaceObject object_;
@@ -169,11 +150,12 @@ protected:
 };
 
 TEST_F(Midway, BlendsBothPicturesWithHalfWeightEach) {
-    EXPECT_EQ(shown({{128, 0}, 130, 3}, plain_).colour, (Rgba8{150, 150, 150, 255}));
+    EXPECT_EQ(shown({128, 130}, plain_).colour, (Rgba8{150, 150, 150, 255}));
     for (const int eighth : {1, 2, 6, 7}) {
         camera_ = test::between_views(options_, 0, eighth / 8.0);
-        EXPECT_NEAR(shown({{128, 0}, 130, 3}, plain_).colour.r, 100 + 100 * eighth / 8.0, 1);
+        EXPECT_NEAR(shown({128, 130}, plain_).colour.r, 100 + 100 * eighth / 8.0, 1);
     }
+    EXPECT_EQ(shown({}, plain_).colour, Rgba8{});
 }
 
 // Colour is weighted by alpha.
@@ -183,48 +165,28 @@ TEST_F(Midway, BlendsPremultipliedColour) {
         if (view == 1) grey.a = 85;
         return grey;
     };
-    EXPECT_EQ(shown({{128, 0}, 130, 3}, half_seen).colour, (Rgba8{125, 125, 125, 170}));
+    EXPECT_EQ(shown({128, 130}, half_seen).colour, (Rgba8{125, 125, 125, 170}));
 }
 
-TEST_F(Midway, ALayerThatOnePictureSeesIsNotBlended) {
-    EXPECT_EQ(shown({{128, 0}, 130, kFirstSeesLayer0}, plain_).colour.r, 100);
-    EXPECT_EQ(shown({{128, 0}, 130, kSecondSeesLayer0}, plain_).colour.r, 200);
-    EXPECT_EQ(shown({}, plain_).colour, Rgba8{});
-}
-
-TEST_F(Midway, ATransparentSampleInEitherPictureHidesTheLayer) {
+TEST_F(Midway, ATransparentSampleInEitherPictureHidesTheSurface) {
     for (const int clear_view : {0, 1}) {
         const Texel texel = [=](int view, int, int) { return view == clear_view ? Rgba8{} : by_view(view); };
-        for (const std::uint8_t rays : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}})
-            EXPECT_EQ(shown({{128, 0}, 130, rays}, texel).colour, Rgba8{}) << int{rays};
+        EXPECT_EQ(shown({128, 130}, texel).colour, Rgba8{});
     }
 }
 
-TEST_F(Midway, OfTwoLayersTheAgreeingOneWins) {
-    for (const int view : {0, 1})
-        ASSERT_GT(std::abs(place(std::size_t(view), 90).x - place(std::size_t(view), 170).x), 4);
-    const ShapeCell cell{{90, 170}, 180, kAll};
-    const ShapePixel near = shown(cell, agreeing_at(90));
-    const ShapePixel far = shown(cell, agreeing_at(170));
-    EXPECT_EQ(near.colour.r, 50);
-    EXPECT_EQ(far.colour.r, 50);
-    EXPECT_NEAR(far.lambda_q20 - near.lambda_q20, std::ldexp(80 * 2 * (1 + 1.0 / 32) / 255, 20), std::ldexp(0.01, 20));
-    // Equal scores: layer 0, be it nearer or not.
-    EXPECT_EQ(shown(cell, plain_).lambda_q20, near.lambda_q20);
-    EXPECT_EQ(shown({{170, 90}, 180, kAll}, plain_).lambda_q20, far.lambda_q20);
+// Outside of a picture's frame is neither transparent nor visible: the other answers alone.
+TEST_F(Midway, ASurfaceOutsideOfOneFrameIsShownByTheOther) {
+    for (const int lost : {0, 1}) {
+        object_.views[static_cast<std::size_t>(lost)].cx_q16 = 1 << 29;
+        EXPECT_EQ(shown({128, 130}, plain_).colour, by_view(1 - lost));
+        object_.views[static_cast<std::size_t>(lost)].cx_q16 = object_.views[2].cx_q16;
+    }
 }
 
-// A layer that one picture sees counts 48, a ruled-out one 96, two pictures what they differ by (here 300).
-TEST_F(Midway, ScoresOrderTheLayers) {
-    const std::uint8_t single1 = 3 | kSecondSeesLayer1;
-    EXPECT_EQ(shown({{90, 170}, 180, single1}, plain_).colour.r, 200);
-    EXPECT_EQ(shown({{90, 170}, 180, single1}, agreeing_at(90)).colour.r, 50);
-    const double column = place(0, 170).x;
-    const Texel clear_behind = [=](int view, int x, int) {
-        return view == 0 && std::abs(x + 0.5 - column) < 2 ? Rgba8{} : by_view(view);
-    };
-    EXPECT_EQ(shown({{90, 170}, 180, kAll}, clear_behind).colour, Rgba8{});
-    EXPECT_EQ(shown({{90, 170}, 180, kFirstSeesLayer0 | 12}, clear_behind).colour.r, 100);
+TEST_F(Midway, ItsDepthIsThatOfTheSurface) {
+    const double apart = std::ldexp(shown({170, 170}, plain_).lambda_q20 - shown({90, 90}, plain_).lambda_q20, -20);
+    EXPECT_NEAR(apart, 80 * 2 * (1 + 1.0 / 32) / 255, 0.01);
 }
 
 TEST_F(Midway, AGapWithoutLinesShowsTheNearestPicture) {
@@ -290,9 +252,8 @@ TEST_F(Ball, IsAValidObject) {
     EXPECT_TRUE(status.ok()) << status.error().message;
 }
 
-// A cell is 1/31 object radius wide and high, and where the ball is looked at, its surface is up to 1.33 times as deep
-// as wide: half a cell is 0.02 deep in either direction, half a depth step 0.004. So the most is about 0.05, and from
-// other heights, where the band is followed to first order only, a little more; the mean is a third of it.
+// The surface between cells is a bilinear one of cells of 1/31 object radius; a depth step is 0.008. From other heights
+// the band is followed to first order only, so the most is that of a march step of half a band.
 TEST_F(Ball, ViewsFromAnywhereMeetItsSurface) {
     const auto expect_near = [&](const char* what, const Camera& camera) {
         SCOPED_TRACE(what);
@@ -351,6 +312,7 @@ TEST(ShapePixelProperty, ExtremeNumbersStayDefined) {
         }
         if (random() % 2 == 0) shape.depth_low_q20 = below((1 << 21) + (1 << 16) + 1);
         if (random() % 2 == 0) shape.depth_step_q24 = in(1, 1 << 18);
+        shape.jump = in(1, 255);
         for (NormalLine& line : shape.normal_lines) {
             if (random() % 4 == 0) line.a_q20 = below(k28);
             if (random() % 4 == 0) line.c_q20 = below(k28);
@@ -372,7 +334,8 @@ TEST(ShapePixelProperty, ExtremeNumbersStayDefined) {
             }
         }
         for (ShapeCell& cell : shape.cells) {
-            cell = {{std::uint8_t(in(0, 255)), std::uint8_t(in(0, 255))}, std::uint8_t(in(0, 255)), 15};
+            const auto depth = std::uint8_t(in(0, 255));
+            cell = {depth, std::max(depth, std::uint8_t(in(1, 255)))};
         }
         const Status status = validate_object(object, "extreme");
         ASSERT_TRUE(status.ok()) << status.error().message;
@@ -388,7 +351,7 @@ TEST(ShapePixelProperty, ExtremeNumbersStayDefined) {
         Image<Rgba8> picture(16, 16);
         reconstruct_scalar(object, *registers, picture);
         for (const Rgba8& p : picture.pixels()) shown += p.a != 0;
-        for (int i = 0; i < 16; ++i) rays += set_up_shape(object, *registers, i, 8).cells != nullptr;
+        for (int i = 0; i < 16; ++i) rays += set_up_shape(object, *registers, i, 8).has_shape();
     }
     EXPECT_GT(rays, 1000);
     EXPECT_GT(shown, 3000);

@@ -62,7 +62,7 @@ std::vector<std::byte> container_of(std::span<const SoupChunk> chunks) {
     static constexpr std::array<unsigned char, 8> kMagic = {0x89, 'R', 'S', 'O', '\r', '\n', 0x1A, '\n'};
     std::vector<std::byte> bytes(kHeader_bytes + kEntry_bytes * chunks.size());
     std::memcpy(bytes.data(), kMagic.data(), kMagic.size());
-    put(bytes, 8, 1, 2);
+    put(bytes, 8, 2, 2);
     put(bytes, 12, chunks.size(), 4);
     put(bytes, 16, kHeader_bytes, 8);
     for (std::size_t i = 0; i < chunks.size(); ++i) {

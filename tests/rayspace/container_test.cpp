@@ -102,8 +102,8 @@ TEST(Container, LayoutIsTheDocumentedOne) {
     std::vector<std::byte> expected(48 + 32 + 16);
     const unsigned char magic[] = {0x89, 'R', 'S', 'O', '\r', '\n', 0x1A, '\n'};
     std::memcpy(expected.data(), magic, 8);
-    put_number(expected, 8, 1, 2);
-    put_number(expected, 10, 6, 2);
+    put_number(expected, 8, 2, 2);
+    put_number(expected, 10, 0, 2);
     put_number(expected, 12, 1, 4);
     put_number(expected, 16, 48, 8);
     put_number(expected, 24, 96, 8);
@@ -152,7 +152,7 @@ TEST(Container, EachRuleHasItsMessage) {
     EXPECT_THAT(verify(payload(100, 1)).error().message, HasSubstr("is not a ray-space object"));
     EXPECT_THAT(verify({}).error().message, HasSubstr("is not a ray-space object"));
     EXPECT_THAT(verify({good.begin(), good.begin() + 20}).error().message, HasSubstr("ends inside its header"));
-    EXPECT_THAT(sealed_error(good, 8, 2, 2), HasSubstr("format version 2, newer than the 1"));
+    EXPECT_THAT(sealed_error(good, 8, 3, 2), HasSubstr("format version 3, newer than the 2"));
     EXPECT_THAT(sealed_error(good, 8, 0, 2), HasSubstr("version 0"));
     EXPECT_THAT(sealed_error(good, 12, 0, 4), HasSubstr("claims 0 chunks"));
     EXPECT_THAT(sealed_error(good, 12, 65537, 4), HasSubstr("claims 65537 chunks"));
@@ -178,6 +178,25 @@ TEST(Container, NewerMinorVersionsAreRead) {
     put_number(newer, 10, 7, 2);
     seal(newer);
     EXPECT_TRUE(verify(newer).ok());
+}
+
+// Whatever else such a file holds: its header is not looked at any further.
+TEST(Container, VersionOneIsRefused) {
+    const std::string advice = ", which is read no more; encode its set anew with these tools (rs-encode build)";
+    std::vector<std::byte> old = sample_file();
+    put_number(old, 8, 1, 2);
+    put_number(old, 10, 6, 2);
+    EXPECT_EQ(verify(old).error().message, "F: is written in format 1.6" + advice);
+    seal(old);
+    EXPECT_EQ(verify(old).error().message, "F: is written in format 1.6" + advice);
+    put_number(old, 10, 0, 2);
+    EXPECT_EQ(verify(old).error().message, "F: is written in format 1.0" + advice);
+    // Its name is that of the file on the disk.
+    const TemporaryFolder folder;
+    std::ofstream(folder / "old.rso", std::ios::binary)
+        .write(reinterpret_cast<const char*>(old.data()), static_cast<std::streamsize>(old.size()));
+    EXPECT_EQ(ContainerReader::open(folder / "old.rso").error().message,
+              (folder / "old.rso").string() + ": is written in format 1.0" + advice);
 }
 
 TEST(Container, RandomTablesNeverCrash) {

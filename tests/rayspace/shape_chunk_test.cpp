@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <functional>
 #include <random>
+#include <set>
 
 namespace {
 
@@ -21,10 +22,9 @@ using test::SmallShapeOptions;
 using testing::AnyOf;
 using testing::HasSubstr;
 
-constexpr std::size_t kLayer0CellsAt = 40;
-constexpr std::size_t kLayer1CellsAt = 44;
-constexpr std::size_t kRaysBytesAt = 48;
-constexpr std::size_t kGapsAt = 64;
+constexpr std::size_t kSurfacesAt = 40;
+constexpr std::size_t kFrameBytesAt = 44;
+constexpr std::size_t kGapsAt = 56;
 
 // 8 views and 4 planes, as small_object() has.
 std::size_t frames_at() {
@@ -72,34 +72,40 @@ Payload frame_of(const std::vector<std::uint8_t>& plane) {
 // Puts `frame` in the place of frame number `which`.
 void replace_frame(Payload& payload, std::size_t which, const Payload& frame) {
     std::size_t begin = frames_at();
-    for (std::size_t i = 0; i < which; ++i) begin += number_at(payload, kRaysBytesAt + 4 * i);
+    for (std::size_t i = 0; i < which; ++i) begin += number_at(payload, kFrameBytesAt + 4 * i);
     const auto first = payload.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto place =
-        payload.erase(first, first + static_cast<std::ptrdiff_t>(number_at(payload, kRaysBytesAt + 4 * which)));
+        payload.erase(first, first + static_cast<std::ptrdiff_t>(number_at(payload, kFrameBytesAt + 4 * which)));
     payload.insert(place, frame.begin(), frame.end());
-    put_number(payload, kRaysBytesAt + 4 * which, frame.size(), 4);
+    put_number(payload, kFrameBytesAt + 4 * which, frame.size(), 4);
 }
 
 Payload frame_number(const Payload& payload, std::size_t which) {
     std::size_t begin = frames_at();
-    for (std::size_t i = 0; i < which; ++i) begin += number_at(payload, kRaysBytesAt + 4 * i);
+    for (std::size_t i = 0; i < which; ++i) begin += number_at(payload, kFrameBytesAt + 4 * i);
     const auto first = payload.begin() + static_cast<std::ptrdiff_t>(begin);
-    return {first, first + static_cast<std::ptrdiff_t>(number_at(payload, kRaysBytesAt + 4 * which))};
+    return {first, first + static_cast<std::ptrdiff_t>(number_at(payload, kFrameBytesAt + 4 * which))};
 }
 
 TEST(ShapeChunk, TheSmallShapeIsNotTrivial) {
     const ShapeMap shape = small_object_with_shape().rings[0].shape;
     ASSERT_EQ(shape.cells.size(), 8U * 2 * 9 * 7);
-    int with[16] = {};
-    for (const ShapeCell& cell : shape.cells) ++with[cell.rays];
-    for (const int rays : {0, 1, 2, 3, 3 | 4, 3 | 8}) EXPECT_GT(with[rays], 10) << rays;
+    std::set<int> depths;
+    std::size_t empty = 0;
+    for (const ShapeCell& cell : shape.cells) {
+        if (cell.has_surface()) depths.insert(cell.depth);
+        empty += cell.has_surface() ? 0 : 1;
+    }
+    EXPECT_GT(empty, 100U);
+    EXPECT_GT(shape.cells.size() - empty, 300U);
+    EXPECT_GT(depths.size(), 30U);
 }
 
 TEST(ShapeChunk, RoundTrip) {
     const SmallShapeOptions options[] = {
         {},
         {.p_cells = 1, .bands = 1, .lines = {1}},
-        {.p_cells = 3, .bands = 5, .lines = {1, 0, 0}},  // an odd number of cells
+        {.p_cells = 3, .bands = 5, .lines = {1, 0, 0}},  // cells that do not fill the last byte of bits
         {.p_cells = 40, .bands = 30, .lines = {3, 1}},
         {.p_cells = 2, .bands = 2, .lines = {0}},  // no cells at all
     };
@@ -111,17 +117,18 @@ TEST(ShapeChunk, RoundTrip) {
     }
 }
 
-// Depths without any order, all values, all combinations of layers.
+// Depths without any order, all values.
 TEST(ShapeChunk, AnyCellsComeBack) {
     Ring ring = small_object_with_shape().rings[0];
     for (const unsigned seed : {1U, 2U, 3U}) {
         std::mt19937 random(seed);
         for (ShapeCell& cell : ring.shape.cells) {
-            const auto rays = static_cast<unsigned>(random() % 16);
-            cell.rays = static_cast<std::uint8_t>((rays & 3U) == 0 ? 0 : rays);
-            cell.depth[0] = (cell.rays & 3) == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(random());
-            cell.back = (cell.rays & 3) == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(random());
-            cell.depth[1] = (cell.rays & 12) == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(random());
+            cell = {};
+            if (random() % 4 == 0) continue;
+            cell.depth = static_cast<std::uint8_t>(random());
+            const int least = std::max<int>(cell.depth, 1);
+            cell.back =
+                static_cast<std::uint8_t>(least + static_cast<int>(random() % static_cast<unsigned>(256 - least)));
         }
         const auto back = read_back(shape_payload(ring), ring);
         ASSERT_TRUE(back.ok()) << back.error().message;
@@ -134,25 +141,28 @@ TEST(ShapeChunk, PlanesAreAsTheFormatSays) {
     Ring ring = small_object_with_shape({}, {.p_cells = 1, .bands = 3, .lines = {1, 0}}).rings[0];
     ASSERT_EQ(ring.shape.cells.size(), 12U);
     std::fill(ring.shape.cells.begin(), ring.shape.cells.end(), ShapeCell{});
-    ring.shape.cells[0] = {{100, 130}, 140, 1 | 4};
-    ring.shape.cells[1] = {{110, 0}, 151, 3};
-    ring.shape.cells[3] = {{104, 0}, 104, 2};
-    ring.shape.cells[4] = {{117, 0}, 90, 3};
+    ring.shape.cells[0] = {100, 140};
+    ring.shape.cells[1] = {110, 151};
+    ring.shape.cells[3] = {104, 104};
+    ring.shape.cells[4] = {90, 117};
+    ring.shape.jump = 77;
     const Payload payload = shape_payload(ring);
-    EXPECT_EQ(number_at(payload, kLayer0CellsAt), 4U);
-    EXPECT_EQ(number_at(payload, kLayer1CellsAt), 1U);
+    EXPECT_EQ(payload.at(0), std::byte{0});
+    EXPECT_EQ(payload.at(1), std::byte{77});
+    EXPECT_EQ(payload.at(2), std::byte{0});
+    EXPECT_EQ(payload.at(3), std::byte{0});
+    EXPECT_EQ(number_at(payload, kSurfacesAt), 4U);
     const auto plane = [&](std::size_t which, std::size_t size) {
         std::vector<std::uint8_t> bytes(size);
         const Payload frame = frame_number(payload, which);
         EXPECT_EQ(ZSTD_decompress(bytes.data(), size, frame.data(), frame.size()), size);
         return bytes;
     };
-    EXPECT_EQ(plane(0, 6), (std::vector<std::uint8_t>{0x35, 0x20, 0x03, 0, 0, 0}));
-    // 128; below; line before; median of below 104, before 110 and 110 + 104 - 100.
-    EXPECT_EQ(plane(1, 4), (std::vector<std::uint8_t>{256 - 28, 10, 4, 7}));
-    EXPECT_EQ(plane(2, 1), (std::vector<std::uint8_t>{130 - 128}));
+    EXPECT_EQ(plane(0, 2), (std::vector<std::uint8_t>{0x1B, 0}));
+    // 128; below; line before; median of below 104, before 110 and 110 + 104 - 100 = 114.
+    EXPECT_EQ(plane(1, 4), (std::vector<std::uint8_t>{256 - 28, 10, 4, 256 - 20}));
     // 128; below 140; before 140; of below 104, before 151 and 151 + 104 - 140 = 115 the median.
-    EXPECT_EQ(plane(3, 4), (std::vector<std::uint8_t>{140 - 128, 11, 256 - 36, 256 - 25}));
+    EXPECT_EQ(plane(2, 4), (std::vector<std::uint8_t>{140 - 128, 11, 256 - 36, 2}));
 }
 
 TEST(ShapeChunk, TheSameMapGivesTheSameBytes) {
@@ -205,6 +215,10 @@ TEST(ShapeChunk, FieldsAreCheckedBeforeTheyAllocate) {
     EXPECT_EQ(error_after([](Payload& payload) { payload.clear(); }), "is empty");
     EXPECT_EQ(error_after([](Payload& payload) { payload.resize(kGapsAt - 1); }), "is too short");
     EXPECT_THAT(number(0, 1, 1), HasSubstr("has shape coding 1, which is not known here; update"));
+    EXPECT_THAT(number(1, 0, 1), HasSubstr("its jump is not between 1 and 255"));
+    EXPECT_EQ(number(1, 1, 1), "read without error");
+    EXPECT_EQ(number(1, 255, 1), "read without error");
+    EXPECT_THAT(number(2, 1, 1), HasSubstr("reserved bytes"));
     EXPECT_THAT(number(3, 1, 1), HasSubstr("reserved bytes"));
     EXPECT_THAT(number(4, 0, 2), HasSubstr("lines of 0x7 cells"));
     EXPECT_THAT(number(6, 4097, 2), HasSubstr("lines of 9x4097 cells; each side must be 1..4096"));
@@ -214,28 +228,24 @@ TEST(ShapeChunk, FieldsAreCheckedBeforeTheyAllocate) {
                     put_number(payload, 6, 4096, 2);
                 }),
                 HasSubstr("has 268435456 cells; at most 134217728 are possible"));
-    EXPECT_THAT(number(kLayer0CellsAt, 1009, 4), HasSubstr("claims 1009 cells with layer 0"));
-    EXPECT_THAT(number(kLayer1CellsAt, 1000, 4), HasSubstr("1000 with layer 1 among 1008"));
-    for (const std::size_t field : {0U, 1U, 2U, 3U}) {
-        EXPECT_THAT(number(kRaysBytesAt + 4 * field, 0xFFFFFFFF, 4), HasSubstr("bytes long instead of")) << field;
+    EXPECT_THAT(number(kSurfacesAt, 1009, 4), HasSubstr("claims 1009 cells with a surface among 1008"));
+    for (const std::size_t field : {0U, 1U, 2U}) {
+        EXPECT_THAT(number(kFrameBytesAt + 4 * field, 0xFFFFFFFF, 4), HasSubstr("bytes long instead of")) << field;
     }
-    EXPECT_THAT(number(kGapsAt, 3, 2), HasSubstr("its rays do not state the 536 bytes that they must expand to"));
+    EXPECT_THAT(number(kGapsAt, 3, 2), HasSubstr("its surfaces do not state the 134 bytes that they must expand to"));
 }
 
 TEST(ShapeChunk, FramesAreExactlyWhatTheySay) {
     const Payload good = shape_payload(small_object_with_shape().rings[0]);
-    const std::uint32_t layer0 = number_at(good, kLayer0CellsAt);
-    const std::uint32_t layer1 = number_at(good, kLayer1CellsAt);
+    const std::uint32_t surfaces = number_at(good, kSurfacesAt);
     const auto with = [](std::size_t which, const Payload& frame) {
         return error_after([&](Payload& payload) { replace_frame(payload, which, frame); });
     };
     EXPECT_EQ(with(1, frame_number(good, 1)), "read without error");
-    EXPECT_THAT(with(0, {}), HasSubstr("its rays are no Zstandard frame"));
-    EXPECT_THAT(with(1, frame_of(std::vector<std::uint8_t>(layer0 + 1))),
-                HasSubstr("its depths of layer 0 do not state the"));
-    EXPECT_THAT(with(2, frame_of(std::vector<std::uint8_t>(layer1 - 1))),
-                HasSubstr("its depths of layer 1 do not state the"));
-    EXPECT_THAT(with(3, {}), HasSubstr("its backs are no Zstandard frame"));
+    EXPECT_THAT(with(0, {}), HasSubstr("its surfaces are no Zstandard frame"));
+    EXPECT_THAT(with(1, frame_of(std::vector<std::uint8_t>(surfaces + 1))), HasSubstr("its depths do not state the"));
+    EXPECT_THAT(with(2, frame_of(std::vector<std::uint8_t>(surfaces - 1))), HasSubstr("its backs do not state the"));
+    EXPECT_THAT(with(2, {}), HasSubstr("its backs are no Zstandard frame"));
 
     // A second frame, a skippable one in front, one cut short, one without its size.
     Payload two = frame_number(good, 1);
@@ -251,42 +261,83 @@ TEST(ShapeChunk, FramesAreExactlyWhatTheySay) {
     EXPECT_THAT(with(1, cut), HasSubstr("not one whole Zstandard frame"));
     ZSTD_CCtx* const context = ZSTD_createCCtx();
     ZSTD_CCtx_setParameter(context, ZSTD_c_contentSizeFlag, 0);
-    const std::vector<std::uint8_t> zeros(layer0);
+    const std::vector<std::uint8_t> zeros(surfaces);
     Payload unstated(ZSTD_compressBound(zeros.size()));
     unstated.resize(ZSTD_compress2(context, unstated.data(), unstated.size(), zeros.data(), zeros.size()));
     ZSTD_freeCCtx(context);
     EXPECT_THAT(with(1, unstated), HasSubstr("do not state"));
-    // A frame that states the right size and holds another: two bytes in a raw block behind a header that says layer0.
+    // A frame that states the right size and holds another: two bytes in a raw block behind a header that says
+    // otherwise.
     Payload liar = frame_of(std::vector<std::uint8_t>(300));
-    ASSERT_GE(layer0, 256U);
-    put_number(liar, 5, layer0 - 256, 2);  // Frame_Content_Size of two bytes, behind magic and descriptor
+    ASSERT_GE(surfaces, 256U);
+    put_number(liar, 5, surfaces - 256, 2);  // Frame_Content_Size of two bytes, behind magic and descriptor
     EXPECT_THAT(with(1, liar), AnyOf(HasSubstr("cannot be decompressed"), HasSubstr("too few bytes")));
 }
 
-TEST(ShapeChunk, RaysMustBearOutTheCounts) {
-    const auto with_rays = [](std::size_t byte, std::uint8_t value, bool odd = false) {
-        const SmallShapeOptions options =
-            odd ? SmallShapeOptions{.p_cells = 3, .bands = 5, .lines = {1, 0, 0}} : SmallShapeOptions{};
-        const Ring ring = small_object_with_shape({}, options).rings[0];
-        Payload payload = shape_payload(ring);
-        std::vector<std::uint8_t> plane((ring.shape.cells.size() + 1) / 2);
-        const Payload frame = frame_number(payload, 0);
-        EXPECT_EQ(ZSTD_decompress(plane.data(), plane.size(), frame.data(), frame.size()), plane.size());
-        plane.at(std::min(byte, plane.size() - 1)) ^= value;
-        replace_frame(payload, 0, frame_of(plane));
-        const auto back = read_back(payload, ring);
-        return back.ok() ? std::string("read without error") : back.error().message;
+// The plane `which` of a small shape, changed; what the reader says then.
+std::string error_with_plane(const SmallShapeOptions& options, std::size_t which,
+                             const std::function<void(std::vector<std::uint8_t>&)>& change) {
+    const Ring ring = small_object_with_shape({}, options).rings[0];
+    Payload payload = shape_payload(ring);
+    std::vector<std::uint8_t> plane(which == 0 ? (ring.shape.cells.size() + 7) / 8 : number_at(payload, kSurfacesAt));
+    const Payload frame = frame_number(payload, which);
+    EXPECT_EQ(ZSTD_decompress(plane.data(), plane.size(), frame.data(), frame.size()), plane.size());
+    change(plane);
+    replace_frame(payload, which, frame_of(plane));
+    const auto back = read_back(payload, ring);
+    return back.ok() ? std::string("read without error") : back.error().message;
+}
+
+TEST(ShapeChunk, BitsMustBearOutTheCount) {
+    const auto with_flipped = [](std::size_t cell) {
+        return error_with_plane({}, 0, [&](auto& plane) {
+            plane.at(cell / 8) = static_cast<std::uint8_t>(plane.at(cell / 8) ^ 1U << (cell % 8));
+        });
     };
     const Ring ring = small_object_with_shape().rings[0];
-    const auto empty = std::find(ring.shape.cells.begin(), ring.shape.cells.end(), ShapeCell{});
-    ASSERT_NE(empty, ring.shape.cells.end());
-    const auto place = static_cast<std::size_t>(empty - ring.shape.cells.begin());
-    const unsigned shift = place % 2 * 4;
-    EXPECT_THAT(with_rays(place / 2, static_cast<std::uint8_t>(1U << shift)), HasSubstr("with layer 0, but its rays"));
-    EXPECT_THAT(with_rays(place / 2, static_cast<std::uint8_t>(4U << shift)), HasSubstr("with layer 1, but its rays"));
-    EXPECT_EQ(ring.shape.cells.size() % 2, 0U);
-    EXPECT_EQ(with_rays(1000, 0x10, true), "has ray bits behind its last cell");
-    EXPECT_EQ(with_rays(1000, 0x80, true), "has ray bits behind its last cell");
+    const auto& cells = ring.shape.cells;
+    const std::size_t count = number_at(shape_payload(ring), kSurfacesAt);
+    const std::string claim = "claims " + std::to_string(count) + " cells with a surface, but its bits show ";
+    const auto empty = std::find(cells.begin(), cells.end(), ShapeCell{});
+    ASSERT_NE(empty, cells.end());
+    EXPECT_EQ(with_flipped(static_cast<std::size_t>(empty - cells.begin())), claim + std::to_string(count + 1));
+    const auto full = std::find_if(cells.begin(), cells.end(), [](const ShapeCell& c) { return c.has_surface(); });
+    ASSERT_NE(full, cells.end());
+    EXPECT_EQ(with_flipped(static_cast<std::size_t>(full - cells.begin())), claim + std::to_string(count - 1));
+}
+
+TEST(ShapeChunk, BitsBehindTheLastCellAreZero) {
+    const SmallShapeOptions options{.p_cells = 3, .bands = 5, .lines = {1, 0, 0}};  // 45 cells: 3 bits are left
+    ASSERT_EQ(small_object_with_shape({}, options).rings[0].shape.cells.size(), 45U);
+    const auto with = [&](unsigned bits) {
+        return error_with_plane(options, 0,
+                                [&](auto& plane) { plane.back() = static_cast<std::uint8_t>(plane.back() | bits); });
+    };
+    EXPECT_EQ(with(0), "read without error");
+    EXPECT_EQ(with(0x20), "has bits behind its last cell");
+    EXPECT_EQ(with(0x80), "has bits behind its last cell");
+}
+
+// The first cell with a surface has no neighbours: its bytes are 128 and the residuals.
+TEST(ShapeChunk, ABackIsNotZeroAndNotInFront) {
+    const SmallShapeOptions one_cell{.p_cells = 1, .bands = 1, .lines = {1, 0, 0, 0, 0, 0, 0, 0}};
+    const auto with = [&](std::size_t which, int depth) {
+        return error_with_plane(one_cell, which,
+                                [&](auto& plane) { plane.at(0) = static_cast<std::uint8_t>(depth - 128); });
+    };
+    const ShapeMap shape = small_object_with_shape({}, one_cell).rings[0].shape;
+    ASSERT_EQ(shape.cells.size(), 1U);
+    const ShapeCell cell = shape.cells[0];
+    ASSERT_TRUE(cell.has_surface());
+    ASSERT_GT(cell.depth, 0);
+    ASSERT_LT(cell.back, 255);
+    EXPECT_EQ(with(2, cell.depth), "read without error");
+    EXPECT_EQ(with(2, 255), "read without error");
+    EXPECT_EQ(with(2, 0), "has a cell with a surface whose back is 0");
+    EXPECT_EQ(with(2, cell.depth - 1), "cell 0 has its back in front of its surface");
+    EXPECT_EQ(with(1, 0), "read without error");
+    EXPECT_EQ(with(1, cell.back), "read without error");
+    EXPECT_EQ(with(1, cell.back + 1), "cell 0 has its back in front of its surface");
 }
 
 }  // namespace

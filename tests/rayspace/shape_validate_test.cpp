@@ -62,6 +62,7 @@ TEST(ValidateShape, Numbers) {
     expect_range(&ShapeMap::reference_height_q20, -k2To28 + 1, k2To28 - 1, "reference height");
     expect_range(&ShapeMap::depth_low_q20, -(1 << 21) - (1 << 16), (1 << 21) + (1 << 16), "lowest depth");
     expect_range(&ShapeMap::depth_step_q24, 1, 1 << 18, "depth step");
+    expect_range(&ShapeMap::jump, 1, 255, "jump is not between 1 and 255 depth steps");
 }
 
 TEST(ValidateShape, Sides) {
@@ -136,16 +137,15 @@ TEST(ValidateShape, Cells) {
     const auto with = [](const ShapeCell& cell) {
         return error_after([&](ShapeMap& shape) { shape.cells[7] = cell; });
     };
-    for (const int rays : {0, 1, 2, 3}) EXPECT_EQ(with({{0, 0}, 0, static_cast<std::uint8_t>(rays)}), "valid") << rays;
-    EXPECT_EQ(with({{255, 0}, 255, 2}), "valid");
-    EXPECT_EQ(with({{255, 255}, 0, 1 | 8}), "valid");
-    EXPECT_EQ(with({{200, 100}, 150, 15}), "valid");
-    EXPECT_EQ(with({{0, 0}, 0, 16 | 3}), "cell 7 has unknown ray bits");
-    EXPECT_EQ(with({{0, 0}, 0, 4}), "cell 7 has layer 1 without layer 0");
-    EXPECT_EQ(with({{0, 0}, 0, 8}), "cell 7 has layer 1 without layer 0");
-    EXPECT_EQ(with({{1, 0}, 0, 0}), "cell 7 has a depth for a layer that does not exist");
-    EXPECT_EQ(with({{0, 0}, 1, 0}), "cell 7 has a depth for a layer that does not exist");
-    EXPECT_EQ(with({{1, 1}, 0, 3}), "cell 7 has a depth for a layer that does not exist");
+    EXPECT_EQ(with({0, 0}), "valid");
+    EXPECT_EQ(with({0, 1}), "valid");
+    EXPECT_EQ(with({1, 1}), "valid");
+    EXPECT_EQ(with({255, 255}), "valid");
+    EXPECT_EQ(with({100, 150}), "valid");
+    EXPECT_EQ(with({1, 0}), "cell 7 has a depth and no surface");
+    EXPECT_EQ(with({255, 0}), "cell 7 has a depth and no surface");
+    EXPECT_EQ(with({2, 1}), "cell 7 has its back in front of its surface");
+    EXPECT_EQ(with({255, 254}), "cell 7 has its back in front of its surface");
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 namespace rs::test {
 
 // Lines, right normal lines and sizes as small_shape() makes them; then, by chance, another band height, other depths,
-// another reference viewpoint, gaps without lines, and cells of which `empty_share` are empty. The rest have one or two
-// layers, seen by either picture or both, at depths near one another (`smooth`) or anywhere.
+// another reference viewpoint, gaps without lines, and cells of which `empty_share` are empty. The surfaces of the rest
+// lie at depths near one another (`smooth`) or anywhere.
 inline ShapeMap random_shape(const RaySpaceObject& object, std::size_t ring, std::mt19937_64& random,
                              double empty_share) {
     using small_object_detail::fixed;
@@ -43,20 +43,15 @@ inline ShapeMap random_shape(const RaySpaceObject& object, std::size_t ring, std
         shape.depth_low_q20 = fixed(real(-2, 1), 20);
         shape.depth_step_q24 = fixed(real(0.0001, 0.015), 24);
     }
+    shape.jump = whole(0, 2) == 0 ? whole(1, 255) : whole(1, 20);
     const bool smooth = whole(0, 1) == 0;
     const int middle = whole(0, 255);
     for (ShapeCell& cell : shape.cells) {
         cell = {};
         if (real(0, 1) < empty_share) continue;
         const auto depth = [&] { return smooth ? std::clamp(middle + whole(-9, 9), 0, 255) : whole(0, 255); };
-        cell.depth[0] = static_cast<std::uint8_t>(depth());
-        cell.back = static_cast<std::uint8_t>(std::min(cell.depth[0] + whole(0, 60), 255));
-        int rays = whole(1, 3);
-        if (whole(0, 2) == 0) {
-            cell.depth[1] = static_cast<std::uint8_t>(depth());
-            rays |= whole(1, 3) << 2;
-        }
-        cell.rays = static_cast<std::uint8_t>(rays);
+        cell.depth = static_cast<std::uint8_t>(depth());
+        cell.back = static_cast<std::uint8_t>(std::clamp(cell.depth + whole(0, 60), 1, 255));
     }
     return shape;
 }

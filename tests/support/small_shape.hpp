@@ -40,26 +40,18 @@ inline NormalLine normal_line(const Camera& camera, int plane, int planes) {
             fixed(glm::dot(camera.centre(), t), 20), fixed(glm::dot(camera.centre(), normal), 20)};
 }
 
-// What the ray through `foot` meets: the balls in the order in which it enters them. Of the front one one picture
-// misses a rim, of the back one each sees a side.
+// What the ray through `foot` meets first.
 inline ShapeCell cell(const ShapeMap& shape, const glm::dvec3& foot, const glm::dvec3& direction) {
     const Ball balls[] = {{{0.1, 0, -0.15}, 0.7}, {{0.2, 0.1, 0.6}, 0.3}};
-    std::vector<double> depths;
+    std::optional<double> nearest;
     for (const Ball& ball : balls) {
-        if (const auto depth = entry(ball, foot, direction)) depths.push_back(*depth);
+        const auto depth = entry(ball, foot, direction);
+        if (depth && (!nearest || *depth < *nearest)) nearest = depth;
     }
-    std::sort(depths.begin(), depths.end());
-    ShapeCell result;
-    for (std::size_t layer = 0; layer < depths.size(); ++layer) {
-        const double steps =
-            (depths[layer] - std::ldexp(shape.depth_low_q20, -20)) / std::ldexp(shape.depth_step_q24, -24);
-        result.depth[layer] = static_cast<std::uint8_t>(std::clamp(std::lround(steps), 0L, 255L));
-        const int side = foot.x > 0 ? 1 : 2;
-        const int seen_by = layer == 0 && std::abs(foot.y) < 0.5 ? 3 : side;
-        result.rays = static_cast<std::uint8_t>(result.rays | seen_by << (2 * layer));
-        result.back = static_cast<std::uint8_t>(std::min(result.depth[layer] + 9, 255));
-    }
-    return result;
+    if (!nearest) return {};
+    const double steps = (*nearest - std::ldexp(shape.depth_low_q20, -20)) / std::ldexp(shape.depth_step_q24, -24);
+    const auto depth = static_cast<std::uint8_t>(std::clamp(std::lround(steps), 0L, 255L));
+    return {depth, static_cast<std::uint8_t>(std::min(depth + 9, 255))};
 }
 
 }  // namespace small_shape_detail
@@ -84,6 +76,7 @@ inline ShapeMap small_shape(const RaySpaceObject& object, std::size_t ring_index
     shape.reference_height_q20 = fixed(first.y, 20);
     shape.depth_low_q20 = fixed(-1.02, 20);
     shape.depth_step_q24 = fixed(2 * 1.02 / 255, 24);
+    shape.jump = 20;
     std::uint32_t line = 0;
     for (std::size_t n = 0; n < ring.views.size(); ++n) {
         const Camera& camera = rig.views[ring.views[n]].camera;

@@ -66,6 +66,7 @@ inline ShapeMap empty_shape(const Rig& rig, const Ring& ring, int lines, int p_c
     shape.reference_height_q20 = fixed(first.y, 20);
     shape.depth_low_q20 = fixed(-half, 20);
     shape.depth_step_q24 = fixed(2 * half / 255, 24);
+    shape.jump = 20;
     for (std::size_t n = 0; n < rig.views.size(); ++n) {
         const Camera& camera = rig.views[n].camera;
         shape.gaps.push_back(
@@ -98,7 +99,7 @@ inline CellRay cell_ray(const Rig& rig, std::size_t gap, double fraction, double
     return {{p * std::cos(alpha), h, -p * std::sin(alpha)}, {-std::sin(alpha), (h - first.y) / rho, -std::cos(alpha)}};
 }
 
-// One layer, seen by both pictures. Rays that miss the ball by less than a cell get the depth of its rim.
+// Rays that miss the ball by less than a cell get the depth of its rim.
 inline ShapeMap sphere_shape(const Sphere& sphere, const Rig& rig, const Ring& ring, int lines, int p_cells,
                              int bands) {
     ShapeMap shape = empty_shape(rig, ring, lines, p_cells, bands);
@@ -119,7 +120,7 @@ inline ShapeMap sphere_shape(const Sphere& sphere, const Rig& rig, const Ring& r
                     if (!near) continue;
                     const double middle = (near->enters + near->leaves) / 2;
                     const SphereHit met = hit(sphere, ray.foot, ray.direction).value_or(SphereHit{middle, middle});
-                    shape.cells[at] = {{level(met.enters), 0}, level(met.leaves), kFirstSeesLayer0 | kSecondSeesLayer0};
+                    shape.cells[at] = {level(met.enters), std::max<std::uint8_t>(level(met.leaves), 1)};
                 }
             }
         }

@@ -1,5 +1,7 @@
 #include "engine/model/blocks/band_reader.hpp"
 
+#include "engine/model/parallel_layout.hpp"
+
 namespace rs::engine::model {
 
 BandReader::BandReader(const RegisterFile& registers, const StripeShare& share, Fifo<ColumnSetup>& in,
@@ -32,11 +34,15 @@ Activity BandReader::hand_over() {
     setup.column = column_;
     if (setup.kind == RayKind::shape) {
         const ShapeRegisters& shape = registers_.object_of(setup.view).shape;
-        const auto cell = static_cast<std::uint64_t>((setup.map_line * shape.p_cells + setup.map_place) * shape.bands);
-        setup.odd_cell = cell % 2 == 1;
-        setup.band_words = (shape.bands + (setup.odd_cell ? 1 : 0) + 1) / 2;
-        next_ = shape.cells + static_cast<WordAddress>(cell / 2);
-        to_ask_ = setup.band_words;
+        column_words_ = column_words(shape.bands);
+        for (std::size_t p = 0; p < 2; ++p) {
+            for (std::size_t line = 0; line < 2; ++line) {
+                const std::int64_t column = setup.map_line[line] * shape.p_cells + setup.map_place[p];
+                column_at_[p][line] = shape.cells + static_cast<WordAddress>(column * column_words_);
+            }
+        }
+        asked_ = 0;
+        to_ask_ = 4 * column_words_;
     }
     to_rise_.push(setup);
     to_march_.push(setup);
@@ -61,7 +67,11 @@ Activity BandReader::tick(std::uint64_t) {
     }
     if (to_ask_ > 0) {
         if (!requests_.can_push()) return Activity::memory_port;
-        requests_.push({next_++, false});
+        const auto p = static_cast<std::size_t>(asked_ / (2 * column_words_));
+        const int word = asked_ / 2 % column_words_;
+        const WordAddress at = column_at_[p][static_cast<std::size_t>(asked_ % 2)] + static_cast<WordAddress>(word);
+        requests_.push({at, false});
+        ++asked_;
         --to_ask_;
         return Activity::busy;
     }

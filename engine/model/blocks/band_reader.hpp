@@ -1,12 +1,16 @@
 #pragma once
 // Band reader: gives a column its place in the stripe, hands its set-up to the three blocks that keep a part of it, and
-// asks for the cells of its ray, a word a cycle; the words go to cell_march. The cells' address takes two products of 9
-// cycles. The first column of a stripe waits until the stripe before the last is drawn, whose place it takes.
+// asks for the four columns of cells beside its ray, all of them always, a word a cycle: for each of the two places in
+// p, word by word, that of the first line and then that of the second. The words go to cell_march. The addresses take
+// two products of 9 cycles, with a multiplier for either line. The first column of a stripe waits until the stripe
+// before the last is drawn, whose place it takes.
 
 #include "engine/model/arithmetic.hpp"
 #include "engine/model/clock/block.hpp"
 #include "engine/model/parallel_messages.hpp"
 #include "engine/model/registers.hpp"
+
+#include <array>
 
 namespace rs::engine::model {
 
@@ -37,8 +41,10 @@ private:
     int view_column_ = 0;  // next of the view
     bool in_view_ = false;
     int multiplying_ = 0;
+    int asked_ = 0;
     int to_ask_ = 0;
-    WordAddress next_ = 0;
+    std::array<std::array<WordAddress, 2>, 2> column_at_{};  // [p][line]: the column's first word
+    int column_words_ = 0;
 };
 
 }  // namespace rs::engine::model

@@ -69,8 +69,10 @@ Activity BracketFinder::decide() {
                      0,
                      0,
                      0,
-                     0};
-    const int lines = low_half(gap_word_);
+                     0,
+                     false,
+                     false};
+    const int lines = low_half(gap_word_) & 0xFFFF;
     if (lines == 0) return hand_over(out);
     if (ray.x_q20 >= first_.x_q20 && ray.x_q20 < second_.x_q20) {
         out.kind = RayKind::shape;
@@ -80,6 +82,8 @@ Activity BracketFinder::decide() {
         out.width_q20 = second_.x_q20 - first_.x_q20;
         out.lines = lines;
         out.first_line = static_cast<std::uint32_t>(high_half(gap_word_));
+        out.lines_before = (low_half(gap_word_) >> 16 & 1) != 0;
+        out.lines_behind = (low_half(gap_word_) >> 17 & 1) != 0;
         return hand_over(out);
     }
     if (looks_ + 1 == count) return hand_over(out);
@@ -106,7 +110,7 @@ Activity BracketFinder::tick(std::uint64_t) {
         case Step::idle:
             if (!ray.has_ray || !object.shape.exists) {
                 return hand_over({ray.view, ray.has_ray ? RayKind::plane : RayKind::none, ray.plane, ray.x_q20,
-                                  ray.lambda_q20, 0, 0, ray.picture, ray.picture, 0, 0, 0, 0});
+                                  ray.lambda_q20, 0, 0, ray.picture, ray.picture, 0, 0, 0, 0, false, false});
             }
             step_ = Step::near;
             return crossing(ray.picture, first_);
@@ -129,7 +133,7 @@ Activity BracketFinder::tick(std::uint64_t) {
             gap_known_ = true;
             asked_ = answered_ = false;
             // No lines: nothing else needs to be known.
-            if (low_half(gap_word_) == 0) {
+            if ((low_half(gap_word_) & 0xFFFF) == 0) {
                 step_ = Step::decide;
             } else {
                 next_step();

@@ -6,6 +6,22 @@
 #include <cstdlib>
 
 namespace rs::engine::model {
+namespace {
+
+// On a captured line that picture answers alone, and no second surface is asked for.
+bool is_alone(const ColumnSetup& column) {
+    return column.weight == 0 || column.weight == 256;
+}
+
+std::int32_t band_q12(const RisenPixel& ray, int d) {
+    return ray.zero_q12 + ((d * ray.per_d_q20) >> 8);
+}
+
+ShapeCell cell_of(std::uint64_t word, int n) {
+    return unpacked_cell(static_cast<std::uint16_t>(word >> (16 * n)));
+}
+
+}  // namespace
 
 MarchSteps march_steps(std::int32_t per_d_q20) {
     constexpr int kMostSteps = 64;
@@ -14,9 +30,9 @@ MarchSteps march_steps(std::int32_t per_d_q20) {
 }
 
 CellMarch::CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MemoryWord>& words,
-                     Fifo<RisenPixel>& in, Fifo<MarchAgain>& again, Fifo<MetCell>& met, Fifo<FinishedPixel>& empty)
-    : Block("cell_march",
-            "two looks at cells per cycle, one in the cycle of a column's word; a pixel without bands in 1"),
+                     Fifo<RisenPixel>& in, Fifo<MarchAgain>& again, Fifo<MetSurface>& met, Fifo<FinishedPixel>& empty)
+    : Block("cell_march", "two looks per cycle, one in a cycle that writes cells; latency " +
+                              std::to_string(kStages + 1) + ", " + std::to_string(kStages) + " more for each turn"),
       registers_(registers),
       columns_(reads(columns)),
       words_(reads(words)),
@@ -26,123 +42,139 @@ CellMarch::CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, 
       empty_(writes(empty)) {}
 
 // A column's set-up counts as there when the last of its cells is.
-bool CellMarch::load() {
+bool CellMarch::load(bool& writes_cells) {
     if (words_left_ == 0) {
         if (!columns_.can_pop()) return false;
         loading_ = columns_.pop();
-        words_left_ = loading_.band_words;
+        const bool has_cells = loading_.kind == RayKind::shape;
+        words_of_column_ = has_cells ? column_words(registers_.object_of(loading_.view).shape.bands) : 0;
+        words_left_ = 4 * words_of_column_;
         if (words_left_ == 0) table_.put(loading_);
         return true;
     }
     if (!words_.can_pop()) return false;
-    auto& ray = cells_[ColumnTable::place(loading_.stripe, loading_.column)];
-    ray[static_cast<std::size_t>(loading_.band_words - words_left_)] = words_.pop().data;
+    const std::uint64_t word = words_.pop().data;
+    writes_cells = words_left_ % 2 == 1;
+    if (writes_cells) {
+        keep_cells(first_line_word_, word);
+    } else {
+        first_line_word_ = word;
+    }
     if (--words_left_ == 0) table_.put(loading_);
     return true;
 }
 
-ShapeCell CellMarch::cell_at(const ColumnSetup& column, std::int32_t at_q12) {
-    ++looks_;
-    const std::int32_t band = at_q12 >> 12;
-    if (band < 0 || band >= registers_.object_of(column.view).shape.bands) return {};
-    const auto place = static_cast<std::size_t>(band) + (column.odd_cell ? 1U : 0U);
-    const std::uint64_t word = cells_[ColumnTable::place(column.stripe, column.column)][place / 2];
-    return unpacked_cell(static_cast<std::uint32_t>(word >> (32 * (place % 2))));
+void CellMarch::keep_cells(std::uint64_t first_line, std::uint64_t second_line) {
+    const int pair = (4 * words_of_column_ - words_left_) / 2;
+    auto& column = cells_[ColumnTable::place(loading_.stripe, loading_.column)];
+    auto& cells = column[static_cast<std::size_t>(pair / words_of_column_)];
+    const int jump = registers_.object_of(loading_.view).shape.jump;
+    for (int n = 0; n < kCellsPerWord; ++n) {
+        cells[static_cast<std::size_t>(pair % words_of_column_ * kCellsPerWord + n)] =
+            between_lines(cell_of(first_line, n), cell_of(second_line, n), loading_.line_part, jump);
+    }
 }
 
-// Takes the next pixel; false where there is none.
-bool CellMarch::begin() {
-    state_ = {};
+SurfaceCell CellMarch::surface_at(const ColumnSetup& column, std::int32_t at_q12) {
+    ++looks_;
+    const ShapeRegisters& shape = registers_.object_of(column.view).shape;
+    const Cells& cells = cells_[ColumnTable::place(column.stripe, column.column)];
+    const std::int32_t from_middle_q12 = at_q12 - (1 << 11);
+    SurfaceCell around[2][2];
+    for (std::size_t p = 0; p < 2; ++p) {
+        for (int h = 0; h < 2; ++h) {
+            const std::int32_t band = (from_middle_q12 >> 12) + h;
+            if (band >= 0 && band < shape.bands) around[p][h] = cells[p][static_cast<std::size_t>(band)];
+        }
+    }
+    return between_cells(around, column.p_part, (from_middle_q12 >> 9) & 7, shape.jump);
+}
+
+// The next pixel; false where there is none.
+bool CellMarch::next_ray(Turn& turn) {
+    turn = {};
     if (again_.can_pop()) {
         const MarchAgain again = again_.pop();
-        ray_ = pixels_[static_cast<std::size_t>(again.id)];
-        state_ = again.state;
-    } else if (in_.can_pop() && table_.holds(in_.front().pixel)) {
-        ray_ = in_.pop();
-        pixels_[static_cast<std::size_t>(ray_.pixel.id)] = ray_;
-        if (march_steps(ray_.per_d_q20).steps == 1) state_.begin = 256;
-    } else {
-        return false;
+        turn.ray = pixels_[static_cast<std::size_t>(again.id)];
+        turn.state = again.state;
+        return true;
     }
-    has_foot_cell_ = false;
-    return marching_ = true;
+    if (!in_.can_pop() || !table_.holds(in_.front().pixel)) return false;
+    turn.ray = in_.pop();
+    pixels_[static_cast<std::size_t>(turn.ray.pixel.id)] = turn.ray;
+    if (march_steps(turn.ray.per_d_q20).steps == 1) turn.state.begin = 256;
+    return true;
 }
 
-void CellMarch::meet(const ShapeCell& cell, bool final) {
-    met_.push({ray_.pixel, cell, final, state_});
-    marching_ = false;
+void CellMarch::look(Turn& turn, const ColumnSetup& column) {
+    const int size = march_steps(turn.ray.per_d_q20).size;
+    const int begin = turn.state.begin;
+    const SurfaceCell cell = surface_at(column, band_q12(turn.ray, begin + (size >> 1)));
+    turn.state.begin = begin + size;
+    if (!cell.exists() || cell.depth_q3 > 8 * turn.state.begin || cell.back < begin) return;
+    turn.outcome = Turn::Outcome::met;
+    turn.met = {turn.ray.pixel, std::max(cell.depth_q3, 8 * begin), is_alone(column), turn.state};
 }
 
-Activity CellMarch::finish_empty() {
-    if (!empty_.can_push()) return Activity::output_full;
-    empty_.push({ray_.pixel.id, 0});
-    marching_ = false;
-    return Activity::busy;
+// The surface in the foot's band, and then that of the band where it lies.
+void CellMarch::look_at_foot(Turn& turn, const ColumnSetup& column) {
+    const bool at_its_depth = turn.foot.exists();
+    SurfaceCell cell =
+        surface_at(column, at_its_depth ? band_q12(turn.ray, turn.foot.depth_q3 >> 3) : turn.ray.foot_q12);
+    if (!at_its_depth && cell.exists()) {
+        turn.foot = cell;
+        return;
+    }
+    if (!cell.exists()) cell = turn.foot;
+    if (!cell.exists() && !is_alone(column)) {
+        turn.outcome = Turn::Outcome::empty;
+        return;
+    }
+    const int depth_q3 = cell.exists() ? cell.depth_q3 : registers_.object_of(column.view).shape.foot_d_q3;
+    turn.outcome = Turn::Outcome::met;
+    turn.met = {turn.ray.pixel, depth_q3, true, turn.state};
 }
 
-// The look's result is known before its pixel leaves, so room is asked for first.
-Activity CellMarch::march() {
-    if (!met_.can_push() || !empty_.can_push()) return Activity::output_full;
-    const ColumnSetup& column = table_.of(ray_.pixel);
-    switch (column.kind) {
-        case RayKind::none:
-            return finish_empty();
-        case RayKind::plane:
-            meet({}, true);
-            return Activity::busy;
-        case RayKind::foot: {
-            ShapeCell foot;
-            foot.rays = kFirstSeesLayer0;
-            meet(foot, true);
-            return Activity::busy;
+void CellMarch::take_turn(Turn& turn, int looks) {
+    const ColumnSetup& column = table_.of(turn.ray.pixel);
+    if (column.kind == RayKind::none) {
+        turn.outcome = Turn::Outcome::empty;
+    } else if (column.kind != RayKind::shape) {
+        turn.outcome = Turn::Outcome::met;
+        turn.met = {turn.ray.pixel, 0, true, turn.state};
+    }
+    for (int n = 0; n < looks && turn.outcome == Turn::Outcome::goes_on; ++n) {
+        if (turn.state.begin < 256) {
+            look(turn, column);
+        } else if (n == 0 || !turn.foot.exists()) {  // the second look at the foot waits for the first one's result
+            look_at_foot(turn, column);
         }
-        case RayKind::shape:
-            return state_.begin < 256 ? look(column) : look_at_foot(column);
     }
-    return Activity::idle;
-}
-
-Activity CellMarch::look(const ColumnSetup& column) {
-    const int size = march_steps(ray_.per_d_q20).size;
-    const int begin = state_.begin;
-    ShapeCell cell = cell_at(column, band_q12(begin + (size >> 1)));
-    state_.begin = begin + size;
-    if (cell.rays == 0 || cell.nearest() > begin + size || cell.back < begin) return Activity::busy;
-    for (std::uint8_t& d : cell.depth) d = static_cast<std::uint8_t>(std::max<int>(d, begin));
-    const bool alone = column.weight == 0 || column.weight == 256;
-    if (alone) cell.rays = column.weight == 0 ? kFirstSeesLayer0 : kSecondSeesLayer0;
-    meet(cell, alone);
-    return Activity::busy;
-}
-
-// The cell of the foot's band, and then that of the band where that one's surface lies.
-Activity CellMarch::look_at_foot(const ColumnSetup& column) {
-    const bool alone = column.weight == 0 || column.weight == 256;
-    ShapeCell cell = cell_at(column, has_foot_cell_ ? band_q12(foot_cell_.depth[0]) : ray_.foot_q12);
-    if (!has_foot_cell_ && cell.rays != 0) {
-        has_foot_cell_ = true;
-        foot_cell_ = cell;
-        return Activity::busy;
-    }
-    if (has_foot_cell_ && cell.rays == 0) cell = foot_cell_;
-    if (alone) {
-        if (cell.rays == 0) cell.depth[0] = static_cast<std::uint8_t>(registers_.object_of(column.view).shape.foot_d);
-        cell.rays = column.weight == 0 ? kFirstSeesLayer0 : kSecondSeesLayer0;
-    } else if (cell.rays == 0) {
-        return finish_empty();
-    }
-    meet(cell, true);
-    return Activity::busy;
 }
 
 Activity CellMarch::tick(std::uint64_t) {
-    const bool loads = load();
-    Activity activity = Activity::idle;
-    if (marching_ || begin()) activity = march();
-    // The second port of the cells' memory, where no word is written. A cell that depends on another one waits for it.
-    if (!loads && marching_ && !has_foot_cell_ && activity == Activity::busy) march();
-    if (activity == Activity::idle && in_.can_pop()) activity = Activity::memory_data;  // for the column's cells
-    return loads ? Activity::busy : activity;
+    bool writes_cells = false;
+    const bool loads = load(writes_cells);
+    Turn turn;
+    bool goes_on = false;
+    if (line_.leaves()) {
+        turn = line_.leaving();
+        goes_on = turn.outcome == Turn::Outcome::goes_on;
+        const bool met = turn.outcome == Turn::Outcome::met;
+        if (!goes_on && !(met ? met_.can_push() : empty_.can_push())) {  // the whole pipe stands
+            return loads ? Activity::busy : Activity::output_full;
+        }
+        if (met) met_.push(turn.met);
+        if (!goes_on && !met) empty_.push({turn.ray.pixel.id, 0});
+    }
+    if (goes_on || next_ray(turn)) {
+        take_turn(turn, writes_cells ? 1 : 2);
+        line_.advance(turn);
+        return Activity::busy;
+    }
+    line_.advance();
+    if (loads) return Activity::busy;
+    return in_.can_pop() ? Activity::memory_data : Activity::idle;  // for the column's cells
 }
 
 }  // namespace rs::engine::model

@@ -13,7 +13,7 @@ struct PlaneRay {
 };
 
 PictureSetup along_ray(const PlaneRay& ray, int picture, const PictureLine& line) {
-    constexpr std::int64_t kMostPerStep = std::int64_t{1} << 22;
+    constexpr std::int64_t kMostPerStep = std::int64_t{1} << 20;
     const std::int64_t l_foot_q20 = line.l0_q20 + ((ray.foot_x_q20 * line.l1_q30 + ray.foot_z_q20 * line.l2_q30) >> 30);
     const std::int64_t l_along_q30 = (ray.sine_q30 * line.l1_q30 - ray.cosine_q30 * line.l2_q30) >> 30;
     const std::int64_t q_foot_q16 = line.q0_q16 + ((ray.foot_x_q20 * line.q1_q16 + ray.foot_z_q20 * line.q2_q16) >> 20);
@@ -23,12 +23,32 @@ PictureSetup along_ray(const PlaneRay& ray, int picture, const PictureLine& line
     setup.l0_q20 = l_foot_q20 + ((ray.low_q20 * l_along_q30) >> 30);
     setup.l1_q24 = (ray.step_q24 * l_along_q30) >> 30;
     setup.q0_q12 = (q_foot_q16 + ((ray.low_q20 * q_along_q16) >> 20)) >> 4;
-    setup.q1_q14 = std::clamp((ray.step_q24 * q_along_q16) >> 26, -kMostPerStep, kMostPerStep);
+    setup.q1_q12 = std::clamp((ray.step_q24 * q_along_q16) >> 28, -kMostPerStep, kMostPerStep);
     setup.cx_q16 = line.cx_q16;
     setup.cy_q16 = line.cy_q16;
     setup.fl_y_q16 = line.fl_y_q16;
     setup.height_q20 = line.height_q20;
     return setup;
+}
+
+// The columns of cells beside the ray, which lies at line_q8 of its gap's lines and p_q8 of the cells along p; samples
+// lie at the middles. Lines of neighbouring gaps follow one another, and the first gap's follow the last one's.
+void find_cells(const ShapeRegisters& shape, const BracketedRay& ray, std::int64_t line_q8, std::int64_t p_q8,
+                ColumnSetup& out) {
+    const std::int64_t line = (line_q8 - 128) >> 8;
+    const std::int64_t p = (p_q8 - 128) >> 8;
+    out.line_part = static_cast<int>(((line_q8 - 128) >> 5) & 7);
+    out.p_part = static_cast<int>(((p_q8 - 128) >> 5) & 7);
+    const std::int64_t first = ray.lines_before ? -1 : 0;
+    const std::int64_t last = ray.lines_behind ? ray.lines : ray.lines - 1;
+    for (int n = 0; n < 2; ++n) {
+        const auto at = static_cast<std::size_t>(n);
+        std::int64_t number = ray.first_line + std::clamp<std::int64_t>(line + n, first, last);
+        if (number < 0) number += shape.lines;
+        if (number >= shape.lines) number -= shape.lines;
+        out.map_line[at] = number;
+        out.map_place[at] = static_cast<int>(std::clamp<std::int64_t>(p + n, 0, shape.p_cells - 1));
+    }
 }
 
 }  // namespace
@@ -65,14 +85,13 @@ bool set_up_shape_column(const BoardView& view, const ObjectRegisters& object, c
         const std::int64_t f = ray.from_first_q20;
         const std::int64_t w = ray.width_q20;
         out.weight = static_cast<int>(divide(512 * f + w, 2 * w).value);
-        out.map_line = ray.first_line + divide(f * ray.lines, w).value;
-        out.map_place = static_cast<int>(std::clamp<std::int64_t>(
-            ((p_q20 + shape.p_half_q20) * shape.p_cells_per_unit_q12) >> 32, 0, shape.p_cells - 1));
+        find_cells(shape, ray, divide(f * (std::int64_t{256} * ray.lines), w).value,
+                   ((p_q20 + shape.p_half_q20) * shape.p_cells_per_unit_q12) >> 24, out);
         out.pictures[1] = along_ray(along, ray.second, in.picture[1]);
     }
     out.pictures[0] = along_ray(along, ray.first, in.picture[0]);
     out.lambda0_q20 = out.lambda_foot_q20 + divide(along.low_q20 * (std::int64_t{1} << 28), r_q28).value;
-    out.lambda1_q24 = divide(along.step_q24 << 28, r_q28).value;
+    out.lambda1_q21 = divide(along.step_q24 << 25, r_q28).value;
     return true;
 }
 

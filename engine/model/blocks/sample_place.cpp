@@ -23,14 +23,14 @@ void place_texels(PlacedSample& out, std::int32_t column_q8, std::int32_t row_q8
     out.fy = y_q3 & 7;
 }
 
-void place_in_picture(PlacedSample& out, const PictureSetup& picture, int d, std::int32_t y_q16,
+void place_in_picture(PlacedSample& out, const PictureSetup& picture, int d_q3, std::int32_t y_q16,
                       const ObjectRegisters& object) {
     constexpr std::int64_t kNearest_q20 = std::int64_t{1} << 17;
     out.picture = picture.picture;
-    const std::int64_t l_q20 = picture.l0_q20 + ((d * picture.l1_q24) >> 4);
+    const std::int64_t l_q20 = picture.l0_q20 + ((d_q3 * picture.l1_q24) >> 7);
     if (l_q20 < kNearest_q20) return;
     const auto inverse_q20 = narrow(divide(std::int64_t{1} << 40, l_q20).value);
-    const std::int32_t q_q12 = narrow(picture.q0_q12 + ((d * picture.q1_q14) >> 2));
+    const std::int32_t q_q12 = narrow(picture.q0_q12 + ((d_q3 * picture.q1_q12) >> 3));
     const std::int32_t column_q8 = (picture.cx_q16 >> 8) + multiply_shift(q_q12, inverse_q20, 24);
     const std::int32_t m_q12 = multiply_shift(picture.fl_y_q16 >> 8, inverse_q20, 16);
     const std::int32_t row_q8 = (picture.cy_q16 >> 8) - multiply_shift(m_q12, y_q16 - (picture.height_q20 >> 4), 20);
@@ -40,9 +40,9 @@ void place_in_picture(PlacedSample& out, const PictureSetup& picture, int d, std
 
 }  // namespace
 
-CellSamples placed_samples(const MetCell& met, const ColumnSetup& column, const ObjectRegisters& object,
-                           std::int32_t b_q20) {
-    CellSamples samples;
+SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, const ObjectRegisters& object,
+                              std::int32_t b_q20) {
+    SurfaceSamples samples;
     PlacedSample blank;
     blank.view = met.pixel.view;
     blank.head.id = met.pixel.id;
@@ -51,28 +51,21 @@ CellSamples placed_samples(const MetCell& met, const ColumnSetup& column, const 
     if (column.kind == RayKind::plane) {  // one texel, as it is
         PlacedSample& out = samples.sample[static_cast<std::size_t>(samples.count++)] = blank;
         const std::int64_t row = (column.row_0_q16 + met.pixel.row * column.row_step_q16) >> 16;
-        out.head.is_there = out.head.sees = true;
+        out.head.is_there = true;
         out.picture = column.picture;
         out.inside = row >= 0 && row < object.height;
         out.left = column.picture_column;
         out.top = static_cast<int>(out.inside ? row : 0);
     } else {
         blank.head.weight = column.weight;
-        for (int layer = 0; layer < 2; ++layer) {
-            const int sees = met.cell.rays >> (2 * layer) & 3;
-            const int d = met.cell.depth[layer];
-            const std::int64_t lambda_q20 = column.lambda0_q20 + ((d * column.lambda1_q24) >> 4);
-            if (sees == 0 || lambda_q20 <= 0) continue;
-            const std::int32_t y_q16 = (b_q20 >> 4) + multiply_shift(narrow(lambda_q20), met.pixel.rise_q24, 28);
-            for (int second = 0; second < 2; ++second) {
-                if (column.weight == (second == 0 ? 256 : 0)) continue;
-                PlacedSample& out = samples.sample[static_cast<std::size_t>(samples.count++)] = blank;
-                out.head.is_there = true;
-                out.head.layer = layer;
-                out.head.second = second == 1;
-                out.head.sees = (sees >> second & 1) != 0;
-                place_in_picture(out, column.pictures[static_cast<std::size_t>(second)], d, y_q16, object);
-            }
+        const std::int64_t lambda_q20 = column.lambda0_q20 + ((met.depth_q3 * column.lambda1_q21) >> 4);
+        const std::int32_t y_q16 = (b_q20 >> 4) + multiply_shift(narrow(lambda_q20), met.pixel.rise_q24, 28);
+        for (int second = 0; second < 2; ++second) {
+            if (lambda_q20 <= 0 || column.weight == (second == 0 ? 256 : 0)) continue;
+            PlacedSample& out = samples.sample[static_cast<std::size_t>(samples.count++)] = blank;
+            out.head.is_there = true;
+            out.head.second = second == 1;
+            place_in_picture(out, column.pictures[static_cast<std::size_t>(second)], met.depth_q3, y_q16, object);
         }
     }
     if (samples.count == 0) samples.sample[static_cast<std::size_t>(samples.count++)] = blank;
@@ -80,7 +73,7 @@ CellSamples placed_samples(const MetCell& met, const ColumnSetup& column, const 
     return samples;
 }
 
-SamplePlace::SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MetCell>& in,
+SamplePlace::SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MetSurface>& in,
                          Fifo<PlacedSample>& out)
     : Block("sample_place", "latency " + std::to_string(kStages + 1) + ", a sample per cycle"),
       registers_(registers),
@@ -97,13 +90,13 @@ Activity SamplePlace::tick(std::uint64_t) {
         return Activity::idle;
     }
     if (taken_ == 0) {
-        const MetCell& met = in_.front();
+        const MetSurface& met = in_.front();
         RS_CHECK(table_.holds(met.pixel));
-        cell_ = placed_samples(met, table_.of(met.pixel), registers_.object_of(met.pixel.view),
-                               registers_.view(met.pixel.view).b_q20);
+        surface_ = placed_samples(met, table_.of(met.pixel), registers_.object_of(met.pixel.view),
+                                  registers_.view(met.pixel.view).b_q20);
     }
-    line_.advance(cell_.sample[static_cast<std::size_t>(taken_)]);
-    if (++taken_ == cell_.count) {
+    line_.advance(surface_.sample[static_cast<std::size_t>(taken_)]);
+    if (++taken_ == surface_.count) {
         in_.pop();
         taken_ = 0;
     }

@@ -62,5 +62,14 @@ TEST(Colour, AllAlphaLevelsAreThoseOfTheDefinition) {
     }
 }
 
+TEST(Arithmetic, MeansOfDepthsAreThoseOfDivision) {
+    for (int weight = 1; weight <= 64; ++weight) {
+        const int most = 8 * 255 * weight + weight / 2;
+        int wrong = 0;
+        for (int sum = 0; sum <= most; ++sum) wrong += divide_by_weight(sum, weight) != sum / weight ? 1 : 0;
+        EXPECT_EQ(wrong, 0) << weight;
+    }
+}
+
 }  // namespace
 }  // namespace rs::engine::model

@@ -21,7 +21,7 @@ void compare(const test::AnyObject& kind, std::uint64_t seed, Seen& seen) {
         Board board(test::parallel(1 + n % 5));
         ASSERT_NO_FATAL_FAILURE(test::compare_random_views(board, object, object, random, 60, seen));
         for (const auto& pipe : board.top().parallel->pipes) {
-            seen.sent_back += pipe->layer_choice.sent_back();
+            seen.sent_back += pipe->surface_blend.sent_back();
             seen.of_last_hop += pipe->chains.fifos[3]->records.pushed_in_all();
         }
     }
@@ -47,7 +47,7 @@ TEST(ParallelBoardEqualityProperty, RawPicturesWithShapeMaps) {
     ASSERT_NO_FATAL_FAILURE(compare({.coded = false, .shape = true}, 20261125, seen));
     EXPECT_EQ(seen.pairs, 500);
     EXPECT_GT(seen.shown, 60'000);
-    EXPECT_GT(seen.sent_back, 10'000U);  // cells that did not answer
+    EXPECT_GT(seen.sent_back, 10'000U);  // surfaces that did not answer
 }
 
 TEST(ParallelBoardEqualityProperty, CodedPicturesWithShapeMaps) {

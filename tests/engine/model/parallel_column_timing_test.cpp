@@ -75,7 +75,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
     const auto word = [&](WordAddress address) {
         const auto n = static_cast<std::uint64_t>(address - lines) / static_cast<std::uint64_t>(record_words(4));
         const auto at = static_cast<int>((address - lines) % static_cast<WordAddress>(record_words(4)));
-        return at == 2 ? std::uint64_t{3} | (3 * n) << 32U : n * 1000;
+        return at == 2 ? std::uint64_t{3 | 2 << 16} | (3 * n) << 32U : n * 1000;
     };
     put(in, {0, true, 1, 3400, 7, 3, 0, 1 << 28, 0});
     // Crossing of 3: ask, take, 9; gap 3: ask, take; crossing of 4: ask, take, 9; decide.
@@ -89,6 +89,8 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
     EXPECT_EQ(found.width_q20, 1000);
     EXPECT_EQ(found.lines, 3);
     EXPECT_EQ(found.first_line, 9);
+    EXPECT_FALSE(found.lines_before);
+    EXPECT_TRUE(found.lines_behind);
     in.push(
         {0, true, 1, 3400, 7, 5, 0, 1 << 28, 0});  // two gaps too far: the crossing of 5 serves as the second of gap 4
     in.commit();
@@ -98,7 +100,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
     EXPECT_EQ(found.first, 3);
     put(in, {0, true, 1, 3400, 7, 3, 0, 1 << 28, 0});
     const auto no_lines = [&](WordAddress address) {
-        return word(address) == (3U | std::uint64_t{9} << 32U) ? 0 : word(address);
+        return word(address) == (3U | 2U << 16U | std::uint64_t{9} << 32U) ? 3U << 16U : word(address);
     };
     EXPECT_EQ(until_answered(bench, block, reads, words, out, no_lines), 11 + 2 + 1);
     EXPECT_EQ(out.pop().kind, RayKind::foot);
@@ -169,7 +171,11 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     out.pop();
     out.commit();
     EXPECT_EQ(out.front().weight, 64);
-    EXPECT_EQ(out.front().map_line, 5);
+    // A quarter of two lines, so in the middle of the first; p 0, in the middle of nine cells.
+    EXPECT_EQ(out.front().map_line, (std::array<std::int64_t, 2>{5, 6}));
+    EXPECT_EQ(out.front().line_part, 0);
+    EXPECT_EQ(out.front().map_place, (std::array<int, 2>{4, 5}));
+    EXPECT_EQ(out.front().p_part, 0);
     ray.ray.n_q28 = 1 << 24;  // the foot lies 2^9 radii away
     ray.ray.t_q28 = 0;
     RegisterFile far = r.file;
@@ -187,6 +193,35 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     EXPECT_EQ(bench.until(block, out), VerticalCompensation::kLatency);
 }
 
+// Lines before the first and behind the last of a gap are its neighbours', or, where those have none, its own.
+TEST(ParallelColumnTiming, ColumnSetupFindsTheLinesBesideTheRayInNeighbouringGapsToo) {
+    const ColumnRegisters r(true);
+    const ObjectRegisters& object = r.file.objects[static_cast<std::size_t>(r.slot)];
+    const auto lines_at = [&](int from_first, std::int64_t first_line, int lines, bool before, bool behind) {
+        LinedRay ray;
+        ray.ray.kind = RayKind::shape;
+        ray.ray.n_q28 = 1 << 28;
+        ray.ray.from_first_q20 = from_first;
+        ray.ray.width_q20 = 3200;
+        ray.ray.lines = lines;
+        ray.ray.first_line = first_line;
+        ray.ray.lines_before = before;
+        ray.ray.lines_behind = behind;
+        ColumnSetup out;
+        EXPECT_TRUE(set_up_shape_column(r.file.banks[0].views[0], object, ray, out));
+        return std::array<std::int64_t, 3>{out.map_line[0], out.map_line[1], out.line_part};
+    };
+    using Lines = std::array<std::int64_t, 3>;
+    const std::int64_t all = object.shape.lines;
+    EXPECT_EQ(lines_at(0, 5, 2, true, true), (Lines{4, 5, 4}));
+    EXPECT_EQ(lines_at(0, 5, 2, false, true), (Lines{5, 5, 4}));
+    EXPECT_EQ(lines_at(0, 0, 2, true, true), (Lines{all - 1, 0, 4}));
+    EXPECT_EQ(lines_at(3199, 5, 2, true, true), (Lines{6, 7, 3}));
+    EXPECT_EQ(lines_at(3199, 5, 2, true, false), (Lines{6, 6, 3}));
+    EXPECT_EQ(lines_at(3199, all - 2, 2, true, true), (Lines{all - 1, 0, 3}));
+    EXPECT_EQ(lines_at(1600, 5, 2, true, true), (Lines{5, 6, 4}));
+}
+
 TEST(ParallelColumnTiming, BandReaderAsksAWordPerCycleAndWaitsForAStripe) {
     const ColumnRegisters r(true);  // 48 columns
     Fifo<ColumnSetup> in("in", 64, 1);
@@ -199,18 +234,19 @@ TEST(ParallelColumnTiming, BandReaderAsksAWordPerCycleAndWaitsForAStripe) {
     Bench bench({&in, &stripe_free, &reads, &rise, &march, &place});
     ColumnSetup column;
     column.kind = RayKind::shape;
-    column.map_line = 1;
-    column.map_place = 2;
+    column.map_line = {1, 4};
+    column.map_place = {2, 3};
     put(in, column);
     EXPECT_EQ(bench.until(block, march), 19);
     EXPECT_EQ(rise.count(), 1);
     EXPECT_EQ(place.count(), 1);
-    // 9 places of 7 bands: cell 77 is the second of a word, and 7 cells stand in 4 words.
-    EXPECT_TRUE(march.front().odd_cell);
-    EXPECT_EQ(march.front().band_words, 4);
-    for (int n = 0; n < 4; ++n) EXPECT_EQ(bench.until(block, reads), 1);
-    EXPECT_EQ(reads.front().address, r.file.objects[0].shape.cells + 38);
+    // 9 places of 7 bands, which stand in 2 words.
+    for (int n = 0; n < 8; ++n) EXPECT_EQ(bench.until(block, reads), 1);
     EXPECT_EQ(bench.until(block, reads, 5), -1);
+    for (const int word : {22, 76, 23, 77, 24, 78, 25, 79}) {
+        EXPECT_EQ(reads.pop().address, r.file.objects[0].shape.cells + static_cast<WordAddress>(word));
+        reads.commit();
+    }
     column.kind = RayKind::none;
     for (int n = 1; n < 48; ++n) {
         put(in, column);

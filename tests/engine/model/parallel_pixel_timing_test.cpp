@@ -1,12 +1,11 @@
 // Latency and throughput of the blocks that a parallel board's pixels pass: nothing a cycle early, the result on time.
 
 #include "engine/model/blocks/cell_march.hpp"
-#include "engine/model/blocks/layer_choice.hpp"
 #include "engine/model/blocks/patch_store.hpp"
-#include "engine/model/blocks/pixel_resolve.hpp"
 #include "engine/model/blocks/pixel_scan.hpp"
 #include "engine/model/blocks/ray_rise.hpp"
 #include "engine/model/blocks/sample_place.hpp"
+#include "engine/model/blocks/surface_blend.hpp"
 #include "engine/model/blocks/texel_filter.hpp"
 #include "engine/model/parallel_layout.hpp"
 #include "tests/engine/model/block_bench.hpp"
@@ -120,16 +119,15 @@ TEST(ParallelPixelTiming, RayRiseWaitsForItsColumnThenGivesAPixelPerCycle) {
     EXPECT_EQ(bench.until(block, out, 60), -1);  // column 1 has not come
 }
 
+// Column 1, between two equal lines and at the first of two places in p: bands 2 and 6 of seven have a surface at depth
+// 100, up to 120.
 struct March {
     March() {
         put(columns, column_of(RayKind::none, 0));
-        ColumnSetup shape = column_of(RayKind::shape, 1);
-        shape.band_words = 4;
-        put(columns, shape);
+        put(columns, column_of(RayKind::shape, 1));
         for (int n = 0; n < 2; ++n) bench.step(block);
-        for (int word = 0; word < 4; ++word) {  // bands 2 and 6 have a surface at depth 100, band 2 up to 120
-            const std::uint64_t cell = packed_cell({{100, 0}, 120, 3});
-            put(words, {word == 1 ? cell : word == 3 ? cell : 0});
+        for (int n = 0; n < 8; ++n) {  // words 0, 0, 1, 1 of either place
+            put(words, {std::uint64_t{packed_cell({100, 120})} << 32U});
             bench.step(block);
         }
     }
@@ -141,85 +139,138 @@ struct March {
     Fifo<MemoryWord> words{"words", 4, 1};
     Fifo<RisenPixel> in{"in", 4, 1};
     Fifo<MarchAgain> again{"again", 4, 1};
-    Fifo<MetCell> met{"met", 4, 1};
+    Fifo<MetSurface> met{"met", 4, 1};
     Fifo<FinishedPixel> empty{"empty", 4, 1};
     CellMarch block{r.file, columns, words, in, again, met, empty};
     Bench bench{&columns, &words, &in, &again, &met, &empty};
 };
 
-TEST(ParallelPixelTiming, CellMarchTakesTwoLooksPerCycle) {
+// The middle of a band, where its cell alone counts.
+constexpr std::int32_t middle_of(int band) {
+    return (band << 12) + (1 << 11);
+}
+
+TEST(ParallelPixelTiming, CellMarchTakesATurnOfTwoLooksInEveryStageOfItsRing) {
+    constexpr int kTurn = CellMarch::kStages;
+    EXPECT_EQ(kTurn, 11);
     March m;
     m.push(0, 0, 0);  // no ray
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
-    m.push(1, 5 << 12, 0);  // band 5 is empty
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
+    EXPECT_EQ(m.bench.until(m.block, m.empty), kTurn + 1);
+    m.push(1, middle_of(4), 0);  // bands 4 and 5 are empty
+    EXPECT_EQ(m.bench.until(m.block, m.empty), kTurn + 1);
     EXPECT_EQ(m.block.looks(), 1U);
-    m.push(1, 2 << 12, 0);  // band 2 at the foot, and at its depth
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2);
+    m.push(1, middle_of(2), 0);  // band 2 at the foot, and in another turn at its depth
+    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * kTurn + 1);
     EXPECT_TRUE(m.met.front().final);
-    EXPECT_EQ(m.met.pop().cell.depth[0], 100);
+    EXPECT_EQ(m.met.pop().depth_q3, 800);
     m.met.commit();
-    // A band in 64 depths: 9 steps of 28. Looks at depths 14, 42, 70 (band 2, but not so far yet), 98.
-    m.push(1, 1 << 12, 1 << 14);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2);
+    // A band in 64 depths: 9 steps of 28. Looks at depths 14, 42 (near band 2, but not so far yet), 70, 98.
+    m.push(1, middle_of(1), 1 << 14);
+    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * kTurn + 1);
     EXPECT_EQ(m.block.looks(), 3U + 4U);
     EXPECT_FALSE(m.met.front().final);
     EXPECT_EQ(m.met.front().next.begin, 112);
-    EXPECT_EQ(m.met.front().cell.depth[0], 100);
+    EXPECT_EQ(m.met.front().depth_q3, 800);
+}
+
+// Rays march beside one another: a turn enters in every cycle.
+TEST(ParallelPixelTiming, CellMarchGivesAPixelPerCycleOfOneTurn) {
+    March m;
+    for (int n = 0; n < 3; ++n) {
+        put(m.in, {pixel_of(1 + 16 * n), middle_of(4), middle_of(4), 0});
+    }
+    EXPECT_EQ(m.bench.until(m.block, m.empty), CellMarch::kStages + 1);
+    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
+    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
 }
 
 TEST(ParallelPixelTiming, CellMarchGoesOnWithPixelsThatComeBackFirst) {
     March m;
-    m.push(1, 1 << 12, 1 << 14);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2);
-    m.push(17, 5 << 12, 0);
+    m.push(1, middle_of(1), 1 << 14);
+    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
+    m.push(17, middle_of(4), 0);
     m.again.push({1, m.met.pop().next});
     m.met.commit();
     m.again.commit();
-    // The look behind 112 is at depth 126: the same cell, whose back is at 120.
-    EXPECT_EQ(m.bench.until(m.block, m.met), 1);
+    // The look behind 112 is at depth 126: the same surface, whose back is at 120.
+    EXPECT_EQ(m.bench.until(m.block, m.met), CellMarch::kStages + 1);
     EXPECT_EQ(m.met.front().pixel.id, 1);
-    EXPECT_EQ(m.met.front().cell.depth[0], 112);
+    EXPECT_EQ(m.met.front().depth_q3, 8 * 112);
     EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
     EXPECT_EQ(m.empty.front().id, 17);
 }
 
 TEST(ParallelPixelTiming, CellMarchWaitsForTheLastWordOfItsColumn) {
     March m;
-    ColumnSetup shape = column_of(RayKind::shape, 2);
-    shape.band_words = 2;
-    put(m.columns, shape);
-    m.push(2, 9 << 12, 0);
+    put(m.columns, column_of(RayKind::shape, 2));
+    m.push(2, middle_of(9), 0);
+    for (int n = 0; n < 7; ++n) {
+        put(m.words, {0});
+        EXPECT_EQ(m.bench.until(m.block, m.empty, 20), -1);
+    }
     put(m.words, {0});
-    EXPECT_EQ(m.bench.until(m.block, m.empty, 20), -1);
+    EXPECT_EQ(m.bench.until(m.block, m.empty), CellMarch::kStages + 1);
+}
+
+// A word of the second line is written as cells, through one of the ports of their memory.
+TEST(ParallelPixelTiming, CellMarchLooksOnceInACycleThatWritesCells) {
+    March m;
+    put(m.columns, column_of(RayKind::shape, 2));
+    m.bench.step(m.block);
     put(m.words, {0});
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
+    m.push(1, middle_of(1), 1 << 14);  // the second of the two looks is put off with the word of the second line
+    m.bench.step(m.block);
+    EXPECT_EQ(m.block.looks(), 2U);
+    put(m.words, {0});
+    m.push(17, middle_of(1), 1 << 14);
+    m.bench.step(m.block);
+    EXPECT_EQ(m.block.looks(), 3U);
+}
+
+// What is kept of two lines and read beside a ray is the surface of section 6.
+TEST(ParallelPixelTiming, CellMarchShowsTheSurfaceBetweenItsCells) {
+    March m;
+    ColumnSetup column = column_of(RayKind::shape, 2);
+    column.line_part = 2;
+    column.p_part = 4;
+    put(m.columns, column);
+    m.bench.step(m.block);
+    const int jump = m.r.file.objects[static_cast<std::size_t>(m.r.slot)].shape.jump;
+    EXPECT_EQ(jump, 20);
+    for (const int depth : {100, 108, 0, 0, 110, 118, 0, 0}) {  // of band 1, [p][word][line]
+        put(m.words, {depth == 0 ? 0 : std::uint64_t{packed_cell({static_cast<std::uint8_t>(depth), 200})} << 16U});
+        m.bench.step(m.block);
+    }
+    m.push(2, middle_of(1) - (1 << 10), 0);
+    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
+    EXPECT_EQ(m.met.front().depth_q3, 8 * (102 + 112) / 2);
 }
 
 TEST(ParallelPixelTiming, SamplePlaceGivesASamplePerCycleOfLatency53) {
     const PixelRegisters r;
     Fifo<ColumnSetup> columns("columns", 2, 1);
-    Fifo<MetCell> in("in", 4, 1);
+    Fifo<MetSurface> in("in", 4, 1);
     Fifo<PlacedSample> out("out", 16, 1);
     SamplePlace block(r.file, columns, in, out);
     Bench bench({&columns, &in, &out});
     put(columns, column_of(RayKind::shape, 0));
-    bench.step(block);
-    MetCell met;
+    ColumnSetup behind_eye = column_of(RayKind::shape, 1);
+    behind_eye.lambda0_q20 = 0;
+    put(columns, behind_eye);
+    for (int n = 0; n < 2; ++n) bench.step(block);
+    MetSurface met;
     met.pixel = pixel_of(0);
-    met.cell.rays = 15;
     put(in, met);
-    met.cell.rays = 0;
+    met.pixel = pixel_of(1);
     put(in, met);
     EXPECT_EQ(bench.until(block, out), SamplePlace::kStages + 1);
     EXPECT_EQ(SamplePlace::kStages + 1, 53);
-    for (int n = 1; n < 5; ++n) EXPECT_EQ(bench.until(block, out), 1);
-    for (int n = 0; n < 4; ++n) {
+    for (int n = 1; n < 3; ++n) EXPECT_EQ(bench.until(block, out), 1);
+    for (int n = 0; n < 2; ++n) {
         const PlacedSample sample = out.pop();
         out.commit();
-        EXPECT_EQ(sample.head.layer, n / 2);
-        EXPECT_EQ(sample.head.second, n % 2 == 1);
-        EXPECT_EQ(sample.head.last, n == 3);
+        EXPECT_EQ(sample.head.second, n == 1);
+        EXPECT_EQ(sample.head.last, n == 1);
         EXPECT_TRUE(sample.inside);
         EXPECT_EQ(sample.left, 19);
         EXPECT_EQ(sample.fx, 4);
@@ -228,14 +279,14 @@ TEST(ParallelPixelTiming, SamplePlaceGivesASamplePerCycleOfLatency53) {
     EXPECT_TRUE(out.front().head.last);
 }
 
-TEST(ParallelPixelTiming, FilterChoiceAndResolveArePipelines) {
+TEST(ParallelPixelTiming, FilterAndBlendArePipelines) {
     Fifo<TexelQuad> quads("quads", 4, 1);
     Fifo<FilteredSample> filtered("filtered", 8, 1);
     TexelFilter filter(quads, filtered);
     Bench filter_bench({&quads, &filtered});
     for (int n = 0; n < 2; ++n) {
         TexelQuad quad;
-        quad.inside = quad.head.is_there = quad.head.sees = true;
+        quad.inside = quad.head.is_there = true;
         quad.head.second = n == 1;
         quad.head.last = n == 1;
         quad.head.weight = 64;
@@ -247,27 +298,54 @@ TEST(ParallelPixelTiming, FilterChoiceAndResolveArePipelines) {
     EXPECT_EQ(filter_bench.until(filter, filtered), 1);
     EXPECT_EQ(filtered.front().r, 32 * 255 * 100);
 
-    Fifo<ChosenPixel> chosen("chosen", 4, 1);
+    Fifo<FinishedPixel> resolved("resolved", 4, 1);
     Fifo<MarchAgain> again("again", 4, 1);
-    LayerChoice choice(filtered, chosen, again);
-    Bench choice_bench({&filtered, &chosen, &again});
-    EXPECT_EQ(choice_bench.until(choice, chosen),
-              1 + LayerChoice::kStages + 1);  // the second sample completes the cell
-    EXPECT_EQ(LayerChoice::kStages, 8);
-    EXPECT_EQ(chosen.front().a, 64 * 255 * 256);
-    EXPECT_EQ(chosen.front().r, 32 * 255 * 100 * 192 + 64 * 255 * 200 * 64);
+    SurfaceBlend blend(filtered, resolved, again);
+    Bench blend_bench({&filtered, &resolved, &again});
+    EXPECT_EQ(SurfaceBlend::kStages, 14);
+    EXPECT_EQ(blend_bench.until(blend, resolved), 1 + SurfaceBlend::kStages + 1);  // behind the second sample
+    EXPECT_EQ(resolved.pop().rgba, 0xFF000058U);  // (50 * 192 + 200 * 64) / 256, rounded
+    resolved.commit();
     FilteredSample none;
     none.head.last = true;
     none.head.next.begin = 77;
     put(filtered, none);
-    EXPECT_EQ(choice_bench.until(choice, again), 9);
-    EXPECT_EQ(again.front().state.begin, 77);
+    EXPECT_EQ(blend_bench.until(blend, again), 15);
+    EXPECT_EQ(again.pop().state.begin, 77);
+    again.commit();
+    none.head.final = true;
+    put(filtered, none);
+    EXPECT_EQ(blend_bench.until(blend, resolved), 15);
+    EXPECT_EQ(resolved.pop().rgba, 0U);
+    resolved.commit();
+}
 
-    Fifo<FinishedPixel> resolved("resolved", 4, 1);
-    PixelResolve resolve(chosen, resolved);
-    Bench resolve_bench({&chosen, &resolved});
-    EXPECT_EQ(resolve_bench.until(resolve, resolved), 11);
-    EXPECT_EQ(resolved.front().rgba, 0xFF000058U);  // (50 * 192 + 200 * 64) / 256, rounded
+// One picture alone answers where the point is beside the other one's frame; one that is transparent there rules out
+// the surface.
+TEST(ParallelPixelTiming, SurfaceBlendTakesThePictureWhoseFrameHasThePoint) {
+    const auto outcome = [](bool second_inside, std::int32_t second_a) {
+        Fifo<FilteredSample> in("in", 4, 1);
+        Fifo<FinishedPixel> out("out", 4, 1);
+        Fifo<MarchAgain> again("again", 4, 1);
+        SurfaceBlend block(in, out, again);
+        Bench bench({&in, &out, &again});
+        FilteredSample sample;
+        sample.head.is_there = sample.inside = true;
+        sample.head.weight = 128;
+        sample.a = 64 * 255;
+        sample.r = 64 * 255 * 40;
+        put(in, sample);
+        sample.head.second = sample.head.last = true;
+        sample.inside = second_inside;
+        sample.a = second_a;
+        sample.r = second_a * 80;
+        put(in, sample);
+        for (int n = 0; n < 40; ++n) bench.step(block);
+        return out.can_pop() ? out.front().rgba : 0U;
+    };
+    EXPECT_EQ(outcome(true, 64 * 255), 0xFF00003CU);
+    EXPECT_EQ(outcome(false, 0), 0xFF000028U);
+    EXPECT_EQ(outcome(true, 0), 0U);
 }
 
 TEST(ParallelPixelTiming, PatchStoreWritesAPatchWhenItsLastPixelIsThere) {

@@ -12,12 +12,12 @@ using object_chunks::kShape;
 
 const std::string kBase = "raw-shape";  // ring 1 has it: 3 views, 3 planes, 3 lines of 5 x 3 cells
 constexpr std::uint32_t kRing = 1;
-constexpr std::size_t kLines = 64;
+constexpr std::size_t kLines = 56;
 constexpr std::size_t kNormalLines = kLines + 2 * 3;
 constexpr std::size_t kFrames = kNormalLines + 16 * 3 * 3;
-constexpr std::size_t kLayer0Cells = 40, kLayer1Cells = 44, kFrameSizes = 48;
+constexpr std::size_t kSurfaces = 40, kFrameSizes = 44;
 
-using Frames = std::array<Bytes, 4>;  // rays, depths of layer 0 and of layer 1, backs
+using Frames = std::array<Bytes, 3>;  // surface bits, residuals of depth, of back
 
 Frames frames_of(const Bytes& payload) {
     Frames frames;
@@ -62,23 +62,30 @@ void add_to(Bytes& payload, std::size_t offset, std::int64_t difference) {
     set_number(payload, offset, number_at(payload, offset, 4) + difference, 4);
 }
 
-// The first cell with these rays gets others.
-void replace_rays(Bytes& frame, unsigned from, unsigned to) {
-    Bytes rays = content_of(frame);
-    for (std::byte& two_cells : rays) {
-        if ((two_cells & std::byte{15}) != static_cast<std::byte>(from)) continue;
-        two_cells = (two_cells & std::byte{0xF0}) | static_cast<std::byte>(to);
-        frame = frame_of(rays, false, true);
-        return;
+std::size_t first_cell_with_surface(const Bytes& bits) {
+    for (std::size_t i = 0; i < 8 * bits.size(); ++i) {
+        if ((bits[i / 8] >> (i % 8) & std::byte{1}) != std::byte{0}) return i;
     }
     RS_CHECK(false);
+    return 0;
+}
+
+// The depth byte of the first cell with a surface, of which the residuals tell by themselves: it has no neighbours.
+Damage first_byte_damage(const std::string& name, std::size_t frame, int depth, const std::string& words) {
+    return frames_damage(name, words, [=](Bytes&, Frames& f) {
+        Bytes residuals = content_of(f[frame]);
+        residuals.front() = static_cast<std::byte>(depth - 128);
+        f[frame] = frame_of(residuals, false, true);
+    });
 }
 
 std::vector<Damage> numbers() {
     constexpr std::int64_t kTop = std::int64_t{1} << 30, kFar = std::int64_t{1} << 28;
     return {
         number("coding-1", 0, 1, 1, "chunk shap 1 | shape coding 1"),
+        number("jump-0", 1, 1, 0, "ring 1 | jump"),
         number("reserved", 2, 1, 1, "chunk shap 1 | reserved"),
+        number("reserved-last", 3, 1, 1, "chunk shap 1 | reserved"),
         number("p-cells-0", 4, 2, 0, "chunk shap 1 | each side"),
         number("bands-4097", 6, 2, 4097, "chunk shap 1 | each side"),
         number("p-half", 8, 4, (1 << 20) - 1, "ring 1 | half width along p"),
@@ -89,8 +96,7 @@ std::vector<Damage> numbers() {
         number("reference-height", 28, 4, -kFar, "ring 1 | reference height"),
         number("depth-low", 32, 4, -(1 << 21) - (1 << 16) - 1, "ring 1 | lowest depth"),
         number("depth-step-0", 36, 4, 0, "ring 1 | depth step"),
-        number("layer0-more-than-cells", kLayer0Cells, 4, 46, "chunk shap 1 | claims 46 cells with layer 0"),
-        number("layer1-more-than-layer0", kLayer1Cells, 4, 45, "chunk shap 1 | 45 with layer 1"),
+        number("surfaces-more-than-cells", kSurfaces, 4, 46, "chunk shap 1 | claims 46 cells with a surface"),
         number("lines-1025", kLines, 2, 1025, "chunk shap 1 | 1025 lines"),
         number("frame-size", kFrameSizes, 4, 1, "chunk shap 1 | bytes long instead of"),
         line("l2", 0, kTop + 1, "ring 1 | normal lines"),
@@ -110,46 +116,42 @@ std::vector<Damage> frames() {
                        }),
         payload_damage("short", "chunk shap 1 | bytes long instead of", [](Bytes& b) { b.pop_back(); }),
         payload_damage("long", "chunk shap 1 | bytes long instead of", [](Bytes& b) { b.push_back(std::byte{0}); }),
-        frames_damage("frame-no-zstandard", "chunk shap 1 | rays are no Zstandard frame",
+        frames_damage("frame-no-zstandard", "chunk shap 1 | surfaces are no Zstandard frame",
                       [](Bytes&, Frames& f) { f[0][0] = std::byte{0x27}; }),
-        frames_damage("frame-without-size", "chunk shap 1 | rays do not state",
+        frames_damage("frame-without-size", "chunk shap 1 | surfaces do not state",
                       [](Bytes&, Frames& f) { f[0] = frame_of(content_of(f[0]), false, false); }),
-        frames_damage("frame-other-size", "chunk shap 1 | depths of layer 0 do not state",
+        frames_damage("frame-other-size", "chunk shap 1 | depths do not state",
                       [](Bytes&, Frames& f) { f[1] = fewer(f[1]); }),
-        frames_damage("frame-and-more", "chunk shap 1 | depths of layer 1 are not one whole",
+        frames_damage("frame-and-more", "chunk shap 1 | backs are not one whole",
                       [](Bytes&, Frames& f) { f[2].push_back(std::byte{0}); }),
-        frames_damage("frame-cut", "chunk shap 1 | backs are not one whole",
-                      [](Bytes&, Frames& f) { f[3].pop_back(); }),
-        frames_damage("frame-damaged", "chunk shap 1 | rays cannot be decompressed",
+        frames_damage("frame-cut", "chunk shap 1 | depths are not one whole",
+                      [](Bytes&, Frames& f) { f[1].pop_back(); }),
+        frames_damage("frame-damaged", "chunk shap 1 | surfaces cannot be decompressed",
                       [](Bytes&, Frames& f) {
                           f[0] = frame_of(content_of(f[0]), true, true);
                           f[0].back() ^= std::byte{1};
                       }),
         frames_damage("bits-behind-the-last-cell", "chunk shap 1 | behind its last cell",
                       [](Bytes&, Frames& f) {
-                          Bytes rays = content_of(f[0]);
-                          rays.back() |= std::byte{0x10};
-                          f[0] = frame_of(rays, false, true);
+                          Bytes bits = content_of(f[0]);
+                          bits.back() |= std::byte{0x20};
+                          f[0] = frame_of(bits, false, true);
                       }),
-        frames_damage("layer1-without-layer0", "ring 1 | layer 1 without layer 0",
+        frames_damage("surfaces-too-few", "chunk shap 1 | cells with a surface, but its bits show",
                       [](Bytes& payload, Frames& f) {
-                          replace_rays(f[0], 0, 4);
-                          add_to(payload, kLayer1Cells, 1);
-                          Bytes depths = content_of(f[2]);
-                          depths.push_back(std::byte{0});
-                          f[2] = frame_of(depths, false, true);
-                      }),
-        frames_damage("layer0-count", "chunk shap 1 | cells with layer 0, but its rays show",
-                      [](Bytes& payload, Frames& f) {
-                          add_to(payload, kLayer0Cells, -1);
+                          add_to(payload, kSurfaces, -1);
                           f[1] = fewer(f[1]);
-                          f[3] = fewer(f[3]);
-                      }),
-        frames_damage("layer1-count", "chunk shap 1 | cells with layer 1, but its rays show",
-                      [](Bytes& payload, Frames& f) {
-                          add_to(payload, kLayer1Cells, -1);
                           f[2] = fewer(f[2]);
                       }),
+        frames_damage("bits-too-few", "chunk shap 1 | cells with a surface, but its bits show",
+                      [](Bytes&, Frames& f) {
+                          Bytes bits = content_of(f[0]);
+                          const std::size_t cell = first_cell_with_surface(bits);
+                          bits[cell / 8] ^= std::byte{1} << (cell % 8);
+                          f[0] = frame_of(bits, false, true);
+                      }),
+        first_byte_damage("back-0", 2, 0, "chunk shap 1 | whose back is 0"),
+        first_byte_damage("back-in-front", 2, 1, "ring 1 | back in front of its surface"),
     };
 }
 

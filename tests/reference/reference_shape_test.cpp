@@ -1,0 +1,257 @@
+// Chunk shap: the library's parser and the one written from encode/FORMAT.md read the same of what they accept, and
+// refuse the same.
+
+#include "tests/reference/reference_shape.hpp"
+#include "rayspace/container.hpp"
+#include "rayspace/shape_chunk.hpp"
+#include "rayspace/shape_validate.hpp"
+#include "tests/support/random_shape.hpp"
+
+#include <gtest/gtest.h>
+#include <zstd.h>
+
+#include <filesystem>
+#include <iostream>
+#include <random>
+
+namespace rs::reference {
+namespace {
+
+namespace fs = std::filesystem;
+using Payload = std::vector<std::byte>;
+using Plane = std::vector<std::uint8_t>;
+
+constexpr std::size_t kSurfacesAt = 40;
+constexpr std::size_t kFrameBytesAt = 44;
+
+std::span<const std::uint8_t> numbers_of(const Payload& payload) {
+    return {reinterpret_cast<const std::uint8_t*>(payload.data()), payload.size()};
+}
+
+void put_number(Payload& payload, std::size_t offset, std::uint64_t number, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) payload.at(offset + i) = static_cast<std::byte>(number >> (8 * i));
+}
+
+std::size_t u32_at(const Payload& payload, std::size_t at) {
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < 4; ++i) number |= static_cast<std::size_t>(payload.at(at + i)) << (8 * i);
+    return number;
+}
+
+// Nothing if the library refuses the payload.
+std::optional<ShapeMap> library_shape(const Payload& payload, Ring ring) {
+    ring.shape = {};
+    const auto coded = object_chunks::parse_shape_head(payload, ring);
+    if (!coded || !object_chunks::parse_shape_cells(*coded, ring.shape).ok() || !check_shape(ring).ok()) {
+        return std::nullopt;
+    }
+    return ring.shape;
+}
+
+void expect_same(const Shape& reference, const ShapeMap& library) {
+    EXPECT_EQ(reference.jump, library.jump);
+    EXPECT_EQ(reference.p_cells, library.p_cells);
+    EXPECT_EQ(reference.bands, library.bands);
+    EXPECT_EQ(reference.numbers, (std::array<std::int32_t, 8>{
+                                     library.p_half_q20, library.p_cells_per_unit_q12, library.h_low_q20,
+                                     library.bands_per_unit_q12, library.reference_distance_q20,
+                                     library.reference_height_q20, library.depth_low_q20, library.depth_step_q24}));
+    ASSERT_EQ(reference.lines.size(), library.gaps.size());
+    std::uint32_t first_line = 0;
+    for (std::size_t n = 0; n < library.gaps.size(); ++n) {
+        EXPECT_EQ(reference.lines[n], library.gaps[n].lines);
+        EXPECT_EQ(first_line, library.gaps[n].first_line);
+        first_line += library.gaps[n].lines;
+    }
+    ASSERT_EQ(reference.normal.size(), library.normal_lines.size());
+    for (std::size_t i = 0; i < library.normal_lines.size(); ++i) {
+        const NormalLine& line = library.normal_lines[i];
+        EXPECT_EQ(reference.normal[i], (std::array<std::int32_t, 4>{line.l2_q30, line.q2_q16, line.a_q20, line.c_q20}));
+    }
+    ASSERT_EQ(reference.surfaces.size(), library.cells.size());
+    for (std::size_t i = 0; i < library.cells.size(); ++i) {
+        const ShapeSurface surface = reference.surfaces[i].value_or(ShapeSurface{});
+        ASSERT_EQ(reference.surfaces[i].has_value(), library.cells[i].has_surface()) << i;
+        ASSERT_EQ(surface.depth, library.cells[i].depth) << i;
+        ASSERT_EQ(surface.back, library.cells[i].back) << i;
+    }
+}
+
+struct Tally {
+    int accepted = 0;
+    int refused = 0;
+};
+
+void judge(const Payload& payload, const Ring& ring, Tally& tally) {
+    Shape shape;
+    const std::string error = read_shape(numbers_of(payload), static_cast<int>(ring.views.size()), ring.planes, shape);
+    const auto by_library = library_shape(payload, ring);
+    ASSERT_EQ(error.empty(), by_library.has_value()) << error;
+    if (by_library) expect_same(shape, *by_library);
+    ++(by_library ? tally.accepted : tally.refused);
+}
+
+// The object of the smallest shape map that has gaps with and without lines.
+RaySpaceObject small_shaped() {
+    test::SmallObjectOptions options;
+    options.views_per_ring = 3;
+    options.planes = 3;
+    return test::small_object_with_shape(options, {.p_cells = 5, .bands = 3, .lines = {2, 0, 1}});
+}
+
+std::size_t frames_at(const Ring& ring) {
+    return 56 + 2 * ring.views.size() + 16 * ring.views.size() * static_cast<std::size_t>(ring.planes);
+}
+
+std::array<Plane, 3> planes_of(const Payload& payload, const Ring& ring) {
+    const std::size_t surfaces = u32_at(payload, kSurfacesAt);
+    std::array<Plane, 3> planes = {Plane((ring.shape.cells.size() + 7) / 8), Plane(surfaces), Plane(surfaces)};
+    std::size_t at = frames_at(ring);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const std::size_t bytes = u32_at(payload, kFrameBytesAt + 4 * i);
+        EXPECT_EQ(ZSTD_decompress(planes[i].data(), planes[i].size(), payload.data() + at, bytes), planes[i].size());
+        at += bytes;
+    }
+    return planes;
+}
+
+Payload with_planes(Payload payload, const Ring& ring, const std::array<Plane, 3>& planes) {
+    payload.resize(frames_at(ring));
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        Payload frame(ZSTD_compressBound(planes[i].size()));
+        frame.resize(ZSTD_compress(frame.data(), frame.size(), planes[i].data(), planes[i].size(), 1));
+        put_number(payload, kFrameBytesAt + 4 * i, frame.size(), 4);
+        payload.insert(payload.end(), frame.begin(), frame.end());
+    }
+    put_number(payload, kSurfacesAt, planes[1].size(), 4);
+    return payload;
+}
+
+TEST(ReferenceShape, RandomMapsAreReadTheSame) {
+    constexpr std::uint64_t kSeed = 5;
+    SCOPED_TRACE(kSeed);
+    std::mt19937_64 random(kSeed);
+    RaySpaceObject object = test::small_object();
+    Tally tally;
+    std::size_t surfaces = 0;
+    for (int i = 0; i < 60 && !testing::Test::HasFatalFailure(); ++i) {
+        SCOPED_TRACE(i);
+        Ring& ring = object.rings[0];
+        ring.shape = test::random_shape(object, 0, random, i % 6 * 0.2);
+        const Payload payload = object_chunks::shape_payload(ring);
+        surfaces += u32_at(payload, kSurfacesAt);
+        judge(payload, ring, tally);
+    }
+    EXPECT_EQ(tally.refused, 0);
+    EXPECT_EQ(tally.accepted, 60);
+    EXPECT_GT(surfaces, 50000U);
+}
+
+TEST(ReferenceShape, DamagedFieldsAreJudgedTheSame) {
+    const Ring ring = small_shaped().rings[0];
+    const Payload payload = object_chunks::shape_payload(ring);
+    Tally tally;
+    for (std::size_t at = 0; at < payload.size() && !testing::Test::HasFatalFailure(); ++at) {
+        SCOPED_TRACE(at);
+        for (const unsigned bits : {0x01U, 0x02U, 0x04U, 0x10U, 0x40U, 0x80U, 0xFFU}) {
+            Payload damaged = payload;
+            damaged[at] ^= static_cast<std::byte>(bits);
+            judge(damaged, ring, tally);
+        }
+    }
+    for (std::size_t size = 0; size < payload.size(); ++size) {
+        judge({payload.begin(), payload.begin() + static_cast<std::ptrdiff_t>(size)}, ring, tally);
+    }
+    std::cout << tally.accepted << " accepted, " << tally.refused << " refused\n";
+    EXPECT_GT(tally.accepted, 300);
+    EXPECT_GT(tally.refused, 500);
+}
+
+// Each bound of the numbers, and what lies beside it.
+TEST(ReferenceShape, BoundsAreJudgedTheSame) {
+    const Ring ring = small_shaped().rings[0];
+    const Payload payload = object_chunks::shape_payload(ring);
+    const std::size_t normal_at = 56 + 2 * ring.views.size();
+    Tally tally;
+    std::vector<std::size_t> places = {8, 12, 16, 20, 24, 28, 32, 36};
+    for (std::size_t i = 0; i < 4; ++i) places.push_back(normal_at + 4 * i);
+    for (const std::size_t at : places) {
+        for (const std::int64_t bound : {0LL, 1LL << 18, 1LL << 20, 1LL << 21, (1LL << 21) + (1LL << 16), 1LL << 26,
+                                         1LL << 28, 1LL << 30, 1LL << 31}) {
+            for (const int sign : {-1, 1}) {
+                for (int beside = -2; beside <= 2; ++beside) {
+                    SCOPED_TRACE(std::to_string(at) + ": " + std::to_string(sign * bound + beside));
+                    Payload other = payload;
+                    put_number(other, at, static_cast<std::uint64_t>(sign * bound + beside), 4);
+                    judge(other, ring, tally);
+                }
+            }
+        }
+    }
+    const auto scale = static_cast<std::int64_t>(u32_at(payload, 12));
+    for (int beside = -4; beside <= 4; ++beside) {
+        Payload other = payload;
+        put_number(other, 12, static_cast<std::uint64_t>(scale + beside), 4);
+        judge(other, ring, tally);
+    }
+    EXPECT_GT(tally.accepted, 100);
+    EXPECT_GT(tally.refused, 300);
+}
+
+// Behind right frames: bits, numbers of surfaces, and depths.
+TEST(ReferenceShape, DamagedPlanesAreJudgedTheSame) {
+    const Ring ring = small_shaped().rings[0];
+    const Payload payload = object_chunks::shape_payload(ring);
+    const std::array<Plane, 3> planes = planes_of(payload, ring);
+    ASSERT_NE(ring.shape.cells.size() % 8, 0U);
+    Tally tally;
+    judge(with_planes(payload, ring, planes), ring, tally);
+    EXPECT_EQ(tally.accepted, 1);
+    for (std::size_t which = 0; which < planes.size(); ++which) {
+        for (std::size_t at = 0; at < planes[which].size() && !testing::Test::HasFatalFailure(); ++at) {
+            for (unsigned bits = 1; bits < 256; bits += which == 0 ? 1 : 3) {
+                std::array<Plane, 3> damaged = planes;
+                damaged[which][at] = static_cast<std::uint8_t>(damaged[which][at] ^ bits);
+                judge(with_planes(payload, ring, damaged), ring, tally);
+            }
+        }
+    }
+    for (const int more : {-1, 1}) {
+        std::array<Plane, 3> other = planes;
+        other[1].resize(other[1].size() + static_cast<std::size_t>(more));
+        other[2].resize(other[1].size());
+        judge(with_planes(payload, ring, other), ring, tally);
+        other[2].resize(planes[2].size());
+        judge(with_planes(payload, ring, other), ring, tally);
+    }
+    std::cout << tally.accepted << " accepted, " << tally.refused << " refused\n";
+    EXPECT_GT(tally.accepted, 100);
+    EXPECT_GT(tally.refused, 1000);
+}
+
+// Ring 1 of raw-shape.rso, which has 3 views and 3 planes, and what was made of it.
+TEST(ReferenceShape, GoldenFilesAreJudgedTheSame) {
+    const fs::path folder = fs::path(RAYSPACE_SOURCE_DIR) / "tests" / "reference" / "golden";
+    const Ring ring = small_shaped().rings[0];
+    Tally tally;
+    const auto judge_file = [&](const fs::path& path) {
+        SCOPED_TRACE(path.string());
+        const auto file = ContainerReader::open(path);
+        ASSERT_TRUE(file.ok()) << file.error().message;
+        const ChunkEntry* const entry = file->find(object_chunks::kShape, 1);
+        ASSERT_NE(entry, nullptr);
+        const auto payload = file->read(*entry);
+        ASSERT_TRUE(payload.ok()) << payload.error().message;
+        judge(*payload, ring, tally);
+    };
+    judge_file(folder / "valid" / "raw-shape.rso");
+    EXPECT_EQ(tally.accepted, 1);
+    for (const auto& entry : fs::directory_iterator(folder / "invalid")) {
+        if (entry.path().filename().string().rfind("shape-", 0) == 0) judge_file(entry.path());
+    }
+    EXPECT_EQ(tally.accepted, 1);
+    EXPECT_GE(tally.refused, 30);
+}
+
+}  // namespace
+}  // namespace rs::reference

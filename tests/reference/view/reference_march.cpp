@@ -1,0 +1,186 @@
+// engine/RECONSTRUCTION.md, section 6.
+#include "tests/reference/view/reference_shape.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace rs::reference {
+namespace {
+
+// Nothing, or a depth in eighths of a step and a back in steps.
+struct Surface {
+    Whole depth = 0;
+    Whole back = 0;
+};
+using Found = std::optional<Surface>;
+
+struct Bands {
+    Whole at_foot = 0, zero = 0, per_d = 0;
+    [[nodiscard]] Whole band_at(Whole d) const { return zero + (below(d * per_d, 30.4, "d * per_d") >> 8); }
+};
+
+Bands bands_of(const ShapeMap& shape, const engine::ViewRegisters& view, const ShapeRay& ray, Whole rise,
+               Branches& branches) {
+    const double kHeight = std::log2(std::exp2(24) + std::exp2(28.3));
+    const Whole h =
+        (view.b_q20 >> 4) + never_held(below(ray.lambda_foot * rise, 56.3, "lambda_foot * rise") >> 28, "h");
+    below(h, kHeight, "h");
+    const Whole slope = at_most(never_held(below(rise * ray.inv_r, 51.01, "rise * inv_r") >> 24, "slope"), 27, "slope");
+    const Whole above_reference = below(h - (shape.reference_height_q20 >> 4), 28.3, "h - (H_ref >> 4)");
+    const Whole ref = hold((above_reference * ray.inv_rho) >> 16);
+    const Whole difference = below(slope - ref, 29.4, "slope - ref");
+    const Whole drift =
+        hold(below(difference * shape.bands_per_unit_q12, 55.4, "(slope - ref) * bands_per_unit") >> 12);
+    Bands bands;
+    bands.at_foot = hold(((h - (shape.h_low_q20 >> 4)) * shape.bands_per_unit_q12) >> 16);
+    bands.zero = bands.at_foot +
+                 never_held(below(drift * shape.depth_low_q20, 50.1, "drift * depth_low") >> 28, "zero - at_foot");
+    below(bands.zero, std::log2(std::exp2(29) + std::exp2(22.1)), "zero");
+    const Whole unclamped = never_held((drift * shape.depth_step_q24) >> 24, "per_d");
+    bands.per_d = clamp(unclamped, -power(22), power(22));
+    if (bands.per_d != unclamped) branches.take(Branch::band_drift_clamped);
+    return bands;
+}
+
+class CellsAround {
+public:
+    CellsAround(const ShapeMap& shape, const ShapeRay& ray, Branches& branches)
+        : shape_(shape), ray_(ray), branches_(branches) {}
+
+    // "surface(v)"
+    Found surface(Whole v) {
+        struct Weighted {
+            Surface surface;
+            Whole weight;
+        };
+        std::vector<Weighted> of_four;
+        below(v - 2048, std::log2(std::exp2(29) + std::exp2(23.3)), "v - 2048");
+        const Whole hi = (v - 2048) >> 12;
+        const Whole h_part = ((v - 2048) >> 9) & 7;
+        Whole all_weights = 0;
+        for (const std::size_t c : {std::size_t{0}, std::size_t{1}}) {
+            for (const Whole band : {hi, hi + 1}) {
+                const Whole weight = (c == 0 ? 8 - ray_.p_part : ray_.p_part) * (band == hi ? 8 - h_part : h_part);
+                all_weights += weight;
+                if (band < 0 || band >= shape_.bands) {
+                    branches_.take(Branch::band_does_not_exist);
+                } else if (const Found found = between_lines(c, band)) {
+                    of_four.push_back({*found, weight});
+                }
+            }
+        }
+        within(all_weights, 64, 64, "the four weights");
+        if (of_four.empty()) {
+            branches_.take(Branch::nothing_of_four);
+            return {};
+        }
+        Whole near = of_four[0].surface.depth, far = near, back = 0;
+        for (const Weighted& one : of_four) {
+            near = std::min(near, one.surface.depth);
+            far = std::max(far, one.surface.depth);
+            back = std::max(back, one.surface.back);
+        }
+        struct Group {
+            Whole weights = 0, depths = 0;
+        };
+        Group nearer, farther;
+        const bool are_two = far - near > 8 * shape_.jump;
+        for (const auto& [surface, weight] : of_four) {
+            Group& group = !are_two || 2 * surface.depth <= near + far ? nearer : farther;
+            group.weights += weight;
+            group.depths += weight * surface.depth;
+        }
+        const bool takes_nearer = nearer.weights >= farther.weights;
+        const auto [weights, depths] = takes_nearer ? nearer : farther;
+        within(weights, 0, 64, "weights");
+        within(depths, 0, 64 * 2040, "depths");
+        below(depths + floor_div(weights, 2), 17, "depths + floor(weights / 2)");
+        if (weights == 0) {
+            branches_.take(Branch::nothing_has_weight);
+            return {};
+        }
+        branches_.take(!are_two                            ? Branch::one_group
+                       : !takes_nearer                     ? Branch::farther_group
+                       : nearer.weights == farther.weights ? Branch::nearer_group_of_equals
+                                                           : Branch::nearer_group);
+        return Surface{within(floor_div(depths + floor_div(weights, 2), weights), 0, 2040, "depth"), back};
+    }
+
+private:
+    [[nodiscard]] ShapeCell cell(std::size_t c, std::size_t n, Whole hi) const {
+        const Whole index = (ray_.line[n] * shape_.p_cells + ray_.cell_p[c]) * shape_.bands + hi;
+        require(index >= 0, "a cell's index", index);
+        return shape_.cells.at(static_cast<std::size_t>(below(index, 27, "a cell's index")));
+    }
+
+    // "Between the two lines"
+    Found between_lines(std::size_t c, Whole hi) {
+        const ShapeCell e = cell(c, 0, hi);
+        const ShapeCell e2 = ray_.line_part > 0 ? cell(c, 1, hi) : ShapeCell{};
+        if (e.back == 0 && e2.back == 0) {
+            branches_.take(Branch::no_cell_of_two);
+            return {};
+        }
+        if (e2.back == 0) {
+            branches_.take(Branch::first_cell_alone);
+            return Surface{8 * Whole{e.depth}, e.back};
+        }
+        if (e.back == 0) {
+            branches_.take(Branch::second_cell_alone);
+            return Surface{8 * Whole{e2.depth}, e2.back};
+        }
+        const Whole back = std::max(e.back, e2.back);
+        const Whole change = Whole{e2.depth} - e.depth;
+        if (change > shape_.jump || -change > shape_.jump) {
+            const bool takes_first = ray_.line_part < 4;
+            branches_.take(takes_first ? Branch::lines_jump_to_first : Branch::lines_jump_to_second);
+            return Surface{8 * Whole{takes_first ? e.depth : e2.depth}, back};
+        }
+        branches_.take(Branch::lines_interpolated);
+        return Surface{8 * Whole{e.depth} + ray_.line_part * change, back};
+    }
+
+    const ShapeMap& shape_;
+    const ShapeRay& ray_;
+    Branches& branches_;
+};
+
+}  // namespace
+
+void march(const ShapeMap& shape, const engine::ViewRegisters& view, const ShapeRay& ray, Whole rise,
+           const std::function<bool(Whole d)>& meets, Branches& branches) {
+    const Bands bands = bands_of(shape, view, ray, rise, branches);
+    CellsAround cells(shape, ray, branches);
+    const Whole swept = bands.per_d < 0 ? -bands.per_d : bands.per_d;
+    const Whole steps = within(std::min<Whole>((swept >> 11) + 1, 64), 1, 64, "steps");
+    const Whole size = within(floor_div(256, steps), 4, 256, "size");
+    branches.take(steps == 1 ? Branch::one_step : Branch::many_steps);
+    if (steps == 64) branches.take(Branch::most_steps);
+    if (steps > 1) {
+        int looks = 0;
+        for (Whole begin = 0; begin < 256; begin = begin + size) {
+            within(++looks, 1, 64, "looks of the march");
+            const Found e = cells.surface(bands.band_at(begin + (size >> 1)));
+            if (!e) {
+                branches.take(Branch::not_met_nothing);
+            } else if (e->depth > 8 * (begin + size)) {
+                branches.take(Branch::not_met_behind_the_step);
+            } else if (e->back < begin) {
+                branches.take(Branch::not_met_ends_before);
+            } else {
+                branches.take(e->depth > 8 * begin ? Branch::met_within_the_step : Branch::met_at_the_step);
+                if (meets(std::max(e->depth, 8 * begin))) return;
+            }
+        }
+    }
+    const Found e = cells.surface(bands.at_foot);
+    if (!e) {
+        branches.take(Branch::end_is_nothing);
+        return;
+    }
+    const Found e2 = cells.surface(bands.band_at(e->depth >> 3));
+    branches.take(e2 ? Branch::second_look : Branch::second_look_is_nothing);
+    meets(e2 ? e2->depth : e->depth);
+}
+
+}  // namespace rs::reference

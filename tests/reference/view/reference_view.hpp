@@ -1,0 +1,120 @@
+#pragma once
+// A second answer to every pixel: engine/RECONSTRUCTION.md written down once more from its text alone, in its order and
+// with its names, without a thought for speed. Whole numbers are 128 bits wide, and where the section "Ranges" bounds
+// one, the bound is checked.
+
+#include "engine/core/view_registers.hpp"
+#include "rayspace/ray_space_object.hpp"
+#include "tests/reference/view/reference_whole.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace rs::reference {
+
+// The branches of the text, counted as they are taken.
+enum class Branch {
+    plane_behind_or_edge_on,  // section 2
+    misses_or_too_far,
+    no_picture,
+    shown_on_plane,  // 3, 4
+    outside_on_plane,
+    too_near_on_plane,
+    too_large_on_plane,
+    too_steep_on_plane,
+    foot_too_far,  // 5
+    no_lines,
+    not_found,
+    gap_before,
+    gap_behind,
+    looks_twice,
+    looks_thrice,
+    line_before,
+    line_before_has_none,
+    line_behind,
+    line_behind_has_none,
+    line_between,
+    no_cell_of_two,  // 6
+    first_cell_alone,
+    second_cell_alone,
+    lines_jump_to_first,
+    lines_jump_to_second,
+    lines_interpolated,
+    band_does_not_exist,
+    nothing_of_four,
+    nothing_has_weight,
+    one_group,
+    nearer_group,
+    nearer_group_of_equals,
+    farther_group,
+    one_step,
+    many_steps,
+    most_steps,
+    band_drift_clamped,
+    not_met_nothing,
+    not_met_behind_the_step,
+    not_met_ends_before,
+    met_within_the_step,
+    met_at_the_step,
+    end_is_nothing,
+    second_look,
+    second_look_is_nothing,
+    met_after_another,
+    too_near,  // 7
+    beside_the_picture,
+    transparent,
+    seen,
+    at_a_border,
+    behind_the_viewer,  // 8
+    transparent_hides,
+    both_pictures,
+    first_picture_alone,
+    second_picture_alone,
+    both_outside,
+    no_shape,
+    weight_is_0,
+    weight_is_256,
+    blended,
+    on_line_without_surface,
+    none_shows_something,
+    alpha_rounds_to_0,
+    shown,
+    count
+};
+
+struct Branches {
+    std::array<std::int64_t, static_cast<std::size_t>(Branch::count)> taken{};
+    void take(Branch branch) { ++taken[static_cast<std::size_t>(branch)]; }
+    [[nodiscard]] std::int64_t of(Branch branch) const { return taken[static_cast<std::size_t>(branch)]; }
+};
+
+struct ReferencePixel {
+    std::uint8_t R = 0;
+    std::uint8_t G = 0;
+    std::uint8_t B = 0;
+    std::uint8_t A = 0;
+    std::int32_t lambda_q20 = 0;
+    bool operator==(const ReferencePixel&) const = default;
+};
+
+// Section 2: of a ray that is one.
+struct PlaneRay {
+    std::size_t k = 0;
+    Whole n = 0, T = 0, u = 0, x = 0, lambda = 0;
+    std::size_t picture = 0;
+};
+std::optional<PlaneRay> plane_ray(const RaySpaceObject& object, const engine::ViewRegisters& view, int i, int j,
+                                  Branches& branches);
+
+// Section 4: of a stored pixel.
+struct Colour {
+    Whole R = 0, G = 0, B = 0, A = 0;
+};
+Colour stored_colour(const PlanarPicture& picture, Whole column, Whole row);
+
+// `object` has passed validate_object, all of its pictures are loaded, and `view` has passed check_registers.
+ReferencePixel reference_pixel(const RaySpaceObject& object, const engine::ViewRegisters& view, int i, int j,
+                               Branches& branches);
+
+}  // namespace rs::reference
