@@ -310,7 +310,7 @@ TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesGiveTheDefinitionsPixel
             ASSERT_TRUE(equals_definition(drawn.object, *view, compared));
         }
     }
-    EXPECT_GT(compared.shown * 50, compared.pixels);
+    EXPECT_GT(compared.shown * 100, compared.pixels);
     for (const Branch branch : {Branch::too_near_on_plane, Branch::too_large_on_plane, Branch::shown_on_plane}) {
         EXPECT_GT(compared.branches.of(branch), 0) << static_cast<int>(branch);
     }

@@ -263,7 +263,7 @@ std::vector<Planned> planned_cases() {
     for (int n = 0; n < 3; ++n) {
         static constexpr const char* kNames[] = {"shape", "shape-sparse", "shape-full"};
         constexpr double kEmpty[] = {0.4, 0.9, 0.02};
-        cases.push_back({kNames[n], "a shape map: layers, occlusion, bands",
+        cases.push_back({kNames[n], "a shape map: surfaces between cells, steps, bands",
                          with_shape(ring(shaped), 20 + static_cast<std::uint64_t>(n), kEmpty[n]),
                          random_poses(13 + static_cast<std::uint64_t>(n), 8, true)});
     }
