@@ -57,7 +57,7 @@ ParallelFifos::ParallelFifos(const std::string& suffix)
       met("met" + suffix, 8, MetSurface::kBits),
       placed("placed" + suffix, 4, PlacedSample::kBits),
       fills("fills" + suffix, 8, TexelFill::kBits),
-      waiting("waiting" + suffix, 256, WaitingSample::kBits),
+      waiting("waiting" + suffix, 512, WaitingSample::kBits),
       targets("targets" + suffix, 16, FillTarget::kBits),
       kinds("kinds" + suffix, 16, FillKind::kBits),
       raw_reads("raw_reads" + suffix, 8, MemoryRead::kBits),
