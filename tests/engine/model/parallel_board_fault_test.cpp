@@ -133,7 +133,7 @@ TEST(ParallelBoardFaults, StandingStillIsReportedWithEveryFifo) {
     const auto never = [] { return false; };
     const Status status = board.top().simulator.run_until(never, 100'000);
     ASSERT_FALSE(status.ok());
-    EXPECT_NE(status.error().message.find("waiting_p1: 0 of 256"), std::string::npos);
+    EXPECT_NE(status.error().message.find("waiting_p1: 0 of 512"), std::string::npos);
     EXPECT_NE(status.error().message.find("[patch_store_p0]"), std::string::npos);
 }
 
