@@ -55,6 +55,7 @@ std::string memory_table(const BoardTop& board) {
     };
     return "\n| block RAM of a pipe | bits |\n|---|---|\n" + row("codebooks, two sets (twin_lookup)", bits.books) +
            row("cells of two stripes (cell_march)", bits.cells) +
+           row("words of the last column's cells (cell_march)", bits.held_words) +
            row("pixels under way (cell_march)", bits.march_pixels) + row("texels (texel_cache)", bits.texels) +
            row("patches (patch_store)", bits.patches) +
            row("columns of two stripes (ray_rise, cell_march, sample_place)", bits.columns) +

@@ -75,12 +75,13 @@ struct ColumnSetup {
     static constexpr int kBits =
         kHeadBits + 7 + 9 + 46 + 36 + 2 * PictureSetup::kBits + 9 + 3 * 30 + 25 + 22 + 2 * 27 + 2 * 13 + 2 * 3;
     static constexpr int kRiseBits = kHeadBits + 30 + 25 + 22;
-    static constexpr int kMarchBits = kHeadBits + 9 + 3 + 3;
+    static constexpr int kMarchBits = kHeadBits + 9 + 3 + 3 + 1;
     static constexpr int kPlaceBits = kHeadBits + 46 + 36 + 9 + 2 * PictureSetup::kBits + 9 + 30 + 23;
     int view = 0;
     RayKind kind = RayKind::none;
     int stripe = 0;  // band reader
     int column = 0;  // of the stripe; band reader
+    bool same_cells = false;  // as the column before it has; band reader
     // plane
     int picture = 0, picture_column = 0;
     std::int64_t row_0_q16 = 0, row_step_q16 = 0;

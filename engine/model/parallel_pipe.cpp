@@ -142,6 +142,7 @@ PipeMemoryBits pipe_memory_bits(ParallelPipe& pipe) {
     PipeMemoryBits bits;
     bits.books = TwinLookup::kBits;
     bits.cells = CellMarch::kCellBits;
+    bits.held_words = CellMarch::kHeldBits;
     bits.march_pixels = CellMarch::kPixelBits;
     bits.texels = static_cast<std::size_t>(TexelCache::kBits);
     bits.patches = static_cast<std::size_t>(PatchStore::kBits);

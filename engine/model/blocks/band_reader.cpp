@@ -7,8 +7,9 @@ namespace rs::engine::model {
 BandReader::BandReader(const RegisterFile& registers, const StripeShare& share, Fifo<ColumnSetup>& in,
                        Fifo<Done>& stripe_free, Fifo<MemoryRead>& requests, Fifo<ColumnSetup>& to_rise,
                        Fifo<ColumnSetup>& to_march, Fifo<ColumnSetup>& to_place)
-    : Block("band_reader", "1 cycle to hand over, " + std::to_string(2 * kMultiplyCycles) +
-                               " before and a word per cycle after it where the ray has bands"),
+    : Block("band_reader",
+            "1 cycle to hand over, " + std::to_string(2 * kMultiplyCycles) +
+                " before and a word per cycle after it where the ray has bands that the last one had not"),
       registers_(registers),
       share_(share),
       in_(reads(in)),
@@ -25,6 +26,7 @@ Activity BandReader::hand_over() {
     if (!in_view_) {
         view_column_ = share_.first_column(setup.view);
         in_view_ = true;
+        holds_cells_ = false;  // the object may be another one
     }
     if (column_ == 0) {
         --free_stripes_;
@@ -42,7 +44,10 @@ Activity BandReader::hand_over() {
             }
         }
         asked_ = 0;
-        to_ask_ = 4 * column_words_;
+        setup.same_cells = holds_cells_ && column_at_ == held_at_;
+        to_ask_ = setup.same_cells ? 0 : 4 * column_words_;
+        held_at_ = column_at_;
+        holds_cells_ = true;
     }
     to_rise_.push(setup);
     to_march_.push(setup);

@@ -1,9 +1,10 @@
 #pragma once
 // Band reader: gives a column its place in the stripe, hands its set-up to the three blocks that keep a part of it, and
 // asks for the four columns of cells beside its ray, all of them always, a word a cycle: for each of the two places in
-// p, word by word, that of the first line and then that of the second. The words go to cell_march. The addresses take
-// two products of 9 cycles, with a multiplier for either line. The first column of a stripe waits until the stripe
-// before the last is drawn, whose place it takes.
+// p, word by word, that of the first line and then that of the second. The words go to cell_march, which keeps them:
+// for a ray beside the same four columns as the last one nothing is asked. The addresses take two products of 9 cycles,
+// with a multiplier for either line. The first column of a stripe waits until the stripe before the last is drawn,
+// whose place it takes.
 
 #include "engine/model/arithmetic.hpp"
 #include "engine/model/clock/block.hpp"
@@ -43,7 +44,10 @@ private:
     int multiplying_ = 0;
     int asked_ = 0;
     int to_ask_ = 0;
-    std::array<std::array<WordAddress, 2>, 2> column_at_{};  // [p][line]: the column's first word
+    using CellAddresses = std::array<std::array<WordAddress, 2>, 2>;  // [p][line]: a column's first word
+    CellAddresses column_at_{};
+    CellAddresses held_at_{};  // of the words that cell_march has
+    bool holds_cells_ = false;
     int column_words_ = 0;
 };
 

@@ -1,7 +1,5 @@
 #include "engine/model/blocks/cell_march.hpp"
 
-#include "engine/model/parallel_layout.hpp"
-
 #include <algorithm>
 #include <cstdlib>
 
@@ -52,8 +50,12 @@ bool CellMarch::load(bool& writes_cells) {
         if (words_left_ == 0) table_.put(loading_);
         return true;
     }
-    if (!words_.can_pop()) return false;
-    const std::uint64_t word = words_.pop().data;
+    std::uint64_t& held = held_[static_cast<std::size_t>(4 * words_of_column_ - words_left_)];
+    if (!loading_.same_cells) {
+        if (!words_.can_pop()) return false;
+        held = words_.pop().data;
+    }
+    const std::uint64_t word = held;
     writes_cells = words_left_ % 2 == 1;
     if (writes_cells) {
         keep_cells(first_line_word_, word);

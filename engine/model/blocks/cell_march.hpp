@@ -18,6 +18,7 @@
 #include "engine/model/blocks/column_table.hpp"
 #include "engine/model/blocks/delay_line.hpp"
 #include "engine/model/clock/block.hpp"
+#include "engine/model/parallel_layout.hpp"
 #include "engine/model/parallel_messages.hpp"
 #include "engine/model/registers.hpp"
 
@@ -38,6 +39,7 @@ public:
     static constexpr int kSurfaceBits = 11 + 8;
     static constexpr std::size_t kCellBits =
         std::size_t{kStripeSlots} * kStripeColumns * 2 * kMostBands * static_cast<std::size_t>(kSurfaceBits);
+    static constexpr std::size_t kHeldBits = std::size_t{4} * kMostBands / kCellsPerWord * 64;
     static constexpr std::size_t kPixelBits = std::size_t{kPatchIds} * RisenPixel::kBits;
 
     CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MemoryWord>& words, Fifo<RisenPixel>& in,
@@ -78,6 +80,7 @@ private:
     int words_left_ = 0;  // of the column that is loaded
     int words_of_column_ = 0;
     std::uint64_t first_line_word_ = 0;
+    std::array<std::uint64_t, std::size_t{4} * kMostBands / kCellsPerWord> held_{};  // words of the last column
     ColumnSetup loading_;
 
     std::array<RisenPixel, kPatchIds> pixels_;

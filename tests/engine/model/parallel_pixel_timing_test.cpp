@@ -243,7 +243,16 @@ TEST(ParallelPixelTiming, CellMarchShowsTheSurfaceBetweenItsCells) {
     }
     m.push(2, middle_of(1) - (1 << 10), 0);
     EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
-    EXPECT_EQ(m.met.front().depth_q3, 8 * (102 + 112) / 2);
+    EXPECT_EQ(m.met.pop().depth_q3, 8 * (102 + 112) / 2);
+    m.met.commit();
+    // The next column beside the same cells, nearer to the second line: the words are there, and take as many cycles.
+    column.column = 3;
+    column.line_part = 6;
+    column.same_cells = true;
+    put(m.columns, column);
+    m.push(3, middle_of(1) - (1 << 10), 0);
+    EXPECT_EQ(m.bench.until(m.block, m.met), 1 + 8 + 2 * CellMarch::kStages);
+    EXPECT_EQ(m.met.front().depth_q3, 8 * (106 + 116) / 2);
 }
 
 TEST(ParallelPixelTiming, SamplePlaceGivesASamplePerCycleOfLatency53) {
