@@ -136,8 +136,8 @@ public:
         ended_ = hn::Or(ended_, last);
         Vector depth = surface_at(foot_, last);
         const Vector there_at = band(hn::ShiftRight<3>(depth));
-        const LaneMask elsewhere = hn::AndNot(hn::Eq(hn::ShiftRight<9>(there_at), hn::ShiftRight<9>(foot_)),
-                                              hn::And(last, is_surface(depth)));
+        const LaneMask elsewhere =
+            hn::AndNot(hn::Eq(hn::ShiftRight<9>(there_at), hn::ShiftRight<9>(foot_)), hn::And(last, is_surface(depth)));
         if (!hn::AllFalse(Lanes(), elsewhere)) {
             const Vector there = surface_at(there_at, elsewhere);
             depth = hn::IfThenElse(hn::And(elsewhere, is_surface(there)), there, depth);

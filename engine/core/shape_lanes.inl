@@ -106,56 +106,6 @@ struct Channels {
     Vector of[4];
 };
 
-// 64 bits each from base + index[0], base + index[2], ... Plain loads: faster than a gather instruction, several of
-// which would be busy with the same few cache lines.
-template <std::size_t kCount>
-HWY_INLINE hn::Vec<hn::FixedTag<std::int64_t, kCount>> every_second(const std::int32_t* base,
-                                                                    const std::int32_t* index) {
-    if constexpr (kCount == 1) {
-        return hn::LoadU(hn::FixedTag<std::int64_t, 1>(), reinterpret_cast<const std::int64_t*>(base + *index));
-    } else {
-        return hn::Combine(hn::FixedTag<std::int64_t, kCount>(), every_second<kCount / 2>(base, index + kCount),
-                           every_second<kCount / 2>(base, index));
-    }
-}
-
-// Two texels of each lane, one below the other, the upper one at base + index: of the even lanes and of the odd ones.
-struct TexelPairs {
-    Vector even;
-    Vector odd;
-};
-
-HWY_INLINE TexelPairs fetch(const std::int32_t* base, const std::int32_t* index) {
-    constexpr std::size_t kPairs = hn::MaxLanes(Wide());
-    return {hn::BitCast(Lanes(), every_second<kPairs>(base, index)),
-            hn::BitCast(Lanes(), every_second<kPairs>(base, index + 1))};
-}
-
-// Weight times alpha of two texels of each lane, as 16-bit halves.
-HWY_INLINE Vector weighted_alpha(const TexelPairs& texels, Vector weights) {
-    constexpr int o = 0x80;
-    alignas(16) static constexpr std::uint8_t kOfEven[16] = {3, o, 7, o, o, o, o, o, 11, o, 15, o, o, o, o, o};
-    alignas(16) static constexpr std::uint8_t kOfOdd[16] = {o, o, o, o, 3, o, 7, o, o, o, o, o, 11, o, 15, o};
-    return multiply_halves(hn::Or(rearranged(texels.even, kOfEven), rearranged(texels.odd, kOfOdd)), weights);
-}
-
-// Adds weighted_alpha * (R, G, B, 1) of two texels of each lane.
-HWY_INLINE void add_weighted(const TexelPairs& texels, Vector weighted_alpha, Channels& sum) {
-    constexpr int o = 0x80;
-    alignas(16) static constexpr std::uint8_t kLower[16] = {0, o, 4, o, 1, o, 5, o, 2, o, 6, o, 3, o, 7, o};
-    alignas(16) static constexpr std::uint8_t kUpper[16] = {8, o, 12, o, 9, o, 13, o, 10, o, 14, o, 11, o, 15, o};
-    const auto one_for_alpha = [](Vector v) { return hn::Or(hn::And(v, number(0x00FFFFFF)), number(0x01000000)); };
-    const Vector even = one_for_alpha(texels.even);
-    const Vector odd = one_for_alpha(texels.odd);
-    const auto add = [](Vector& to, Vector colours, Vector weights) {
-        to = hn::Add(to, multiply_pairs(colours, weights));
-    };
-    add(sum.of[0], rearranged(even, kLower), hn::Broadcast<0>(weighted_alpha));
-    add(sum.of[1], rearranged(odd, kLower), hn::Broadcast<1>(weighted_alpha));
-    add(sum.of[2], rearranged(even, kUpper), hn::Broadcast<2>(weighted_alpha));
-    add(sum.of[3], rearranged(odd, kUpper), hn::Broadcast<3>(weighted_alpha));
-}
-
 // f(n, vector to be broadcast) over the four channel vectors.
 template <class F>
 HWY_INLINE Channels for_channels(Vector lanes, const F& f) {
@@ -163,16 +113,111 @@ HWY_INLINE Channels for_channels(Vector lanes, const F& f) {
              f(3, hn::Broadcast<3>(lanes))}};
 }
 
-// The sum of the four channels of each lane.
-HWY_INLINE Vector across(const Channels& channels) {
-    // A 4x4 transposition by halves: (0, 1) and (2, 3) first.
-    const auto pair = [](Vector a, Vector b) {
-        return hn::Add(hn::InterleaveLower(Lanes(), a, b), hn::InterleaveUpper(Lanes(), a, b));
+// Four texels of each lane, RGBA: upper left, lower left, upper right, lower right. Block b of vector k has those of
+// lane 4 b + k.
+struct TexelQuads {
+    Vector of[4];
+};
+
+// 64 bits each from left and right + index[0], index[4], ... Plain loads: faster than a gather instruction, several of
+// which would be busy with the same few cache lines.
+template <std::size_t kBlocks>
+HWY_INLINE hn::Vec<hn::FixedTag<std::int64_t, 2 * kBlocks>> every_fourth(const std::int32_t* left,
+                                                                         const std::int32_t* right,
+                                                                         const std::int32_t* index) {
+    const hn::FixedTag<std::int64_t, 2 * kBlocks> all;
+    if constexpr (kBlocks == 1) {
+        const auto at = [&](const std::int32_t* base) {
+            return hn::LoadU(hn::FixedTag<std::int64_t, 1>(), reinterpret_cast<const std::int64_t*>(base + *index));
+        };
+        return hn::Combine(all, at(right), at(left));
+    } else {
+        return hn::Combine(all, every_fourth<kBlocks / 2>(left, right, index + 2 * kBlocks),
+                           every_fourth<kBlocks / 2>(left, right, index));
+    }
+}
+
+// The upper left texel of each lane at base + index.
+HWY_INLINE TexelQuads fetch(const std::int32_t* base, std::int32_t column_stride, const std::int32_t* index) {
+    constexpr std::size_t kBlocks = hn::MaxLanes(Lanes()) / 4;
+    TexelQuads quads;
+    for (int k = 0; k < 4; ++k) {
+        quads.of[k] = hn::BitCast(Lanes(), every_fourth<kBlocks>(base, base + column_stride, index + k));
+    }
+    return quads;
+}
+
+HWY_INLINE Vector all_bits(const TexelQuads& quads) {
+    return hn::And(hn::And(quads.of[0], quads.of[1]), hn::And(quads.of[2], quads.of[3]));
+}
+
+// The weights of a lane's upper two texels and of its lower two, left and right in 16 bits each.
+struct TexelWeights {
+    Vector upper;
+    Vector lower;
+};
+
+// Of a place `x`, `y` eighths from the upper left texel: 64 together.
+HWY_INLINE TexelWeights texel_weights(Vector x, Vector y) {
+    const Vector across = hn::Add(number(8), hn::Sub(hn::ShiftLeft<16>(x), x));
+    const Vector lower = multiply_halves(across, hn::Or(y, hn::ShiftLeft<16>(y)));
+    return {hn::Sub(hn::ShiftLeft<3>(across), lower), lower};
+}
+
+alignas(16) static constexpr std::uint8_t kUpperTexels[16] = {0, 0x80, 8,  0x80, 1, 0x80, 9,  0x80,
+                                                              2, 0x80, 10, 0x80, 3, 0x80, 11, 0x80};
+alignas(16) static constexpr std::uint8_t kLowerTexels[16] = {4, 0x80, 12, 0x80, 5, 0x80, 13, 0x80,
+                                                              6, 0x80, 14, 0x80, 7, 0x80, 15, 0x80};
+
+// Adds weight * (R, G, B, A).
+HWY_INLINE void add_texels(const TexelQuads& quads, const TexelWeights& weights, Channels& sum) {
+    const Channels upper = for_channels(weights.upper, [&](int n, Vector weight) {
+        return multiply_pairs(rearranged(quads.of[n], kUpperTexels), weight);
+    });
+    const Channels lower = for_channels(weights.lower, [&](int n, Vector weight) {
+        return multiply_pairs(rearranged(quads.of[n], kLowerTexels), weight);
+    });
+    for (int n = 0; n < 4; ++n) sum.of[n] = hn::Add(sum.of[n], hn::Add(upper.of[n], lower.of[n]));
+}
+
+// Sums of weight * alpha * (R, G, B, 1).
+HWY_INLINE Channels premultiplied(const TexelQuads& quads, const TexelWeights& weights) {
+    constexpr int o = 0x80;
+    alignas(16) static constexpr std::uint8_t kUpperAlpha[16] = {3, o, 11, o, 3, o, 11, o, 3, o, 11, o, 3, o, 11, o};
+    alignas(16) static constexpr std::uint8_t kLowerAlpha[16] = {7, o, 15, o, 7, o, 15, o, 7, o, 15, o, 7, o, 15, o};
+    const auto sum = [&](const std::uint8_t(&texels)[16], const std::uint8_t(&alpha)[16], Vector of_weights) {
+        return for_channels(of_weights, [&](int n, Vector weight) {
+            const Vector one_for_alpha = hn::Or(hn::And(quads.of[n], number(0x00FFFFFF)), number(0x01000000));
+            return multiply_pairs(rearranged(one_for_alpha, texels),
+                                  multiply_halves(rearranged(quads.of[n], alpha), weight));
+        });
     };
-    const auto a = hn::BitCast(Wide(), pair(channels.of[0], channels.of[1]));  // 0 1 0 1
-    const auto b = hn::BitCast(Wide(), pair(channels.of[2], channels.of[3]));  // 2 3 2 3
-    return hn::Add(hn::BitCast(Lanes(), hn::InterleaveLower(Wide(), a, b)),
-                   hn::BitCast(Lanes(), hn::InterleaveUpper(Wide(), a, b)));
+    Channels both = sum(kUpperTexels, kUpperAlpha, weights.upper);
+    const Channels lower = sum(kLowerTexels, kLowerAlpha, weights.lower);
+    for (int n = 0; n < 4; ++n) both.of[n] = hn::Add(both.of[n], lower.of[n]);
+    return both;
+}
+
+// The fourth channel of each lane.
+HWY_INLINE Vector fourth(const Channels& channels) {
+    constexpr int o = 0x80;
+    alignas(16) static constexpr std::uint8_t kTo0[16] = {12, 13, 14, 15, o, o, o, o, o, o, o, o, o, o, o, o};
+    alignas(16) static constexpr std::uint8_t kTo1[16] = {o, o, o, o, 12, 13, 14, 15, o, o, o, o, o, o, o, o};
+    alignas(16) static constexpr std::uint8_t kTo2[16] = {o, o, o, o, o, o, o, o, 12, 13, 14, 15, o, o, o, o};
+    alignas(16) static constexpr std::uint8_t kTo3[16] = {o, o, o, o, o, o, o, o, o, o, o, o, 12, 13, 14, 15};
+    return hn::Or(hn::Or(rearranged(channels.of[0], kTo0), rearranged(channels.of[1], kTo1)),
+                  hn::Or(rearranged(channels.of[2], kTo2), rearranged(channels.of[3], kTo3)));
+}
+
+// The lowest byte of each channel, in memory order.
+HWY_INLINE Vector packed(const Channels& channels) {
+    constexpr int o = 0x80;
+    alignas(16) static constexpr std::uint8_t kTo0[16] = {0, 4, 8, 12, o, o, o, o, o, o, o, o, o, o, o, o};
+    alignas(16) static constexpr std::uint8_t kTo1[16] = {o, o, o, o, 0, 4, 8, 12, o, o, o, o, o, o, o, o};
+    alignas(16) static constexpr std::uint8_t kTo2[16] = {o, o, o, o, o, o, o, o, 0, 4, 8, 12, o, o, o, o};
+    alignas(16) static constexpr std::uint8_t kTo3[16] = {o, o, o, o, o, o, o, o, o, o, o, o, 0, 4, 8, 12};
+    return hn::Or(hn::Or(rearranged(channels.of[0], kTo0), rearranged(channels.of[1], kTo1)),
+                  hn::Or(rearranged(channels.of[2], kTo2), rearranged(channels.of[3], kTo3)));
 }
 
 // resolve() of shape_pixel.hpp, as RGBA in memory order. The float quotient is at most one too small.
@@ -191,13 +236,7 @@ HWY_INLINE Vector resolve_lanes(const Channels& sum, Vector a) {
         const Vector rest = hn::Sub(dividend, hn::Mul(guess, by));
         return hn::Sub(guess, hn::VecFromMask(Lanes(), at_least(rest, by)));
     });
-    constexpr int o = 0x80;
-    alignas(16) static constexpr std::uint8_t kTo0[16] = {0, 4, 8, o, o, o, o, o, o, o, o, o, o, o, o, o};
-    alignas(16) static constexpr std::uint8_t kTo1[16] = {o, o, o, o, 0, 4, 8, o, o, o, o, o, o, o, o, o};
-    alignas(16) static constexpr std::uint8_t kTo2[16] = {o, o, o, o, o, o, o, o, 0, 4, 8, o, o, o, o, o};
-    alignas(16) static constexpr std::uint8_t kTo3[16] = {o, o, o, o, o, o, o, o, o, o, o, o, 0, 4, 8, o};
-    const Vector colour = hn::Or(hn::Or(rearranged(quotients.of[0], kTo0), rearranged(quotients.of[1], kTo1)),
-                                 hn::Or(rearranged(quotients.of[2], kTo2), rearranged(quotients.of[3], kTo3)));
+    const Vector colour = hn::And(packed(quotients), number(0x00FFFFFF));
     return hn::IfThenElseZero(hn::Gt(alpha, hn::Zero(Lanes())), hn::Or(colour, hn::ShiftLeft<24>(alpha)));
 }
 

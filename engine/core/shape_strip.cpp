@@ -75,6 +75,8 @@ void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, 
         if (setup.weight < 256) set_picture(object, texels, setup.first, lane, strip.first);
         if (setup.weight > 0) set_picture(object, texels, setup.second, lane, strip.second);
         strip.weight[lane] = setup.weight;
+        strip.first.share[lane] = (256 - setup.weight) * 0x10001;
+        strip.second.share[lane] = setup.weight * 0x10001;
         strip.alone[lane] = setup.weight == 0 || setup.weight == 256 ? -1 : 0;
         // Without a shape a ray shows the foot's depth 0: what a lane without surfaces does, since its weight is 0.
         set_surfaces(shape, setup, lane, strip);

@@ -32,61 +32,62 @@ HWY_AFTER_NAMESPACE();
 HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
 
-struct SampleLanes {
+// Where a sample of each lane falls, and the texels there.
+struct SamplePlace {
     LaneMask exists;
-    Vector a;
-    Channels sum;  // r, g, b; the fourth is a again
+    TexelWeights weights;
+    TexelQuads texels;
 };
 
-// sample_picture() of the lanes `wanted`.
-HWY_INLINE SampleLanes sample_lanes(const ShapeWalk& walk, const ShapePictureLanes& picture, int lane, Vector d,
+// sample_picture() of the lanes `wanted`, as far as the texels.
+HWY_INLINE SamplePlace sample_place(const ShapeWalk& walk, const ShapePictureLanes& picture, int lane, Vector d,
                                     Vector y_q16, LaneMask wanted) {
     const auto load = [&](const std::int32_t* lanes) { return hn::Load(Lanes(), lanes + lane); };
     const Vector l = hn::Add(load(picture.l0_q20), hn::ShiftRight<7>(hn::Mul(d, load(picture.l1_q24))));
     const Vector inverse_l = inverse(l);
     const Vector n = hn::Add(load(picture.n0_q12), hn::ShiftRight<3>(hn::Mul(d, load(picture.n1_q12))));
-    const Vector column = hn::Add(load(picture.cx_q8), multiply_shift<24>(n, inverse_l));
+    const Vector column = hn::Add(load(picture.cx_q8), multiply_shift_within<24>(n, inverse_l));
     const Vector m = multiply_shift_within<16>(load(picture.fl_y_q8), inverse_l);
     const Vector row = hn::Sub(load(picture.cy_q8), multiply_shift<20>(m, hn::Sub(y_q16, load(picture.height_q16))));
-    SampleLanes sample;
-    sample.exists = hn::And(hn::And(wanted, at_least(l, number(kNearest_q20))),
-                            hn::And(within(column, number(walk.width_q8)), within(row, number(walk.height_q8))));
+    SamplePlace place;
+    place.exists = hn::And(hn::And(wanted, at_least(l, number(kNearest_q20))),
+                           hn::And(within(column, number(walk.width_q8)), within(row, number(walk.height_q8))));
 
     // The texels' border stands in for the clamps.
     const Vector x = hn::ShiftRight<5>(hn::Sub(column, number(128 - 16)));
     const Vector y = hn::ShiftRight<5>(hn::Sub(row, number(128 - 16)));
-    const Vector fx = hn::And(x, number(7));
-    const Vector fy = hn::And(y, number(7));
     const Vector index =
-        hn::IfThenElseZero(sample.exists, hn::Add(hn::Add(load(picture.start), hn::ShiftRight<3>(y)),
-                                                  hn::Mul(hn::ShiftRight<3>(x), number(walk.column_stride))));
+        hn::IfThenElseZero(place.exists, hn::Add(hn::Add(load(picture.start), hn::ShiftRight<3>(y)),
+                                                 hn::Mul(hn::ShiftRight<3>(x), number(walk.column_stride))));
     alignas(64) std::int32_t indices[kStripColumns];
     hn::Store(index, Lanes(), indices);
-
-    // Weights as pairs of 16 bits: of the upper texel and of the lower one.
-    const Vector vertical = hn::Add(number(8), hn::Sub(hn::ShiftLeft<16>(fy), fy));
-    const Vector of_right = multiply_halves(vertical, hn::Or(fx, hn::ShiftLeft<16>(fx)));
-    const Vector of_left = hn::Sub(hn::ShiftLeft<3>(vertical), of_right);
-
-    const auto* const texels = reinterpret_cast<const std::int32_t*>(walk.texels);
-    const TexelPairs left = fetch(texels, indices);
-    const TexelPairs right = fetch(texels + walk.column_stride, indices);
-    const Vector left_alpha = weighted_alpha(left, of_left);
-    const Vector right_alpha = weighted_alpha(right, of_right);
-    sample.a = multiply_pairs(hn::Add(left_alpha, right_alpha), number(0x00010001));
-    const Vector zero = hn::Zero(Lanes());
-    sample.sum = {{zero, zero, zero, zero}};
-    add_weighted(left, left_alpha, sample.sum);
-    add_weighted(right, right_alpha, sample.sum);
-    return sample;
+    place.weights = texel_weights(hn::And(x, number(7)), hn::And(y, number(7)));
+    place.texels = fetch(reinterpret_cast<const std::int32_t*>(walk.texels), walk.column_stride, indices);
+    return place;
 }
 
 struct ShownLanes {
     LaneMask shown;
-    Vector a;
-    Channels sum;
+    Vector colour;
     Vector lambda_q20;
 };
+
+// Inside of the object: where every texel of both pictures is opaque, resolve(mix()) is a mean of eight texels whose
+// weights are 64 * 256 together.
+HWY_INLINE Vector opaque_colour(const ShapeStrip& strip, int lane, const SamplePlace& first,
+                                const SamplePlace& second) {
+    Channels sum;
+    for (Vector& channel : sum.of) channel = number(1 << 13);
+    const auto add = [&](const SamplePlace& place, const ShapePictureLanes& picture) {
+        const Vector share = hn::Load(Lanes(), picture.share + lane);
+        add_texels(place.texels,
+                   {multiply_halves(place.weights.upper, share), multiply_halves(place.weights.lower, share)}, sum);
+    };
+    add(first, strip.first);
+    add(second, strip.second);
+    for (Vector& channel : sum.of) channel = hn::ShiftRight<14>(channel);
+    return packed(sum);
+}
 
 // shown_surface() of the lanes `wanted`, at depth `d`.
 HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int lane, Vector rise, Vector d,
@@ -98,19 +99,30 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeStrip& strip
     surface.lambda_q20 = hn::Add(load(strip.lambda0_q20), hn::ShiftRight<4>(hn::Mul(d, load(strip.lambda1_q21))));
     const LaneMask looked_at = hn::And(wanted, hn::Gt(surface.lambda_q20, zero));
     const Vector y_q16 = hn::Add(number(walk.b_q16), multiply_shift_within<28>(surface.lambda_q20, rise));
-    const SampleLanes first = sample_lanes(walk, strip.first, lane, d, y_q16, hn::And(looked_at, used(strip.first)));
-    const SampleLanes second = sample_lanes(walk, strip.second, lane, d, y_q16, hn::And(looked_at, used(strip.second)));
-
-    const LaneMask transparent =
-        hn::Or(hn::And(first.exists, hn::Eq(first.a, zero)), hn::And(second.exists, hn::Eq(second.a, zero)));
-    surface.shown = hn::AndNot(transparent, hn::Or(first.exists, second.exists));
+    const SamplePlace first = sample_place(walk, strip.first, lane, d, y_q16, hn::And(looked_at, used(strip.first)));
+    const SamplePlace second = sample_place(walk, strip.second, lane, d, y_q16, hn::And(looked_at, used(strip.second)));
     const LaneMask both = hn::And(first.exists, second.exists);
+    const Vector alphas = hn::Or(hn::And(all_bits(first.texels), all_bits(second.texels)), number(0x00FFFFFF));
+    if (HWY_LIKELY(hn::AllTrue(Lanes(), hn::And(both, hn::Eq(alphas, number(-1)))))) {
+        surface.shown = both;
+        surface.colour = opaque_colour(strip, lane, first, second);
+        return surface;
+    }
+
+    const Channels first_sum = premultiplied(first.texels, first.weights);
+    const Channels second_sum = premultiplied(second.texels, second.weights);
+    const Vector first_a = fourth(first_sum);
+    const Vector second_a = fourth(second_sum);
+    const LaneMask transparent =
+        hn::Or(hn::And(first.exists, hn::Eq(first_a, zero)), hn::And(second.exists, hn::Eq(second_a, zero)));
+    surface.shown = hn::AndNot(transparent, hn::Or(first.exists, second.exists));
     const Vector weight = hn::IfThenElse(both, load(strip.weight), hn::IfThenZeroElse(first.exists, number(256)));
     const auto mixed = [](Vector f, Vector s, Vector w) {
         return hn::Add(hn::ShiftLeft<8>(f), hn::Mul(hn::Sub(s, f), w));
     };
-    surface.a = mixed(first.a, second.a, weight);
-    surface.sum = for_channels(weight, [&](int n, Vector w) { return mixed(first.sum.of[n], second.sum.of[n], w); });
+    const Channels sum =
+        for_channels(weight, [&](int n, Vector w) { return mixed(first_sum.of[n], second_sum.of[n], w); });
+    surface.colour = resolve_lanes(sum, mixed(first_a, second_a, weight));
     return surface;
 }
 
@@ -132,7 +144,7 @@ HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int l
         looking = hn::And(looking, is_surface(depth));
         if (hn::AllFalse(Lanes(), looking)) break;
         const ShownLanes surface = shown_lanes(walk, strip, lane, rise, depth, looking);
-        shown_colour = hn::IfThenElse(surface.shown, resolve_lanes(surface.sum, surface.a), shown_colour);
+        shown_colour = hn::IfThenElse(surface.shown, surface.colour, shown_colour);
         shown_lambda = hn::IfThenElse(surface.shown, surface.lambda_q20, shown_lambda);
         looking = hn::AndNot(hn::Or(hn::Or(surface.shown, alone), march.ended()), looking);
     }

@@ -21,6 +21,7 @@ namespace rs::engine {
 // A captured picture of each lane: ShapePicture and what it needs of CapturedView.
 struct ShapePictureLanes {
     alignas(64) std::int32_t used[kStripColumns];   // -1, or 0: the lane does not look at this picture
+    alignas(64) std::int32_t share[kStripColumns];  // its weight of 256, in both halves of 32 bits
     alignas(64) std::int32_t start[kStripColumns];  // index of texel (0, 0)
     alignas(64) std::int32_t l0_q20[kStripColumns];
     alignas(64) std::int32_t l1_q24[kStripColumns];

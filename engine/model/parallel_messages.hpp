@@ -79,8 +79,8 @@ struct ColumnSetup {
     static constexpr int kPlaceBits = kHeadBits + 46 + 36 + 9 + 2 * PictureSetup::kBits + 9 + 30 + 23;
     int view = 0;
     RayKind kind = RayKind::none;
-    int stripe = 0;  // band reader
-    int column = 0;  // of the stripe; band reader
+    int stripe = 0;           // band reader
+    int column = 0;           // of the stripe; band reader
     bool same_cells = false;  // as the column before it has; band reader
     // plane
     int picture = 0, picture_column = 0;

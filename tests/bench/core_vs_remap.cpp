@@ -6,7 +6,8 @@
 // Both write 1024x1024 pixels of four bytes from 512x512 pictures. The core renders an orbit around a 90-view object,
 // so that every frame reads other pictures; cv::remap reads one picture through a fixed-point map of the same scale,
 // its fastest form. core_shape orbits at the captured distance, between the captured views; core_shape_near goes
-// nearer, where every ray passes many bands of the map. Compare items_per_second (pixels).
+// nearer, where every ray passes many bands of the map; their pictures have alpha of all sizes everywhere, those of
+// core_shape_opaque none but 0 and 255. Compare items_per_second (pixels).
 //
 // coded_*/PROFILE: the same from a coded object (a textured ball on the same ring), decoded as views need it. Orbits go
 // in steps of 1 degree, so that neighbouring frames share tiles: `warm` holds everything, `evicting` ten pictures, so
@@ -60,6 +61,22 @@ const RaySpaceObject& object_with_shape() {
     return kObject;
 }
 
+// The same with pictures that are opaque wherever they show anything, as those of most objects are.
+const RaySpaceObject& opaque_object_with_shape() {
+    static const RaySpaceObject kObject = [] {
+        RaySpaceObject opaque = object_with_shape();
+        for (PlanarPicture& picture : opaque.pictures) {
+            for (int x = 0; x < picture.a.width(); ++x) {
+                bool shows = false;
+                for (int y = 0; y < picture.a.height(); ++y) shows = shows || picture.a(x, y) > 0;
+                for (int y = 2; shows && y < picture.a.height() - 3; ++y) picture.a(x, y) = 255;
+            }
+        }
+        return opaque;
+    }();
+    return kObject;
+}
+
 std::vector<engine::ViewRegisters> orbit(double distance = 3.5, int count = 61) {
     std::vector<engine::ViewRegisters> views;
     const Rig rig = make_ring({.count = count,
@@ -99,6 +116,16 @@ void core_shape_near(benchmark::State& state) {
     render_orbit(state, object_with_shape(), 3);
 }
 BENCHMARK(core_shape_near)->UseRealTime()->MinTime(1);
+
+void core_shape_opaque(benchmark::State& state) {
+    render_orbit(state, opaque_object_with_shape(), 3.5);
+}
+BENCHMARK(core_shape_opaque)->UseRealTime()->MinTime(1);
+
+void core_shape_opaque_near(benchmark::State& state) {
+    render_orbit(state, opaque_object_with_shape(), 3);
+}
+BENCHMARK(core_shape_opaque_near)->UseRealTime()->MinTime(1);
 
 const RaySpaceObject& coded_object(codec::Profile profile) {
     static std::map<codec::Profile, RaySpaceObject> objects;
