@@ -72,41 +72,28 @@ public:
           start_(hn::Load(Lanes(), strip.entry_start + lane)),
           last_(hn::Load(Lanes(), strip.last_entry + lane)),
           p_part_(hn::Load(Lanes(), strip.p_part + lane)),
-          beyond_(hn::Load(Lanes(), strip.beyond + lane)) {
-        const Vector per_unit = number(walk.bands_per_unit_q12);
+          beyond_(hn::Load(Lanes(), strip.beyond + lane)),
+          begin_(number(256)),
+          step_(number(256)) {
         const Vector h = hn::Add(number(walk.b_q16),
                                  multiply_shift_within<28>(hn::Load(Lanes(), strip.lambda_foot_q20 + lane), rise));
-        const Vector slope = multiply_shift_within<24>(hn::Load(Lanes(), strip.inverse_r_q20 + lane), rise);
-        const Vector reference = multiply_shift<16>(hn::Sub(h, number(walk.reference_height_q16)),
-                                                    hn::Load(Lanes(), strip.inverse_rho_q20 + lane));
-        const Vector per_radius = multiply_shift<12>(hn::Sub(slope, reference), per_unit);
+        const auto shifted = [&](auto shift, Vector a, Vector b) {
+            return strip.level ? multiply_shift_within<decltype(shift)::value>(a, b)
+                               : multiply_shift<decltype(shift)::value>(a, b);
+        };
+        using By12 = std::integral_constant<int, 12>;
+        using By16 = std::integral_constant<int, 16>;
+        const Vector per_unit = number(walk.bands_per_unit_q12);
         // Counted from the middle of the first entry's band.
-        foot_ = hn::Sub(multiply_shift<16>(hn::Sub(h, number(walk.h_low_q16)), per_unit),
+        foot_ = hn::Sub(shifted(By16(), hn::Sub(h, number(walk.h_low_q16)), per_unit),
                         hn::Load(Lanes(), strip.first_middle_q12 + lane));
+        const Vector slope = multiply_shift_within<24>(hn::Load(Lanes(), strip.inverse_r_q20 + lane), rise);
+        const Vector reference = shifted(By16(), hn::Sub(h, number(walk.reference_height_q16)),
+                                         hn::Load(Lanes(), strip.inverse_rho_q20 + lane));
+        const Vector per_radius = shifted(By12(), hn::Sub(slope, reference), per_unit);
         zero_ = hn::Add(foot_, multiply_shift_within<28>(per_radius, number(walk.depth_low_q20)));
         per_depth_ = multiply_shift_within<24>(per_radius, number(walk.depth_step_q24));
-        per_depth_ =
-            hn::Min(hn::Max(per_depth_, number(-CellMarch::kMostPerDepth_q20)), number(CellMarch::kMostPerDepth_q20));
-        const Vector steps =
-            hn::Min(hn::Add(hn::ShiftRight<11>(hn::Abs(per_depth_)), number(1)), number(CellMarch::kMostSteps));
-        const LaneMask one = hn::Eq(steps, number(1));
-        begin_ = number(256);
-        step_ = number(256);
-        if (HWY_LIKELY(hn::AllTrue(Lanes(), one))) return;
-        // Whole numbers by float division: the halves keep the quotients clear of them.
-        const Floats floats;
-        step_ = hn::ConvertTo(Lanes(), hn::Div(hn::Set(floats, 256.5F), hn::ConvertTo(floats, steps)));
-        // The first step that reaches the nearest surface, (nearest - 1) / step; those before it can meet none.
-        const auto before =
-            hn::Sub(hn::ConvertTo(floats, hn::Load(Lanes(), strip.nearest + lane)), hn::Set(floats, 0.5F));
-        const Vector first = hn::ConvertTo(Lanes(), hn::Div(before, hn::ConvertTo(floats, step_)));
-        const Vector begin = hn::Mul(first, step_);
-        // A ray that stays above or below all bands.
-        const Vector from = band(begin);
-        const Vector to = band(hn::Add(beyond_, step_));
-        const LaneMask below = hn::Lt(hn::Max(from, to), hn::Zero(Lanes()));
-        const LaneMask above = at_least(hn::Min(from, to), hn::ShiftLeft<12>(last_));
-        begin_ = hn::IfThenElse(hn::Or(one, hn::Or(below, above)), number(256), begin);
+        if (!strip.level) begin_march(hn::Load(Lanes(), strip.nearest + lane));
     }
 
     // Depths of the lanes `looking`, -1 where there is nothing; others get any.
@@ -149,6 +136,27 @@ public:
     [[nodiscard]] HWY_INLINE LaneMask ended() const { return ended_; }
 
 private:
+    HWY_INLINE void begin_march(Vector nearest) {
+        per_depth_ =
+            hn::Min(hn::Max(per_depth_, number(-CellMarch::kMostPerDepth_q20)), number(CellMarch::kMostPerDepth_q20));
+        const Vector steps =
+            hn::Min(hn::Add(hn::ShiftRight<11>(hn::Abs(per_depth_)), number(1)), number(CellMarch::kMostSteps));
+        const LaneMask one = hn::Eq(steps, number(1));
+        if (hn::AllTrue(Lanes(), one)) return;
+        // Whole numbers by float division: the halves keep the quotients clear of them.
+        const Floats floats;
+        step_ = hn::ConvertTo(Lanes(), hn::Div(hn::Set(floats, 256.5F), hn::ConvertTo(floats, steps)));
+        // A ray that stays above or below all bands meets nothing.
+        const Vector from = band(hn::Zero(Lanes()));
+        const Vector to = band(hn::Add(beyond_, step_));
+        const LaneMask below = hn::Lt(hn::Max(from, to), hn::Zero(Lanes()));
+        const LaneMask beside = hn::Or(below, at_least(hn::Min(from, to), hn::ShiftLeft<12>(last_)));
+        // The first step that reaches the nearest surface, (nearest - 1) / step; those before it can meet none.
+        const auto before = hn::Sub(hn::ConvertTo(floats, nearest), hn::Set(floats, 0.5F));
+        const Vector skipped = hn::ConvertTo(Lanes(), hn::Div(before, hn::ConvertTo(floats, step_)));
+        begin_ = hn::IfThenElse(hn::Or(one, beside), number(256), hn::Mul(skipped, step_));
+    }
+
     HWY_INLINE Vector band(Vector d) const { return hn::Add(zero_, hn::ShiftRight<8>(hn::Mul(d, per_depth_))); }
 
     // Index of a place's entry: the first or the last one for those beyond, which say nothing.
@@ -183,11 +191,11 @@ private:
     Vector last_;
     Vector p_part_;
     Vector beyond_;
+    Vector begin_;
+    Vector step_;
     Vector foot_;
     Vector zero_;
     Vector per_depth_;
-    Vector step_;
-    Vector begin_;
     LaneMask ended_ = none();
 };
 

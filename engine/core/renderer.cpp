@@ -215,7 +215,7 @@ void Renderer::render_shape_upright(const ViewRegisters& registers, ImageView<Rg
         ShapeStrip strip;
         for (int s = range.begin(); s < range.end(); ++s) {
             const int first = s * kStripColumns;
-            set_up_shape_strip(object_, texels_, registers, first, strip);
+            set_up_shape_strip(object_, texels_, registers, walk, first, strip);
             ShapeWalkOutput to{out.row(0) + first, out.stride(), nullptr, 0};
             if (!lambda.empty()) {
                 to.lambda_q20 = lambda.row(0) + first;

@@ -4,6 +4,7 @@
 #include "engine/core/shape_walk.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rs::engine {
@@ -41,6 +42,23 @@ void set_surfaces(const ShapeMap& shape, const ShapeSetup& setup, int lane, Shap
     strip.p_part[lane] = setup.cells.p_part;
 }
 
+// Everything of section 6 is linear in the rise but for roundings of a few units, so that the view's ends bound it.
+bool is_level(const ShapeWalk& walk, const ShapeSetup& setup) {
+    constexpr double kMostPerDepth = 2000;  // 2048 would march
+    constexpr double kMost = 1 << 28;       // 2^29 would saturate
+    for (const std::int32_t rise_q24 : {walk.first_rise_q24, walk.last_rise_q24}) {
+        const double h = walk.b_q16 + std::ldexp(double(setup.lambda_foot_q20) * rise_q24, -28);
+        const double slope = std::ldexp(double(rise_q24) * setup.inverse_r_q20, -24);
+        const double reference = std::ldexp((h - walk.reference_height_q16) * setup.inverse_rho_q20, -16);
+        const double per_radius = std::ldexp((slope - reference) * walk.bands_per_unit_q12, -12);
+        const double foot = std::ldexp((h - walk.h_low_q16) * walk.bands_per_unit_q12, -16);
+        const double per_depth = std::ldexp(per_radius * walk.depth_step_q24, -24);
+        if (std::abs(per_depth) > kMostPerDepth) return false;
+        if (std::max({std::abs(reference), std::abs(per_radius), std::abs(foot)}) > kMost) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers) {
@@ -51,6 +69,8 @@ ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, co
     walk.column_stride = texels.column_stride();
     walk.width_q8 = object.width << 8;
     walk.height_q8 = object.height << 8;
+    walk.first_rise_q24 = registers.rise_q24(0, 0);
+    walk.last_rise_q24 = registers.rise_q24(0, registers.height - 1);
     walk.b_q16 = registers.b_q20 >> 4;
     walk.reference_height_q16 = shape.reference_height_q20 >> 4;
     walk.h_low_q16 = shape.h_low_q20 >> 4;
@@ -61,17 +81,19 @@ ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, co
 }
 
 void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
-                        int first_column, ShapeStrip& strip) {
+                        const ShapeWalk& walk, int first_column, ShapeStrip& strip) {
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
     SurfaceEntries entries = std::move(strip.entries);
     strip = {};
     strip.entries = std::move(entries);
     strip.entries.hold(kStripColumns * surface_entries(shape.bands));
+    strip.level = true;
     const int columns = std::min(kStripColumns, registers.width - first_column);
     for (int lane = 0; lane < columns; ++lane) {
         const ShapeSetup setup = set_up_shape(object, registers, first_column + lane, 0);
         if (!setup.has_ray) continue;
         strip.empty = false;
+        strip.level = strip.level && is_level(walk, setup);
         if (setup.weight < 256) set_picture(object, texels, setup.first, lane, strip.first);
         if (setup.weight > 0) set_picture(object, texels, setup.second, lane, strip.second);
         strip.weight[lane] = setup.weight;

@@ -53,6 +53,8 @@ struct ShapeStrip {
     alignas(64) std::int32_t inverse_r_q20[kStripColumns];
     alignas(64) std::int32_t inverse_rho_q20[kStripColumns];
     SurfaceEntries entries;
+    // No ray of the strip marches, and no number of its set-up saturates (engine/RECONSTRUCTION.md, section 6).
+    bool level = false;
     bool empty = true;  // no lane has a ray
 };
 
@@ -63,6 +65,8 @@ struct ShapeWalk {
     std::int32_t column_stride = 0;
     std::int32_t width_q8 = 0;  // of the captured pictures
     std::int32_t height_q8 = 0;
+    std::int32_t first_rise_q24 = 0;  // of the view's rows: all others lie between
+    std::int32_t last_rise_q24 = 0;
     std::int32_t b_q16 = 0;
     std::int32_t reference_height_q16 = 0;
     std::int32_t h_low_q16 = 0;
@@ -76,7 +80,7 @@ ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, co
 // View columns first_column .. first_column + kStripColumns - 1, those that exist. Ensures the texels that they read.
 // What `strip` was before does not matter, but for its memory, which is used again.
 void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
-                        int first_column, ShapeStrip& strip);
+                        const ShapeWalk& walk, int first_column, ShapeStrip& strip);
 
 // Where the pixels go: row j of the strip to colour + j * colour_stride and, where it is wanted, lambda_q20 + j *
 // lambda_stride.

@@ -122,8 +122,8 @@ SurfaceColumn lay_column(const CellColumns& columns, int bands, int jump, std::s
         hn::StoreInterleaved2(depth[0][0], depth[1][0], halves,
                               reinterpret_cast<std::int16_t*>(entries.pairs.data() + to));
         hn::StoreInterleaved2(back, zero, halves, reinterpret_cast<std::int16_t*>(entries.backs.data() + to));
-        for (const auto& of_band : depth) {
-            for (const Half d : of_band) nearest = hn::Min(nearest, hn::IfThenElse(hn::Lt(d, zero), nearest, d));
+        for (const auto& both_bands : depth) {
+            for (const Half d : both_bands) nearest = hn::Min(nearest, hn::IfThenElse(hn::Lt(d, zero), nearest, d));
         }
         farthest_back = hn::Max(farthest_back, back);
     }
