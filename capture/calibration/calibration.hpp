@@ -2,6 +2,7 @@
 // The outcome of calibrating a turn, whatever found it: the model, how sure each number is, and what a photographer
 // should know.
 
+#include "capture/calibration/picture_place.hpp"
 #include "capture/calibration/turntable_model.hpp"
 
 #include <limits>
@@ -45,6 +46,9 @@ struct ViewFit {
 struct Calibration {
     CalibrationMethod method = CalibrationMethod::kNominal;
     TurntableModel model;
+    // [view]; empty unless the photographs were moved and scaled one by one. The model, points and residuals are those
+    // of the photographs put back.
+    std::vector<PicturePlace> places;
     ModelDeviations deviations;
     int points = 0;
     int observations = 0;

@@ -5,6 +5,7 @@
 #include "capture/calibration/outline_settling.hpp"
 #include "capture/calibration/patch_alignment.hpp"
 #include "capture/calibration/patch_growth.hpp"
+#include "capture/calibration/picture_places.hpp"
 #include "capture/calibration/start_search.hpp"
 #include "capture/calibration/turn_diagnosis.hpp"
 #include "rayspace/conventions.hpp"
@@ -22,6 +23,8 @@ namespace {
 constexpr std::size_t kFewestViews = 5;
 constexpr std::size_t kFewestTracks = 40;
 constexpr std::size_t kHeldOutEvery = 10;  // of the tracks
+constexpr double kFewestAgreeingPlaced = 0.75;
+constexpr int kPlaceRounds = 1;
 constexpr double kLossDeviations = 2;
 constexpr double kOutlierDeviations = 4;
 constexpr double kSharedError_px = 0.2;  // what the true errors on photographs with known truth ask for
@@ -196,9 +199,11 @@ Bundle judged_by(const TurntableModel& model, const Bundle& unseen, const TurnPi
     held.free = {.f = false, .pan = false, .tilt = false, .roll = false, .angles = AngleFreedom::kHeld};
     return refined(bundle, turn, held, 0).value_or(bundle);
 }
-}  // namespace
 
-Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
+// Where no turn before a still camera explains the points, nor a tripod that was moved once, `placed` becomes the best
+// one with pictures moved and scaled one by one. Null: they were, and are put back.
+Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownInputs& known, Progress* progress,
+                                         std::optional<PlacedTurn>* placed) {
     const std::size_t views = turn.pictures.size();
     if (views < kFewestViews) {
         return Error{std::to_string(views) + " pictures do not make a turn that could be calibrated; take at least " +
@@ -234,7 +239,12 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     const double at_px = 0.5 * (lies_sideways(bundle.model.pose) ? turn.width : turn.height);
     const std::vector<int> candidates = observations_per_view(part, views);
     Status accepted = accept(bundle, bundle_deviations(bundle, options, at_px), candidates, turn.names);
-    if (!accepted) return accepted.error();
+    if (!accepted) {
+        if (placed != nullptr && !changes_at_one_moment(bundle, candidates)) {
+            *placed = find_places(tracks, known_lens(turn, known), views, turn.reduction, known);
+        }
+        return accepted.error();
+    }
     const Bundle settled = bundle;
     // Now that it is known where a point can be, more of them are found.
     const Result<std::vector<Track>> guided =
@@ -265,9 +275,13 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     calibration.step_rad = median_step(bundle.model.angles_rad);
     Bundle judged = settled;  // its observations, the better angles
     judged.model = bundle.model;
-    calibration.warnings =
-        warnings_about(judged, calibration.deviations, candidates, result.followed.features, turn.names);
-    if (axis_disagrees) calibration.warnings.push_back(*axis_disagrees);
+    // Of pictures that were moved, angles and axis are only as the moves leave them.
+    if (placed != nullptr) {
+        calibration.warnings = step_warnings(bundle.model.angles_rad, calibration.deviations, turn.names);
+        if (axis_disagrees) calibration.warnings.push_back(*axis_disagrees);
+    }
+    const auto of_pictures = picture_warnings(judged, candidates, result.followed.features, turn.names);
+    calibration.warnings.insert(calibration.warnings.end(), of_pictures.begin(), of_pictures.end());
     calibration.points = static_cast<int>(bundle.tracks.size());
     calibration.observations = observation_count(bundle);
     calibration.rms_px = rms_px(bundle);
@@ -275,6 +289,27 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
     calibration.views = fits(bundle);
     result.bundle = std::move(bundle);
     return result;
+}
+
+}  // namespace
+
+Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
+    std::optional<PlacedTurn> placed;
+    Result<TrackCalibration> still = calibrate_still(turn, known, progress, &placed);
+    if (!placed || placed->agreeing < kFewestAgreeingPlaced) return still;
+    std::vector<PicturePlace> places = std::move(placed->places);
+    for (int round = 0;; ++round) {
+        Result<TrackCalibration> found = calibrate_still(put_back(turn, places), known, progress, nullptr);
+        if (!found) return still;
+        found->calibration.places = places;
+        const auto remaining =
+            round < kPlaceRounds ? remaining_places(found->bundle, turn.reduction, known) : std::nullopt;
+        if (!remaining) {
+            found->calibration.warnings.push_back(place_warning(places));
+            return found;
+        }
+        for (std::size_t i = 0; i < places.size(); ++i) places[i] = places[i].of((*remaining)[i]);
+    }
 }
 
 }  // namespace rs::capture

@@ -1,6 +1,8 @@
 #pragma once
 // Calibration of a turn from points of the object: start search, bundle, outliers, hold-out, judgement. The outlines of
-// a full turn have their say in where the axis is (outline_symmetry.hpp).
+// a full turn have their say in where the axis is (outline_symmetry.hpp). Where no turn before a still camera explains
+// the points, pictures are taken to have been moved and scaled one by one, as shops do, and put back
+// (picture_places.hpp).
 
 #include "capture/calibration/bundle.hpp"
 #include "capture/calibration/calibration.hpp"
@@ -12,7 +14,7 @@ namespace rs::capture {
 
 struct TrackCalibration {
     Calibration calibration;
-    FollowedPoints followed;  // positions in px of the photographs
+    FollowedPoints followed;  // positions in px of the photographs, put back to their places
     Bundle bundle;            // the tracks that took part, at the optimum but for the axis' position
 };
 

@@ -152,10 +152,12 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     return {};
 }
 
-std::vector<std::string> warnings_about(const Bundle& bundle, const ModelDeviations& deviations,
-                                        std::span<const int> candidates, std::span<const int> features,
-                                        std::span<const std::string> names) {
-    const std::vector<double>& angles = bundle.model.angles_rad;
+bool changes_at_one_moment(const Bundle& bundle, std::span<const int> candidates) {
+    return moment_of_change(agreeing_shares(bundle, candidates)).has_value();
+}
+
+std::vector<std::string> step_warnings(std::span<const double> angles, const ModelDeviations& deviations,
+                                       std::span<const std::string> names) {
     std::vector<std::string> lines;
     const double usual = degrees(median_step(angles));
     const auto off = [&](std::size_t i) {  // how far step i - 1 -> i differs from the usual one, degrees forward
@@ -188,6 +190,12 @@ std::vector<std::string> warnings_about(const Bundle& bundle, const ModelDeviati
         lines.push_back("the turn does not close: " + number(closing, 1) + " degrees are missing between " +
                         names.back() + " and " + names.front());
     }
+    return lines;
+}
+
+std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const int> candidates,
+                                          std::span<const int> features, std::span<const std::string> names) {
+    std::vector<std::string> lines;
     std::vector<double> counts(features.begin(), features.end());
     const double ordinary = median(counts);
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -203,6 +211,18 @@ std::vector<std::string> warnings_about(const Bundle& bundle, const ModelDeviati
                         " observations agree); was the object or the camera moved? Take it again or leave it out");
     }
     return lines;
+}
+
+std::string place_warning(std::span<const PicturePlace> places) {
+    double shift_px = 0;
+    double least = places.front().scale, most = least;
+    for (const PicturePlace& place : places) {
+        shift_px = std::max(shift_px, glm::length(place.shift_px - places.front().shift_px));
+        least = std::min(least, place.scale);
+        most = std::max(most, place.scale);
+    }
+    return "the pictures were moved (by up to " + number(shift_px, 0) + " px) and scaled (by up to " +
+           number(100 * (most / least - 1), 0) + " %) one by one, as shops do; they are put back";
 }
 
 std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_outlines, int reduction) {

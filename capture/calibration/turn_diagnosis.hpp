@@ -26,11 +26,20 @@ double median_step(std::span<const double> angles_rad);
 Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span<const int> candidates,
               std::span<const std::string> names);
 
-// One line each: steps that differ from the others, pictures that stand at the same angle, gaps, blurred pictures, and
-// pictures that do not fit.
-std::vector<std::string> warnings_about(const Bundle& bundle, const ModelDeviations& deviations,
-                                        std::span<const int> candidates, std::span<const int> features,
-                                        std::span<const std::string> names);
+// Whether the observations before some view agree with the bundle about evenly, and those after it otherwise: the
+// camera was moved there.
+bool changes_at_one_moment(const Bundle& bundle, std::span<const int> candidates);
+
+// One line each: steps that differ from the others, pictures that stand at the same angle, gaps.
+std::vector<std::string> step_warnings(std::span<const double> angles_rad, const ModelDeviations& deviations,
+                                       std::span<const std::string> names);
+
+// One line each: blurred pictures, and pictures that do not fit.
+std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const int> candidates,
+                                          std::span<const int> features, std::span<const std::string> names);
+
+// That pictures were moved and scaled one by one, and by how much.
+std::string place_warning(std::span<const PicturePlace> places);
 
 // Where the texture turns about another axis than the outlines do, and further from it than both can be off: what may
 // be the matter. Nothing where they agree to half a px of the pictures that were looked at.

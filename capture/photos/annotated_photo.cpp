@@ -27,14 +27,24 @@ cv::Scalar residual_colour(double residual_px) {
     return {60 + 195 * t, 230 - 200 * t, 60, 255};
 }
 
-void draw_axis(cv::Mat& picture, const ImportReport& report, double scale) {
+// Of the point that a still camera would have seen at `p`, in view `view` as it is.
+glm::dvec2 in_photo(const Calibration& calibration, int view, const glm::dvec2& p) {
+    if (calibration.places.empty()) return p;
+    const Lens& lens = calibration.model.lens;
+    return calibration.places[static_cast<std::size_t>(view)].seen(p, {lens.width / 2.0, lens.height / 2.0});
+}
+
+void draw_axis(cv::Mat& picture, const ImportReport& report, int view, double scale) {
     const cv::Scalar white(255, 255, 255, 255), black(0, 0, 0, 255);
     std::vector<glm::dvec2> line;
     if (report.calibration.calibration) {
-        const TurntableModel& model = report.calibration.calibration->model;
+        const Calibration& calibration = *report.calibration.calibration;
+        const TurntableModel& model = calibration.model;
         // Piece by piece, for a lens with distortion bends it.
         for (int i = -200; i <= 200; ++i) {
-            if (const auto p = project(model.lens, model.pose, {0, 0.01 * i, 0})) line.push_back(*p);
+            if (const auto p = project(model.lens, model.pose, {0, 0.01 * i, 0})) {
+                line.push_back(in_photo(calibration, view, *p));
+            }
         }
     } else {
         line = {{report.nominal.axis_x_px, 0}, {report.nominal.axis_x_px, static_cast<double>(report.height)}};
@@ -58,11 +68,13 @@ void draw_points(cv::Mat& picture, const TrackCalibration& tracks, int view, dou
         const auto here = at(view);
         if (here == seen.end()) continue;
         const auto r = residual(bundle.model, bundle.points[i], *here);
+        const glm::dvec2 at_here = in_photo(tracks.calibration, view, here->p);
         const cv::Scalar colour = residual_colour(r ? glm::length(*r) : 99);
         if (const auto before = at((view + views - 1) % views); before != seen.end()) {
-            cv::line(picture, fixed(before->p, scale), fixed(here->p, scale), colour, 1, cv::LINE_AA, kShift);
+            const glm::dvec2 at_before = in_photo(tracks.calibration, before->view, before->p);
+            cv::line(picture, fixed(at_before, scale), fixed(at_here, scale), colour, 1, cv::LINE_AA, kShift);
         }
-        cv::circle(picture, fixed(here->p, scale), 2 << kShift, colour, cv::FILLED, cv::LINE_AA, kShift);
+        cv::circle(picture, fixed(at_here, scale), 2 << kShift, colour, cv::FILLED, cv::LINE_AA, kShift);
     }
 }
 
@@ -74,7 +86,7 @@ Image<Rgba8> annotated_photo(ConstImageView<Rgba8> photo, const ImportReport& re
     const double scale = static_cast<double>(small.width()) / photo.width();
     cv::Mat picture(small.height(), small.width(), CV_8UC4, small.data());
     if (report.calibration.tracks) draw_points(picture, *report.calibration.tracks, view, scale);
-    draw_axis(picture, report, scale);
+    draw_axis(picture, report, view, scale);
     return small;
 }
 

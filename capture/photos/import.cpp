@@ -80,14 +80,15 @@ Result<TurnOutline::Box> rectify(const PhotoFolder& folder, const fs::path& cut,
             std::find(report.left_out.begin(), report.left_out.end(), report.source_names[i]) != report.left_out.end();
         number[i] = is_left_out[i] ? 0 : next++;
     }
-    const TurntableModel& model = report.calibration.calibration->model;
+    const Calibration& calibration = *report.calibration.calibration;
     TurnOutline outline(report.frame.lens.width, report.frame.lens.height);
     std::mutex mutex;
     const auto work = [&](std::size_t i) -> Status {
         if (is_left_out[i]) return {};
         const Result<Image<Rgba8>> picture = read_picture(cut / cut_picture_name(i));
         if (!picture) return picture.error();
-        const Image<Rgba8> upright = rectified(model, report.frame, *picture);
+        const Image<Rgba8> upright = rectified(calibration.model, report.frame, *picture,
+                                               calibration.places.empty() ? PicturePlace{} : calibration.places[i]);
         if (Status status = write_png(output / cut_picture_name(number[i]), upright); !status) return status;
         TurnOutline own(upright.width(), upright.height());
         own.add(upright);
@@ -153,6 +154,20 @@ Status finish_nominal(const ImportOptions& options, const CutTurn& turn, const f
     return write_rig(staged / kRigFileName, rig);
 }
 
+// `boxes` of the photographs, as the still camera would have seen them.
+std::vector<TurnOutline::Box> boxes_put_back(std::vector<TurnOutline::Box> boxes, const Calibration& calibration) {
+    const Lens& lens = calibration.model.lens;
+    const glm::dvec2 middle(lens.width / 2.0, lens.height / 2.0);
+    for (std::size_t i = 0; i < calibration.places.size(); ++i) {
+        TurnOutline::Box& box = boxes[i];
+        if (box.empty()) continue;
+        const glm::dvec2 low = glm::floor(calibration.places[i].undone({box.left, box.top}, middle));
+        const glm::dvec2 high = glm::ceil(calibration.places[i].undone({box.right, box.bottom}, middle));
+        box = {static_cast<int>(low.x), static_cast<int>(high.x), static_cast<int>(low.y), static_cast<int>(high.y)};
+    }
+    return boxes;
+}
+
 Status finish_calibrated(const ImportOptions& options, const PhotoFolder& folder, const CutTurn& turn,
                          const fs::path& cut, const fs::path& staged, ImportReport& report, Progress* progress) {
     const Calibration& calibration = *report.calibration.calibration;
@@ -162,7 +177,7 @@ Status finish_calibrated(const ImportOptions& options, const PhotoFolder& folder
     report.notes.insert(report.notes.end(), calibration.warnings.begin(), calibration.warnings.end());
     leave_out_repeats(report);
     report.views = static_cast<int>(report.source_names.size() - report.left_out.size());
-    const Result<UprightFrame> frame = plan_upright_frame(calibration.model, turn.boxes);
+    const Result<UprightFrame> frame = plan_upright_frame(calibration.model, boxes_put_back(turn.boxes, calibration));
     if (!frame) return frame.error();
     report.frame = *frame;
     if (Status status = make_folder(staged / "images", options.output); !status) return status;

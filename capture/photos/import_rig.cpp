@@ -100,6 +100,9 @@ Rig calibrated_import_rig(const ImportReport& report, const TurnOutline::Box& vi
     camera["pan_deg"] = degrees(model.pose.pan_rad);
     camera["tilt_deg"] = degrees(model.pose.tilt_rad);
     camera["roll_deg"] = degrees(model.pose.roll_rad);
+    for (const PicturePlace& place : calibration.places) {  // capture/calibration/picture_place.hpp
+        made["places"].push_back({{"scale", place.scale}, {"shift_px", {place.shift_px.x, place.shift_px.y}}});
+    }
     nlohmann::json& deviations = made["standard_deviations"];
     deviations["f_px"] = finite(off.f_px);
     deviations["k1"] = finite(off.k1);

@@ -143,10 +143,12 @@ Result<UprightFrame> plan_upright_frame(const TurntableModel& model, std::span<c
     return frame;
 }
 
-Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, ConstImageView<Rgba8> cut_out) {
+Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, ConstImageView<Rgba8> cut_out,
+                       const PicturePlace& place) {
     RS_CHECK(cut_out.width() == model.lens.width && cut_out.height() == model.lens.height);
     const glm::dmat3 camera_from_table = camera_rotation(model.pose);
     const double fold = fold_radius(model.lens);
+    const glm::dvec2 middle(model.lens.width / 2.0, model.lens.height / 2.0);
     Image<Rgba8> upright(frame.lens.width, frame.lens.height);
     for (int y = 0; y < upright.height(); ++y) {
         for (int x = 0; x < upright.width(); ++x) {
@@ -154,9 +156,11 @@ Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, C
                                  (frame.lens.cy - y - 0.5) / frame.lens.f_px, -1);
             const glm::dvec3 ray_in_camera = camera_from_table * ray;
             if (std::hypot(ray_in_camera.x, ray_in_camera.y) >= -ray_in_camera.z * fold) continue;
-            const auto p = project(model.lens, {}, ray_in_camera + glm::dvec3(0, 0, 1));
-            if (!p || p->x < -1 || p->y < -1 || p->x > cut_out.width() + 1 || p->y > cut_out.height() + 1) continue;
-            upright(x, y) = sample_premultiplied(cut_out, p->x, p->y);
+            const auto put_back = project(model.lens, {}, ray_in_camera + glm::dvec3(0, 0, 1));
+            if (!put_back) continue;
+            const glm::dvec2 p = place.seen(*put_back, middle);
+            if (p.x < -1 || p.y < -1 || p.x > cut_out.width() + 1 || p.y > cut_out.height() + 1) continue;
+            upright(x, y) = sample_premultiplied(cut_out, p.x, p.y);
         }
     }
     bleed_colours(upright);

@@ -7,6 +7,7 @@
 // of turntable_model.hpp at (0, 0, 1) and looks along -Z, straight at the axis: its pose is zero, its lens a pinhole,
 // and the axis appears in the column cx. Its horizon, cy, may lie outside of the frame.
 
+#include "capture/calibration/picture_place.hpp"
 #include "capture/calibration/turntable_model.hpp"
 #include "capture/photos/outline.hpp"
 #include "rayspace/image.hpp"
@@ -35,8 +36,10 @@ Result<UprightFrame> plan_upright_frame(const TurntableModel& model, std::span<c
 
 // A photograph's cut-out (sRGB, straight alpha, of model.lens' size) as the upright camera sees it: sampled once by
 // sample_premultiplied(), transparent where the photograph does not reach; then the object's colours are continued
-// under alpha 0 by bleed_colours(). About 0.2 s per megapixel of the frame. Thread-safe.
-Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, ConstImageView<Rgba8> cut_out);
+// under alpha 0 by bleed_colours(). `place` says how the photograph was moved from
+// where the still camera of the model took it. About 0.2 s per megapixel of the frame. Thread-safe.
+Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, ConstImageView<Rgba8> cut_out,
+                       const PicturePlace& place = {});
 
 // One camera per view of the model, without file names, all upright, in object radii: object_radius is 1, the radius
 // about the axis that holds everything within `visible`, whose outermost column is tangent to it; Y = 0 where the

@@ -10,6 +10,7 @@ namespace rs::capture {
 const char* const kAsPhotosExamples = R"(
   rs-capture synth spot.json --as-photos -o spot-photos --k1 -0.12
   rs-capture synth spot.json --as-photos -o printed --board board.png --board-width 2 --disc plain
+  rs-capture synth spot.json --as-photos -o shop --recentred --disc none --photo-backdrop white
      photographs of a turntable: photos/000.jpg and so on, and beside them truth/, which says exactly
      how they were taken (36 views of 640x512, 20 degrees from above, as near as everything fits in))";
 
@@ -71,6 +72,10 @@ void add_as_photos_options(CLI::App& synth, AsPhotosOptions& options) {
                     "Photos: wall, blue, white, or a picture that is stretched over the frame")
         ->capture_default_str()
         ->type_name("FILE|wall|blue|white")
+        ->needs(as_photos);
+    synth
+        .add_flag("--recentred", photos.recentred,
+                  "Photos: each is moved and scaled by itself, so that the object fills the frame, as shops do")
         ->needs(as_photos);
     synth
         .add_flag("--counter-clockwise", session.counter_clockwise,

@@ -1,6 +1,7 @@
 #include "capture/tracer/photo_session.hpp"
 
 #include "capture/tracer/coverage.hpp"
+#include "capture/tracer/recentring.hpp"
 #include "capture/tracer/sampler.hpp"
 #include "capture/tracer/sensor.hpp"
 #include "capture/tracer/session_truth.hpp"
@@ -128,10 +129,16 @@ struct Session {
 struct View {
     Image<Rgba8> photo;
     Image<float> alpha;
+    PicturePlace place;
 };
 
 View take_photo(Session& session, std::size_t view, const PhotoOptions& options, Progress* progress) {
-    const RayPicture rays = lens_rays_of(session.plan, view);
+    RayPicture rays = lens_rays_of(session.plan, view);
+    PicturePlace place;
+    if (options.recentred) {
+        place = recentred_place(trace_coverage(session.outlines, rays, options.threads));
+        rays = rays_at(std::move(rays), place);
+    }
     RenderOptions render;
     render.samples_per_pixel = options.samples_per_pixel;
     render.seed = options.session.seed;
@@ -140,8 +147,9 @@ View take_photo(Session& session, std::size_t view, const PhotoOptions& options,
     const Rendering traced = session.tracer.render(rays, render, progress);
     const Sensor sensor{session.plan.exposures[view], options.noise_codes,
                         mix_bits(options.session.seed) + static_cast<std::uint64_t>(view)};
-    return {expose(over(traced.picture, session.dimming, session.backdrop), sensor),
-            trace_coverage(session.outlines, rays, options.threads)};
+    const Image<RgbaF> light = over(traced.picture, session.dimming,
+                                    options.recentred ? picture_at(session.backdrop, place) : session.backdrop);
+    return {expose(light, sensor), trace_coverage(session.outlines, rays, options.threads), place};
 }
 
 Status make_folder(const fs::path& folder) {
@@ -197,10 +205,12 @@ Result<CaptureSetSummary> write_photo_session(Scene object, double object_radius
 
     CaptureSetSummary summary;
     std::vector<std::string> names;
+    std::vector<PicturePlace> places;
     for (std::size_t i = 0; i < views; ++i) {
         const Clock::time_point begun = Clock::now();
         const View view = take_photo(session, i, options, progress);
         summary.render_s += std::chrono::duration<double>(Clock::now() - begun).count();
+        if (options.recentred) places.push_back(view.place);
         summary.mean_coverage += mean_of(view.alpha) / static_cast<double>(views);
         summary.clipped_views += touches_edge(view.alpha) ? 1 : 0;
         ++summary.views;
@@ -215,7 +225,7 @@ Result<CaptureSetSummary> write_photo_session(Scene object, double object_radius
     if (!(summary.mean_coverage > 0)) {
         return Error{folder.string() + ": no view shows the object; check the distance or the mesh"};
     }
-    const Rig rig = truth_rig(session.plan, session.plate, object_radius, options, session.dimming, names);
+    const Rig rig = truth_rig(session.plan, session.plate, object_radius, options, session.dimming, names, places);
     if (Status written = write_rig(truth / kRigFileName, rig); !written) return written.error();
     if (Status committed = staged->commit(); !committed) return committed.error();
     if (progress != nullptr) progress->finish();

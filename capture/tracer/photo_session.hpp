@@ -14,7 +14,8 @@
 // photographs it names are distorted by the lens, which only "turntable" tells: f_px, cx, cy, k1, k2, pan_rad,
 // tilt_rad, roll_rad and angles_rad as in capture/calibration/turntable_model.hpp; "distance" and "camera_height" of
 // the camera's centre from axis and origin, in the scene's unit; exposures; dimming (of the lights); the plate; the
-// board's corners in the object's frame; and the options.
+// board's corners in the object's frame; the options; and, of recentred photographs, "places": for every view scale and
+// shift_px as in capture/calibration/picture_place.hpp. The cameras are the still one's.
 
 #include "capture/tracer/capture_set.hpp"
 #include "capture/tracer/scene.hpp"
@@ -37,6 +38,7 @@ struct PhotoOptions {
     PlateSurface plate = PlateSurface::rings;
     std::filesystem::path board;    // a picture; empty = none
     double board_width = 1.2;       // object radii
+    bool recentred = false;         // each picture by itself, as shops do (recentring.hpp)
     std::string backdrop = "wall";  // "wall", "blue", "white", or the name of a picture
 };
 

@@ -59,7 +59,7 @@ nlohmann::json turntable_json(const SessionPlan& plan, const Plate& plate, const
 }  // namespace
 
 Rig truth_rig(const SessionPlan& plan, const Plate& plate, double object_radius, const PhotoOptions& options,
-              double dimming, const std::vector<std::string>& photo_of_view) {
+              double dimming, const std::vector<std::string>& photo_of_view, std::span<const PicturePlace> places) {
     Rig rig;
     rig.object_radius = object_radius;
     rig.foot_height = plate.top;
@@ -70,6 +70,12 @@ Rig truth_rig(const SessionPlan& plan, const Plate& plate, double object_radius,
         rig.views.push_back(std::move(view));
     }
     rig.extras["turntable"] = turntable_json(plan, plate, options, dimming);
+    if (!places.empty()) {
+        nlohmann::json& listed = rig.extras["turntable"]["places"] = nlohmann::json::array();
+        for (const PicturePlace& place : places) {
+            listed.push_back({{"scale", place.scale}, {"shift_px", {place.shift_px.x, place.shift_px.y}}});
+        }
+    }
     return rig;
 }
 

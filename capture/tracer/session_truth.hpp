@@ -1,14 +1,19 @@
 #pragma once
 // The truth of a photographed turn as a transforms.json; see photo_session.hpp.
 
+#include "capture/calibration/picture_place.hpp"
 #include "capture/tracer/photo_session.hpp"
 #include "rayspace/rig.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
 
 namespace rs::capture {
 
 // `dimming` is the factor on the scene's lights; `photo_of_view` names the photographs, relative to the
-// transforms.json.
+// transforms.json. `places` is empty where photographs are as the still camera took them.
 Rig truth_rig(const SessionPlan& plan, const Plate& plate, double object_radius, const PhotoOptions& options,
-              double dimming, const std::vector<std::string>& photo_of_view);
+              double dimming, const std::vector<std::string>& photo_of_view, std::span<const PicturePlace> places);
 
 }  // namespace rs::capture

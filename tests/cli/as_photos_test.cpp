@@ -66,6 +66,31 @@ TEST_F(AsPhotos, WritesPhotographsAndTheirTruth) {
     EXPECT_EQ(synth(arguments).exit_code, 0) << "photographs may be taken again";
 }
 
+TEST_F(AsPhotos, RecentredOnesFillTheFrameAndTellTheirPlaces) {
+    ASSERT_EQ(synth({"--as-photos", "--recentred", "--views", "4", "--size", "64x48", "--disc", "none"}).exit_code, 0);
+    const Result<Rig> rig = read_rig(folder_ / "set" / "truth");
+    ASSERT_TRUE(rig.ok()) << rig.error().message;
+    const auto& places = rig->extras.at("turntable").at("places");
+    ASSERT_EQ(places.size(), 4U);
+    EXPECT_GT(places[0].at("scale"), 0.5);
+    EXPECT_EQ(places[0].at("shift_px").size(), 2U);
+    const auto alpha = read_picture(folder_ / "set" / "truth" / "alpha" / "001.png");
+    ASSERT_TRUE(alpha.ok());
+    int top = 48, bottom = 0, left = 64, right = 0;
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            if ((*alpha)(x, y).g == 0) continue;
+            top = std::min(top, y);
+            bottom = std::max(bottom, y + 1);
+            left = std::min(left, x);
+            right = std::max(right, x + 1);
+        }
+    }
+    EXPECT_NEAR(std::max((bottom - top) / 48.0, (right - left) / 64.0), 0.88, 0.05);
+    EXPECT_NEAR(top + bottom, 48, 2);
+    EXPECT_NEAR(left + right, 64, 2);
+}
+
 TEST_F(AsPhotos, TheQualityDecidesTheSize) {
     const auto size_at = [&](const std::string& quality, const std::string& file) {
         const test::ToolRun run =
@@ -92,6 +117,7 @@ TEST_F(AsPhotos, AFolderMayHaveABackdropsName) {
 TEST_F(AsPhotos, WrongValuesAreUsageErrorsInOneLine) {
     const std::vector<std::vector<std::string>> wrong = {
         {"--as-photos", "--k1", "nan"},
+        {"--recentred"},
         {"--as-photos", "--k2", "2"},
         {"--as-photos", "--noise", "-1"},
         {"--as-photos", "--jpeg", "101"},

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rs::capture {
@@ -38,8 +39,9 @@ Judged judge(const std::vector<Track>& tracks, const TurntableModel& start, std:
     if (features.empty()) features.assign(views, 500);
     const ModelDeviations deviations = bundle_deviations(bundle, options, 400);
     const std::vector<std::string> names = test::photograph_names(views);
-    return {accept(bundle, deviations, candidates, names),
-            warnings_about(bundle, deviations, candidates, features, names)};
+    std::vector<std::string> warnings = step_warnings(bundle.model.angles_rad, deviations, names);
+    for (std::string& line : picture_warnings(bundle, candidates, features, names)) warnings.push_back(std::move(line));
+    return {accept(bundle, deviations, candidates, names), std::move(warnings)};
 }
 
 Judged judge(const TurntableModel& truth, const TurntableModel& start) {

@@ -87,6 +87,24 @@ TEST(Rectification, EqualsThePictureOfAnUprightCamera) {
     EXPECT_LT(compare_pictures_psnr(upright, drawn(frame->lens, {})).psnr_db(), 35);
 }
 
+TEST(Rectification, AMovedPhotographIsPutBack) {
+    const TurntableModel model = crooked_model();
+    const Image<Rgba8> photo = drawn(model.lens, model.pose);
+    const auto frame = plan_upright_frame(model, std::array{visible_box(photo)});
+    ASSERT_TRUE(frame.ok());
+    const PicturePlace place{{13, -8}, 0.9};
+    Lens moved = model.lens;  // a place is another lens: nothing is resampled
+    const glm::dvec2 principal =
+        place.seen({moved.cx, moved.cy}, glm::dvec2(model.lens.width, model.lens.height) / 2.0);
+    moved.f_px *= place.scale;
+    moved.cx = principal.x;
+    moved.cy = principal.y;
+    const Image<Rgba8> upright = without_hidden_colours(rectified(model, *frame, drawn(moved, model.pose), place));
+    EXPECT_GT(compare_pictures_psnr(upright, drawn(frame->lens, {})).psnr_db(), 42);
+    const Image<Rgba8> ignored = without_hidden_colours(rectified(model, *frame, drawn(moved, model.pose)));
+    EXPECT_LT(compare_pictures_psnr(ignored, drawn(frame->lens, {})).psnr_db(), 30);
+}
+
 TEST(Rectification, AnAxisThatLiesSidewaysIsTurnedUpright) {
     for (const double roll_deg : {90.0, -90.0}) {
         TurntableModel model = crooked_model();
