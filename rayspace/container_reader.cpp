@@ -1,8 +1,8 @@
 #include "rayspace/byte_stream.hpp"
 #include "rayspace/container.hpp"
 #include "rayspace/container_layout.hpp"
+#include "rayspace/input_file.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
@@ -189,13 +189,13 @@ Result<ContainerReader> ContainerReader::open_source(std::shared_ptr<Source> sou
 Result<ContainerReader> ContainerReader::open(const std::filesystem::path& path) {
     auto source = std::make_shared<Source>();
     source->where = path.string();
-    source->descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (source->descriptor < 0) return source->wrong(std::string("cannot be opened: ") + std::strerror(errno));
+    const Result<int> opened = open_input(path);
+    if (!opened) return opened.error();
+    source->descriptor = *opened;
     struct stat info {};
     if (::fstat(source->descriptor, &info) != 0) {
         return source->wrong(std::string("cannot be read: ") + std::strerror(errno));
     }
-    if (!S_ISREG(info.st_mode)) return source->wrong("is not an ordinary file; give the name of an .rso file");
     source->size_bytes = static_cast<std::uint64_t>(info.st_size);
     return open_source(std::move(source));
 }

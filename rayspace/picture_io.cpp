@@ -2,6 +2,7 @@
 
 #include "rayspace/conventions.hpp"
 #include "rayspace/file_output.hpp"
+#include "rayspace/input_file.hpp"
 #include "rayspace/picture_backend.hpp"
 
 #include <dlfcn.h>
@@ -77,21 +78,25 @@ Status write_encoded(const fs::path& path, ConstImageView<Pixel> picture, const 
 }  // namespace
 
 Result<PictureInfo> read_picture_info(const fs::path& path) {
+    if (Status regular = check_input(path); !regular) return regular.error();
     const auto backend = backend_for(path);
     return backend ? (*backend)->read_info(path.string()) : backend.error();
 }
 
 Result<Image<Rgba8>> read_picture(const fs::path& path) {
+    if (Status regular = check_input(path); !regular) return regular.error();
     const auto backend = backend_for(path);
     return backend ? (*backend)->read_picture(path.string()) : backend.error();
 }
 
 Result<Image<RgbaF>> read_picture_linear(const fs::path& path) {
+    if (Status regular = check_input(path); !regular) return regular.error();
     const auto backend = backend_for(path);
     return backend ? (*backend)->read_picture_linear(path.string()) : backend.error();
 }
 
 Result<Image<float>> read_channel(const fs::path& path) {
+    if (Status regular = check_input(path); !regular) return regular.error();
     const auto backend = backend_for(path);
     return backend ? (*backend)->read_channel(path.string()) : backend.error();
 }

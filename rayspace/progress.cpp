@@ -1,5 +1,7 @@
 #include "rayspace/progress.hpp"
 
+#include "rayspace/printable.hpp"
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,7 +35,7 @@ ProgressBar::~ProgressBar() {
 void ProgressBar::start(const std::string& label, std::int64_t total) {
     finish();
     const std::lock_guard lock(mutex_);
-    label_ = label;
+    label_ = printable(label);
     total_ = total;
     done_ = 0;
     last_tenth_ = 0;

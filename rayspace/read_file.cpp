@@ -1,6 +1,7 @@
 #include "rayspace/file_output.hpp"
+#include "rayspace/input_file.hpp"
+#include "rayspace/staging.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,9 +11,12 @@
 
 namespace rs {
 
-Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t cap_bytes) {
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return Error{path.string() + ": cannot be opened: " + std::strerror(errno)};
+namespace {
+
+Result<std::vector<std::byte>> read_whole(const std::filesystem::path& path, std::uint64_t cap_bytes, bool is_input) {
+    const Result<int> opened = open_input(path, is_input);
+    if (!opened) return opened.error();
+    const int descriptor = *opened;
     struct Closer {
         int descriptor;
         ~Closer() { ::close(descriptor); }
@@ -20,12 +24,11 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
 
     struct stat info {};
     if (::fstat(descriptor, &info) != 0) return Error{path.string() + ": cannot be read: " + std::strerror(errno)};
-    if (S_ISDIR(info.st_mode)) return Error{path.string() + ": is a folder, not a file"};
     const Error too_large{path.string() + ": is larger than " + std::to_string(cap_bytes) +
                           " bytes, the most that is read here; check that it is the right file"};
     if (static_cast<std::uint64_t>(info.st_size) > cap_bytes) return too_large;
 
-    // Pipes and the like say size 0: read until the end in any case, growing as bytes arrive.
+    // Files of /proc say size 0: read until the end in any case, growing as bytes arrive.
     std::vector<std::byte> bytes(static_cast<std::size_t>(info.st_size));
     std::size_t filled = 0;
     for (;;) {
@@ -50,6 +53,16 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
         }
         filled += static_cast<std::size_t>(count);
     }
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t cap_bytes) {
+    return read_whole(path, cap_bytes, true);
+}
+
+Result<std::vector<std::byte>> staging::read_old_file(const std::filesystem::path& path, std::uint64_t cap_bytes) {
+    return read_whole(path, cap_bytes, false);
 }
 
 }  // namespace rs

@@ -1,4 +1,5 @@
 #include "rayspace/file_output.hpp"
+#include "rayspace/input_file.hpp"
 #include "rayspace/staging.hpp"
 
 #include <fcntl.h>
@@ -36,6 +37,8 @@ Result<StagedFile> StagedFile::create(const fs::path& path) {
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
         return Error{path.string() + ": is no regular file and cannot be replaced; give another name"};
     }
+    if (Status kept = check_keeps_inputs(path); !kept) return kept.error();
+    remove_left_behind(path);
     StagedFile file;
     file.path_ = path;
     file.temporary_ = temporary_name(path);
@@ -88,6 +91,7 @@ Status StagedFile::write_at(std::uint64_t offset, std::span<const std::byte> byt
 
 Status StagedFile::commit() {
     RS_CHECK(descriptor_ >= 0);
+    if (Status kept = check_keeps_inputs(path_); !kept) return kept;
     // A library that wrote temporary_path() itself may have replaced the file that our descriptor holds open.
     const int written = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
     if (written < 0) return failure(path_, "cannot be finished", errno);
@@ -99,9 +103,11 @@ Status StagedFile::commit() {
     const int descriptor = std::exchange(descriptor_, -1);
     // Network file systems report a full disk as late as here.
     if (::close(descriptor) != 0) return failure(path_, "cannot be finished", errno);
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) return failure(path_, "cannot be put in place", errno);
-    forget(temporary_);
+    if (const int error = put_in_place(temporary_, path_, false); error != 0) {
+        return failure(path_, "cannot be put in place", error);
+    }
     temporary_.clear();
+    note_written(path_);
     sync_folder_of(path_);
     return {};
 }

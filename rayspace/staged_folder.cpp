@@ -1,4 +1,5 @@
 #include "rayspace/file_output.hpp"
+#include "rayspace/input_file.hpp"
 #include "rayspace/staging.hpp"
 
 #include <xxhash.h>
@@ -47,7 +48,7 @@ Result<std::set<std::string>> files_below(const fs::path& folder) {
 }
 
 Result<std::string> manifest_line(const fs::path& folder, const std::string& file) {
-    const auto bytes = read_file(folder / file, kLargestFile_bytes);
+    const auto bytes = read_old_file(folder / file, kLargestFile_bytes);
     if (!bytes) return bytes.error();
     char sum[32];
     std::snprintf(sum, sizeof sum, "%016llx ", static_cast<unsigned long long>(XXH64(bytes->data(), bytes->size(), 0)));
@@ -82,7 +83,7 @@ Status check_replaceable(const fs::path& path) {
     if (!files) return files.error();
     std::set<std::string> ours;
     if (files->erase(kManifest) != 0) {
-        const auto manifest = read_file(path / kManifest, kManifestCap_bytes);
+        const auto manifest = read_old_file(path / kManifest, kManifestCap_bytes);
         if (!manifest) return manifest.error();
         std::istringstream lines(std::string(reinterpret_cast<const char*>(manifest->data()), manifest->size()));
         for (std::string line; std::getline(lines, line);) ours.insert(line + '\n');
@@ -102,6 +103,8 @@ Result<StagedFolder> StagedFolder::create(const fs::path& given) {
     const fs::path path = without_trailing_slash(given);
     if (const Status parent = check_parent(path); !parent) return parent.error();
     if (Status replaceable = check_replaceable(path); !replaceable) return replaceable.error();
+    if (Status kept = check_keeps_inputs(path); !kept) return kept.error();
+    remove_left_behind(path);
     StagedFolder folder;
     folder.path_ = path;
     folder.temporary_ = temporary_name(path);
@@ -135,33 +138,28 @@ Status StagedFolder::commit() {
     RS_CHECK(!temporary_.empty());
     // Somebody may have filled the folder since create().
     if (Status replaceable = check_replaceable(path_); !replaceable) return replaceable;
+    if (Status kept = check_keeps_inputs(path_); !kept) return kept;
 
     if (Status listed = write_manifest(temporary_); !listed) return listed;
 
-    fs::path old;
-    std::error_code error;
-    if (fs::exists(fs::symlink_status(path_, error))) {
-        // A folder with files in it cannot be renamed over: the old one steps aside, and back if the new one cannot
-        // come.
-        old = temporary_name(path_);
-        if (::rename(path_.c_str(), old.c_str()) != 0) return failure(path_, "cannot be replaced", errno);
+    // What stands there with files in it cannot be renamed over; the two change places, so that at every moment one
+    // whole folder bears the name.
+    std::error_code ignored;
+    const bool exchanged = fs::exists(fs::symlink_status(path_, ignored));
+    int error = put_in_place(temporary_, path_, exchanged);
+    if (exchanged && (error == EINVAL || error == ENOSYS)) {
+        return Error{
+            path_.string() +
+            ": cannot be replaced, for this file system cannot exchange two folders; remove it first, or write "
+            "elsewhere"};
     }
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
-        const int rename_error = errno;
-        if (!old.empty() && ::rename(old.c_str(), path_.c_str()) != 0) {
-            return Error{path_.string() + ": cannot be put in place: " + reason(rename_error) +
-                         "; what was there before is now " + old.string()};
-        }
-        return failure(path_, "cannot be put in place", rename_error);
-    }
-    forget(temporary_);
-    temporary_.clear();
+    if (error != 0) return failure(path_, "cannot be put in place", error);
     sync_folder_of(path_);
-    if (!old.empty()) {
-        remember(old);  // from here on it is not the only copy
-        remove_quietly(old);
-        forget(old);
+    if (exchanged) {
+        remove_quietly(temporary_);
+        forget(temporary_);
     }
+    temporary_.clear();
     return {};
 }
 

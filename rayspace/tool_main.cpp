@@ -1,10 +1,13 @@
 #include "rayspace/tool_main.hpp"
 
 #include "rayspace/conventions.hpp"
+#include "rayspace/input_file.hpp"
 #include "rayspace/interruption.hpp"
+#include "rayspace/printable.hpp"
 
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <new>
 #include <system_error>
@@ -28,7 +31,7 @@ std::string folded(const std::string& message) {
 }
 
 int fail(const CLI::App& app, const std::string& message) {
-    std::fprintf(stderr, "%s: error: %s\n", app.get_name().c_str(), folded(message).c_str());
+    std::fprintf(stderr, "%s: error: %s\n", app.get_name().c_str(), printable(folded(message)).c_str());
     return kExitFailed;
 }
 
@@ -65,7 +68,7 @@ int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run
     } catch (const CLI::Success& wanted) {  // --help, --version
         return app.exit(wanted);
     } catch (const CLI::ParseError& wrong) {
-        std::fprintf(stderr, "%s: %s; see '%s'\n", app.get_name().c_str(), folded(wrong.what()).c_str(),
+        std::fprintf(stderr, "%s: %s; see '%s'\n", app.get_name().c_str(), printable(folded(wrong.what())).c_str(),
                      help_command(app).c_str());
         return kExitUsage;
     }
@@ -74,6 +77,8 @@ int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run
         return kExitUsage;
     }
     const InterruptionGuard guard;
+    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit fails instead, and is reported with advice
+    keep_inputs();
     try {
         const Status status = run();
         if (!status) return fail(app, status.error().message);

@@ -5,6 +5,7 @@
 #include "capture/photos/photo_folder.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/file_output.hpp"
+#include "rayspace/printable.hpp"
 #include "rayspace/progress.hpp"
 
 #include <nlohmann/json.hpp>
@@ -166,7 +167,7 @@ Status run_import(const ImportCommandLine& given) {
         if (Status status = page->commit(); !status) return status;
     }
     for (const std::string& note : report->notes) {
-        if (!given.quiet) std::fprintf(stderr, "rs-capture: %s\n", note.c_str());
+        if (!given.quiet) std::fprintf(stderr, "rs-capture: %s\n", printable(note).c_str());
     }
     const std::string output = options.output.string();
     if (given.json) {

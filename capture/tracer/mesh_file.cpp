@@ -2,6 +2,7 @@
 
 #include "capture/tracer/mesh_material.hpp"
 #include "capture/tracer/plain_ply.hpp"
+#include "rayspace/model_files.hpp"
 #include "rayspace/picture_io.hpp"
 
 #include <assimp/config.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <string>
 #include <utility>
@@ -20,6 +22,7 @@ namespace rs::capture {
 
 namespace {
 
+constexpr std::uint64_t kMaxModelFile_bytes = std::uint64_t{4} << 30;
 constexpr float kCreaseAngle_deg = 60.0F;
 
 std::string lower_case_extension(const std::filesystem::path& path) {
@@ -33,26 +36,8 @@ std::string first_line(const std::string& text) {
     return text.substr(0, text.find_first_of("\r\n"));
 }
 
-bool finite(const aiVector3D& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 glm::vec3 to_vec(const aiVector3D& v) {
     return {v.x, v.y, v.z};
-}
-
-Status check_finite(const aiScene& source, const std::string& file) {
-    for (unsigned m = 0; m < source.mNumMeshes; ++m) {
-        const aiMesh& mesh = *source.mMeshes[m];
-        const std::string of_mesh =
-            " of mesh \"" + std::string(mesh.mName.C_Str()) + "\" is not finite; repair the mesh";
-        for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-            if (!finite(mesh.mVertices[i])) return Error{file + ": vertex " + std::to_string(i) + of_mesh};
-            if (mesh.HasTextureCoords(0) && !finite(mesh.mTextureCoords[0][i])) {
-                return Error{file + ": the texture coordinate of vertex " + std::to_string(i) + of_mesh};
-            }
-        }
-    }
-    return {};
 }
 
 Mesh convert_mesh(const aiMesh& source) {
@@ -133,6 +118,8 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
     }
     try {
         Assimp::Importer importer;
+        auto* const files = new ModelFiles(kMaxModelFile_bytes);
+        importer.SetIOHandler(files);  // takes it over
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseAngle_deg);
         const aiScene* source = plain_ply.empty()
@@ -145,6 +132,7 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
                                                   aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices |
                                                   aiProcess_PreTransformVertices);
         }
+        if (!files->refusal().empty()) return Error{files->refusal()};
         if (source == nullptr) {
             return Error{path.string() + ": cannot be read as a mesh: " + first_line(importer.GetErrorString())};
         }

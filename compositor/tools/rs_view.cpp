@@ -12,6 +12,7 @@
 #include "engine/model/simulated_board.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/picture_io.hpp"
+#include "rayspace/printable.hpp"
 #include "rayspace/progress.hpp"
 #include "rayspace/rig.hpp"
 #include "rayspace/tool_main.hpp"
@@ -92,7 +93,8 @@ ObjectDepth asked_depth(const ViewArguments& arguments) {
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) std::fprintf(stderr, "rs-view: warning: %s\n", warning.c_str());
+    for (const std::string& warning : warnings)
+        std::fprintf(stderr, "rs-view: warning: %s\n", printable(warning).c_str());
 }
 
 Result<Window> open_window(const ViewArguments& arguments, PixelSize size) {

@@ -4,6 +4,7 @@
 #include "rayspace/file_output.hpp"
 #include "rayspace/page/page_pictures.hpp"
 #include "rayspace/picture_io.hpp"
+#include "rayspace/printable.hpp"
 #include "rayspace/progress.hpp"
 #include "rayspace/view_output.hpp"
 
@@ -97,7 +98,7 @@ void print_table(const EvaluateArguments& arguments, const HoldOut& hold_out, co
         std::printf("\n");
         for (std::size_t n = 0; n < hold_out.held.size(); ++n) {
             const HeldOutScore& first = scores.front().views[n];
-            std::printf("%5d  %-24s", first.view, first.picture.c_str());
+            std::printf("%5d  %-24s", first.view, printable(first.picture).c_str());
             for (const MethodScores& method : scores) std::printf("  %11.2f", method.views[n].psnr_db);
             std::printf("\n");
         }

@@ -3,6 +3,7 @@
 #include "encode/build.hpp"
 #include "rayspace/codec/byte_account.hpp"
 #include "rayspace/object_file.hpp"
+#include "rayspace/printable.hpp"
 #include "rayspace/progress.hpp"
 
 #include <nlohmann/json.hpp>
@@ -64,7 +65,7 @@ Status run_info(const ObjectArguments& arguments) {
         std::cout << json.dump(2) << '\n';
         return {};
     }
-    std::printf("%s: \"%s\"\n", arguments.object.c_str(), object->name.c_str());
+    std::printf("%s: \"%s\"\n", arguments.object.c_str(), printable(object->name).c_str());
     std::printf("  pictures   %zu of %dx%d, Y U V %sand alpha, %s\n", object->views.size(), object->width,
                 object->height, object->coded ? "" : "at 4:2:0 ", stored_as(*object).c_str());
     for (const Ring& ring : object->rings) {

@@ -3,6 +3,7 @@
 #include "engine/core/compare.hpp"
 #include "engine/model/board_limits.hpp"
 #include "rayspace/object_file.hpp"
+#include "rayspace/printable.hpp"
 #include "rayspace/progress.hpp"
 
 #include <nlohmann/json.hpp>
@@ -45,7 +46,7 @@ Status run_compare(const CompareArguments& arguments) {
         return {};
     }
     for (const ComparedView& view : comparison->views) {
-        std::printf("%-24s %6.2f dB  SSIM %.4f\n", view.picture.c_str(), view.psnr_db, view.ssim);
+        std::printf("%-24s %6.2f dB  SSIM %.4f\n", printable(view.picture).c_str(), view.psnr_db, view.ssim);
     }
     std::printf("%-24s %6.2f dB  SSIM %.4f  (all pixels together %.2f dB)\n", "mean", comparison->mean_psnr_db,
                 comparison->mean_ssim, comparison->pooled_psnr_db);
@@ -61,7 +62,7 @@ Status run_board(const std::vector<std::string>& paths) {
         if (!object) return object.error();
         const BoardFootprint f = board_footprint(*object, limits);
         const auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / 1e6; };
-        std::printf("%-28s %9.2f %9.2f %9.2f %9.2f %9.2f\n", object->name.c_str(), megabytes(f.luma_bytes),
+        std::printf("%-28s %9.2f %9.2f %9.2f %9.2f %9.2f\n", printable(object->name).c_str(), megabytes(f.luma_bytes),
                     megabytes(f.chroma_bytes), megabytes(f.alpha_bytes), megabytes(f.map_bytes),
                     megabytes(f.total_bytes()));
         objects.push_back(std::move(*object));

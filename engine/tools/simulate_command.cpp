@@ -9,6 +9,7 @@
 #include "rayspace/file_output.hpp"
 #include "rayspace/object_file.hpp"
 #include "rayspace/picture_io.hpp"
+#include "rayspace/printable.hpp"
 #include "rayspace/ray_space.hpp"
 #include "rayspace/view_output.hpp"
 #include "rayspace/write_file.hpp"
@@ -79,9 +80,9 @@ void print_footprint(const RaySpaceObject& object, const model::Board& board) {
     const auto words = model::object_words(object, limits);
     std::uint64_t all = 0;
     for (const std::uint64_t n : words) all += 8 * n;
-    std::printf("%s: %llu bytes of board memory; memory for %llu such objects, %d slots\n", object.name.c_str(),
-                static_cast<unsigned long long>(all), static_cast<unsigned long long>(board.memory_map().copies(words)),
-                limits.objects);
+    std::printf("%s: %llu bytes of board memory; memory for %llu such objects, %d slots\n",
+                printable(object.name).c_str(), static_cast<unsigned long long>(all),
+                static_cast<unsigned long long>(board.memory_map().copies(words)), limits.objects);
 }
 
 Result<std::vector<int>> put_on_board(model::Board& board, const std::vector<RaySpaceObject>& objects, bool load) {

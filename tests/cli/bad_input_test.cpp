@@ -7,9 +7,11 @@
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <set>
 
@@ -173,6 +175,122 @@ TEST_F(BadInput, OutputThatCannotBe) {
     write_text("mine/letter.txt", "dear");
     expect_failure("rs-encode", {"extract", object, "-o", in("mine"), "-q"}, {"mine"});
     EXPECT_TRUE(std::filesystem::exists(work_ / "mine" / "letter.txt"));
+}
+
+TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
+    write_set("set");
+    write_photographs("photos");
+    ASSERT_EQ(write_object(), in("object.rso"));
+    std::filesystem::copy_file(work_ / "object.rso", work_ / "object.png");
+    ASSERT_EQ(
+        test::run_tool(scratch_.path(), "rs-capture", {"import", in("photos"), "-o", in("imported"), "-q"}).exit_code,
+        0);
+    ASSERT_TRUE(write_png(work_ / "texture.png", Image<Rgba8>(4, 4, Rgba8{200, 100, 50, 255})).ok());
+    write_text(
+        "scene.wrl",
+        "#VRML V2.0 utf8\nShape { appearance Appearance { texture ImageTexture { url \"texture.png\" } } geometry "
+        "Box {} }\n");
+    const auto bytes_of = [&](const std::string& name) {
+        std::ifstream file(work_ / name, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    struct Case {
+        std::string kept;
+        std::string tool;
+        std::vector<std::string> arguments;
+        std::string mention = "is an input";
+    };
+    const std::vector<Case> cases = {
+        {"set/transforms.json", "rs-encode", {"build", in("set"), "-o", in("set/transforms.json"), "-q"}},
+        {"set/transforms.json",
+         "rs-engine",
+         {"render", in("object.rso"), "--poses", in("set/transforms.json"), "-o", in("set/transforms.json"), "-q"},
+         ""},
+        {"object.png", "rs-engine", {"render", in("object.png"), "--eye", "3,0,0", "-o", in("object.png"), "-q"}},
+        {"texture.png", "rs-view", {in("scene.wrl"), "-o", in("texture.png")}},
+        {"imported/transforms.json",
+         "rs-capture",
+         {"import", in("photos"), "--known", in("imported/transforms.json"), "-o", in("again"), "--report",
+          in("imported/transforms.json"), "-q"},
+         ""},
+    };
+    for (const Case& wrong : cases) {
+        SCOPED_TRACE(wrong.tool + " " + wrong.arguments.front());
+        const std::string before = bytes_of(wrong.kept);
+        ASSERT_FALSE(before.empty());
+        const test::ToolRun run = test::run_tool(scratch_.path(), wrong.tool, wrong.arguments);
+        EXPECT_EQ(run.exit_code, 1) << run.err;
+        EXPECT_NE(run.err.find(wrong.mention), std::string::npos) << run.err;
+        EXPECT_TRUE(bytes_of(wrong.kept) == before) << run.err;
+    }
+    const test::ToolRun run = test::run_tool(
+        scratch_.path(), "rs-encode", {"build", in("set"), "-o", in("new.rso"), "--report", in("new.rso"), "-q"});
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_NE(run.err.find("was just written"), std::string::npos) << run.err;
+    EXPECT_EQ(test::run_tool(scratch_.path(), "rs-encode", {"verify", in("new.rso")}).exit_code, 0);
+}
+
+TEST_F(BadInput, PipesThatFilesNameAreRefusedAtOnce) {
+    ASSERT_EQ(::mkfifo((work_ / "pipe").c_str(), 0600), 0);
+    ASSERT_EQ(::mkfifo((work_ / "pipe.mtl").c_str(), 0600), 0);
+    std::filesystem::create_directories(work_ / "set");
+    ASSERT_EQ(::mkfifo((work_ / "set" / "transforms.json").c_str(), 0600), 0);
+    write_text(
+        "texture.wrl",
+        "#VRML V2.0 utf8\nShape { appearance Appearance { texture ImageTexture { url \"pipe\" } } geometry Box {} "
+        "}\n");
+    write_text("inline.wrl", "#VRML V2.0 utf8\nInline { url \"pipe\" }\nShape { geometry Box {} }\n");
+    write_text("object.wrl",
+               "#VRML V2.0 utf8\nEXTERNPROTO RaySpace [field MFString url] \"urn:x\"\nRaySpace { url \"pipe\" }\n");
+    write_text("model.obj", "mtllib pipe.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_text(
+        "model.gltf",
+        R"({"asset":{"version":"2.0"},"buffers":[{"uri":"pipe","byteLength":36}],"bufferViews":[{"buffer":0,"byteLength":36}],
+                  "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+                  "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]})");
+    expect_failure("rs-encode", {"build", in("set"), "-o", in("x.rso"), "-q"}, {"no regular file"});
+    expect_failure("rs-engine", {"render", in("pipe"), "--orbit", "2", "-o", in("x"), "-q"}, {"no regular file"});
+    for (const char* const scene : {"texture.wrl", "inline.wrl", "object.wrl", "model.obj", "model.gltf"}) {
+        // An error or a warning: what counts is that it comes back, and says which file.
+        const test::ToolRun run =
+            test::run_tool(scratch_.path(), "rs-view", {in(scene), "--size", "32x24", "-o", in("frame.png")});
+        EXPECT_LE(run.exit_code, 1) << scene << ": " << run.err;
+        EXPECT_NE(run.err.find("pipe"), std::string::npos) << scene << ": " << run.err;
+    }
+    for (const char* const mesh : {"model.obj", "model.gltf"}) {
+        const test::ToolRun run = test::run_tool(
+            scratch_.path(), "rs-capture",
+            {"synth", in(mesh), "--views", "2", "--size", "8x8", "--spp", "1", "-o", in("traced"), "-q"});
+        EXPECT_EQ(run.exit_code, 1) << mesh << ": " << run.err;
+        EXPECT_NE(run.err.find("pipe"), std::string::npos) << run.err;
+    }
+}
+
+TEST_F(BadInput, ModelsThatAssimpDoesNotSurvive) {
+    write_text("early.mtl", "map_Kd texture.png\nnewmtl red\nKd 1 0 0\n");
+    write_text("early.obj", "mtllib early.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_text("none.mtl", "map_Kd texture.png\n");
+    write_text("none.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const char* const model : {"early.obj", "none.obj"}) {
+        EXPECT_EQ(
+            test::run_tool(scratch_.path(), "rs-view", {in(model), "--size", "32x24", "-o", in("frame.png")}).exit_code,
+            0)
+            << model;
+        EXPECT_EQ(test::run_tool(
+                      scratch_.path(), "rs-capture",
+                      {"synth", in(model), "--views", "2", "--size", "8x8", "--spp", "1", "-o", in("traced"), "-q"})
+                      .exit_code,
+                  0)
+            << model;
+    }
+    write_text("inf.obj", "v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const std::string tool : {"rs-view", "rs-capture"}) {
+        std::vector<std::string> arguments = {in("inf.obj"), "--size", "32x24", "-o", in("out.png")};
+        if (tool == "rs-capture") arguments = {"synth", in("inf.obj"), "--views", "2", "-o", in("out"), "-q"};
+        expect_failure(tool, arguments, {"inf.obj", "is not finite"});
+    }
+    write_text("lines.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n");
+    expect_failure("rs-capture", {"synth", in("lines.obj"), "--views", "2", "-o", in("out"), "-q"}, {"lines.obj"});
 }
 
 class FullDisk : public BadInput {

@@ -4,11 +4,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <fstream>
 #include <iterator>
+#include <random>
+#include <thread>
 
 namespace {
 
@@ -220,6 +225,55 @@ TEST(StagedFolder, LooksAgainBeforeItReplaces) {
     put_text(root.path() / "set" / "thesis.tex", "put there meanwhile");
     EXPECT_FALSE(folder.commit().ok());
     EXPECT_EQ(contents(root.path() / "set" / "thesis.tex"), "put there meanwhile");
+}
+
+TEST(StagedFolder, IsThereWholeWheneverItsWriterIsKilled) {
+    const TemporaryFolder root;
+    const auto replace = [&](const std::string& text) {
+        Result<StagedFolder> folder = StagedFolder::create(root / "set");
+        if (!folder) return false;
+        for (const char* const name : {"a", "b", "c"}) put_text(folder->temporary_path() / name, text);
+        return folder->commit().ok();
+    };
+    ASSERT_TRUE(replace("first"));
+    std::mt19937 random(7);
+    int killed_late = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            for (int i = 0;; ++i) {
+                if (!replace(std::to_string(i))) ::_exit(1);
+            }
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % 20000));
+        ::kill(child, SIGKILL);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        ASSERT_TRUE(WIFSIGNALED(status)) << "the writer failed by itself";
+        ASSERT_EQ(contents(root / "set" / "a"), contents(root / "set" / "b"));
+        ASSERT_EQ(contents(root / "set" / "a"), contents(root / "set" / "c"));
+        ASSERT_FALSE(contents(root / "set" / "a").empty());
+        if (contents(root / "set" / "a") != "first") ++killed_late;
+    }
+    EXPECT_GT(killed_late, 0) << "no writer came to replace anything";
+    ASSERT_TRUE(replace("last"));
+    EXPECT_THAT(names_in(root.path()), testing::ElementsAre("set"))
+        << "what the killed ones left is removed by the next";
+}
+
+TEST(StagedFile, NamesMayBeAsLongAsTheFileSystemTakes) {
+    const TemporaryFolder root;
+    for (const std::size_t length : {225U, 251U, 255U}) {
+        std::string name;
+        while (name.size() + 2 <= length - 4) name += "\u00e9";  // two bytes each
+        name.resize(length - 4, 'x');
+        name += ".png";
+        Result<StagedFile> file = StagedFile::create(root / name);
+        ASSERT_TRUE(file.ok()) << length << ": " << file.error().message;
+        EXPECT_EQ(file->temporary_path().extension(), ".png");
+        EXPECT_TRUE(file->commit().ok());
+        EXPECT_TRUE(fs::exists(root / name));
+    }
 }
 
 TEST(ReadFile, ReadsUpToItsCap) {

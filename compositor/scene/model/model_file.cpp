@@ -3,6 +3,7 @@
 #include "compositor/scene/model/gltf_nodes.hpp"
 #include "compositor/scene/model/model_materials.hpp"
 #include "rayspace/file_output.hpp"
+#include "rayspace/model_files.hpp"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -118,9 +119,15 @@ Result<Scene> read_model(const std::filesystem::path& path) {
     scene.navigation.headlight = scene.lights.empty();
     try {
         Assimp::Importer importer;
-        const aiScene* model = importer.ReadFile(
-            path.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices |
-                               aiProcess_SortByPType | aiProcess_ValidateDataStructure);
+        auto* const files = new ModelFiles(kMaxModel_bytes);
+        importer.SetIOHandler(files);  // takes it over
+        const aiScene* model = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
+        if (!files->refusal().empty()) return Error{files->refusal()};
+        if (model != nullptr) {
+            if (Status finite = check_finite(*model, path.string()); !finite) return finite.error();
+            model = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_GenSmoothNormals |
+                                                 aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+        }
         if (model == nullptr || model->mRootNode == nullptr) {
             std::string reason = importer.GetErrorString();
             for (char& c : reason) c = c == '\n' || c == '\r' ? ' ' : c;
