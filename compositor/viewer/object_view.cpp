@@ -1,6 +1,7 @@
 #include "compositor/viewer/object_view.hpp"
 
 #include "compositor/viewer/upright_picture.hpp"
+#include "engine/core/view_registers.hpp"
 #include "rayspace/conventions.hpp"
 
 #include <algorithm>
@@ -96,6 +97,8 @@ std::optional<ObjectView> view_of_object(const PlacedObject& placed, const Camer
     view.camera = picture.camera;
     view.picture_from_screen = picture.picture_from_screen;
     view.camera.world_from_camera[3] = glm::dvec4(eye * object.units_per_radius, 1);
+    // A window much wider than high shows things so far aside that no engine draws them.
+    if (!engine::prepare_view(object, view.camera)) return std::nullopt;
     view.units_per_rig_unit = scale / object.units_per_radius;
     view.plane_distance = distance * scale;
     const glm::dvec3 inward(-eye.x / distance, 0, -eye.z / distance);

@@ -56,7 +56,8 @@ struct ObjectViewOptions {
     bool upright = false;                           // pictures of upright cameras, where that can be
 };
 
-// Nothing where the object is off the screen, smaller than half a pixel, or seen from its own axis.
+// Nothing where the object is off the screen, smaller than half a pixel, seen from its own axis, or so far aside in a
+// very wide picture that engines do not draw it (engine::prepare_view).
 std::optional<ObjectView> view_of_object(const PlacedObject& placed, const Camera& camera_in_world,
                                          const ObjectViewOptions& options = {});
 

@@ -5,6 +5,20 @@
 
 namespace rs::engine {
 
+namespace {
+
+// What a driver throws, such as std::bad_alloc, is a failure of what it was asked for.
+template <class Outcome, class Ask>
+Outcome guarded(const Ask& ask) {
+    try {
+        return ask();
+    } catch (const std::exception& escaped) {
+        return Error{std::string("the board's driver failed: ") + escaped.what()};
+    }
+}
+
+}  // namespace
+
 BoardThread::BoardThread(std::unique_ptr<BoardDevice> device) : device_(std::move(device)) {
     thread_ = std::thread([this] { work(); });
 }
@@ -119,7 +133,7 @@ void BoardThread::note_failure(const Error& error) {
 
 void BoardThread::evict_slot(std::unique_lock<std::mutex>& lock, int slot) {
     lock.unlock();
-    const Status evicted = device_->evict(slot);
+    const Status evicted = guarded<Status>([&] { return device_->evict(slot); });
     lock.lock();
     if (!evicted) note_failure(evicted.error());
 }
@@ -133,7 +147,7 @@ void BoardThread::load_one(std::unique_lock<std::mutex>& lock) {
     loading_ = true;
     for (;;) {
         lock.unlock();
-        Result<std::optional<int>> slot = device_->load(*object);
+        const auto slot = guarded<Result<std::optional<int>>>([&] { return device_->load(*object); });
         lock.lock();
         const auto found = known_.find(number);
         if (!slot) {
@@ -176,12 +190,7 @@ void BoardThread::work() {
             const std::vector<DeviceView> views = std::move(*cycle_);
             cycle_.reset();
             lock.unlock();
-            Result<std::vector<Image<Rgba8>>> drawn = Error{"not drawn"};
-            try {
-                drawn = device_->render(views);
-            } catch (const std::exception& escaped) {
-                drawn = Error{std::string("the board's driver failed: ") + escaped.what()};
-            }
+            auto drawn = guarded<Result<std::vector<Image<Rgba8>>>>([&] { return device_->render(views); });
             lock.lock();
             if (!drawn) {
                 ++counts_.failed_cycles;

@@ -113,6 +113,23 @@ TEST(ObjectView, NothingBehindTheCameraBesideTheScreenOrTooSmall) {
     EXPECT_TRUE(view_of_object(placed, look_at_camera({0, 0, 500}, {0, 0, 0}, radians(50), 320, 240)));
 }
 
+TEST(ObjectView, WhatIsDrawnCanBeDrawnHoweverWideTheWindow) {
+    const auto object = test::drum();
+    int far_aside = 0, drawn = 0;
+    for (int angle_deg = -90; angle_deg <= 90; angle_deg += 2) {
+        const PlacedObject placed = test::placed_at(
+            object, {{5 * std::sin(radians(angle_deg)), 0, -5 * std::cos(radians(angle_deg))}, {0, 1, 0}, 0, 1});
+        const Camera camera = look_at_camera({0, 0.5, 0}, {0, 0.4, -1}, radians(178), 3000, 20);
+        const auto view = view_of_object(placed, camera);
+        far_aside += std::abs(angle_deg) > 84 && !view;
+        if (!view) continue;
+        ++drawn;
+        EXPECT_TRUE(engine::prepare_view(placed.object->renderer.object(), view->camera).ok()) << angle_deg;
+    }
+    EXPECT_GT(drawn, 10);
+    EXPECT_GT(far_aside, 0);
+}
+
 TEST(PlacedObject, StandsOnItsFoot) {
     const auto object = test::drum(Rgba8{10, 20, 30, 255});
     // Pictured rows 2 .. 37 of 40, focal length 60, from 3.5 radii; the rim of the foot is 1 radius nearer.

@@ -158,6 +158,33 @@ TEST(SharedBoard, ACycleThatFailsIsDrawnByTheCore) {
     EXPECT_NE(module.statistics().board.last_failure.find("smoke"), std::string::npos);
 }
 
+// A board whose driver has no memory left.
+class ExhaustedBoard final : public BoardDevice {
+public:
+    [[nodiscard]] Status takes(const RaySpaceObject&) const override { return {}; }
+    [[nodiscard]] Status draws(const ViewRegisters&) const override { return {}; }
+    [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override { return object; }
+    [[nodiscard]] int views_per_cycle() const override { return 2; }
+    Result<std::optional<int>> load(const RaySpaceObject&) override { throw std::bad_alloc(); }
+    Status evict(int) override { throw std::bad_alloc(); }
+    Result<std::vector<Image<Rgba8>>> render(const std::vector<DeviceView>&) override { throw std::bad_alloc(); }
+};
+
+TEST(SharedBoard, AnObjectThatTheDriverCannotLoadIsDrawnByTheCore) {
+    const RaySpaceObject object = object_of(6);
+    DataModule module({}, std::make_unique<ExhaustedBoard>());
+    const auto handle = module.load(object);
+    ASSERT_TRUE(handle.ok());
+    const Camera camera = camera_at(4, 2.8, 22, 26);
+    for (int n = 0; n < 2000 && module.statistics().board.failed_loads == 0; ++n) {
+        const auto pictures = pictures_of(module, std::vector<ViewRequest>(4, {*handle, camera}));
+        for (const Image<Rgba8>& picture : pictures) ASSERT_EQ(picture, defined(object, camera));
+    }
+    EXPECT_GE(module.statistics().board.failed_loads, 1);
+    EXPECT_EQ(module.statistics().views_by_board, 0);
+    EXPECT_NE(module.statistics().board.last_failure.find("driver failed"), std::string::npos);
+}
+
 // More objects than the board holds, views of random ones, objects replaced on the way.
 void draw_random_cycles(int cycles, Sharing sharing) {
     constexpr int kObjects = 24;
