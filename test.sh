@@ -4,6 +4,7 @@
 #   ./test.sh                     the release build and all tests, then what reads files under ASan + UBSan
 #   ./test.sh --no-sanitizers     the release build and its tests only
 #   ./test.sh --sanitize-all      all tests under ASan + UBSan as well: much longer
+#   ./test.sh --hostile MINUTES   builds, and only tries to break things, for that long, with new seeds
 #   ./test.sh -R NAME             further arguments go to ctest
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -14,6 +15,12 @@ case "${1:-}" in
   --no-sanitizers) SANITIZE=none; shift ;;
   --sanitize-all) SANITIZE=all; shift ;;
 esac
+HOSTILE_MINUTES=
+if [ "${1:-}" = --hostile ]; then
+  HOSTILE_MINUTES=${2:?"--hostile needs a number of minutes"}
+  [[ $HOSTILE_MINUTES =~ ^[0-9]+$ ]] || { echo "test.sh: --hostile $HOSTILE_MINUTES: give whole minutes" >&2; exit 2; }
+  shift 2
+fi
 BEGUN=$SECONDS
 JOBS=$(nproc)
 
@@ -22,6 +29,14 @@ install_packages "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 say "Building (release), $JOBS jobs"
 configure build/release -DCMAKE_BUILD_TYPE=Release -DRAYSPACE_TESTS=ON -DRAYSPACE_BENCH=ON -DRAYSPACE_WARNINGS_AS_ERRORS=ON
 cmake --build build/release -j "$JOBS"
+
+if [ -n "$HOSTILE_MINUTES" ]; then
+  export RAYSPACE_HOSTILE_SEED=${RAYSPACE_HOSTILE_SEED:-$(date +%s%N)}
+  TESTS=$(build/release/bin/test_hostile --gtest_list_tests | grep -c '^  ')
+  export RAYSPACE_HOSTILE_SECONDS=$((HOSTILE_MINUTES * 60 / TESTS))
+  say "Trying to break things for $HOSTILE_MINUTES minutes, from seed $RAYSPACE_HOSTILE_SEED"
+  exec build/release/bin/test_hostile "$@"
+fi
 
 say "Testing (release)"
 ctest --test-dir build/release --output-on-failure -j "$JOBS" "$@"

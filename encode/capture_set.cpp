@@ -6,8 +6,11 @@
 #include "rayspace/picture_io.hpp"
 #include "rayspace/ray_space.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -199,7 +202,31 @@ Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress*
         }
     }
     if (const Status status = check_distances(set); !status) return status.error();
+    const auto memory_bytes =
+        static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::int64_t>(::sysconf(_SC_PAGE_SIZE));
+    if (const Status status = check_memory(set, memory_bytes); !status) return status.error();
     return set;
+}
+
+Status check_memory(const CaptureSet& set, std::int64_t memory_bytes) {
+    const std::int64_t needed_bytes =
+        kEncodingBytesPerPixel * set.width * set.height * static_cast<std::int64_t>(set.upright.views.size());
+    if (needed_bytes <= memory_bytes) return {};
+    const auto gigabytes = [](std::int64_t bytes) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.1f", static_cast<double>(bytes) / 1e9);
+        return std::string(text);
+    };
+    const Camera& captured = set.captured.views.front().camera;
+    std::string why;
+    if (set.resampled) {
+        why = " (made upright, those of " + std::to_string(captured.width) + "x" + std::to_string(captured.height) +
+              " become so large)";
+    }
+    return Error{(set.folder / kRigFileName).string() + ": " + std::to_string(set.upright.views.size()) +
+                 " pictures of " + std::to_string(set.width) + "x" + std::to_string(set.height) + why + " take about " +
+                 gigabytes(needed_bytes) + " GB of memory, and this machine has " + gigabytes(memory_bytes) +
+                 "; leave out the steepest views, or make the pictures smaller"};
 }
 
 Result<Image<Rgba8>> read_upright_picture(const CaptureSet& set, int view) {

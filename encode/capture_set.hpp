@@ -11,6 +11,7 @@
 #include "rayspace/result.hpp"
 #include "rayspace/rig.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 
@@ -28,8 +29,15 @@ struct CaptureSet {
 // Reads transforms.json, plans the upright cameras, and measures the object radius from the silhouettes where the rig
 // does not give it. Cameras may be pitched up to 60 degrees. Pictures are read only where that needs them; those that
 // are missing show at the latest in read_upright_picture. Errors: no views, missing or unreadable pictures, differing
-// sizes, lens distortion, a camera within the object radius.
+// sizes, lens distortion, a camera within the object radius, more pictures than the machine has memory for.
 Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress* progress = nullptr);
+
+// What encoding a set takes at most for every pixel of its upright pictures, as it was measured.
+inline constexpr std::int64_t kEncodingBytesPerPixel = 16;
+
+// An error where encoding the set takes more than `memory_bytes`: cameras on a hemisphere have upright pictures many
+// times as high as those that were taken. open_capture_set() asks for the machine's memory.
+Status check_memory(const CaptureSet& set, std::int64_t memory_bytes);
 
 // Picture `view` of the set, seen by upright.views[view].camera. Thread-safe.
 Result<Image<Rgba8>> read_upright_picture(const CaptureSet& set, int view);

@@ -205,5 +205,25 @@ TEST(BuildErrors, OptionsOutOfRangeAreNamed) {
     }
 }
 
+TEST(CaptureSetMemory, IsBoundedBeforehand) {
+    CaptureSet set;
+    set.folder = "hemisphere";
+    set.resampled = true;
+    set.width = 886;
+    set.height = 5814;
+    set.captured.views.resize(250);
+    for (RigView& view : set.captured.views) view.camera.width = view.camera.height = 800;
+    set.upright = set.captured;
+    const std::int64_t needed = kEncodingBytesPerPixel * 886 * 5814 * 250;
+    EXPECT_TRUE(check_memory(set, needed).ok());
+    const Status refused = check_memory(set, needed - 1);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(
+        refused.error().message,
+        "hemisphere/transforms.json: 250 pictures of 886x5814 (made upright, those of 800x800 become so large) take "
+        "about 20.6 GB of memory, and this machine has 20.6; leave out the steepest views, or make the pictures "
+        "smaller");
+}
+
 }  // namespace
 }  // namespace rs::encode
