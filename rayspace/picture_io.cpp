@@ -43,6 +43,10 @@ Door open_door() {
         if (backend != nullptr && backend->version == pictures::kBackendVersion) return {backend, {}};
         why = candidate.string() + " belongs to another version of these tools";
     }
+    // What the loader says where the address space or the memory of a process is limited.
+    if (why.find("failed to map segment") != std::string::npos || why.find("annot allocate") != std::string::npos) {
+        return {nullptr, "not enough memory to load what reads and writes pictures; raise the limit (ulimit -v)"};
+    }
     return {nullptr, std::string(pictures::kBackendFileName) + " cannot be opened (" + why +
                          "); put it beside the program or in ../lib/rayspace, with OpenImageIO and OpenCV installed"};
 }

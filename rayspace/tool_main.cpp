@@ -84,6 +84,11 @@ int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run
         if (!status) return fail(app, status.error().message);
     } catch (const std::bad_alloc&) {
         return fail(app, "out of memory");
+    } catch (const std::system_error& refused) {
+        const bool is_short = refused.code() == std::errc::resource_unavailable_try_again ||
+                              refused.code() == std::errc::not_enough_memory;
+        return fail(
+            app, is_short ? "out of memory, or of threads that may be started (ulimit -v, ulimit -u)" : refused.what());
     } catch (const std::exception& escaped) {
         return fail(app, escaped.what());
     }

@@ -7,12 +7,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <system_error>
 
 namespace rs::pictures {
 namespace {
+
+// OpenCV does not say why a file could not be written.
+bool disk_is_full(const std::string& path) {
+    constexpr std::uintmax_t kNextToNothing_bytes = 1024 * 1024;
+    std::error_code failure;
+    const auto space = std::filesystem::space(std::filesystem::absolute(path).parent_path(), failure);
+    return !failure && space.available < kNextToNothing_bytes;
+}
+
+constexpr const char* kFull = ": no space left on device; free some space or write elsewhere";
 
 class OpenCvEncoder final : public VideoEncoder {
 public:
@@ -45,14 +57,12 @@ public:
             writer_.release();
             if (frames_ == 0) return Error{shown_ + ": a video needs at least one frame"};
             // The encoder does not report a full disk; a file that reads back whole was written whole.
-            std::error_code ignored;
-            const auto space = std::filesystem::space(std::filesystem::path(path_).parent_path(), ignored);
             cv::VideoCapture check(path_, cv::CAP_FFMPEG);
             const bool whole = check.isOpened() && std::llround(check.get(cv::CAP_PROP_FRAME_COUNT)) == frames_;
             if (whole) return {};
-            const bool full = space.available < 1024 * 1024;
-            return Error{shown_ + (full ? ": no space left on device; free some space or write elsewhere"
-                                        : ": the video could not be written completely; is the disk full?")};
+            return Error{shown_ + (disk_is_full(path_)
+                                       ? kFull
+                                       : ": the video could not be written completely; is the disk full?")};
         } catch (const std::exception& escaped) {
             return Error{shown_ + ": the video encoder failed: " + escaped.what()};
         }
@@ -86,6 +96,7 @@ Result<std::unique_ptr<VideoEncoder>> open_video(const std::string& path, const 
     } catch (const std::exception& escaped) {
         return Error{shown + ": the video cannot be opened: " + escaped.what()};
     }
+    if (disk_is_full(path)) return Error{shown + kFull};
     return Error{shown +
                  ": the video cannot be opened; use the extension .mp4 and an OpenCV that was built with FFmpeg"};
 }

@@ -47,7 +47,11 @@ Result<RayScene> RayScene::build(const Scene& scene) {
     RayScene result;
     result.scene_ = &scene;
     result.device_.reset(rtcNewDevice(nullptr));
-    if (!result.device_) return Error{"ray tracing: Embree cannot start on this processor"};
+    if (!result.device_) {
+        return Error{rtcGetDeviceError(nullptr) == RTC_ERROR_UNSUPPORTED_CPU
+                         ? "ray tracing: Embree cannot start on this processor"
+                         : "ray tracing: Embree cannot start; is there enough memory (ulimit -v)?"};
+    }
     result.embree_scene_.reset(rtcNewScene(result.device_.get()));
     rtcSetSceneFlags(result.embree_scene_.get(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(result.embree_scene_.get(), RTC_BUILD_QUALITY_HIGH);

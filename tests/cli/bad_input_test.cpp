@@ -230,6 +230,31 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
     EXPECT_EQ(test::run_tool(scratch_.path(), "rs-encode", {"verify", in("new.rso")}).exit_code, 0);
 }
 
+TEST_F(BadInput, LimitsOfTheProcessAreOnePlainLine) {
+    write_set("set");
+    ASSERT_EQ(write_object(), in("object.rso"));
+    const std::string tools = RAYSPACE_TOOLS_DIR;
+    const auto limited = [&](const std::string& limit, const std::string& command) {
+        const std::string err = (scratch_ / "limited.txt").string();
+        const int status = std::system(
+            ("bash -c " + test::quoted("ulimit " + limit + "; exec " + tools + "/" + command + " >/dev/null 2>" + err))
+                .c_str());
+        std::ifstream file(err);
+        const std::string text(std::istreambuf_iterator<char>(file), {});
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status << ": " << text;
+        EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+        return text;
+    };
+    EXPECT_NE(limited("-f 4", "rs-encode build " + in("set") + " -q -o " + in("x.rso")).find("file-size limit"),
+              std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(work_ / "x.rso"));
+#if !defined(__SANITIZE_ADDRESS__)
+    const std::string little = limited("-v 300000", "rs-encode build " + in("set") + " -q -o " + in("x.rso"));
+    EXPECT_NE(little.find("memory"), std::string::npos) << little;
+    EXPECT_EQ(little.find("beside the program"), std::string::npos) << little;
+#endif
+}
+
 TEST_F(BadInput, PipesThatFilesNameAreRefusedAtOnce) {
     ASSERT_EQ(::mkfifo((work_ / "pipe").c_str(), 0600), 0);
     ASSERT_EQ(::mkfifo((work_ / "pipe.mtl").c_str(), 0600), 0);
@@ -324,6 +349,13 @@ TEST_F(FullDisk, IsSaidAndLeavesNothingBehind) {
     expect_disk_full("rs-engine", {"render", in("large.rso"), "--orbit", "40", "-o", in("small/views"), "-q"});
     expect_disk_full("rs-engine", {"render", in("large.rso"), "--orbit", "120", "--size", "1200x1200", "-o",
                                    in("small/orbit.mp4"), "-q"});
+    {
+        std::ofstream filler(work_ / "small" / "filler", std::ios::binary);
+        filler << std::string(1 << 20, 'x');
+    }
+    expect_failure("rs-engine", {"render", in("large.rso"), "--orbit", "3", "-o", in("small/orbit.mp4"), "-q"},
+                   {"no space left"});
+    std::filesystem::remove(work_ / "small" / "filler");
     expect_disk_full("rs-engine", {"render", in("large.rso"), "--eye", "0,0,3", "--size", "4000x4000", "-o",
                                    in("small/v.png"), "-q"});
     expect_disk_full("rs-capture", {"import", in("photos"), "--backdrop", "alpha", "-o", in("small/imported"), "-q"});
