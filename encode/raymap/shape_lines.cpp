@@ -121,9 +121,9 @@ std::uint8_t nearest_inside(const std::uint8_t* inside, int depth) {
 }
 
 // Moves surfaces that lie outside of the hull to the nearest place in it, and finds where the object ends behind them:
-// the last depth within the hull.
+// the last depth within the hull. Says of each cell with a surface whether its ray meets the hull at all.
 void heed_hull(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
-               ShapeCell* cells) {
+               ShapeCell* cells, std::uint8_t* meets_hull) {
     if (std::all_of(cells, cells + grid.bands, [](const ShapeCell& cell) { return !cell.has_surface(); })) return;
     const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
     const HorizontalRay ray = line_ray(viewpoint, p);
@@ -146,11 +146,31 @@ void heed_hull(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& v
         ShapeCell& cell = cells[h];
         if (!cell.has_surface()) continue;
         const std::uint8_t* const inside = within.data() + h * kDepths;
+        meets_hull[h] = std::find(inside, inside + kDepths, 1) != inside + kDepths ? 1 : 0;
         cell.depth = nearest_inside(inside, cell.depth);
         int last = kDepths - 1;
         while (last > cell.depth && inside[last] == 0) --last;
         constexpr int kStride = 8;  // a coarse back is enough, and packs well
         cell.back = static_cast<std::uint8_t>(std::max({last / kStride * kStride, static_cast<int>(cell.depth), 1}));
+    }
+}
+
+// Surfaces whose ray misses the hull, and all of whose neighbours do, float beside the object: no picture's depth was
+// true there. One beside a ray that meets the hull stays, since a part thinner than a cell may pass by its middle.
+void drop_floating(const LineGrid& grid, const std::vector<std::uint8_t>& meets_hull, ShapeCell* cells) {
+    const auto meets_nearby = [&](int p, int h) {
+        for (int x = std::max(p - 1, 0); x <= std::min(p + 1, grid.p_cells - 1); ++x) {
+            for (int y = std::max(h - 1, 0); y <= std::min(h + 1, grid.bands - 1); ++y) {
+                if (meets_hull[static_cast<std::size_t>(x * grid.bands + y)] != 0) return true;
+            }
+        }
+        return false;
+    };
+    for (int p = 0; p < grid.p_cells; ++p) {
+        for (int h = 0; h < grid.bands; ++h) {
+            ShapeCell& cell = cells[p * grid.bands + h];
+            if (cell.has_surface() && !meets_nearby(p, h)) cell = {};
+        }
     }
 }
 
@@ -253,7 +273,11 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& 
                     cells[p * map.bands + h] = make_cell(found, -kHalfWidth, step);
                 }
             }
-            for (int p = 0; p < map.p_cells; ++p) heed_hull(grid, hull, viewpoint, p, step, cells + p * map.bands);
+            std::vector<std::uint8_t> meets_hull(line_cells, 0);
+            for (int p = 0; p < map.p_cells; ++p) {
+                heed_hull(grid, hull, viewpoint, p, step, cells + p * map.bands, meets_hull.data() + p * map.bands);
+            }
+            if (options.silhouettes_agree) drop_floating(grid, meets_hull, cells);
         }
     });
     return map;

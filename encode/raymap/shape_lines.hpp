@@ -25,6 +25,7 @@ struct ShapeLinesOptions {
     double line_deg = 2;  // a gap of n times that has n - 1 lines, rounded up, and one at least
     int jump = 24;        // depth steps between neighbouring cells that are still one surface, 1..255
     double widest_gap_deg = 45.01;  // wider ones stay without lines
+    bool silhouettes_agree = true;  // else the hull moves surfaces, but removes none
 };
 
 // From view n of a ring to the next one in turning order, above 0 and at most 2 pi.

@@ -82,7 +82,9 @@ public:
     }
 
     [[nodiscard]] ShapeMap lines(int planes) const {
-        ShapeMap shape = make_shape_lines(views_, *hull_, options_.lines);
+        ShapeLinesOptions options = options_.lines;
+        options.silhouettes_agree = silhouettes_agree_;
+        ShapeMap shape = make_shape_lines(views_, *hull_, options);
         for (const int v : ring_.views) {
             for (int k = 0; k < planes; ++k) {
                 const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
@@ -132,7 +134,8 @@ private:
         const std::vector<const WorkView*> all = work_views(beside);
         for (margin_px_ = 1;; margin_px_ *= 2) {
             hull_ = std::make_unique<VisualHull>(all, margin_px_);
-            if (margin_px_ >= options_.widest_hull_margin_px || agree(all, *hull_)) break;
+            silhouettes_agree_ = agree(all, *hull_);
+            if (silhouettes_agree_ || margin_px_ >= options_.widest_hull_margin_px) break;
         }
     }
 
@@ -213,6 +216,7 @@ private:
     std::vector<DepthView> views_;
     std::unique_ptr<VisualHull> hull_;
     int margin_px_ = 1;
+    bool silhouettes_agree_ = true;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "engine/core/renderer.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/object_file.hpp"
+#include "tests/encode/drawn_views.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -23,34 +24,6 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-Rig ring(int count, double first_deg = 0, double distance = 3.5) {
-    Rig rig = make_ring({.count = count,
-                         .distance = distance,
-                         .fl_px = 180,
-                         .width = 128,
-                         .height = 112,
-                         .first_rad = radians(first_deg)});
-    rig.object_radius = 0.9;
-    return rig;
-}
-
-std::vector<WorkView> drawn_views(const Rig& rig) {
-    std::vector<WorkView> views;
-    for (const RigView& view : rig.views) {
-        Camera camera = view.camera;
-        const Image<Rgba8> picture = test::drawn_picture(camera);
-        camera.world_from_camera[3] = glm::dvec4(camera.centre() / rig.object_radius, 1);
-        views.push_back(make_work_view(camera, picture, 1));
-    }
-    return views;
-}
-
-std::vector<const WorkView*> pointers(const std::vector<WorkView>& views) {
-    std::vector<const WorkView*> found;
-    for (const WorkView& view : views) found.push_back(&view);
-    return found;
-}
 
 BuiltObject build(const std::filesystem::path& folder, MapKind kind = MapKind::kShape) {
     const Result<CaptureSet> set = open_capture_set(folder);
@@ -73,73 +46,8 @@ double psnr_of(const BuiltObject& built, const std::filesystem::path& truth) {
     return comparison->mean_psnr_db;
 }
 
-// The plain twin of heights_above: ask every silhouette about one point.
-bool is_allowed(const std::vector<WorkView>& views, const glm::dvec2& place, double y, int margin) {
-    for (const WorkView& view : views) {
-        const SeenColumn seen = view.see(place);
-        if (seen.axial <= 0 || seen.column < 0 || seen.column >= view.width) continue;
-        const double row = view.row_of(y, seen.axial);
-        if (row < 0 || row >= view.height) continue;
-        bool near_object = false;
-        const int middle = static_cast<int>(seen.column);
-        for (int c = std::max(0, middle - margin); c <= std::min(view.width - 1, middle + margin); ++c) {
-            for (int r = 0; r < view.height; ++r) {
-                near_object |= view.at(c, r).a >= 128 && row >= r - margin && row < r + 1 + margin;
-            }
-        }
-        if (!near_object) return false;
-    }
-    return true;
-}
-
-TEST(VisualHull, EqualsAskingEverySilhouette) {
-    const std::vector<WorkView> views = drawn_views(ring(12, 3));
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> across(-1.1, 1.1);
-    for (const int margin : {0, 1, 4}) {
-        const VisualHull hull(pointers(views), margin);
-        std::vector<Interval> heights;
-        int inside = 0;
-        for (int n = 0; n < 4000; ++n) {
-            const glm::dvec2 place(across(random), across(random));
-            hull.heights_above(place, heights);
-            const double y = across(random);
-            const bool allowed = std::any_of(heights.begin(), heights.end(),
-                                             [&](const Interval& i) { return y >= i.low && y < i.high; });
-            inside += allowed ? 1 : 0;
-            ASSERT_EQ(allowed, is_allowed(views, place, y, margin)) << "margin " << margin << ", point " << n;
-        }
-        EXPECT_GT(inside, 100);
-        EXPECT_LT(inside, 3000);
-    }
-}
-
-TEST(VisualHull, SilhouettesOfTheRightRigAgreeAndOfAWrongOneDoNot) {
-    const std::vector<WorkView> views = drawn_views(ring(12));
-    const DepthRange range;
-    EXPECT_LT(contradicted_share(pointers(views), VisualHull(pointers(views), 1), range), 0.01);
-    std::vector<WorkView> wrong = views;
-    for (WorkView& view : wrong) view.cx += 9;
-    EXPECT_GT(contradicted_share(pointers(wrong), VisualHull(pointers(wrong), 1), range), 0.1);
-}
-
-TEST(VisualHull, AViewWithoutAnObjectSaysNothing) {
-    std::vector<WorkView> views = drawn_views(ring(6));
-    const VisualHull before(pointers(views), 1);
-    WorkView empty = views[2];
-    for (Rgba8& pixel : empty.columns.pixels()) pixel = {};
-    views.push_back(empty);
-    const VisualHull after(pointers(views), 1);
-    std::vector<Interval> a, b;
-    before.heights_above({0.1, 0.2}, a);
-    after.heights_above({0.1, 0.2}, b);
-    ASSERT_EQ(a.size(), b.size());
-    EXPECT_FALSE(a.empty());
-    EXPECT_EQ(a[0].low, b[0].low);
-}
-
 TEST(SemiGlobal, FindsTheDepthOfTheBalls) {
-    const Rig rig = ring(60);
+    const Rig rig = drawn_ring(60);
     const std::vector<WorkView> views = drawn_views(rig);
     const Neighbours neighbours{{&views[1], &views[59]}, {}};
     const DepthRange range{-1.03, 2.06 / 127, 128};
@@ -184,7 +92,7 @@ Rig ring_above(int count, double first_deg, double elevation_deg) {
 
 // One of them, level.
 WorkView striped_view(double azimuth_deg, double elevation_deg) {
-    Camera camera = ring(1, azimuth_deg, 3.5 * std::cos(radians(elevation_deg))).views[0].camera;
+    Camera camera = drawn_ring(1, azimuth_deg, 3.5 * std::cos(radians(elevation_deg))).views[0].camera;
     camera.world_from_camera[3].y = 3.5 * std::sin(radians(elevation_deg));
     return make_work_view(camera, striped_ball(camera), 1);
 }
@@ -224,8 +132,8 @@ TEST(CostVolume, LevelStripesHaveADepthOnlyAcrossRings) {
 
 TEST(ShapeMap, BeatsThePlaneHalfwayAndKeepsCapturedPictures) {
     const test::TemporaryFolder folder;
-    test::write_drawn_set(folder / "set", ring(24));
-    test::write_drawn_set(folder / "halfway", ring(24, 7.5));
+    test::write_drawn_set(folder / "set", drawn_ring(24));
+    test::write_drawn_set(folder / "halfway", drawn_ring(24, 7.5));
     const BuiltObject shape = build(folder / "set");
     const BuiltObject plane = build(folder / "set", MapKind::kPlane);
     EXPECT_THAT(shape.warnings, IsEmpty());
@@ -278,18 +186,18 @@ TEST(ShapeMap, ARingThatContradictsIsLeftOut) {
 
 TEST(ShapeMap, IsTheSameEveryTime) {
     const test::TemporaryFolder folder;
-    test::write_drawn_set(folder / "set", ring(10));
+    test::write_drawn_set(folder / "set", drawn_ring(10));
     EXPECT_EQ(build(folder / "set").object.rings, build(folder / "set").object.rings);
 }
 
 TEST(ShapeMap, LevelsAndLinesFollowUnequalSteps) {
     const test::TemporaryFolder folder;
-    Rig rig = ring(36);
+    Rig rig = drawn_ring(36);
     // 10-degree steps, but for some that are left out: 20, 30 degrees.
     rig.views.erase(rig.views.begin() + 7);
     rig.views.erase(rig.views.begin() + 20, rig.views.begin() + 22);
     test::write_drawn_set(folder / "set", rig);
-    test::write_drawn_set(folder / "halfway", ring(36, 5));
+    test::write_drawn_set(folder / "halfway", drawn_ring(36, 5));
     const BuiltObject shape = build(folder / "set");
     EXPECT_THAT(shape.warnings, IsEmpty());
     const auto& gaps = shape.object.rings[0].shape.gaps;
@@ -302,7 +210,7 @@ TEST(ShapeMap, LevelsAndLinesFollowUnequalSteps) {
 
 TEST(ShapeMap, AMissingSectorIsSaidAndNotInvented) {
     const test::TemporaryFolder folder;
-    Rig rig = ring(36);
+    Rig rig = drawn_ring(36);
     rig.views.erase(rig.views.begin() + 10, rig.views.begin() + 19);
     test::write_drawn_set(folder / "set", rig);
     const BuiltObject shape = build(folder / "set");
@@ -312,20 +220,20 @@ TEST(ShapeMap, AMissingSectorIsSaidAndNotInvented) {
 
 TEST(ShapeMap, OneAndTwoViews) {
     const test::TemporaryFolder folder;
-    Rig rig = ring(36);
+    Rig rig = drawn_ring(36);
     rig.views.resize(1);
     test::write_drawn_set(folder / "one", rig);
     const BuiltObject one = build(folder / "one");
     EXPECT_THAT(one.warnings, Contains(HasSubstr("one picture")));
     EXPECT_NEAR(psnr_of(one, folder / "one"), psnr_of(build(folder / "one", MapKind::kPlane), folder / "one"), 1e-9);
 
-    rig = ring(36);
+    rig = drawn_ring(36);
     rig.views.resize(2);
     test::write_drawn_set(folder / "two", rig);
     const BuiltObject two = build(folder / "two");
     EXPECT_THAT(two.warnings, Contains(HasSubstr("no pictures between 10 and 0 degrees")));
     EXPECT_NEAR(psnr_of(two, folder / "two"), psnr_of(build(folder / "two", MapKind::kPlane), folder / "two"), 1e-9);
-    Rig between = ring(36, 5);
+    Rig between = drawn_ring(36, 5);
     between.views.resize(1);
     test::write_drawn_set(folder / "between", between);
     EXPECT_GT(psnr_of(two, folder / "between"), 18);
@@ -333,12 +241,12 @@ TEST(ShapeMap, OneAndTwoViews) {
 
 TEST(ShapeMap, AnEmptyPictureIsNamedAndHurtsNobodyElse) {
     const test::TemporaryFolder folder;
-    const Rig rig = ring(24);
+    const Rig rig = drawn_ring(24);
     test::write_drawn_set(folder / "set", rig);
     ASSERT_TRUE(write_png(folder / "set" / "5.png", Image<Rgba8>(128, 112)).ok());
     const BuiltObject shape = build(folder / "set");
     EXPECT_THAT(shape.warnings, Contains(HasSubstr("5.png shows no object")));
-    Rig opposite = ring(24, 7.5);
+    Rig opposite = drawn_ring(24, 7.5);
     opposite.views.erase(opposite.views.begin(), opposite.views.begin() + 12);
     test::write_drawn_set(folder / "halfway", opposite);
     EXPECT_GT(psnr_of(shape, folder / "halfway"), 24);

@@ -1,0 +1,118 @@
+// The hull that silhouettes leave, and the lines of a shape map that heed it.
+
+#include "encode/raymap/visual_hull.hpp"
+
+#include "encode/raymap/shape_lines.hpp"
+#include "tests/encode/drawn_views.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace rs::encode {
+namespace {
+
+TEST(VisualHull, EqualsAskingEverySilhouette) {
+    const std::vector<WorkView> views = drawn_views(drawn_ring(12, 3));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> across(-1.1, 1.1);
+    for (const int margin : {0, 1, 4}) {
+        const VisualHull hull(pointers(views), margin);
+        std::vector<Interval> heights;
+        int inside = 0;
+        for (int n = 0; n < 4000; ++n) {
+            const glm::dvec2 place(across(random), across(random));
+            hull.heights_above(place, heights);
+            const double y = across(random);
+            const bool allowed = std::any_of(heights.begin(), heights.end(),
+                                             [&](const Interval& i) { return y >= i.low && y < i.high; });
+            inside += allowed ? 1 : 0;
+            ASSERT_EQ(allowed, is_allowed(views, place, y, margin)) << "margin " << margin << ", point " << n;
+        }
+        EXPECT_GT(inside, 100);
+        EXPECT_LT(inside, 3000);
+    }
+}
+
+TEST(VisualHull, SilhouettesOfTheRightRigAgreeAndOfAWrongOneDoNot) {
+    const std::vector<WorkView> views = drawn_views(drawn_ring(12));
+    const DepthRange range;
+    EXPECT_LT(contradicted_share(pointers(views), VisualHull(pointers(views), 1), range), 0.01);
+    std::vector<WorkView> wrong = views;
+    for (WorkView& view : wrong) view.cx += 9;
+    EXPECT_GT(contradicted_share(pointers(wrong), VisualHull(pointers(wrong), 1), range), 0.1);
+}
+
+TEST(VisualHull, AViewWithoutAnObjectSaysNothing) {
+    std::vector<WorkView> views = drawn_views(drawn_ring(6));
+    const VisualHull before(pointers(views), 1);
+    WorkView empty = views[2];
+    for (Rgba8& pixel : empty.columns.pixels()) pixel = {};
+    views.push_back(empty);
+    const VisualHull after(pointers(views), 1);
+    std::vector<Interval> a, b;
+    before.heights_above({0.1, 0.2}, a);
+    after.heights_above({0.1, 0.2}, b);
+    ASSERT_EQ(a.size(), b.size());
+    EXPECT_FALSE(a.empty());
+    EXPECT_EQ(a[0].low, b[0].low);
+}
+
+// Each picture's depths are as wrong as they can be: the far end of the search. From between two pictures such points
+// stand aside of the object.
+TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
+    const std::vector<WorkView> views = drawn_views(drawn_ring(12));
+    const VisualHull hull(pointers(views), 1);
+    std::vector<DepthView> found;
+    for (const WorkView& view : views) {
+        DepthView& one = found.emplace_back(DepthView{view, Image<float>(view.height, view.width, kNoDepth)});
+        for (int column = 0; column < view.width; ++column) {
+            for (int row = 0; row < view.height; ++row) {
+                if (view.at(column, row).a >= 128) one.depth(row, column) = 1.0F;
+            }
+        }
+    }
+    ShapeLinesOptions options;
+    options.line_deg = 30;
+    const ShapeMap clean = make_shape_lines(found, hull, options);
+    options.silhouettes_agree = false;
+    const ShapeMap all = make_shape_lines(found, hull, options);
+    ASSERT_EQ(clean.cells.size(), all.cells.size());
+
+    const double cell = 2 * kDeepest / all.p_cells;
+    const double distance = std::ldexp(all.reference_distance_q20, -20);
+    const double camera_height = std::ldexp(all.reference_height_q20, -20);
+    const glm::dvec2 viewpoint = 0.5 * (views[0].centre + views[1].centre);
+    ASSERT_EQ(all.gaps[0].lines, 1) << "which looks from halfway";
+    const std::size_t line = all.gaps[0].first_line;
+    const auto allowed = [&](int pi, int hi) {
+        const double sine = (-kDeepest + (pi + 0.5) * cell) / glm::length(viewpoint);
+        const glm::dvec2 inwards = -glm::normalize(viewpoint);
+        const glm::dvec2 along = inwards * std::sqrt(1 - sine * sine) + glm::dvec2(-inwards.y, inwards.x) * sine;
+        const double p = sine * glm::length(viewpoint);
+        const double rho = std::sqrt(distance * distance - p * p);
+        const double h = std::ldexp(all.h_low_q20, -20) + (hi + 0.5) / std::ldexp(all.bands_per_unit_q12, -12);
+        for (double depth = -kDeepest; depth <= kDeepest; depth += 0.01) {
+            const double y = camera_height + (h - camera_height) * (rho + depth) / rho;
+            if (is_allowed(views, p * glm::dvec2(-along.y, along.x) + depth * along, y, 2)) return true;
+        }
+        return false;
+    };
+    int dropped = 0;
+    for (int pi = 1; pi + 1 < all.p_cells; ++pi) {
+        for (int hi = 1; hi + 1 < all.bands; ++hi) {
+            const std::size_t at = (line * static_cast<std::size_t>(all.p_cells) + static_cast<std::size_t>(pi)) *
+                                       static_cast<std::size_t>(all.bands) +
+                                   static_cast<std::size_t>(hi);
+            if (!all.cells[at].has_surface()) continue;
+            bool near_object = false;
+            for (int n = 0; n < 9; ++n) near_object |= allowed(pi + n % 3 - 1, hi + n / 3 - 1);
+            dropped += clean.cells[at].has_surface() ? 0 : 1;
+            EXPECT_TRUE(near_object || !clean.cells[at].has_surface()) << "cell " << pi << ", " << hi;
+        }
+    }
+    EXPECT_GT(dropped, 20);
+}
+
+}  // namespace
+}  // namespace rs::encode
