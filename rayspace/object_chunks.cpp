@@ -4,6 +4,7 @@
 #include "rayspace/codec/coded_chunks.hpp"
 #include "rayspace/conventions.hpp"
 #include "rayspace/line_coding.hpp"
+#include "rayspace/map_coding.hpp"
 #include "rayspace/shape_chunk.hpp"
 #include "rayspace/zstd_frame.hpp"
 
@@ -247,55 +248,40 @@ Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, st
 
 // ---------------------------------------------------------------------------------------------------------------- RMAP
 
-Payload map_payload(const Ring& ring) {
+Payload map_payload(const map_coding::Runs& runs) {
+    const std::vector<std::byte> frame = zstd_frame(map_coding::residual_plane(runs));
     ByteWriter out;
-    const auto u_cells = static_cast<std::size_t>(ring.u_cells);
-    for (std::size_t begin = 0; begin < ring.cells.size(); begin += u_cells) {
-        const std::span<const std::uint16_t> row = std::span(ring.cells).subspan(begin, u_cells);
-        std::vector<std::pair<std::uint16_t, std::uint16_t>> runs;
-        for (const std::uint16_t view : row) {
-            if (runs.empty() || runs.back().first != view) runs.emplace_back(view, std::uint16_t{0});
-            ++runs.back().second;
-        }
-        out.put(static_cast<std::uint16_t>(runs.size()));
-        for (const auto& [view, length] : runs) {
-            out.put(view);
-            out.put(length);
-        }
-    }
+    out.reserve(sizeof(std::uint32_t) + frame.size());
+    out.put(static_cast<std::uint32_t>(runs.views.size()));
+    out.put(std::span<const std::byte>(frame));
     return out.bytes();
 }
 
-Status parse_map(std::span<const std::byte> payload, Ring& ring) {
-    constexpr std::size_t kShortestRow_bytes = 6;  // one run
-    const std::size_t rows = static_cast<std::size_t>(ring.planes) * static_cast<std::size_t>(ring.x_cells);
-    const auto u_cells = static_cast<std::size_t>(ring.u_cells);
-    if (payload.size() < rows * kShortestRow_bytes)
-        return Error{"is too short for its " + std::to_string(rows) + " rows"};
-    ring.cells.resize(rows * u_cells);
+Payload map_payload(const Ring& ring) {
+    return map_payload(map_coding::runs_of(ring.cells, ring.u_cells));
+}
+
+Result<CodedMap> parse_map_head(std::span<const std::byte> payload, const Ring& ring) {
     ByteReader in(payload);
-    for (std::size_t row = 0; row < rows; ++row) {
-        const std::span<std::uint16_t> cells = std::span(ring.cells).subspan(row * u_cells, u_cells);
-        const auto runs = in.get<std::uint16_t>();
-        std::size_t filled = 0;
-        for (std::size_t run = 0; run < runs; ++run) {
-            const auto view = in.get<std::uint16_t>();
-            const auto length = in.get<std::uint16_t>();
-            if (!in.ok()) return Error{"ends inside row " + std::to_string(row)};
-            if (length < 1 || length > u_cells - filled) {
-                return Error{"row " + std::to_string(row) + " has a run of " + std::to_string(length) +
-                             " cells where 1.." + std::to_string(u_cells - filled) + " fit"};
-            }
-            std::fill_n(cells.begin() + static_cast<std::ptrdiff_t>(filled), length, view);
-            filled += length;
-        }
-        if (filled != u_cells) {
-            return Error{"row " + std::to_string(row) + " fills " + std::to_string(filled) + " cells instead of " +
-                         std::to_string(u_cells)};
-        }
+    CodedMap coded;
+    coded.runs = in.get<std::uint32_t>();
+    if (!in.ok()) return Error{"ends inside its number of runs"};
+    coded.rows = static_cast<std::size_t>(ring.planes) * static_cast<std::size_t>(ring.x_cells);
+    const std::uint64_t cells = coded.rows * static_cast<std::uint64_t>(ring.u_cells);
+    if (coded.runs < coded.rows || coded.runs > cells) {
+        return out_of_range("the number of runs", coded.runs, coded.rows, cells);
     }
-    if (!in.at_end()) return Error{"goes on behind its last row"};
-    return {};
+    coded.content_bytes = map_coding::residual_bytes(coded.rows, coded.runs);
+    coded.frame = in.take(in.left());
+    if (Status status = check_zstd_frame(coded.frame, coded.content_bytes, "its runs"); !status) return status.error();
+    return coded;
+}
+
+Status parse_map(const CodedMap& coded, Ring& ring) {
+    std::vector<std::uint8_t> plane;
+    if (Status s = expand_zstd_frame(coded.frame, coded.content_bytes, "its runs", plane); !s) return s;
+    ring.cells.resize(coded.rows * static_cast<std::size_t>(ring.u_cells));
+    return map_coding::put_runs(map_coding::runs_of_residuals(plane, coded.rows, coded.runs), ring.u_cells, ring.cells);
 }
 
 // ---------------------------------------------------------------------------------------------------------------- PICT

@@ -5,6 +5,7 @@
 // is validate_object()'s to check. A parser's error message has no file name: the caller knows it.
 
 #include "rayspace/container.hpp"
+#include "rayspace/map_coding.hpp"
 #include "rayspace/ray_space_object.hpp"
 #include "rayspace/result.hpp"
 
@@ -52,9 +53,18 @@ enum class LineCoding : std::uint8_t { kPlain = 0, kResiduals = 1 };  // rayspac
 Payload ring_payload(const RaySpaceObject& object, std::size_t ring, LineCoding coding = LineCoding::kResiduals);
 Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, std::size_t ring);
 
-// RMAP r: the cells, run-length coded along u. `ring` has its sizes from RING.
+// RMAP r: the cells as runs along u. `ring` has its sizes from RING. A few bytes may hold many runs: the caller holds
+// content_bytes against the memory that it allows itself before it expands them.
+struct CodedMap {
+    std::size_t rows = 0;
+    std::size_t runs = 0;
+    std::uint64_t content_bytes = 0;   // of the frame, while it is expanded
+    std::span<const std::byte> frame;  // of the payload
+};
 Payload map_payload(const Ring& ring);
-Status parse_map(std::span<const std::byte> payload, Ring& ring);
+Payload map_payload(const map_coding::Runs& runs);
+Result<CodedMap> parse_map_head(std::span<const std::byte> payload, const Ring& ring);
+Status parse_map(const CodedMap& coded, Ring& ring);
 
 // PICT v.
 Payload picture_payload(const PlanarPicture& picture);

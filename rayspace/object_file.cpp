@@ -15,6 +15,9 @@ using namespace object_chunks;
 
 namespace {
 
+// Of a map, the numbers of its frame and the runs that they are stand in memory at once.
+constexpr std::uint64_t kRunsOverContent = 2;
+
 Error in_chunk(const std::string& where, ChunkKey key, const Status& status) {
     return Error{where + ": chunk " + to_string(key.name) + " " + std::to_string(key.index) + ": " +
                  status.error().message};
@@ -47,6 +50,7 @@ public:
         if (const Status status = check_memory(); !status) return status.error();
         std::uint64_t kept = kSmallThings_bytes + memory_of_geometry();
         std::uint64_t shape_cells = 0;
+        std::uint64_t largest_map = 0;
         std::uint64_t largest_chunk = 0;
         std::uint64_t pictures = 0;
         for (std::uint32_t r = 0; r < object_.rings.size(); ++r) {
@@ -58,6 +62,13 @@ public:
                 shape_cells += coded->cells * sizeof(ShapeCell);
                 return {};
             };
+            const auto count_runs = [&](std::span<const std::byte> payload) -> Status {
+                const auto coded = parse_map_head(payload, ring);
+                if (!coded) return coded.error();
+                largest_map = std::max(largest_map, kRunsOverContent * coded->content_bytes);
+                return {};
+            };
+            if (const Status status = read_chunk({kMap, r}, count_runs); !status) return status.error();
             if (container_.find(kShape, r) == nullptr) continue;
             if (const Status status = read_chunk({kShape, r}, count_cells); !status) return status.error();
         }
@@ -65,7 +76,7 @@ public:
             largest_chunk = std::max(largest_chunk, entry.size_bytes);
             if (coded_ && entry.name == kPicture) kept += entry.size_bytes;
         }
-        const std::uint64_t passing = largest_chunk + kParsedOverText * object_.rig_json.size();
+        const std::uint64_t passing = largest_chunk + largest_map + kParsedOverText * object_.rig_json.size();
         // Cells are unpacked from planes of bytes, one for each byte of a cell.
         const std::uint64_t most = kept + needed_bytes_ + 2 * shape_cells + passing;
         const std::uint64_t passing_planes = coded_ && options_.decode ? pictures * coded_planes_bytes() : 0;
@@ -170,12 +181,23 @@ private:
 
     Status read_maps() {
         for (std::uint32_t r = 0; r < object_.rings.size(); ++r) {
-            const auto parse = [&](std::span<const std::byte> b) { return parse_map(b, object_.rings[r]); };
-            if (Status status = read_chunk({kMap, r}, parse); !status) return status;
+            if (Status status = read_map(r); !status) return status;
             if (container_.find(kShape, r) == nullptr) continue;
             if (Status status = read_shape(r); !status) return status;
         }
         return {};
+    }
+
+    // The cells are counted already; not so what they are expanded from, which may be more than they.
+    Status read_map(std::uint32_t r) {
+        std::uint64_t needed_bytes = 0;
+        const Status status = read_chunk({kMap, r}, [&](std::span<const std::byte> payload) -> Status {
+            const auto coded = parse_map_head(payload, object_.rings[r]);
+            if (!coded) return coded.error();
+            needed_bytes = needed_bytes_ + kRunsOverContent * coded->content_bytes;
+            return needed_bytes <= options_.memory_cap_bytes ? parse_map(*coded, object_.rings[r]) : Status{};
+        });
+        return needed_bytes <= options_.memory_cap_bytes ? status : Status{too_large(needed_bytes)};
     }
 
     // How large the cells are is known only from the chunk itself, which may be small: so they are added to the other

@@ -1,6 +1,8 @@
 // FORMAT.md, "HEAD", "RIGJ", "VIEW", "RING", "RMAP", and "PICT" of coding 0, with their numbers of "Ranges".
 #include "tests/reference/golden_maker/golden_damage.hpp"
 
+#include "rayspace/check.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -32,8 +34,34 @@ Damage line(const std::string& name, std::size_t offset, std::int64_t value, con
     const std::size_t second_line_of_view_1 = kLines + 16 * (kPlanes + 1);
     return ring("line-" + name, second_line_of_view_1 + offset, 4, value, "view 1 | " + words);
 }
-Damage map(const std::string& name, const std::string& words, const std::function<void(Bytes&)>& change) {
-    return {"map-" + name, kBase, words, [=](Draft& d) { change(d.payload(kMap)); }};
+map_coding::Runs runs_in(const Bytes& map, std::size_t rows) {
+    constexpr std::size_t kFrame = 4;
+    const Bytes content = content_of(Bytes(map.begin() + kFrame, map.end()));
+    const std::span plane(reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
+    return map_coding::runs_of_residuals(plane, rows, (plane.size() - 2 * rows) / 4);
+}
+Damage map(const std::string& name, const std::string& words, const std::function<void(map_coding::Runs&)>& change,
+           const std::string& base = kBase) {
+    return {"map-" + name, base, words, [=](Draft& d) {
+                Bytes& map = d.payload(kMap);
+                const Bytes before = map;
+                const auto planes = static_cast<std::size_t>(number_at(d.payload(kRing), 4, 1));
+                map_coding::Runs runs =
+                    runs_in(map, planes * static_cast<std::size_t>(number_at(d.payload(kRing), 8, 2)));
+                change(runs);
+                map = map_payload(runs);
+                RS_CHECK(map != before);
+            }};
+}
+Damage map_frame(const std::string& name, const std::string& words, const std::function<void(Bytes&)>& change) {
+    return {"map-" + name, kBase, "chunk RMAP 0 | " + words, [=](Draft& d) {
+                constexpr std::size_t kFrame = 4;
+                Bytes& map = d.payload(kMap);
+                Bytes frame(map.begin() + kFrame, map.end());
+                change(frame);
+                map.resize(kFrame);
+                map.insert(map.end(), frame.begin(), frame.end());
+            }};
 }
 Damage coded_lines(const std::string& name, const std::function<void(Bytes&)>& change) {
     return {"ring-lines-" + name, kStanding, "chunk RING 0 | its lines", [=](Draft& d) {
@@ -62,11 +90,10 @@ Damage radius(const std::string& name, double value) {
 
 std::vector<Damage> sizes() {
     return {
-        longer("head-short", kHead, -1, "bytes long"),      longer("head-long", kHead, 1, "bytes long"),
-        longer("view-short", kViews, -1, "bytes long"),     longer("view-long", kViews, 1, "bytes long"),
-        longer("ring-short", kRing, -1, "bytes of lines"),  longer("ring-long", kRing, 1, "bytes of lines"),
-        longer("map-long", kMap, 1, "behind its last row"), longer("map-short", kMap, -1, "row"),
-        longer("map-empty", kMap, -1000000, "too short"),   longer("picture-short", kPicture, -1, "bytes long"),
+        longer("head-short", kHead, -1, "bytes long"),         longer("head-long", kHead, 1, "bytes long"),
+        longer("view-short", kViews, -1, "bytes long"),        longer("view-long", kViews, 1, "bytes long"),
+        longer("ring-short", kRing, -1, "bytes of lines"),     longer("ring-long", kRing, 1, "bytes of lines"),
+        longer("map-empty", kMap, -1000000, "number of runs"), longer("picture-short", kPicture, -1, "bytes long"),
         longer("picture-long", kPicture, 1, "bytes long"),
     };
 }
@@ -141,34 +168,46 @@ std::vector<Damage> rules() {
              ring.resize(kLines + 16 * kPlanes * 2);
              ring.erase(ring.begin() + kViewList + 4, ring.begin() + kViewList + 6);
              set_number(ring, 6, 2, 2);
-             Bytes& map = d.payload(kMap);
-             map.clear();
-             for (std::size_t row = 0; row < kPlanes * 2; ++row) {
-                 map.resize(map.size() + 6);
-                 set_number(map, 6 * row, 1, 2);
-                 set_number(map, 6 * row + 2, 65535, 2);
-                 set_number(map, 6 * row + 4, 3, 2);
-             }
+             constexpr std::uint16_t kNoPicture = 65535, kWidth = 3;
+             d.payload(kMap) = map_payload({std::vector<std::uint16_t>(kPlanes * 2, 1),
+                                            std::vector<std::uint16_t>(kPlanes * 2, kNoPicture),
+                                            std::vector<std::uint16_t>(kPlanes * 2, kWidth)});
          }},
-        map("run-of-0", "chunk RMAP 0 | a run of 0", [](Bytes& b) { set_number(b, 4, 0, 2); }),
-        map("run-too-long", "chunk RMAP 0 | a run of 4", [](Bytes& b) { set_number(b, 4, 4, 2); }),
-        map("no-runs", "chunk RMAP 0 | row 0", [](Bytes& b) { set_number(b, 0, 0, 2); }),
-        map("row-unfilled", "chunk RMAP 0 | row",
-            [](Bytes& b) {
-                const auto runs = static_cast<std::size_t>(number_at(b, 0, 2));
-                const std::size_t last = 2 + 4 * (runs - 1);
-                if (number_at(b, last + 2, 2) > 1) return set_number(b, last + 2, number_at(b, last + 2, 2) - 1, 2);
-                b.erase(b.begin() + static_cast<std::ptrdiff_t>(last),
-                        b.begin() + static_cast<std::ptrdiff_t>(last + 4));
-                set_number(b, 0, static_cast<std::int64_t>(runs - 1), 2);
+        map("run-of-0", "chunk RMAP 0 | a run of 0", [](map_coding::Runs& r) { r.lengths[0] = 0; }),
+        map("run-too-long", "chunk RMAP 0 | a run of 4", [](map_coding::Runs& r) { r.lengths[0] = 4; }),
+        map("no-runs", "chunk RMAP 0 | row 0", [](map_coding::Runs& r) { r.counts[0] = 0; }),
+        map("row-unfilled", "chunk RMAP 0 | row 0 fills",
+            [](map_coding::Runs& r) {
+                // The last cell of the first row.
+                const std::size_t last = r.counts[0] - std::size_t{1};
+                if (--r.lengths[last] > 0) return;
+                --r.counts[0];
+                r.views.erase(r.views.begin() + static_cast<std::ptrdiff_t>(last));
+                r.lengths.erase(r.lengths.begin() + static_cast<std::ptrdiff_t>(last));
             }),
-        map("view-number", "names view 3", [](Bytes& b) { set_number(b, 2, 3, 2); }),
-        {"map-view-of-another-ring", "raw-shape", "ring 0 | not one of the ring's",
-         [](Draft& d) { set_number(d.payload(kMap, 0), 2, 5, 2); }},
+        map("runs-behind-the-last-row", "chunk RMAP 0 | runs behind its last row",
+            [](map_coding::Runs& r) {
+                r.views.push_back(0);
+                r.lengths.push_back(1);
+            }),
+        map("more-runs-than-there-are", "chunk RMAP 0 | more runs than there are",
+            [](map_coding::Runs& r) { ++r.counts.back(); }),
+        number_damage("map-fewer-runs-than-rows", kBase, kMap, 0, 0, 4, 5, "chunk RMAP 0 | the number of runs is 5"),
+        number_damage("map-more-runs-than-cells", kBase, kMap, 0, 0, 4, 19, "chunk RMAP 0 | the number of runs is 19"),
+        map_frame("no-frame", "its runs", [](Bytes& frame) { frame.clear(); }),
+        map_frame("frame-cut", "its runs", [](Bytes& frame) { frame.pop_back(); }),
+        map_frame("frame-and-more", "its runs", [](Bytes& frame) { frame.push_back(std::byte{0}); }),
+        map_frame("frame-without-size", "its runs",
+                  [](Bytes& frame) { frame = frame_of(content_of(frame), false, false); }),
+        map_frame("frame-of-fewer", "its runs", [](Bytes& frame) { frame = fewer(frame); }),
+        map("view-number", "names view 3", [](map_coding::Runs& r) { r.views[0] = 3; }),
+        map(
+            "view-of-another-ring", "ring 0 | not one of the ring's", [](map_coding::Runs& r) { r.views[0] = 5; },
+            "raw-shape"),
         {"map-cell-behind-the-camera", kBase, "looks away",
          [](Draft& d) {
              // Every line of the first row's view.
-             const auto named = static_cast<std::size_t>(number_at(d.payload(kMap), 2, 2));
+             const std::size_t named = runs_in(d.payload(kMap), kPlanes * 2).views[0];
              for (std::size_t k = 0; k < kPlanes; ++k) {
                  set_number(d.payload(kRing), kLines + 16 * (named * kPlanes + k), -(std::int64_t{1} << 27), 4);
              }
