@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything, runs all tests. Can be run again.
 #
-#   ./test.sh                     the release build and all tests, then what reads files under ASan + UBSan
-#   ./test.sh --no-sanitizers     the release build and its tests only
+#   ./test.sh                     the release build, clang-tidy and all tests, then what reads files under ASan + UBSan
+#   ./test.sh --no-sanitizers     without the last
 #   ./test.sh --sanitize-all      all tests under ASan + UBSan as well: much longer
 #   ./test.sh --hostile MINUTES   builds, and only tries to break things, for that long, with new seeds
-#   ./test.sh -R NAME             further arguments go to ctest
+#   ./test.sh -R NAME             further arguments go to ctest; no clang-tidy
 set -euo pipefail
 cd "$(dirname "$0")"
 . .ci/setup.sh
@@ -36,6 +36,14 @@ if [ -n "$HOSTILE_MINUTES" ]; then
   export RAYSPACE_HOSTILE_SECONDS=$((HOSTILE_MINUTES * 60 / TESTS))
   say "Trying to break things for $HOSTILE_MINUTES minutes, from seed $RAYSPACE_HOSTILE_SEED"
   exec build/release/bin/test_hostile "$@"
+fi
+
+if [ $# -eq 0 ]; then
+  say "Checking with clang-tidy"
+  cmake --build build/release --target tidy >build/release/tidy.log 2>&1 || {
+    sed 's/\x1b\[[0-9;]*m//g' build/release/tidy.log | grep -E ': (error|warning): ' | sort -u >&2
+    fail "clang-tidy has found something; all of it is in build/release/tidy.log"
+  }
 fi
 
 say "Testing (release)"

@@ -177,7 +177,7 @@ Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
                      std::to_string(found)};
     }
     for (std::size_t i = 0; i < kDepths.size(); ++i) {
-        const Status status = expand_zstd_frame(coded.depths[i], coded.surfaces, kDepthNames[i], plane);
+        Status status = expand_zstd_frame(coded.depths[i], coded.surfaces, kDepthNames[i], plane);
         if (!status) return status;
         shape_coding::put_residuals(plane, kDepths[i], shape);
     }

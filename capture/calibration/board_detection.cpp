@@ -156,7 +156,8 @@ struct CornerSearch {
     std::map<int, glm::dvec2> found;  // OpenCV's pixels
 
     cv::Point2d square_of(int corner) const {
-        return {corner % (design.squares_x - 1) + 1.0, corner / (design.squares_x - 1) + 1.0};
+        const cv::Point square(corner % (design.squares_x - 1), corner / (design.squares_x - 1));
+        return {square.x + 1.0, square.y + 1.0};
     }
 
     std::optional<glm::dvec2> refined(int corner, const cv::Matx33d& h) const {

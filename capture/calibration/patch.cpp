@@ -25,8 +25,9 @@ constexpr std::size_t kFewestSamples = 40;
 const std::array<double, kSamples> kWindow = [] {
     std::array<double, kSamples> window{};
     for (std::size_t n = 0; n < kSamples; ++n) {
-        const double i = static_cast<double>(n % kPatchSide_px) - kHalfSide_px;
-        const double j = static_cast<double>(n / kPatchSide_px) - kHalfSide_px;
+        const std::size_t column = n % kPatchSide_px, row = n / kPatchSide_px;
+        const double i = static_cast<double>(column) - kHalfSide_px;
+        const double j = static_cast<double>(row) - kHalfSide_px;
         window[n] = std::exp(-0.5 * (i * i + j * j) / (kWindowDeviation_px * kWindowDeviation_px));
     }
     return window;

@@ -259,7 +259,7 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
     keep_enough_tracks(bundle);
     std::optional<Bundle> finest = refined(bundle, turn, options, kObservationsPerView * static_cast<int>(views));
     const bool is_aligned = finest && finest->tracks.size() >= kFewestTracks / 2;
-    bundle = is_aligned ? std::move(*finest) : settled;
+    bundle = is_aligned ? *std::move(finest) : settled;
     TrackSolution solution{
         std::move(bundle), NumberPlaces(options.free, std::vector<bool>(views, true)), {}, at_px, {}};
     solution.covariance = bundle_covariance(solution.bundle, options, kSharedError_px * turn.reduction);

@@ -192,7 +192,7 @@ Result<Made> make_set(const Options& options, SceneFile file, Progress& progress
     return Made{*summary, {camera.width, camera.height}, file.object_radius, set.render.samples_per_pixel};
 }
 
-Result<Made> make_photos(const Options& options, SceneFile file, Progress& progress) {
+Result<Made> make_photos(const Options& options, const SceneFile& file, Progress& progress) {
     PhotoOptions photos = options.as_photos.photos;
     SessionOptions& session = photos.session;
     const PixelSize size = options.size.value_or(PixelSize{session.width, session.height});
@@ -207,7 +207,7 @@ Result<Made> make_photos(const Options& options, SceneFile file, Progress& progr
     photos.samples_per_pixel = options.samples_per_pixel.value_or(file.camera.samples_per_pixel);
     photos.threads = options.threads;
     const Result<CaptureSetSummary> summary =
-        write_photo_session(std::move(file.scene), file.object_radius, photos, options.output, &progress);
+        write_photo_session(file.scene, file.object_radius, photos, options.output, &progress);
     if (!summary) return summary.error();
     return Made{*summary, size, file.object_radius, photos.samples_per_pixel};
 }
@@ -226,7 +226,7 @@ Status synthesise(const Options& options) {
     if (!file) return file.error();
     const std::string scene_name = file->scene.name;
     ProgressBar progress(options.quiet);
-    const Result<Made> made = options.as_photos.asked ? make_photos(options, std::move(file).value(), progress)
+    const Result<Made> made = options.as_photos.asked ? make_photos(options, *file, progress)
                                                       : make_set(options, std::move(file).value(), progress);
     if (!made) return made.error();
     progress.finish();

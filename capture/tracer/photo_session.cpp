@@ -165,7 +165,7 @@ bool is_made_backdrop(const std::string& name) {
     return name == "wall" || name == "blue" || name == "white";
 }
 
-Result<CaptureSetSummary> write_photo_session(Scene object, double object_radius, const PhotoOptions& options,
+Result<CaptureSetSummary> write_photo_session(const Scene& object, double object_radius, const PhotoOptions& options,
                                               const fs::path& folder, Progress* progress) {
     using Clock = std::chrono::steady_clock;
     Result<StagedFolder> staged = StagedFolder::create(folder);

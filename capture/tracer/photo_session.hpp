@@ -49,7 +49,7 @@ bool is_made_backdrop(const std::string& name);
 // The folder appears when all is written, and replaces one that this function wrote (file_output.hpp). The same
 // options give the same bytes, whatever the number of threads. Fails where a picture cannot be read, where the lens or
 // the camera are impossible (session_plan.hpp), and where no view shows the object. `progress` counts all views.
-Result<CaptureSetSummary> write_photo_session(Scene object, double object_radius, const PhotoOptions& options,
+Result<CaptureSetSummary> write_photo_session(const Scene& object, double object_radius, const PhotoOptions& options,
                                               const std::filesystem::path& folder, Progress* progress = nullptr);
 
 }  // namespace rs::capture

@@ -141,8 +141,9 @@ Image<RgbaF> picture_backdrop(const Lens& lens, Image<RgbaF> picture) {
         for (int x = 0; x < lens.width; ++x) {
             glm::dvec3 sum(0);
             for (int i = 0; i < kSide * kSide; ++i) {
-                const double u = (x + (i % kSide + 0.5) / kSide) / lens.width;
-                const double v = 1 - (y + (i / kSide + 0.5) / kSide) / lens.height;
+                const int column = i % kSide, row = i / kSide;
+                const double u = (x + (column + 0.5) / kSide) / lens.width;
+                const double v = 1 - (y + (row + 0.5) / kSide) / lens.height;
                 const RgbaF p = sample_texture(texture, {static_cast<float>(u), static_cast<float>(v)});
                 sum += glm::dvec3(p.r, p.g, p.b);
             }

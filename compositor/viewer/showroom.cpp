@@ -47,7 +47,7 @@ Placeholder Showroom::placeholder_of(std::size_t node) const {
     return placeholder;
 }
 
-Status Showroom::arrive(StoreEvent event) {
+Status Showroom::arrive(const StoreEvent& event) {
     const Result<engine::ObjectHandle> handle = engine_->load(prepared(event.object));
     if (!handle) return handle.error();
     handles_[event.file] = *handle;
@@ -86,7 +86,7 @@ Status Showroom::take_events() {
     for (StoreEvent& event : store_.events()) {
         Status status;
         if (event.kind == StoreEvent::Kind::kArrived)
-            status = arrive(std::move(event));
+            status = arrive(event);
         else if (event.kind == StoreEvent::Kind::kLeaves)
             leave(std::move(event));
         else
@@ -150,7 +150,7 @@ Status Showroom::update(const glm::dvec3& eye, double seconds, const std::option
     } else {
         wishes_heard_ = store_.try_want(plan_.wishes({eye, soon}));
     }
-    const Status status = waits_ ? wait() : take_events();
+    Status status = waits_ ? wait() : take_events();
     if (waits_) load_on_board(eye);
     fade(seconds);
     return status;

@@ -63,7 +63,7 @@ public:
 private:
     Status take_events();
     Status wait();
-    Status arrive(StoreEvent event);
+    Status arrive(const StoreEvent& event);
     void leave(StoreEvent event);
     Status fail(const StoreEvent& event);
     void load_on_board(const glm::dvec3& eye);

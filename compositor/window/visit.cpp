@@ -19,7 +19,7 @@ constexpr double kRecordedFrames_per_s = 30;
 std::filesystem::path free_name(const std::filesystem::path& folder, const char* prefix, const char* ending,
                                 int& number) {
     for (;;) {
-        const std::filesystem::path path = folder / (std::string(prefix) + "-" + std::to_string(++number) + ending);
+        std::filesystem::path path = folder / (std::string(prefix) + "-" + std::to_string(++number) + ending);
         if (!std::filesystem::exists(path)) return path;
     }
 }

@@ -10,6 +10,7 @@
 #include "datasets-synthetic/showroom/surface_painting.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -120,7 +121,7 @@ Painter museum_wall(vec2 size_m, std::uint32_t seed) {
 
 // Panels below the dado rail along a wall, in a frame whose x runs along the wall from 0 to `length_m`.
 void panels(RoomBuilder& room, float from_m, float to_m) {
-    const int count = std::max(1, static_cast<int>((to_m - from_m) / 1.2F + 0.5F));
+    const int count = std::max(1, static_cast<int>(std::lround((to_m - from_m) / 1.2F)));
     const float pitch = (to_m - from_m) / static_cast<float>(count);
     for (int k = 0; k < count; ++k) {
         const float left = from_m + pitch * static_cast<float>(k) + 0.08F;

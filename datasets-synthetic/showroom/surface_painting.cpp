@@ -94,6 +94,7 @@ vec3 rug(vec2 place_m, vec2 size_m, std::uint32_t seed) {
     const vec2 inside = glm::min(place_m, size_m - place_m);
     const float edge_m = std::min(inside.x, inside.y);
     vec3 colour = kRed;
+    // NOLINTBEGIN(bugprone-branch-clone): stripes, one after the other
     if (edge_m < 0.03F) {
         colour = kSand;
     } else if (edge_m < 0.10F) {
@@ -116,6 +117,7 @@ vec3 rug(vec2 place_m, vec2 size_m, std::uint32_t seed) {
                  : lozenge < 0.42F ? kSand
                                    : kRed;
     }
+    // NOLINTEND(bugprone-branch-clone)
     const float knots = gradient_noise({place_m.x * 240.0F, place_m.y * 240.0F, 0.0F}, seed);
     const float worn = layered_noise({place_m.x * 2.0F, place_m.y * 9.0F, 1.0F}, 2, seed + 1);
     return colour * (1.0F + 0.14F * knots + 0.1F * worn);

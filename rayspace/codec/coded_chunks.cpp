@@ -143,7 +143,10 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     const auto tile_width_log2 = in.get<std::uint8_t>();
     const auto tile_height_log2 = in.get<std::uint8_t>();
     const auto alpha_bits = in.get<std::uint8_t>();
-    for (int& offset : coded.dense.chroma_step_offset) offset = in.get<std::int8_t>();
+    for (int& offset : coded.dense.chroma_step_offset) {
+        const std::int8_t stored = in.get<std::int8_t>();
+        offset = stored;
+    }
     const auto alpha_coding = in.get<std::uint8_t>();
     const auto features = in.get<std::uint8_t>();
     const auto levels = in.take(views);

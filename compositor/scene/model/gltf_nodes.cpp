@@ -26,7 +26,7 @@ constexpr double kFarthestNode = 1e9;
 
 // The JSON of a .glb (glTF 2.0, 4.4): a header of 12 bytes, then the chunk with its length and type.
 std::string json_text(std::span<const std::byte> bytes, const std::string& file) {
-    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (!text.starts_with("glTF")) return text;
     std::uint32_t length = 0;
     if (bytes.size() >= 20) std::memcpy(&length, bytes.data() + 12, sizeof length);
