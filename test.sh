@@ -4,7 +4,8 @@
 #   ./test.sh                     the release build, clang-tidy and all tests, then what reads files under ASan + UBSan
 #   ./test.sh --no-sanitizers     without the last
 #   ./test.sh --sanitize-all      all tests under ASan + UBSan as well: much longer
-#   ./test.sh --hostile MINUTES   builds, and only tries to break things, for that long, with new seeds
+#   ./test.sh --hostile MINUTES   builds, and only tries to break things, for that long, with new seeds: half of it with
+#                                 tests/hostile, half with libFuzzer (which is built with clang)
 #   ./test.sh -R NAME             further arguments go to ctest; no clang-tidy
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -24,6 +25,26 @@ fi
 BEGUN=$SECONDS
 JOBS=$(nproc)
 
+# fuzz_for SECONDS: all fuzz targets, as many at a time as there are processors. What one finds is kept.
+fuzz_for() {
+  install_packages "${FUZZ_PACKAGES[@]}"
+  say "Building the fuzz targets"
+  configure build/fuzz -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 \
+    -DRAYSPACE_SANITIZE=address,undefined -DRAYSPACE_FUZZ=ON -DRAYSPACE_BENCH=OFF -DRAYSPACE_TESTS=ON
+  cmake --build build/fuzz -j "$JOBS" --target fuzzers
+  local targets=(build/fuzz/bin/fuzz_*) each
+  each=$(($1 * JOBS / ${#targets[@]}))
+  say "Fuzzing ${#targets[@]} targets for $each s each"
+  # A reader may ask for more memory than there is, and then must say so; no run may take 2 GB.
+  export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+  printf '%s\n' "${targets[@]##*/fuzz_}" | xargs -P "$JOBS" -I{} sh -c '
+    mkdir -p build/fuzz/found/{} &&
+    build/fuzz/bin/fuzz_{} -max_total_time='"$each"' -timeout=20 -rss_limit_mb=2048 -artifact_prefix=build/fuzz/found/{}- \
+      build/fuzz/found/{} tests/fuzz/corpus/{} >build/fuzz/found/{}.log 2>&1 ||
+    { tail -n 25 build/fuzz/found/{}.log >&2; exit 1; }' || fail "a fuzz target has found something; see build/fuzz/found"
+  grep -H "^Done" build/fuzz/found/*.log
+}
+
 install_packages "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 
 say "Building (release), $JOBS jobs"
@@ -33,9 +54,12 @@ cmake --build build/release -j "$JOBS"
 if [ -n "$HOSTILE_MINUTES" ]; then
   export RAYSPACE_HOSTILE_SEED=${RAYSPACE_HOSTILE_SEED:-$(date +%s%N)}
   TESTS=$(build/release/bin/test_hostile --gtest_list_tests | grep -c '^  ')
-  export RAYSPACE_HOSTILE_SECONDS=$((HOSTILE_MINUTES * 60 / TESTS))
-  say "Trying to break things for $HOSTILE_MINUTES minutes, from seed $RAYSPACE_HOSTILE_SEED"
-  exec build/release/bin/test_hostile "$@"
+  export RAYSPACE_HOSTILE_SECONDS=$((HOSTILE_MINUTES * 30 / TESTS))
+  say "Trying to break things for $((HOSTILE_MINUTES * 30)) s, from seed $RAYSPACE_HOSTILE_SEED"
+  build/release/bin/test_hostile "$@"
+  fuzz_for $((HOSTILE_MINUTES * 30))
+  say "Nothing broke in $((SECONDS - BEGUN)) s"
+  exit
 fi
 
 if [ $# -eq 0 ]; then

@@ -9,6 +9,8 @@ BUILD_PACKAGES=(
 )
 # shellcheck disable=SC2034  # used by the scripts that source this file
 TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-14 shellcheck xvfb)
+# shellcheck disable=SC2034
+FUZZ_PACKAGES=(clang-14 libclang-rt-14-dev)
 
 export LC_ALL=C  # numbers with a point, whatever the locale
 

@@ -1,15 +1,20 @@
 #include "rayspace/model_files.hpp"
 
 #include "rayspace/file_output.hpp"
+#include "rayspace/printable.hpp"
 
+#include <assimp/BaseImporter.h>
+#include <assimp/importerdesc.h>
 #include <assimp/IOStream.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -52,6 +57,22 @@ bool is_mtl(const char* path) {
     return extension == ".mtl";
 }
 
+// A .glb (glTF 2.0, 4.4; 1.0 has its JSON's length in the same place): Assimp allocates what a chunk's length says
+// before it looks whether the file has it.
+bool is_whole_glb(std::span<const std::byte> bytes) {
+    constexpr std::size_t kHeader_bytes = 12, kChunkHeader_bytes = 8;
+    std::size_t at = kHeader_bytes;
+    do {
+        std::uint32_t length = 0;
+        if (at > bytes.size() || bytes.size() - at < kChunkHeader_bytes) return false;
+        std::memcpy(&length, bytes.data() + at, sizeof length);
+        at += kChunkHeader_bytes;
+        if (length > bytes.size() - at) return false;
+        at += length;
+    } while (bytes[4] != std::byte{1} && at < bytes.size());
+    return true;
+}
+
 // From the first newmtl on; a comment alone where there is none, for fewer than 8 bytes are an error to Assimp.
 std::vector<std::byte> from_first_material(std::vector<std::byte> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -89,11 +110,41 @@ Assimp::IOStream* ModelFiles::Open(const char* path, const char* mode) {
         refusal_ = bytes.error().message;
         return nullptr;
     }
+    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    if (text.starts_with("glTF") && !is_whole_glb(*bytes)) {
+        refusal_ = std::string(path) + ": is a damaged .glb file; export it again";
+        return nullptr;
+    }
     return new MemoryFile(is_mtl(path) ? from_first_material(std::move(*bytes)) : std::move(*bytes));
 }
 
 void ModelFiles::Close(Assimp::IOStream* stream) {
     delete stream;
+}
+
+ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes) {
+    constexpr std::array<const char*, 4> kWanted = {" obj ", " ply ", " gltf ", " glb "};
+    std::vector<Assimp::BaseImporter*> others;
+    for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) {
+        const std::string extensions = ' ' + std::string(importer.GetImporterInfo(i)->mFileExtensions) + ' ';
+        const bool wanted =
+            std::ranges::any_of(kWanted, [&](const char* name) { return extensions.find(name) != std::string::npos; });
+        if (!wanted) others.push_back(importer.GetImporter(i));
+    }
+    for (Assimp::BaseImporter* const other : others) {
+        importer.UnregisterLoader(other);
+        delete other;  // ours once it is not registered
+    }
+    auto* const files = new ModelFiles(cap_bytes);
+    importer.SetIOHandler(files);
+    return *files;
+}
+
+std::string shown_error(const char* words) {
+    std::string text = words;
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return printable(text);
 }
 
 Status check_finite(const aiScene& model, const std::string& file) {

@@ -5,6 +5,7 @@
 
 #include <assimp/scene.h>
 #include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
 
 #include <cstdint>
 #include <string>
@@ -13,7 +14,7 @@ namespace rs {
 
 // Files of a model for an Assimp::Importer, which takes it over: regular files of at most cap_bytes, read whole and
 // noted as inputs (input_file.hpp), never written. Of an MTL what stands before its first newmtl is left out, which
-// Assimp does not survive.
+// Assimp does not survive. A .glb whose chunks are longer than the file is refused.
 class ModelFiles : public Assimp::IOSystem {
 public:
     explicit ModelFiles(std::uint64_t cap_bytes) : cap_bytes_(cap_bytes) {}
@@ -30,6 +31,13 @@ private:
     std::uint64_t cap_bytes_;
     std::string refusal_;
 };
+
+// Lets `importer` read OBJ, PLY, glTF and GLB alone, through the files that are returned, which it takes over. Without
+// it Assimp goes by what a file's contents resemble, and all its readers are open to them.
+ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes);
+
+// Assimp's words in one line.
+std::string shown_error(const char* words);
 
 // An error where a vertex or a texture coordinate of `model` is not finite; `file` names it.
 Status check_finite(const aiScene& model, const std::string& file);

@@ -32,10 +32,6 @@ std::string lower_case_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-std::string first_line(const std::string& text) {
-    return text.substr(0, text.find_first_of("\r\n"));
-}
-
 glm::vec3 to_vec(const aiVector3D& v) {
     return {v.x, v.y, v.z};
 }
@@ -118,8 +114,7 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
     }
     try {
         Assimp::Importer importer;
-        auto* const files = new ModelFiles(kMaxModelFile_bytes);
-        importer.SetIOHandler(files);  // takes it over
+        const ModelFiles& files = read_models_only(importer, kMaxModelFile_bytes);
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseAngle_deg);
         const aiScene* source = plain_ply.empty()
@@ -132,13 +127,13 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
                                                   aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices |
                                                   aiProcess_PreTransformVertices);
         }
-        if (!files->refusal().empty()) return Error{files->refusal()};
+        if (!files.refusal().empty()) return Error{files.refusal()};
         if (source == nullptr) {
-            return Error{path.string() + ": cannot be read as a mesh: " + first_line(importer.GetErrorString())};
+            return Error{path.string() + ": cannot be read as a mesh: " + shown_error(importer.GetErrorString())};
         }
         return convert_scene(*source, path);
     } catch (const std::exception& problem) {
-        return Error{path.string() + ": cannot be read as a mesh: " + first_line(problem.what())};
+        return Error{path.string() + ": cannot be read as a mesh: " + shown_error(problem.what())};
     }
 }
 

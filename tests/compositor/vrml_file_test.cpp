@@ -340,6 +340,16 @@ TEST_F(VrmlFolder, GzipIsUnpackedWhateverTheName) {
     EXPECT_THAT(cut.error().message, HasSubstr("damaged or truncated gzip"));
 }
 
+TEST_F(VrmlFolder, ANameOfTwoLinesIsSaidInOne) {
+    write("hall.wrl",
+          "Shape { appearance Appearance { texture ImageTexture { url \"a\nb.png\" } } geometry Box { } }");
+    const Result<Scene> scene = read_vrml(folder_ / "hall.wrl");
+    ASSERT_TRUE(scene);
+    ASSERT_EQ(scene->warnings.size(), 1U);
+    EXPECT_EQ(scene->warnings[0].find('\n'), std::string::npos) << scene->warnings[0];
+    EXPECT_NE(scene->warnings[0].find("a\\x0Ab.png"), std::string::npos) << scene->warnings[0];
+}
+
 TEST_F(VrmlFolder, APictureThatCannotBeReadIsSaidWithItsLine) {
     write("hall.wrl",
           "Shape { appearance Appearance {\n texture ImageTexture { url \"gone.png\" } } geometry Box { } }");

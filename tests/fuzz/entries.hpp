@@ -23,4 +23,13 @@ int fuzz_middlebury(const std::uint8_t* data, std::size_t size);
 // The bytes as a VRML97 world.
 int fuzz_vrml(const std::uint8_t* data, std::size_t size);
 
+// The bytes as a model: a glTF file (binary where it begins with "glTF"), an OBJ, and the MTL of a sound OBJ; each as a
+// room and as an object to photograph.
+int fuzz_gltf(const std::uint8_t* data, std::size_t size);
+int fuzz_obj(const std::uint8_t* data, std::size_t size);
+int fuzz_mtl(const std::uint8_t* data, std::size_t size);
+
+// The bytes as a photograph: JPEG or PNG, by how it begins.
+int fuzz_picture(const std::uint8_t* data, std::size_t size);
+
 }  // namespace rs::fuzz

@@ -1,8 +1,10 @@
 // Runs every file of the corpus through its fuzz entry: what a fuzzer found once must not come back.
 #include "capture/calibration/known_files.hpp"
+#include "compositor/scene/scene_file.hpp"
 #include "compositor/scene/vrml_file.hpp"
 #include "rayspace/file_output.hpp"
 #include "rayspace/object_file.hpp"
+#include "rayspace/picture_io.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 #include "tests/fuzz/entries.hpp"
 #include "tests/fuzz/mutated_world.hpp"
@@ -73,6 +75,19 @@ TEST(FuzzReplay, Vrml) {
     replay("vrml", fuzz::fuzz_vrml);
 }
 
+TEST(FuzzReplay, Gltf) {
+    replay("gltf", fuzz::fuzz_gltf);
+}
+TEST(FuzzReplay, Obj) {
+    replay("obj", fuzz::fuzz_obj);
+}
+TEST(FuzzReplay, Mtl) {
+    replay("mtl", fuzz::fuzz_mtl);
+}
+TEST(FuzzReplay, Picture) {
+    replay("picture", fuzz::fuzz_picture);
+}
+
 TEST(FuzzReplay, FaultyWorldsAreReadOrRefused) {
     std::vector<std::string> worlds;
     for (const fs::path& file : corpus("vrml")) {
@@ -126,7 +141,19 @@ TEST(FuzzReplay, SeedsAreValid) {
         EXPECT_TRUE(scene.ok()) << scene.error().message;
         ++seeds;
     }
-    EXPECT_GE(seeds, 8);
+    for (const char* const kind : {"gltf", "obj"}) {
+        for (const fs::path& file : corpus(kind)) {
+            if (file.filename().string().rfind("seed-", 0) != 0) continue;
+            const auto scene = compositor::read_scene(file);
+            EXPECT_TRUE(scene.ok()) << scene.error().message;
+            ++seeds;
+        }
+    }
+    for (const fs::path& file : corpus("picture")) {
+        EXPECT_TRUE(read_picture(file).ok()) << file;
+        ++seeds;
+    }
+    EXPECT_GE(seeds, 14);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "compositor/scene/scene_pictures.hpp"
 #include "compositor/scene/strict_json.hpp"
 #include "rayspace/conventions.hpp"
+#include "rayspace/printable.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -152,8 +153,8 @@ private:
         chain.push_back(size);
         object.chain = std::move(chain);
         if (!even_) {
-            scene_.warnings.push_back(path_.string() + ": " + place +
-                                      ": is stretched more along one axis; shown without");
+            scene_.warnings.push_back(
+                printable(path_.string() + ": " + place + ": is stretched more along one axis; shown without"));
         }
         scene_.objects.push_back(std::move(object));
     }

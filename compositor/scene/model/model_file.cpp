@@ -119,19 +119,17 @@ Result<Scene> read_model(const std::filesystem::path& path) {
     scene.navigation.headlight = scene.lights.empty();
     try {
         Assimp::Importer importer;
-        auto* const files = new ModelFiles(kMaxModel_bytes);
-        importer.SetIOHandler(files);  // takes it over
+        const ModelFiles& files = read_models_only(importer, kMaxModel_bytes);
         const aiScene* model = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
-        if (!files->refusal().empty()) return Error{files->refusal()};
+        if (!files.refusal().empty()) return Error{files.refusal()};
         if (model != nullptr) {
             if (Status finite = check_finite(*model, path.string()); !finite) return finite.error();
             model = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_GenSmoothNormals |
                                                  aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
         }
         if (model == nullptr || model->mRootNode == nullptr) {
-            std::string reason = importer.GetErrorString();
-            for (char& c : reason) c = c == '\n' || c == '\r' ? ' ' : c;
-            const std::string message = path.string() + ": cannot be read: " + reason + "; export it again";
+            const std::string message =
+                path.string() + ": cannot be read: " + shown_error(importer.GetErrorString()) + "; export it again";
             // Objects alone make a scene, but Assimp does not take a file without meshes.
             if (is_gltf && !scene.objects.empty() && !has_meshes) return scene;
             return Error{message};
@@ -142,7 +140,7 @@ Result<Scene> read_model(const std::filesystem::path& path) {
         }
         scene.warnings.insert(scene.warnings.end(), materials.warnings.begin(), materials.warnings.end());
     } catch (const std::exception& exception) {
-        return Error{path.string() + ": cannot be read: " + exception.what() + "; export it again"};
+        return Error{path.string() + ": cannot be read: " + shown_error(exception.what()) + "; export it again"};
     }
     return scene;
 }

@@ -1,6 +1,7 @@
 #include "compositor/scene/model/model_materials.hpp"
 
 #include "rayspace/picture_io.hpp"
+#include "rayspace/printable.hpp"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
@@ -68,7 +69,7 @@ std::shared_ptr<const SceneTexture> ModelMaterials::picture(const std::string& n
         std::error_code ignored;
         std::filesystem::remove(path, ignored);
     }
-    if (!fault.empty()) warnings.push_back(file_.string() + ": " + fault + "; drawn without");
+    if (!fault.empty()) warnings.push_back(printable(file_.string() + ": " + fault + "; drawn without"));
     return read;
 }
 

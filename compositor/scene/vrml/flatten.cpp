@@ -2,6 +2,7 @@
 
 #include "compositor/scene/vrml/appearance.hpp"
 #include "compositor/scene/vrml/surroundings_nodes.hpp"
+#include "rayspace/printable.hpp"
 
 #include <algorithm>
 #include <map>
@@ -41,7 +42,7 @@ private:
     void warn(const std::string& text) {
         if (!warned_.insert(text).second) return;
         if (scene_.warnings.size() < 2 * kMaxWarnings) {
-            scene_.warnings.push_back(text);
+            scene_.warnings.push_back(printable(text));
         } else {
             ++more_warnings_;
         }

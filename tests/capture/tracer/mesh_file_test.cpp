@@ -129,6 +129,23 @@ TEST(MeshFile, ErrorsNameTheFileAndTheReason) {
     EXPECT_THAT(error_of(folder / "nan.obj"), HasSubstr("is not finite; repair the mesh"));
 }
 
+TEST(MeshFile, AGlbThatClaimsMoreThanItHoldsIsRefused) {
+    const TemporaryFolder folder;
+    using namespace std::string_literals;
+    for (const std::string& chunk :
+         {"\xFF\xFF\xFF\xFFJSON{}  "s, "\x04\0\0\0JSON{}  \x01\0\0\0BIN\0"s, "\x04\0\0\0JS"s, ""s}) {
+        write_text(folder / "a.glb", "glTF\2\0\0\0\xFF\0\0\0"s + chunk);
+        EXPECT_THAT(error_of(folder / "a.glb"), HasSubstr("a.glb: is a damaged .glb file")) << chunk.size();
+    }
+}
+
+// Assimp would read it as what it resembles: any of its fifty readers could be reached so.
+TEST(MeshFile, AFileIsReadAsWhatItsNameSaysOnly) {
+    const TemporaryFolder folder;
+    write_text(folder / "off.gltf", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    EXPECT_THAT(error_of(folder / "off.gltf"), HasSubstr("off.gltf: cannot be read as a mesh"));
+}
+
 TEST(MeshFile, MissingTextureIsNamedWithTheFileThatAsks) {
     const TemporaryFolder folder;
     write_text(folder / "a.obj", std::string("mtllib a.mtl\n") + kQuad + "usemtl p\nf 1/1 2/2 3/3\n");

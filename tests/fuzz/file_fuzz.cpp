@@ -1,0 +1,87 @@
+// Parsers that take files by their names: the bytes stand in a folder of the process's own.
+#include "capture/tracer/mesh_file.hpp"
+#include "compositor/scene/scene_file.hpp"
+#include "rayspace/check.hpp"
+#include "rayspace/picture_io.hpp"
+#include "tests/fuzz/entries.hpp"
+#include "tests/fuzz/scene_checks.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace rs::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kModel =
+    "mtllib model.mtl\no a\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n"
+    "f 1/1/1 2/2/1 3/3/1\nusemtl blue\nf 1//1 3//1 4//1\n";
+constexpr std::string_view kMaterials = "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n";
+
+fs::path put(const char* name, std::string_view bytes) {
+    static const test::TemporaryFolder folder;
+    const fs::path path = folder / name;
+    std::ofstream(path, std::ios::binary) << bytes;
+    return path;
+}
+
+std::string_view text(const std::uint8_t* data, std::size_t size) {
+    return {reinterpret_cast<const char*>(data), size};
+}
+
+template <class T>
+bool accepted(const Result<T>& read) {
+    RS_CHECK(read.ok() || read.error().message.find('\n') == std::string::npos);
+    return read.ok();
+}
+
+// As a room, and as an object to photograph.
+void read_model(const fs::path& path) {
+    if (const auto scene = compositor::read_scene(path); accepted(scene)) check_scene(*scene);
+    const auto object = capture::read_mesh_file(path);
+    if (!accepted(object)) return;
+    for (const capture::Mesh& mesh : object->meshes) {
+        for (const glm::vec3& p : mesh.positions)
+            RS_CHECK(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+        for (const glm::uvec3& corner : mesh.triangles) {
+            RS_CHECK(corner.x < mesh.positions.size() && corner.y < mesh.positions.size() &&
+                     corner.z < mesh.positions.size());
+        }
+    }
+}
+
+}  // namespace
+
+int fuzz_gltf(const std::uint8_t* data, std::size_t size) {
+    const std::string_view bytes = text(data, size);
+    read_model(put(bytes.starts_with("glTF") ? "model.glb" : "model.gltf", bytes));
+    return 0;
+}
+
+int fuzz_obj(const std::uint8_t* data, std::size_t size) {
+    put("model.mtl", kMaterials);
+    read_model(put("model.obj", text(data, size)));
+    return 0;
+}
+
+int fuzz_mtl(const std::uint8_t* data, std::size_t size) {
+    put("model.mtl", text(data, size));
+    read_model(put("model.obj", kModel));
+    return 0;
+}
+
+int fuzz_picture(const std::uint8_t* data, std::size_t size) {
+    const std::string_view bytes = text(data, size);
+    const fs::path path = put(bytes.starts_with("\xFF\xD8") ? "picture.jpg" : "picture.png", bytes);
+    const auto info = read_picture_info(path);
+    const auto picture = read_picture(path);
+    const bool known = accepted(info);
+    if (accepted(picture)) RS_CHECK(known && picture->width() == info->width && picture->height() == info->height);
+    return 0;
+}
+
+}  // namespace rs::fuzz
