@@ -147,6 +147,18 @@ std::string shown_error(const char* words) {
     return printable(text);
 }
 
+void note_lines(const aiScene& model) {
+    constexpr unsigned kTypes[] = {0, aiPrimitiveType_POINT, aiPrimitiveType_LINE, aiPrimitiveType_TRIANGLE,
+                                   aiPrimitiveType_POLYGON};
+    for (unsigned m = 0; m < model.mNumMeshes; ++m) {
+        aiMesh& mesh = *model.mMeshes[m];
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+            const unsigned corners = std::min(mesh.mFaces[f].mNumIndices, 4U);
+            mesh.mPrimitiveTypes |= kTypes[corners];
+        }
+    }
+}
+
 Status check_finite(const aiScene& model, const std::string& file) {
     for (unsigned m = 0; m < model.mNumMeshes; ++m) {
         const aiMesh& mesh = *model.mMeshes[m];

@@ -123,9 +123,10 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
         if (source != nullptr) {
             // Before post-processing, which merges vertices that are not a number with their neighbours.
             if (Status finite = check_finite(*source, path.string()); !finite) return finite.error();
-            source = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType |
-                                                  aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices |
-                                                  aiProcess_PreTransformVertices);
+            note_lines(*source);
+            source = importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | aiProcess_Triangulate |
+                                                  aiProcess_SortByPType | aiProcess_GenSmoothNormals |
+                                                  aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices);
         }
         if (!files.refusal().empty()) return Error{files.refusal()};
         if (source == nullptr) {

@@ -8,6 +8,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <set>
 
 namespace rs::compositor {
 namespace {
@@ -175,6 +176,14 @@ TEST_F(ModelFile, FaultyFilesAreRefused) {
     EXPECT_FALSE(read("{\"scenes\": [{\"nodes\": [7]}]}", "gone.gltf"));
     EXPECT_FALSE(read("not a model", "hall.obj"));
     EXPECT_FALSE(read_model(folder_ / "nowhere.gltf"));
+}
+
+TEST_F(ModelFile, FacesOfTwoCornersAreLines) {
+    const auto scene = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\n", "a.obj");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->geometry.size(), 2U);
+    const std::set<Topology> kinds = {scene->geometry[0].mesh->topology, scene->geometry[1].mesh->topology};
+    EXPECT_EQ(kinds, (std::set<Topology>{Topology::kLines, Topology::kTriangles}));
 }
 
 TEST_F(ModelFile, AnObjIsRead) {

@@ -341,8 +341,7 @@ TEST_F(VrmlFolder, GzipIsUnpackedWhateverTheName) {
 }
 
 TEST_F(VrmlFolder, ANameOfTwoLinesIsSaidInOne) {
-    write("hall.wrl",
-          "Shape { appearance Appearance { texture ImageTexture { url \"a\nb.png\" } } geometry Box { } }");
+    write("hall.wrl", "Shape { appearance Appearance { texture ImageTexture { url \"a\nb.png\" } } geometry Box { } }");
     const Result<Scene> scene = read_vrml(folder_ / "hall.wrl");
     ASSERT_TRUE(scene);
     ASSERT_EQ(scene->warnings.size(), 1U);

@@ -129,6 +129,15 @@ TEST(MeshFile, ErrorsNameTheFileAndTheReason) {
     EXPECT_THAT(error_of(folder / "nan.obj"), HasSubstr("is not finite; repair the mesh"));
 }
 
+TEST(MeshFile, FacesOfTwoCornersAreLinesAndLeftOut) {
+    const TemporaryFolder folder;
+    write_text(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\n");
+    const auto scene = read_mesh_file(folder / "a.obj");
+    ASSERT_TRUE(scene.ok()) << scene.error().message;
+    ASSERT_EQ(scene->meshes.size(), 1U);
+    EXPECT_EQ(scene->meshes[0].triangles.size(), 1U);
+}
+
 TEST(MeshFile, AGlbThatClaimsMoreThanItHoldsIsRefused) {
     const TemporaryFolder folder;
     using namespace std::string_literals;
