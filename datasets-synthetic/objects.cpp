@@ -1,11 +1,11 @@
 #include "datasets-synthetic/objects.hpp"
 
-#include "datasets-synthetic/blocks.hpp"
-#include "datasets-synthetic/doll.hpp"
-#include "datasets-synthetic/flower.hpp"
-#include "datasets-synthetic/lamp.hpp"
-#include "datasets-synthetic/lattice.hpp"
-#include "datasets-synthetic/vase.hpp"
+#include "datasets-synthetic/objects/blocks.hpp"
+#include "datasets-synthetic/objects/doll.hpp"
+#include "datasets-synthetic/objects/flower.hpp"
+#include "datasets-synthetic/objects/lamp.hpp"
+#include "datasets-synthetic/objects/lattice.hpp"
+#include "datasets-synthetic/objects/vase.hpp"
 
 namespace rs::synthetic {
 namespace {

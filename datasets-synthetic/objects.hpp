@@ -5,8 +5,8 @@
 // lights and environment: a recipe (recipes/NAME.json) adds those. The parameters of each stand at the head of its
 // header (vase.hpp ...).
 
-#include "capture/tracer/scene.hpp"
-#include "rayspace/result.hpp"
+#include "capture/tracer/scene/scene.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <nlohmann/json.hpp>
 

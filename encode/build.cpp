@@ -3,9 +3,9 @@
 #include "encode/compact_json.hpp"
 #include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/rings.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/parallel.hpp"
-#include "rayspace/yuv.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/parallel.hpp"
+#include "rayspace/object/yuv.hpp"
 
 #include <cmath>
 

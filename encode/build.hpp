@@ -1,12 +1,12 @@
 #pragma once
 // From a capture set to a ray-space object.
 
-#include "encode/capture_set.hpp"
 #include "encode/raymap/plane_map.hpp"
 #include "encode/raymap/shape_map.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/ray_space_object.hpp"
-#include "rayspace/result.hpp"
+#include "encode/set/capture_set.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 #include <optional>
 #include <string>

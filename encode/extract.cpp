@@ -1,9 +1,9 @@
 #include "encode/build.hpp"
-#include "rayspace/file_output.hpp"
-#include "rayspace/parallel.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/view_output.hpp"
-#include "rayspace/yuv.hpp"
+#include "rayspace/base/parallel.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/object/yuv.hpp"
+#include "rayspace/output/view_output.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 namespace rs::encode {
 

@@ -1,8 +1,8 @@
 #include "encode/hold_out.hpp"
 
 #include "encode/raymap/rings.hpp"
-#include "rayspace/check.hpp"
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/check.hpp"
+#include "rayspace/base/conventions.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,8 +1,8 @@
 #pragma once
 // Which views of a capture set are kept for building an object, and which are held out to score it with.
 
-#include "rayspace/result.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/rig.hpp"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "capture/photos/annotated_photo.hpp"
 
-#include "capture/photos/opencv_image.hpp"
+#include "capture/photos/intake/opencv_image.hpp"
 #include "rayspace/page/page_pictures.hpp"
 
 #include <opencv2/imgproc.hpp>

@@ -2,7 +2,7 @@
 // A photograph with the turntable's axis and the followed points drawn on it.
 
 #include "capture/photos/import.hpp"
-#include "rayspace/image.hpp"
+#include "rayspace/image/image.hpp"
 
 namespace rs::capture {
 

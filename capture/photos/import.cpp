@@ -1,15 +1,15 @@
 #include "capture/photos/import.hpp"
 
-#include "capture/calibration/turn_diagnosis.hpp"
-#include "capture/photos/bounded_work.hpp"
-#include "capture/photos/cut_turn.hpp"
+#include "capture/calibration/silhouettes/turn_diagnosis.hpp"
+#include "capture/photos/background/repeat.hpp"
 #include "capture/photos/import_rig.hpp"
-#include "capture/photos/photo_folder.hpp"
-#include "capture/photos/repeat.hpp"
-#include "capture/photos/survey.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/file_output.hpp"
-#include "rayspace/picture_io.hpp"
+#include "capture/photos/intake/bounded_work.hpp"
+#include "capture/photos/intake/photo_folder.hpp"
+#include "capture/photos/intake/survey.hpp"
+#include "capture/photos/matte/cut_turn.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 #pragma once
 // The whole import: a folder of photographs of one turn -> a capture set (RGBA pictures and transforms.json).
 
-#include "capture/calibration/known_files.hpp"
-#include "capture/photos/backdrop.hpp"
-#include "capture/photos/nominal_turn.hpp"
-#include "capture/photos/photo_calibration.hpp"
-#include "capture/photos/rectification.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/result.hpp"
+#include "capture/calibration/known/known_files.hpp"
+#include "capture/photos/background/backdrop.hpp"
+#include "capture/photos/rig/nominal_turn.hpp"
+#include "capture/photos/rig/photo_calibration.hpp"
+#include "capture/photos/rig/rectification.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <filesystem>
 #include <optional>

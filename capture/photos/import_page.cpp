@@ -1,10 +1,10 @@
 #include "capture/photos/import_page.hpp"
 
 #include "capture/photos/annotated_photo.hpp"
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/conventions.hpp"
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
-#include "rayspace/picture_io.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <cmath>
 #include <cstdio>

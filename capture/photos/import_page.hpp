@@ -3,7 +3,7 @@
 // is, the points that were followed, the axis drawn on photographs, the mattes on magenta.
 
 #include "capture/photos/import.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include "capture/photos/import_rig.hpp"
 
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/conventions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +89,7 @@ Rig calibrated_import_rig(const ImportReport& report, const TurnOutline::Box& vi
     describe(report, made);
     made["rms_px"] = calibration.rms_px;
     made["held_out_rms_px"] = calibration.held_out_rms_px;
-    // The photographs' own camera, in the convention of capture/calibration/turntable_model.hpp.
+    // The photographs' own camera, in the convention of capture/calibration/model/turntable_model.hpp.
     const ModelDeviations& off = calibration.deviations;
     nlohmann::json& camera = made["photograph_camera"];
     camera["f_px"] = model.lens.f_px;
@@ -100,7 +100,7 @@ Rig calibrated_import_rig(const ImportReport& report, const TurnOutline::Box& vi
     camera["pan_deg"] = degrees(model.pose.pan_rad);
     camera["tilt_deg"] = degrees(model.pose.tilt_rad);
     camera["roll_deg"] = degrees(model.pose.roll_rad);
-    for (const PicturePlace& place : calibration.places) {  // capture/calibration/picture_place.hpp
+    for (const PicturePlace& place : calibration.places) {  // capture/calibration/model/picture_place.hpp
         made["places"].push_back({{"scale", place.scale}, {"shift_px", {place.shift_px.x, place.shift_px.y}}});
     }
     nlohmann::json& deviations = made["standard_deviations"];

@@ -2,7 +2,7 @@
 // The rig of an imported set, and how it is told where its numbers come from.
 
 #include "capture/photos/import.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
 
 namespace rs::capture {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The options of `rs-capture synth --as-photos`: test photographs instead of a capture set.
 
-#include "capture/tracer/photo_session.hpp"
+#include "capture/tracer/session/photo_session.hpp"
 
 #include <CLI/CLI.hpp>
 

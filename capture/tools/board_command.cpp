@@ -1,6 +1,6 @@
 #include "capture/tools/board_command.hpp"
 
-#include "capture/calibration/board_sheet.hpp"
+#include "capture/calibration/board/board_sheet.hpp"
 
 #include <cstdio>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 // `rs-capture board`: prints the calibration board that is laid on the turntable.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
 

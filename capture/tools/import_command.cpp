@@ -2,11 +2,11 @@
 
 #include "capture/photos/import.hpp"
 #include "capture/photos/import_page.hpp"
-#include "capture/photos/photo_folder.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/file_output.hpp"
-#include "rayspace/printable.hpp"
-#include "rayspace/progress.hpp"
+#include "capture/photos/intake/photo_folder.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/file/file_output.hpp"
 
 #include <nlohmann/json.hpp>
 

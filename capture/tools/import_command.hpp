@@ -1,7 +1,7 @@
 #pragma once
 // `rs-capture import`: photographs of an object on a turntable, cut out and given a nominal rig, as a capture set.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Output folders must not swallow what they are made of.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <filesystem>
 

@@ -3,7 +3,7 @@
 #include "capture/tools/board_command.hpp"
 #include "capture/tools/import_command.hpp"
 #include "capture/tools/synth_command.hpp"
-#include "rayspace/tool_main.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -3,15 +3,15 @@
 #include "capture/tools/as_photos_options.hpp"
 #include "capture/tools/kept_input.hpp"
 #include "capture/tools/number_range.hpp"
-#include "capture/tracer/capture_set.hpp"
-#include "capture/tracer/photo_session.hpp"
-#include "capture/tracer/scene_file.hpp"
-#include "capture/tracer/tracer.hpp"
+#include "capture/tracer/integrator/tracer.hpp"
+#include "capture/tracer/scene/scene_file.hpp"
+#include "capture/tracer/session/capture_set.hpp"
+#include "capture/tracer/session/photo_session.hpp"
 #include "datasets-synthetic/objects.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/rig.hpp"
-#include "rayspace/tool_main.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // `rs-capture synth`: a scene, traced from a ring of cameras or from given poses, as a capture set.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
 

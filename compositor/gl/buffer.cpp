@@ -1,6 +1,6 @@
 #include "compositor/gl/buffer.hpp"
 
-#include "rayspace/check.hpp"
+#include "rayspace/base/check.hpp"
 
 #include <epoxy/gl.h>
 

@@ -6,7 +6,7 @@
 // (glClipControl GL_UPPER_LEFT), and depth runs from 1 at the near plane to 0 at infinity (reversed; nearer is
 // greater).
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <functional>
 #include <memory>

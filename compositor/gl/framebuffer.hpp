@@ -2,8 +2,8 @@
 // What is drawn into: sRGB colour (blended as linear light), float depth.
 
 #include "compositor/gl/handle.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <glm/glm.hpp>
 

@@ -2,7 +2,7 @@
 // A linked pair of a vertex and a fragment shader with its uniforms.
 
 #include "compositor/gl/handle.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <glm/glm.hpp>
 

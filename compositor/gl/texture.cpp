@@ -1,6 +1,6 @@
 #include "compositor/gl/texture.hpp"
 
-#include "rayspace/linear_light.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <epoxy/gl.h>
 #include <glm/gtc/type_precision.hpp>

@@ -2,7 +2,7 @@
 // A picture on the GPU, with straight alpha: read by shaders as linear light, or as one float per pixel.
 
 #include "compositor/gl/handle.hpp"
-#include "rayspace/image.hpp"
+#include "rayspace/image/image.hpp"
 
 namespace rs::gl {
 

@@ -1,8 +1,8 @@
 #pragma once
 // Where the scene's camera stands and looks, frame by frame. Pure; thread-safe.
 
-#include "rayspace/camera.hpp"
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/camera.hpp"
 
 #include <glm/glm.hpp>
 

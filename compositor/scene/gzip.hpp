@@ -1,7 +1,7 @@
 #pragma once
 // gzip (RFC 1952) in memory. Pure; thread-safe.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Lights in scene coordinates, as VRML97 has them (ISO/IEC 14772-1, 4.6.6 and 4.14). Colours are linear light and may
 // exceed 1.
 
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/conventions.hpp"
 
 #include <glm/glm.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a surface looks like, as VRML97 describes it (ISO/IEC 14772-1, 4.14 and 6.27). Colours are linear light.
 
-#include "rayspace/image.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <glm/glm.hpp>
 

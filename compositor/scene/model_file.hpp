@@ -11,7 +11,7 @@
 //     "extras": {"RaySpaceRoom": {"centre": [0, 1.5, 0], "size": [6, 3, 6], "description": "..."}}
 
 #include "compositor/scene/scene.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <filesystem>
 

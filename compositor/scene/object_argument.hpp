@@ -2,7 +2,7 @@
 // An object and its place, as the command line gives them: FILE.rso[@X,Y,Z[,TURN_DEGREES[,SCALE]]].
 
 #include "compositor/scene/scene.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <glm/glm.hpp>
 

@@ -3,8 +3,8 @@
 #include "compositor/scene/model_file.hpp"
 #include "compositor/scene/strict_json.hpp"
 #include "compositor/scene/vrml_file.hpp"
-#include "rayspace/file_output.hpp"
-#include "rayspace/linear_light.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Scenes from files: JSON (compositor/README.md), VRML97 (vrml_file.hpp), glTF 2.0 and OBJ (model_file.hpp).
 
 #include "compositor/scene/scene.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
 #include "compositor/scene/scene_pictures.hpp"
 
-#include "rayspace/picture_io.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 namespace rs::compositor {
 namespace {

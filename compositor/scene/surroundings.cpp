@@ -1,6 +1,6 @@
 #include "compositor/scene/surroundings.hpp"
 
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/conventions.hpp"
 
 #include <algorithm>
 #include <cmath>

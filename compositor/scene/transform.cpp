@@ -1,6 +1,6 @@
 #include "compositor/scene/transform.hpp"
 
-#include "rayspace/check.hpp"
+#include "rayspace/base/check.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 

@@ -2,7 +2,7 @@
 // Transforms of the scene graph, and the viewpoint taken through them into a node's own coordinates (equation 3 of the
 // paper). All functions are pure and may be called from any thread.
 
-#include "rayspace/camera.hpp"
+#include "rayspace/geometry/camera.hpp"
 
 #include <glm/glm.hpp>
 

@@ -3,7 +3,7 @@
 #include "compositor/scene/gzip.hpp"
 #include "compositor/scene/vrml/clean_vrml.hpp"
 #include "compositor/scene/vrml/flatten.hpp"
-#include "rayspace/file_output.hpp"
+#include "rayspace/file/file_output.hpp"
 
 #include <map>
 #include <memory>

@@ -1,8 +1,8 @@
 #pragma once
-// Scenes from VRML97 files (.wrl, plain or gzip): vrml/clean_vrml.hpp tells what is read and what is left out.
+// Scenes from VRML97 files (.wrl, plain or gzip): scene/vrml/clean_vrml.hpp tells what is read and what is left out.
 //
 // Besides the nodes of VRML97 there are one for objects made of pictures and one for rooms, whose objects are in memory
-// while a visitor is in them or near (viewer/room_plan.hpp):
+// while a visitor is in them or near (viewer/residency/room_plan.hpp):
 //
 //     RaySpace {
 //         exposedField MFString url          []     # the .rso file; the first counts
@@ -18,7 +18,7 @@
 //     }
 
 #include "compositor/scene/scene.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <filesystem>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include "compositor/tools/asked_cameras.hpp"
 
-#include "compositor/viewer/framing.hpp"
+#include "compositor/viewer/views/framing.hpp"
 
 #include <algorithm>
 #include <cmath>

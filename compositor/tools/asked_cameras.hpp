@@ -3,9 +3,9 @@
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/tools/view_arguments.hpp"
-#include "compositor/viewer/placed_object.hpp"
-#include "rayspace/result.hpp"
-#include "rayspace/tool_main.hpp"
+#include "compositor/viewer/residency/placed_object.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <functional>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 // What was asked of rs-view.
 
-#include "compositor/viewer/frame_compositor.hpp"
+#include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 
 #include <cstdint>

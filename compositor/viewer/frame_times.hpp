@@ -1,10 +1,10 @@
 #pragma once
 // How long frames take, all in all and by part, and how long objects were missing in them.
 
-#include "compositor/viewer/frame_compositor.hpp"
+#include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
-#include "rayspace/camera.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/camera.hpp"
 
 #include <chrono>
 #include <cstdint>

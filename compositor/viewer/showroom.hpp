@@ -5,11 +5,11 @@
 // No OpenGL here. One thread; it never waits for a file unless the options say so.
 
 #include "compositor/scene/scene.hpp"
-#include "compositor/viewer/object_store.hpp"
-#include "compositor/viewer/room_plan.hpp"
-#include "compositor/viewer/shown_node.hpp"
+#include "compositor/viewer/drawing/shown_node.hpp"
+#include "compositor/viewer/residency/object_store.hpp"
+#include "compositor/viewer/residency/room_plan.hpp"
 #include "engine/driver/data_module.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <glm/glm.hpp>
 

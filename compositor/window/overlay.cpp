@@ -1,6 +1,6 @@
 #include "compositor/window/overlay.hpp"
 
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/conventions.hpp"
 
 #include <imgui.h>
 

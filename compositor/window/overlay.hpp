@@ -1,7 +1,7 @@
 #pragma once
 // What lies over the picture in a window: a panel of figures and switches, help, and a line of news. Dear ImGui.
 
-#include "compositor/viewer/navigation.hpp"
+#include "compositor/viewer/views/navigation.hpp"
 #include "compositor/window/window.hpp"
 
 #include <string>

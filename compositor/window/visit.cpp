@@ -1,7 +1,7 @@
 #include "compositor/window/visit.hpp"
 
-#include "compositor/viewer/framing.hpp"
-#include "rayspace/median.hpp"
+#include "compositor/viewer/views/framing.hpp"
+#include "rayspace/base/median.hpp"
 
 #include <algorithm>
 #include <cstdio>

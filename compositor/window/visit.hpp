@@ -4,14 +4,14 @@
 // For the main thread only. The scene is read before; objects come while the visit goes on.
 
 #include "compositor/scene/scene.hpp"
-#include "compositor/viewer/frame_compositor.hpp"
-#include "compositor/viewer/navigation.hpp"
+#include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
+#include "compositor/viewer/views/navigation.hpp"
 #include "compositor/window/overlay.hpp"
 #include "compositor/window/visitor_input.hpp"
 #include "compositor/window/window.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <chrono>
 #include <filesystem>

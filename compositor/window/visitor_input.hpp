@@ -1,7 +1,7 @@
 #pragma once
 // From events to what the visitor wants: movement for as long as keys are held and buttons dragged, commands once.
 
-#include "compositor/viewer/navigation.hpp"
+#include "compositor/viewer/views/navigation.hpp"
 #include "compositor/window/events.hpp"
 
 #include <optional>

@@ -4,7 +4,7 @@
 
 #include "compositor/gl/context.hpp"
 #include "compositor/window/events.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <memory>
 #include <string>

@@ -1,6 +1,6 @@
 #include "datasets-synthetic/showroom/furniture.hpp"
 
-#include "datasets-synthetic/paint.hpp"
+#include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/showroom/surface_painting.hpp"
 
 #include <vector>

@@ -2,7 +2,7 @@
 // Pieces that shop and museum are furnished with. Each is built in the frame in which the builder stands: it faces +Z,
 // its foot is at y = 0. Looks that they use: furniture_looks().
 
-#include "datasets-synthetic/random.hpp"
+#include "datasets-synthetic/shapes/random.hpp"
 #include "datasets-synthetic/showroom/room_builder.hpp"
 
 #include <span>

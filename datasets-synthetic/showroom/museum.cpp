@@ -1,8 +1,8 @@
 #include "datasets-synthetic/showroom/museum.hpp"
 
-#include "datasets-synthetic/curve.hpp"
-#include "datasets-synthetic/noise.hpp"
-#include "datasets-synthetic/paint.hpp"
+#include "datasets-synthetic/shapes/curve.hpp"
+#include "datasets-synthetic/shapes/noise.hpp"
+#include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/showroom/furniture.hpp"
 #include "datasets-synthetic/showroom/picture_painting.hpp"
 #include "datasets-synthetic/showroom/room_shell.hpp"

@@ -1,6 +1,6 @@
 #include "datasets-synthetic/showroom/object_shape.hpp"
 
-#include "rayspace/check.hpp"
+#include "rayspace/base/check.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
 // How large the procedural objects are as pictures show them, so that they can be placed by their height. In object
-// radii: the radius of the upright cylinder around the object (rayspace/conventions.hpp).
+// radii: the radius of the upright cylinder around the object (rayspace/base/conventions.hpp).
 
 #include <string>
 #include <vector>

@@ -1,10 +1,10 @@
 #include "datasets-synthetic/showroom/picture_painting.hpp"
 
-#include "datasets-synthetic/curve.hpp"
-#include "datasets-synthetic/lettering.hpp"
-#include "datasets-synthetic/noise.hpp"
-#include "datasets-synthetic/paint.hpp"
-#include "datasets-synthetic/random.hpp"
+#include "datasets-synthetic/shapes/curve.hpp"
+#include "datasets-synthetic/shapes/lettering.hpp"
+#include "datasets-synthetic/shapes/noise.hpp"
+#include "datasets-synthetic/shapes/paint.hpp"
+#include "datasets-synthetic/shapes/random.hpp"
 
 #include <algorithm>
 #include <array>

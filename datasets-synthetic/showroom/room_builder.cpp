@@ -1,11 +1,11 @@
 #include "datasets-synthetic/showroom/room_builder.hpp"
 
-#include "datasets-synthetic/lathe.hpp"
+#include "datasets-synthetic/shapes/lathe.hpp"
+#include "datasets-synthetic/shapes/sweep.hpp"
 #include "datasets-synthetic/showroom/object_shape.hpp"
-#include "datasets-synthetic/sweep.hpp"
-#include "rayspace/check.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/linear_light.hpp"
+#include "rayspace/base/check.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // Builds the parts of a room from boxes, sheets, lathes and tubes, in the coordinates of the piece of furniture at
 // hand. Everything is appended to a World. Not thread-safe.
 
-#include "datasets-synthetic/frame.hpp"
+#include "datasets-synthetic/shapes/frame.hpp"
 #include "datasets-synthetic/showroom/world.hpp"
 
 #include <functional>

@@ -1,4 +1,4 @@
-#include "datasets-synthetic/paint.hpp"
+#include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/showroom/furniture.hpp"
 #include "datasets-synthetic/showroom/picture_painting.hpp"
 #include "datasets-synthetic/showroom/surface_painting.hpp"

@@ -1,7 +1,7 @@
 #include "datasets-synthetic/showroom/shop.hpp"
 
-#include "datasets-synthetic/curve.hpp"
-#include "datasets-synthetic/paint.hpp"
+#include "datasets-synthetic/shapes/curve.hpp"
+#include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/showroom/furniture.hpp"
 #include "datasets-synthetic/showroom/picture_painting.hpp"
 #include "datasets-synthetic/showroom/room_shell.hpp"

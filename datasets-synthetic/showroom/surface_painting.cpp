@@ -1,9 +1,9 @@
 #include "datasets-synthetic/showroom/surface_painting.hpp"
 
-#include "datasets-synthetic/curve.hpp"
-#include "datasets-synthetic/noise.hpp"
-#include "datasets-synthetic/paint.hpp"
-#include "datasets-synthetic/random.hpp"
+#include "datasets-synthetic/shapes/curve.hpp"
+#include "datasets-synthetic/shapes/noise.hpp"
+#include "datasets-synthetic/shapes/paint.hpp"
+#include "datasets-synthetic/shapes/random.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 //
 // Metres, Y up, the visitor's floor at y = 0. Colours of looks and lights are sRGB, 0xRRGGBB, as VRML97 has them.
 
-#include "capture/tracer/scene.hpp"
-#include "rayspace/image.hpp"
+#include "capture/tracer/scene/scene.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <glm/glm.hpp>
 

@@ -1,10 +1,10 @@
 #include "datasets-synthetic/showroom/world_file.hpp"
 
-#include "rayspace/check.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/file_output.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/write_file.hpp"
+#include "rayspace/base/check.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/file/write_file.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <nlohmann/json.hpp>
 

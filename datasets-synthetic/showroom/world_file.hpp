@@ -2,7 +2,7 @@
 // Writes a world as VRML97 with its textures, and the way through it as JSON.
 
 #include "datasets-synthetic/showroom/world.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <filesystem>
 #include <string>

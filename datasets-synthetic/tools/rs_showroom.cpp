@@ -2,7 +2,7 @@
 
 #include "datasets-synthetic/showroom/showroom.hpp"
 #include "datasets-synthetic/showroom/world_file.hpp"
-#include "rayspace/tool_main.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <CLI/CLI.hpp>
 

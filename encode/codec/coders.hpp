@@ -2,7 +2,7 @@
 // The encoder's two coders for rayspace/codec/syntax.hpp: one that adds up what decisions would cost, and one that
 // keeps them until the probabilities are known.
 
-#include "rayspace/codec/contexts.hpp"
+#include "rayspace/codec/code/contexts.hpp"
 
 #include <array>
 #include <cmath>

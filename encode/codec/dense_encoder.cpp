@@ -6,9 +6,9 @@
 #include "encode/codec/ring_references.hpp"
 #include "encode/codec/source_picture.hpp"
 #include "encode/codec/tile_encoder.hpp"
+#include "rayspace/base/median.hpp"
 #include "rayspace/codec/context_states.hpp"
-#include "rayspace/codec/decode_picture.hpp"
-#include "rayspace/median.hpp"
+#include "rayspace/codec/stream/decode_picture.hpp"
 
 #include <tbb/parallel_for.h>
 

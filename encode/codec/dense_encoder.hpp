@@ -5,10 +5,10 @@
 
 #include "encode/codec/encoded_pictures.hpp"
 #include "encode/codec/source_picture.hpp"
-#include "rayspace/codec/coded_pictures.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/ray_space_object.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/codec/code/coded_pictures.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 #include <array>
 #include <functional>

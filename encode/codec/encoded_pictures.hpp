@@ -1,7 +1,7 @@
 #pragma once
 // What an encoder of pictures gives.
 
-#include "rayspace/codec/coded_pictures.hpp"
+#include "rayspace/codec/code/coded_pictures.hpp"
 
 namespace rs::encode {
 

@@ -1,7 +1,7 @@
 #include "encode/codec/fidelity.hpp"
 
 #include "rayspace/codec/part_syntax.hpp"
-#include "rayspace/yuv.hpp"
+#include "rayspace/object/yuv.hpp"
 
 #include <tbb/parallel_for.h>
 

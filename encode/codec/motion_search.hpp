@@ -2,7 +2,7 @@
 // Where in another picture a part is best predicted from.
 
 #include "encode/codec/source_picture.hpp"
-#include "rayspace/codec/prediction.hpp"
+#include "rayspace/codec/kernels/prediction.hpp"
 
 #include <span>
 

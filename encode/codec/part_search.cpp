@@ -3,7 +3,7 @@
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/quantise.hpp"
 #include "rayspace/codec/alpha_mask.hpp"
-#include "rayspace/codec/transform.hpp"
+#include "rayspace/codec/kernels/transform.hpp"
 
 #include <algorithm>
 #include <cmath>

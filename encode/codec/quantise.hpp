@@ -14,7 +14,7 @@ void forward_transform(const std::int16_t* residual, int size, std::int32_t* coe
 
 struct QuantiserSettings {
     int size = 8;
-    int kind = 0;      // of rayspace/codec/contexts.hpp
+    int kind = 0;      // of rayspace/codec/code/contexts.hpp
     int step = 0;      // index
     float weight = 1;  // of a squared error of the plane
     float lambda = 0;  // weighted squared error that a bit is worth

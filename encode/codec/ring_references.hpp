@@ -1,7 +1,7 @@
 #pragma once
 // Which pictures of a ring one is predicted from: the nearest on either side that may serve.
 
-#include "rayspace/ray_space_object.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,8 +1,8 @@
 #pragma once
 // A picture as the encoder sees it: planes of the coded size, and which samples matter.
 
-#include "rayspace/codec/dense_code.hpp"
-#include "rayspace/image.hpp"
+#include "rayspace/codec/code/dense_code.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <array>
 #include <cstdint>

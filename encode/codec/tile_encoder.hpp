@@ -3,7 +3,7 @@
 
 #include "encode/codec/coders.hpp"
 #include "encode/codec/source_picture.hpp"
-#include "rayspace/codec/dense_code.hpp"
+#include "rayspace/codec/code/dense_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
 
 #include <array>

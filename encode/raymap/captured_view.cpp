@@ -1,7 +1,7 @@
 #include "encode/raymap/captured_view.hpp"
 
 #include "encode/raymap/fixed_point.hpp"
-#include "rayspace/ray_space.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
 #pragma once
-// From a floating-point camera to the integers of a CapturedView (rayspace/ray_space_object.hpp).
+// From a floating-point camera to the integers of a CapturedView (rayspace/object/ray_space_object.hpp).
 
-#include "rayspace/camera.hpp"
-#include "rayspace/ray_space_object.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/camera.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 namespace rs::encode {
 

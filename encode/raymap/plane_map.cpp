@@ -1,7 +1,7 @@
 #include "encode/raymap/plane_map.hpp"
 
-#include "rayspace/conventions.hpp"
-#include "rayspace/ray_space.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 
 #include <tbb/parallel_for.h>
 

@@ -3,8 +3,8 @@
 // point x is nearest in angle; the object is taken to lie on the plane (section 2, "nearest neighbour").
 
 #include "encode/raymap/rings.hpp"
-#include "rayspace/ray_space_object.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 namespace rs::encode {
 

@@ -1,7 +1,7 @@
 #pragma once
 // Which views of a rig belong together as a ring about the Y axis.
 
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
 
 #include <vector>
 

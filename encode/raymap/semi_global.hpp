@@ -3,7 +3,7 @@
 // Information", 2008) over eight paths, within the object's pixels.
 
 #include "encode/raymap/cost_volume.hpp"
-#include "rayspace/image.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <limits>
 

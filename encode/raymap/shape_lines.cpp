@@ -3,8 +3,8 @@
 #include "encode/raymap/depth_range.hpp"
 #include "encode/raymap/fixed_point.hpp"
 #include "encode/raymap/semi_global.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/median.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/median.hpp"
 
 #include <tbb/parallel_for.h>
 

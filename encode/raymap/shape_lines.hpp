@@ -1,11 +1,11 @@
 #pragma once
-// From depths of captured pictures to the cells of a shape map (rayspace/shape_map.hpp): every line of every gap sees
-// the surfaces of the two pictures beside it, moved to its own viewpoint.
+// From depths of captured pictures to the cells of a shape map (rayspace/object/shape_map.hpp): every line of every gap
+// sees the surfaces of the two pictures beside it, moved to its own viewpoint.
 
 #include "encode/raymap/visual_hull.hpp"
 #include "encode/raymap/work_view.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/shape_map.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/object/shape_map.hpp"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #include "encode/raymap/shape_map.hpp"
 
 #include "encode/raymap/cost_volume.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/parallel.hpp"
-#include "rayspace/ray_space.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/parallel.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 
 #include <algorithm>
 #include <cmath>

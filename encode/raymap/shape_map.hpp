@@ -1,5 +1,5 @@
 #pragma once
-// Finds the shape maps of an object (rayspace/shape_map.hpp) from its pictures.
+// Finds the shape maps of an object (rayspace/object/shape_map.hpp) from its pictures.
 //
 // For every picture of a ring: the visual hull of all silhouettes, those of the rings next below and above among them,
 // bounds the depths; the colours of the pictures to either side and below and above say which depth agrees
@@ -7,13 +7,13 @@
 // this one's, because only each for itself is calibrated, is left out. Then every line between two pictures takes over
 // what both have found (shape_lines.hpp).
 
-#include "encode/capture_set.hpp"
 #include "encode/raymap/rings.hpp"
 #include "encode/raymap/semi_global.hpp"
 #include "encode/raymap/shape_lines.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/ray_space_object.hpp"
-#include "rayspace/result.hpp"
+#include "encode/set/capture_set.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 #include <string>
 #include <vector>

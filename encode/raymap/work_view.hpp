@@ -2,8 +2,8 @@
 // A captured picture as the depth search sees it: scaled down to a working size, its columns contiguous, with the
 // geometry of an upright camera taken apart into a horizontal and a vertical half.
 
-#include "rayspace/camera.hpp"
-#include "rayspace/image.hpp"
+#include "rayspace/geometry/camera.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <glm/glm.hpp>
 

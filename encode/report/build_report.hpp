@@ -3,10 +3,10 @@
 
 #include "encode/held_out_scores.hpp"
 #include "encode/report/stage_clock.hpp"
-#include "rayspace/object_file.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "rayspace/page/page_pictures.hpp"
-#include "rayspace/result.hpp"
-#include "rayspace/rig.hpp"
 
 #include <string>
 #include <vector>

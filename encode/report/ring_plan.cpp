@@ -1,7 +1,7 @@
 #include "encode/report/ring_plan.hpp"
 
 #include "encode/raymap/rings.hpp"
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/conventions.hpp"
 #include "rayspace/page/line_plot.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // The rings of a capture set seen from above, as inline SVG: where the cameras stand, and which sectors they miss.
 
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
 
 #include <string>
 #include <vector>

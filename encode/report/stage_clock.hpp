@@ -1,7 +1,7 @@
 #pragma once
 // A Progress that passes everything on and notes how long each stage took.
 
-#include "rayspace/progress.hpp"
+#include "rayspace/base/progress.hpp"
 
 #include <chrono>
 #include <optional>

@@ -1,15 +1,15 @@
 #include "encode/tools/build_command.hpp"
 
 #include "encode/build.hpp"
-#include "encode/capture_set.hpp"
 #include "encode/report/build_report.hpp"
 #include "encode/report/stage_clock.hpp"
+#include "encode/set/capture_set.hpp"
 #include "encode/tools/profile_options.hpp"
 #include "encode/tools/report_of_build.hpp"
-#include "rayspace/file_output.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/tool_main.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // `rs-encode build`: a capture set as an object, and a page about it.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
 

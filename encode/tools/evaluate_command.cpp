@@ -1,12 +1,12 @@
 #include "encode/tools/evaluate_command.hpp"
 
 #include "encode/tools/evaluation.hpp"
-#include "rayspace/file_output.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/output/view_output.hpp"
 #include "rayspace/page/page_pictures.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/printable.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/view_output.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // `rs-encode evaluate`: how good an object of a set is, on views that are held out of it.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
 

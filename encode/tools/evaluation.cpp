@@ -1,10 +1,10 @@
 #include "encode/tools/evaluation.hpp"
 
-#include "engine/core/renderer.hpp"
-#include "engine/core/view_registers.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/parallel.hpp"
-#include "rayspace/picture_metrics.hpp"
+#include "engine/core/definition/view_registers.hpp"
+#include "engine/core/fast/renderer.hpp"
+#include "rayspace/base/parallel.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/image/picture_metrics.hpp"
 
 #include <algorithm>
 #include <chrono>

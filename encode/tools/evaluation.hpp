@@ -5,12 +5,12 @@
 // stored as Y, U and V.
 
 #include "encode/build.hpp"
-#include "encode/capture_set.hpp"
 #include "encode/held_out_scores.hpp"
 #include "encode/hold_out.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/result.hpp"
+#include "encode/set/capture_set.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <functional>
 #include <string>

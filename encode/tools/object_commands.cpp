@@ -1,10 +1,10 @@
 #include "encode/tools/object_commands.hpp"
 
 #include "encode/build.hpp"
-#include "rayspace/codec/byte_account.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/printable.hpp"
-#include "rayspace/progress.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/codec/stream/byte_account.hpp"
+#include "rayspace/format/object_file.hpp"
 
 #include <nlohmann/json.hpp>
 

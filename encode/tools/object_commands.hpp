@@ -1,7 +1,7 @@
 #pragma once
 // `rs-encode info`, `verify` and `extract`: a look into objects.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
 

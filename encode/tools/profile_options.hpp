@@ -1,8 +1,8 @@
 #pragma once
 // The options of `rs-encode build` that say how pictures are stored.
 
-#include "encode/codec/encode_pictures.hpp"
-#include "rayspace/result.hpp"
+#include "encode/encode_pictures.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
 

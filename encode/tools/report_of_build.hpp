@@ -1,11 +1,11 @@
 #pragma once
 // Gathers what the page of a build shows of a capture set (encode/report/build_report.hpp).
 
-#include "encode/capture_set.hpp"
 #include "encode/raymap/shape_map.hpp"
 #include "encode/report/build_report.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/result.hpp"
+#include "encode/set/capture_set.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include "encode/tools/build_command.hpp"
 #include "encode/tools/evaluate_command.hpp"
 #include "encode/tools/object_commands.hpp"
-#include "rayspace/tool_main.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 int main(int argc, char** argv) {
     using namespace rs::encode;

@@ -1,10 +1,10 @@
 #include "engine/conformance/run_vectors.hpp"
 
 #include "engine/conformance/view_files.hpp"
-#include "engine/core/reconstruct.hpp"
-#include "engine/core/renderer.hpp"
-#include "rayspace/codec/decode_picture.hpp"
-#include "rayspace/object_file.hpp"
+#include "engine/core/definition/reconstruct.hpp"
+#include "engine/core/fast/renderer.hpp"
+#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/format/object_file.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -2,10 +2,10 @@
 // Executors on the conformance set: whoever turns an object and view registers into a picture.
 
 #include "engine/conformance/vectors.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/ray_space_object.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 #include <cstdint>
 #include <filesystem>

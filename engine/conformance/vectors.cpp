@@ -1,8 +1,8 @@
 #include "engine/conformance/vectors.hpp"
 
-#include "rayspace/byte_stream.hpp"
-#include "rayspace/file_output.hpp"
-#include "rayspace/write_file.hpp"
+#include "rayspace/base/byte_stream.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/file/write_file.hpp"
 
 #include <xxhash.h>
 #include <nlohmann/json.hpp>

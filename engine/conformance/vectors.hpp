@@ -2,9 +2,9 @@
 // The conformance set: objects, views as registers, and hashes of the pictures that engine/RECONSTRUCTION.md makes of
 // them. A folder of files that any implementation can read: engine/conformance/PROTOCOL.md.
 
-#include "engine/core/view_registers.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/result.hpp"
+#include "engine/core/definition/view_registers.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -4,10 +4,10 @@
 // takes(), draws() and as_drawn() may be called from any thread at any time; all else from one thread at a time (the
 // data module's board thread).
 
-#include "engine/core/view_registers.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/ray_space_object.hpp"
-#include "rayspace/result.hpp"
+#include "engine/core/definition/view_registers.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 #include <optional>
 #include <vector>

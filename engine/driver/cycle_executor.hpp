@@ -2,10 +2,10 @@
 // Draws rendering cycles: what the board holds and can draw on the board, at the same time the rest on the software
 // core (data_module.hpp).
 
-#include "engine/core/renderer.hpp"
+#include "engine/core/fast/renderer.hpp"
 #include "engine/driver/board_thread.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <cstdint>
 #include <memory>

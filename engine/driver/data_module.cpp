@@ -1,7 +1,7 @@
 #include "engine/driver/data_module.hpp"
 
-#include "engine/core/renderer.hpp"
-#include "rayspace/object_file.hpp"
+#include "engine/core/fast/renderer.hpp"
+#include "rayspace/format/object_file.hpp"
 
 #include <condition_variable>
 #include <map>

@@ -14,10 +14,10 @@
 
 #include "engine/driver/board_thread.hpp"
 #include "engine/driver/cycle_executor.hpp"
-#include "rayspace/camera.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/ray_space_object.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/camera.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -43,7 +43,7 @@ struct CycleHandle {
 
 struct DataModuleLimits {
     int objects = 20;          // loaded at a time
-    int views_per_cycle = 15;  // the board's; see model/board_limits.hpp
+    int views_per_cycle = 15;  // the board's; see model/limits/board_limits.hpp
     int cycles_in_flight = 2;  // queued, being rendered, or rendered and not yet retrieved: double buffering
 };
 

@@ -10,14 +10,14 @@
 // Asks run ahead of their pixels, so that several blocks are under way in every chain. No chain waits for a later one:
 // what a later hop needs has been asked for when the record that leads there can be taken.
 
-#include "engine/model/blocks/block_motion.hpp"
-#include "engine/model/blocks/block_scan.hpp"
-#include "engine/model/blocks/book_lookup.hpp"
-#include "engine/model/blocks/memory_controller.hpp"
-#include "engine/model/blocks/record_reader.hpp"
-#include "engine/model/blocks/record_select.hpp"
-#include "engine/model/blocks/tile_finder.hpp"
-#include "engine/model/blocks/tile_reader.hpp"
+#include "engine/model/blocks/decompression/block_motion.hpp"
+#include "engine/model/blocks/decompression/block_scan.hpp"
+#include "engine/model/blocks/decompression/book_lookup.hpp"
+#include "engine/model/blocks/decompression/record_reader.hpp"
+#include "engine/model/blocks/decompression/record_select.hpp"
+#include "engine/model/blocks/decompression/tile_finder.hpp"
+#include "engine/model/blocks/decompression/tile_reader.hpp"
+#include "engine/model/blocks/memory/memory_controller.hpp"
 #include "engine/model/clock/simulator.hpp"
 
 #include <memory>

@@ -5,10 +5,10 @@
 // Not thread-safe. The same calls give the same bits and the same cycles.
 
 #include "engine/model/board_top.hpp"
-#include "engine/model/memory_map.hpp"
-#include "engine/model/object_image.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/ray_space_object.hpp"
+#include "engine/model/layout/memory_map.hpp"
+#include "engine/model/layout/object_image.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "engine/model/simulated_board.hpp"
 
 #include "engine/model/board.hpp"
-#include "engine/model/object_image.hpp"
+#include "engine/model/layout/object_image.hpp"
 
 #include <utility>
 

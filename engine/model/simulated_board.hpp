@@ -3,7 +3,7 @@
 // program would see of the real one, only slower.
 
 #include "engine/driver/board_device.hpp"
-#include "engine/model/board_config.hpp"
+#include "engine/model/signals/board_config.hpp"
 
 #include <memory>
 

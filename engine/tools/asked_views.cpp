@@ -1,9 +1,9 @@
 #include "engine/tools/asked_views.hpp"
 
-#include "engine/core/orbit.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/rig.hpp"
-#include "rayspace/tool_main.hpp"
+#include "engine/core/views/orbit.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 namespace rs::engine {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 // The options by which the commands are told what to look at: an orbit, the cameras of a rig, or one view from an eye.
 
-#include "rayspace/camera.hpp"
-#include "rayspace/ray_space_object.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/camera.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -1,7 +1,7 @@
 #include "engine/tools/board_executor.hpp"
 
 #include "engine/model/board.hpp"
-#include "engine/model/object_image.hpp"
+#include "engine/model/layout/object_image.hpp"
 
 #include <memory>
 #include <utility>

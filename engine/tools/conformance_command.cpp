@@ -1,10 +1,10 @@
 #include "engine/tools/conformance_command.hpp"
 
 #include "engine/conformance/run_vectors.hpp"
-#include "engine/core/conformance.hpp"
+#include "engine/core/views/conformance.hpp"
 #include "engine/tools/board_executor.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/progress.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/format/object_file.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // `rs-engine conformance`: does an implementation compute what the definition says?
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -1,10 +1,10 @@
 #include "engine/tools/measure_commands.hpp"
 
-#include "engine/core/compare.hpp"
-#include "engine/model/board_limits.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/printable.hpp"
-#include "rayspace/progress.hpp"
+#include "engine/core/views/compare.hpp"
+#include "engine/model/limits/board_limits.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/format/object_file.hpp"
 
 #include <nlohmann/json.hpp>
 

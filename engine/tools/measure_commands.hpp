@@ -1,7 +1,7 @@
 #pragma once
 // `rs-engine compare` and `board`: how good and how large an object is.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
 

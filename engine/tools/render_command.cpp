@@ -1,17 +1,17 @@
 #include "engine/tools/render_command.hpp"
 
-#include "engine/core/contact_sheet.hpp"
-#include "engine/core/depth_picture.hpp"
-#include "engine/core/renderer.hpp"
+#include "engine/core/fast/renderer.hpp"
+#include "engine/core/views/contact_sheet.hpp"
+#include "engine/core/views/depth_picture.hpp"
 #include "engine/tools/asked_views.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/file_output.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/parallel.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/rig.hpp"
-#include "rayspace/view_output.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/parallel.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/output/view_output.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
 #include <filesystem>

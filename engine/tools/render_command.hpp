@@ -1,7 +1,7 @@
 #pragma once
 // `rs-engine render`: views of an object as pictures, a contact sheet or a video.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -4,7 +4,7 @@
 #include "engine/tools/measure_commands.hpp"
 #include "engine/tools/render_command.hpp"
 #include "engine/tools/simulate_command.hpp"
-#include "rayspace/tool_main.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 int main(int argc, char** argv) {
     using namespace rs::engine;

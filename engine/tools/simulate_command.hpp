@@ -1,7 +1,7 @@
 #pragma once
 // `rs-engine simulate`: views drawn by the cycle-accurate model of the board, and where its cycles went.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -2,7 +2,7 @@
 // Alpha as a mask: a bit per sample that says whether it is covered by half or more, and what is made of it when a
 // tile's masks are known. Integer and normative: encode/FORMAT.md, section "Masks". No function here allocates.
 
-#include "rayspace/codec/dense_code.hpp"
+#include "rayspace/codec/code/dense_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 

@@ -3,8 +3,8 @@
 // probabilities of the object's table, so tiles stay independent of each other.
 
 #include "rayspace/codec/bool_decoder.hpp"
-#include "rayspace/codec/contexts.hpp"
-#include "rayspace/codec/dense_code.hpp"
+#include "rayspace/codec/code/contexts.hpp"
+#include "rayspace/codec/code/dense_code.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 // The decoder of one tile of a dense picture: encode/FORMAT.md, section "Dense pictures". Integer and normative; engine
 // and tools share it.
 
-#include "rayspace/codec/dense_code.hpp"
-#include "rayspace/image.hpp"
+#include "rayspace/codec/code/dense_code.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <array>
 #include <cstddef>

@@ -3,9 +3,9 @@
 // the smoothed one. The rules are those of HEVC's filter (ITU-T H.265, 8.7.2.5) with thresholds of our quantiser's
 // steps. Integer and normative: encode/FORMAT.md, section "Edges of blocks".
 
-#include "rayspace/codec/dense_code.hpp"
+#include "rayspace/codec/code/dense_code.hpp"
+#include "rayspace/codec/code/tile_grid.hpp"
 #include "rayspace/codec/dense_tile.hpp"
-#include "rayspace/codec/tile_grid.hpp"
 
 namespace rs::codec {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The quantised coefficients of one transform.
 
-#include "rayspace/codec/transform.hpp"
+#include "rayspace/codec/kernels/transform.hpp"
 
 #include <cstdint>
 

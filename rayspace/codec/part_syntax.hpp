@@ -2,8 +2,8 @@
 // A macroblock's alpha and a part's choices in the order of the stream: encode/FORMAT.md, sections "Macroblocks" and
 // "Parts". Built from the single decisions of syntax.hpp; used by the decoder and, with other coders, by the encoder.
 
+#include "rayspace/codec/code/tile_grid.hpp"
 #include "rayspace/codec/syntax.hpp"
-#include "rayspace/codec/tile_grid.hpp"
 
 #include <array>
 #include <cstdint>

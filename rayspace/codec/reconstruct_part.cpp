@@ -1,7 +1,7 @@
 #include "rayspace/codec/reconstruct_part.hpp"
 
-#include "rayspace/codec/prediction.hpp"
-#include "rayspace/codec/transform.hpp"
+#include "rayspace/codec/kernels/prediction.hpp"
+#include "rayspace/codec/kernels/transform.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // The samples of a part from what it says; the same for decoder and encoder. encode/FORMAT.md, section
 // "Reconstruction".
 
-#include "rayspace/codec/dense_code.hpp"
+#include "rayspace/codec/code/dense_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 

@@ -5,10 +5,10 @@
 // stands in the stream; a writer writes `value` and returns it; an estimator adds up what it would cost. Every function
 // here takes the values to be written and returns, or fills in, those that are then known.
 
-#include "rayspace/codec/contexts.hpp"
+#include "rayspace/codec/code/contexts.hpp"
+#include "rayspace/codec/code/tile_grid.hpp"
+#include "rayspace/codec/kernels/transform.hpp"
 #include "rayspace/codec/levels.hpp"
-#include "rayspace/codec/tile_grid.hpp"
-#include "rayspace/codec/transform.hpp"
 
 #include <bit>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "rayspace/page/html_page.hpp"
 
-#include "rayspace/check.hpp"
-#include "rayspace/picture_io.hpp"
+#include "rayspace/base/check.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
 #include <cstdint>

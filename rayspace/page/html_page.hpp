@@ -3,8 +3,8 @@
 //
 // Every text is escaped; the page follows the reader's light or dark setting.
 
+#include "rayspace/base/result.hpp"
 #include "rayspace/page/page_pictures.hpp"
-#include "rayspace/result.hpp"
 
 #include <span>
 #include <string>

@@ -1,6 +1,6 @@
 #include "rayspace/page/line_plot.hpp"
 
-#include "rayspace/check.hpp"
+#include "rayspace/base/check.hpp"
 #include "rayspace/page/html_page.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "rayspace/page/page_pictures.hpp"
 
-#include "rayspace/check.hpp"
-#include "rayspace/linear_light.hpp"
+#include "rayspace/base/check.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 // Pictures for people to look at: made small, and numbers made colours.
 
-#include "rayspace/image.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <string>
 #include <vector>

@@ -1,9 +1,9 @@
 // How fast astcenc unpacks whole pictures, beside what bench_core measures of the engine: it prints the time of its
 // decoder alone. Left out, with a message, where the command is not there.
 
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "tests/bench/ball_picture.hpp"
-#include "tests/bench/rd/tool_process.hpp"
+#include "tests/bench/rd/anchors/tool_process.hpp"
 
 #include <benchmark/benchmark.h>
 #include <opencv2/imgcodecs.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 // A picture that codecs have something to do with.
 
-#include "rayspace/camera.hpp"
-#include "rayspace/image.hpp"
+#include "rayspace/geometry/camera.hpp"
+#include "rayspace/image/image.hpp"
 
 namespace rs::bench {
 

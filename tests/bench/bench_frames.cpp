@@ -9,12 +9,12 @@
 // more than a frame, in which the engine and OpenGL draw at the same time.
 
 #include "compositor/gl/context.hpp"
-#include "compositor/viewer/frame_compositor.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/median.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/tool_main.hpp"
-#include "rayspace/view_output.hpp"
+#include "compositor/viewer/drawing/frame_compositor.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/median.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/output/view_output.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -7,12 +7,12 @@
 // Nothing else should run beside it.
 
 #include "compositor/gl/context.hpp"
-#include "compositor/viewer/frame_compositor.hpp"
+#include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/frame_times.hpp"
 #include "compositor/viewer/showroom.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/object_memory.hpp"
-#include "rayspace/tool_main.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/format/object_memory.hpp"
+#include "rayspace/tool/tool_main.hpp"
 #include "tests/compositor/six_rooms.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/sphere_object.hpp"

@@ -8,8 +8,8 @@
 // are written side by side.
 
 #include "compositor/gl/context.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/tool_main.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/tool/tool_main.hpp"
 #include "tests/compositor/truth_comparison.hpp"
 #include "tests/compositor/truth_scene.hpp"
 

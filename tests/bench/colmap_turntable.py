@@ -103,7 +103,7 @@ def published_steps(path):
 
 
 def turntable_rotation(pan, tilt, roll, angle):
-    """Rz(roll) Rx(tilt) Ry(pan) Ry(angle), all in degrees: capture/calibration/turntable_model.hpp."""
+    """Rz(roll) Rx(tilt) Ry(pan) Ry(angle), all in degrees: capture/calibration/model/turntable_model.hpp."""
     c, s = math.cos(math.radians(pan + angle)), math.sin(math.radians(pan + angle))
     about_y = [[c, 0, s], [0, 1, 0], [-s, 0, c]]
     c, s = math.cos(math.radians(tilt)), math.sin(math.radians(tilt))

@@ -17,12 +17,12 @@
 //
 // astc_decode/BLOCK (astc_decode.cpp): how fast the command astcenc unpacks a whole picture of that ball.
 
-#include "encode/codec/board_encoder.hpp"
+#include "encode/codec/board/board_encoder.hpp"
 #include "encode/codec/dense_encoder.hpp"
-#include "engine/core/reconstruct.hpp"
-#include "engine/core/renderer.hpp"
-#include "engine/core/sample_store.hpp"
-#include "rayspace/conventions.hpp"
+#include "engine/core/definition/reconstruct.hpp"
+#include "engine/core/fast/renderer.hpp"
+#include "engine/core/fast/sample_store.hpp"
+#include "rayspace/base/conventions.hpp"
 #include "tests/bench/ball_picture.hpp"
 #include "tests/support/ring_object.hpp"
 #include "tests/support/small_shape.hpp"

@@ -6,12 +6,12 @@
 // CSV: cell side in pixels, bytes in the file, share of the raw pictures, bytes in memory, dB.
 
 #include "encode/build.hpp"
-#include "engine/core/compare.hpp"
-#include "engine/core/renderer.hpp"
+#include "engine/core/fast/renderer.hpp"
+#include "engine/core/views/compare.hpp"
+#include "rayspace/file/write_file.hpp"
+#include "rayspace/format/shape_chunk.hpp"
 #include "rayspace/page/line_plot.hpp"
-#include "rayspace/shape_chunk.hpp"
-#include "rayspace/tool_main.hpp"
-#include "rayspace/write_file.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <cstdio>
 #include <span>

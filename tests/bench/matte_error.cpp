@@ -13,12 +13,12 @@
 // DIR gets the plate, and per view the cut-out over magenta, and beside it the error: red where alpha is too small,
 // blue too large.
 
-#include "capture/photos/cut_out.hpp"
-#include "capture/photos/opencv_image.hpp"
-#include "capture/photos/photo_folder.hpp"
-#include "capture/photos/survey.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/tool_main.hpp"
+#include "capture/photos/intake/opencv_image.hpp"
+#include "capture/photos/intake/photo_folder.hpp"
+#include "capture/photos/intake/survey.hpp"
+#include "capture/photos/matte/cut_out.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <opencv2/imgproc.hpp>
 

@@ -1,7 +1,7 @@
 // `rs-capture synth --as-photos` as a user meets it.
 
-#include "rayspace/picture_io.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
 

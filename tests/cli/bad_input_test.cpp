@@ -1,6 +1,6 @@
 // Bad input: one line that names the file, exit code 1, nothing half-written, no crash (run under the sanitizers too).
 
-#include "rayspace/file_output.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/small_disk.hpp"

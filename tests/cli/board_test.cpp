@@ -1,6 +1,6 @@
 // `rs-capture board` as a user calls it.
 
-#include "rayspace/picture_io.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
 

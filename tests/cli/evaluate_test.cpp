@@ -1,7 +1,7 @@
 // `rs-encode evaluate` and the page of `rs-encode build --report`, as a user meets them.
 
-#include "rayspace/picture_io.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"

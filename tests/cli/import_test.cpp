@@ -1,9 +1,9 @@
 // `rs-capture import` from photographs to a set, as a user calls it.
 
-#include "capture/calibration/turntable_model.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/rig.hpp"
+#include "capture/calibration/model/turntable_model.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/capture/calibration/board_photos.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,8 +1,8 @@
 // The tools as a user meets them: help, usage errors, and the whole way from a scene to a rendered view.
 
-#include "rayspace/picture_io.hpp"
-#include "rayspace/picture_metrics.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/image/picture_metrics.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,7 +1,7 @@
 // rs-view as a user runs it: scenes of all kinds, without a display.
 
-#include "rayspace/object_file.hpp"
-#include "rayspace/picture_io.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/small_object.hpp"
 #include "tests/support/temporary_folder.hpp"

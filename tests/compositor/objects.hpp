@@ -1,8 +1,8 @@
 #pragma once
 // Viewable objects made in memory, for the compositor's tests.
 
-#include "compositor/viewer/object_source.hpp"
-#include "compositor/viewer/placed_object.hpp"
+#include "compositor/viewer/residency/object_source.hpp"
+#include "compositor/viewer/residency/placed_object.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <memory>

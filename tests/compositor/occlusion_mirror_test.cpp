@@ -1,8 +1,8 @@
 // Where scene files put mirrored objects: as geometry below the same transforms.
 
 #include "compositor/scene/scene_file.hpp"
-#include "compositor/viewer/object_view.hpp"
-#include "rayspace/conventions.hpp"
+#include "compositor/viewer/views/object_view.hpp"
+#include "rayspace/base/conventions.hpp"
 #include "tests/compositor/objects.hpp"
 #include "tests/support/temporary_folder.hpp"
 

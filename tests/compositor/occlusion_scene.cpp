@@ -1,7 +1,7 @@
 #include "tests/compositor/occlusion_scene.hpp"
 
-#include "capture/tracer/normalise.hpp"
-#include "rayspace/object_file.hpp"
+#include "capture/tracer/scene/normalise.hpp"
+#include "rayspace/format/object_file.hpp"
 #include "tests/compositor/truth_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 

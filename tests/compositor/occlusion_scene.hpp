@@ -2,9 +2,9 @@
 // What the tests of occlusion show: an object of coloured blocks that looks different from everywhere, and geometry of
 // which it is hidden.
 
-#include "capture/tracer/scene_file.hpp"
+#include "capture/tracer/scene/scene_file.hpp"
 #include "compositor/scene/scene.hpp"
-#include "compositor/viewer/placed_object.hpp"
+#include "compositor/viewer/residency/placed_object.hpp"
 #include "tests/compositor/truth_picture.hpp"
 
 #include <memory>

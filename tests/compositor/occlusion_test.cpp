@@ -6,10 +6,10 @@
 // changed. Tolerance: drivers
 // rasterise edges in their own ways, so one pixel in a hundred may differ, all others by up to kTolerance codes.
 
-#include "compositor/viewer/frame_compositor.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/picture_metrics.hpp"
+#include "compositor/viewer/drawing/frame_compositor.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/image/picture_metrics.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/compositor/gl_test.hpp"
 #include "tests/compositor/occlusion_scene.hpp"
 

@@ -2,8 +2,8 @@
 // A row of six rooms with a door from each to the next and eight objects in each, and a walk through all of them.
 
 #include "compositor/scene/scene.hpp"
-#include "rayspace/camera.hpp"
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/camera.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Objects for tests of what is in memory when: small drums, of which the test says what they take and how long reading
 // them lasts, and that are counted independently of any ledger.
 
-#include "compositor/viewer/object_source.hpp"
+#include "compositor/viewer/residency/object_source.hpp"
 #include "tests/compositor/objects.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "tests/compositor/truth_comparison.hpp"
 
-#include "rayspace/linear_light.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // How far composited frames are from the truth: colours where objects are seen and elsewhere, and the edges at which
 // geometry cuts objects.
 
-#include "compositor/viewer/frame_compositor.hpp"
+#include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "tests/compositor/truth_picture.hpp"
 
 #include <vector>

@@ -1,10 +1,10 @@
 #include "tests/compositor/truth_picture.hpp"
 
-#include "capture/tracer/in_parallel.hpp"
-#include "capture/tracer/path.hpp"
-#include "capture/tracer/sampler.hpp"
-#include "capture/tracer/scene_check.hpp"
-#include "rayspace/linear_light.hpp"
+#include "capture/tracer/integrator/in_parallel.hpp"
+#include "capture/tracer/integrator/path.hpp"
+#include "capture/tracer/integrator/sampler.hpp"
+#include "capture/tracer/scene/scene_check.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,14 +7,14 @@
 // can hold is clipped as there. Geometry is shaded by the formula of VRML97 (ISO/IEC 14772-1, 4.14.4), written here a
 // second time and from the standard, by the lights of the scene. Nothing casts a shadow between the two.
 
-#include "capture/tracer/light_set.hpp"
-#include "capture/tracer/ray_scene.hpp"
-#include "capture/tracer/scene.hpp"
-#include "capture/tracer/surface.hpp"
+#include "capture/tracer/integrator/ray_scene.hpp"
+#include "capture/tracer/integrator/surface.hpp"
+#include "capture/tracer/light/light_set.hpp"
+#include "capture/tracer/scene/scene.hpp"
 #include "compositor/scene/scene.hpp"
-#include "rayspace/camera.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/camera.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <memory>
 #include <optional>

@@ -1,15 +1,15 @@
 #include "tests/compositor/truth_scene.hpp"
 
-#include "capture/tracer/capture_set.hpp"
-#include "capture/tracer/tracer.hpp"
+#include "capture/tracer/integrator/tracer.hpp"
+#include "capture/tracer/session/capture_set.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "datasets-synthetic/objects.hpp"
 #include "encode/build.hpp"
-#include "encode/codec/encode_pictures.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/rig.hpp"
+#include "encode/encode_pictures.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,12 +2,12 @@
 // The scene by which composited frames are compared with the truth (truth_picture.hpp): a room with a table, a shelf, a
 // plinth, pillars and a low screen, procedural objects, and eight viewpoints of a visitor's walk.
 
-#include "capture/tracer/scene_file.hpp"
+#include "capture/tracer/scene/scene_file.hpp"
 #include "compositor/scene/scene.hpp"
-#include "compositor/viewer/placed_object.hpp"
-#include "rayspace/camera.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/result.hpp"
+#include "compositor/viewer/residency/placed_object.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/camera.hpp"
 #include "tests/compositor/truth_picture.hpp"
 
 #include <filesystem>

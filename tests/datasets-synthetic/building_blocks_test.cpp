@@ -1,16 +1,16 @@
 // The parts that objects are made of: numbers, shapes, paint, letters.
 
-#include "datasets-synthetic/curve.hpp"
-#include "datasets-synthetic/ellipsoid.hpp"
-#include "datasets-synthetic/lathe.hpp"
-#include "datasets-synthetic/lettering.hpp"
-#include "datasets-synthetic/noise.hpp"
-#include "datasets-synthetic/paint.hpp"
-#include "datasets-synthetic/petal.hpp"
-#include "datasets-synthetic/portable_math.hpp"
-#include "datasets-synthetic/random.hpp"
-#include "datasets-synthetic/strand.hpp"
-#include "datasets-synthetic/sweep.hpp"
+#include "datasets-synthetic/objects/petal.hpp"
+#include "datasets-synthetic/shapes/curve.hpp"
+#include "datasets-synthetic/shapes/ellipsoid.hpp"
+#include "datasets-synthetic/shapes/lathe.hpp"
+#include "datasets-synthetic/shapes/lettering.hpp"
+#include "datasets-synthetic/shapes/noise.hpp"
+#include "datasets-synthetic/shapes/paint.hpp"
+#include "datasets-synthetic/shapes/portable_math.hpp"
+#include "datasets-synthetic/shapes/random.hpp"
+#include "datasets-synthetic/shapes/strand.hpp"
+#include "datasets-synthetic/shapes/sweep.hpp"
 
 #include <gtest/gtest.h>
 

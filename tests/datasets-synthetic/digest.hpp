@@ -1,7 +1,7 @@
 #pragma once
 // One number for all that a renderer sees of a scene's object.
 
-#include "capture/tracer/scene.hpp"
+#include "capture/tracer/scene/scene.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,10 +1,10 @@
 // The recipes that come with the objects can be read, and their cameras see all of the object.
 
-#include "capture/tracer/scene_check.hpp"
-#include "capture/tracer/scene_file.hpp"
+#include "capture/tracer/scene/scene_check.hpp"
+#include "capture/tracer/scene/scene_file.hpp"
 #include "datasets-synthetic/objects.hpp"
-#include "rayspace/camera.hpp"
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/camera.hpp"
 
 #include <gtest/gtest.h>
 

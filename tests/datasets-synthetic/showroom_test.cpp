@@ -2,9 +2,9 @@
 // side, solids are closed, nothing flickers, objects stand on something, and the way leads through without bumping.
 
 #include "datasets-synthetic/showroom/showroom.hpp"
-#include "capture/tracer/scene_file.hpp"
-#include "datasets-synthetic/curve.hpp"
+#include "capture/tracer/scene/scene_file.hpp"
 #include "datasets-synthetic/objects.hpp"
+#include "datasets-synthetic/shapes/curve.hpp"
 #include "datasets-synthetic/showroom/object_shape.hpp"
 #include "tests/datasets-synthetic/world_triangles.hpp"
 

@@ -2,8 +2,8 @@
 
 #include "datasets-synthetic/showroom/world_file.hpp"
 #include "datasets-synthetic/showroom/showroom.hpp"
-#include "rayspace/file_output.hpp"
-#include "rayspace/picture_io.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // Capture sets on disk -> objects: what is stored, what is refused, and what upright resampling does.
 
 #include "encode/build.hpp"
-#include "encode/upright_resampling.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/picture_metrics.hpp"
-#include "rayspace/ray_space.hpp"
-#include "rayspace/yuv.hpp"
+#include "encode/set/upright_resampling.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/ray_space.hpp"
+#include "rayspace/image/picture_metrics.hpp"
+#include "rayspace/object/yuv.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -2,8 +2,8 @@
 // Working pictures of the drawn balls, and the plain twin of the visual hull.
 
 #include "encode/raymap/work_view.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "tests/support/drawn_set.hpp"
 
 #include <algorithm>

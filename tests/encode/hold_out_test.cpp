@@ -2,10 +2,10 @@
 
 #include "encode/hold_out.hpp"
 #include "encode/build.hpp"
-#include "encode/capture_set.hpp"
+#include "encode/set/capture_set.hpp"
 #include "encode/tools/evaluation.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/picture_metrics.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/image/picture_metrics.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/temporary_folder.hpp"
 

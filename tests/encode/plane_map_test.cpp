@@ -3,8 +3,8 @@
 #include "encode/raymap/plane_map.hpp"
 #include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/rings.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/ray_space.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <gtest/gtest.h>

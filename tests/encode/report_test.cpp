@@ -3,10 +3,10 @@
 
 #include "encode/report/build_report.hpp"
 #include "encode/report/ring_plan.hpp"
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/conventions.hpp"
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
-#include "rayspace/picture_io.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>

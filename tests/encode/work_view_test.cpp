@@ -2,8 +2,8 @@
 
 #include "encode/raymap/work_view.hpp"
 
-#include "rayspace/conventions.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/rig.hpp"
 
 #include <gtest/gtest.h>
 

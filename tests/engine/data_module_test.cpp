@@ -1,7 +1,7 @@
 // The data module: objects in and out, cycles in order, double buffering, use from several threads.
 
 #include "engine/driver/data_module.hpp"
-#include "engine/core/renderer.hpp"
+#include "engine/core/fast/renderer.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <gtest/gtest.h>

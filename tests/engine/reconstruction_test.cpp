@@ -1,11 +1,11 @@
 // The normative arithmetic against floating-point geometry, and against the pictures it must give back.
 
-#include "engine/core/orbit.hpp"
-#include "engine/core/ray_setup.hpp"
-#include "engine/core/reconstruct.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/ray_space.hpp"
+#include "engine/core/definition/ray_setup.hpp"
+#include "engine/core/definition/reconstruct.hpp"
+#include "engine/core/views/orbit.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,13 @@
 // The fast renderer of objects with a shape map equals the scalar definition bit for bit, colour and depth: random
 // maps, sizes and poses, every SIMD target.
 
-#include "engine/core/conformance.hpp"
-#include "engine/core/depth_picture.hpp"
-#include "engine/core/reconstruct.hpp"
-#include "engine/core/renderer.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/ray_space.hpp"
-#include "rayspace/shape_validate.hpp"
+#include "engine/core/definition/reconstruct.hpp"
+#include "engine/core/fast/renderer.hpp"
+#include "engine/core/views/conformance.hpp"
+#include "engine/core/views/depth_picture.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/format/shape_validate.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/random_shape.hpp"
 #include "tests/support/ring_object.hpp"

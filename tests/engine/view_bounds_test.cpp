@@ -1,7 +1,7 @@
 // The widest view that prepare_view lets through leaves the arithmetic its 63 bits (engine/RECONSTRUCTION.md,
 // "Ranges").
-#include "engine/core/plane_point.hpp"
-#include "engine/core/view_registers.hpp"
+#include "engine/core/definition/plane_point.hpp"
+#include "engine/core/definition/view_registers.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <gtest/gtest.h>

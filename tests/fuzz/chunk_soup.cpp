@@ -1,6 +1,6 @@
 #include "tests/fuzz/chunk_soup.hpp"
 
-#include "rayspace/check.hpp"
+#include "rayspace/base/check.hpp"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>

@@ -2,7 +2,7 @@
 // Makes well-formed containers in memory around arbitrary payloads, with an encoding of their own of the format's rules
 // (encode/FORMAT.md): what the fuzzer feeds does not pass through the writer under test.
 
-#include "rayspace/container.hpp"
+#include "rayspace/format/container.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "rayspace/container.hpp"
+#include "rayspace/format/container.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 #include "tests/fuzz/entries.hpp"
 

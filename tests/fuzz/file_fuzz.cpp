@@ -1,8 +1,8 @@
 // Parsers that take files by their names: the bytes stand in a folder of the process's own.
-#include "capture/tracer/mesh_file.hpp"
+#include "capture/tracer/scene/mesh_file.hpp"
 #include "compositor/scene/scene_file.hpp"
-#include "rayspace/check.hpp"
-#include "rayspace/picture_io.hpp"
+#include "rayspace/base/check.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/fuzz/entries.hpp"
 #include "tests/fuzz/scene_checks.hpp"
 #include "tests/support/temporary_folder.hpp"

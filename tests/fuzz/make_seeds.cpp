@@ -1,7 +1,7 @@
 // Writes the seed files of the corpus: `make_fuzz_seeds tests/fuzz/corpus`. Run it again when the format changes.
-#include "rayspace/object_chunks.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/write_file.hpp"
+#include "rayspace/file/write_file.hpp"
+#include "rayspace/format/object_chunks.hpp"
+#include "rayspace/format/object_file.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/small_shape.hpp"

@@ -1,6 +1,6 @@
-#include "capture/calibration/known_files.hpp"
-#include "rayspace/check.hpp"
-#include "rayspace/conventions.hpp"
+#include "capture/calibration/known/known_files.hpp"
+#include "rayspace/base/check.hpp"
+#include "rayspace/base/conventions.hpp"
 #include "tests/fuzz/entries.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "engine/core/reconstruct.hpp"
-#include "rayspace/object_chunks.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/ray_space.hpp"
+#include "engine/core/definition/reconstruct.hpp"
+#include "rayspace/format/object_chunks.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 #include "tests/fuzz/entries.hpp"
 

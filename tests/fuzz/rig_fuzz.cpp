@@ -1,4 +1,4 @@
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "tests/fuzz/entries.hpp"
 
 namespace rs::fuzz {

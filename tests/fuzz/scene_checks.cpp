@@ -1,6 +1,6 @@
 #include "tests/fuzz/scene_checks.hpp"
 
-#include "rayspace/check.hpp"
+#include "rayspace/base/check.hpp"
 
 #include <cmath>
 

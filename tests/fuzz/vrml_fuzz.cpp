@@ -1,5 +1,5 @@
 #include "compositor/scene/vrml_file.hpp"
-#include "rayspace/check.hpp"
+#include "rayspace/base/check.hpp"
 #include "tests/fuzz/entries.hpp"
 #include "tests/fuzz/scene_checks.hpp"
 

@@ -1,8 +1,8 @@
 // Tools that are killed while they replace what is there: it stays, or the new one stands there whole.
 
-#include "rayspace/object_file.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/hostile/mutation.hpp"
 #include "tests/hostile/surviving.hpp"
 #include "tests/support/drawn_set.hpp"

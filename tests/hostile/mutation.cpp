@@ -1,6 +1,6 @@
 #include "tests/hostile/mutation.hpp"
 
-#include "rayspace/zstd_frame.hpp"
+#include "rayspace/base/zstd_frame.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 // Objects whose chunks are faulty behind sound checksums: refused with one line, or drawn, the same by definition and
 // core.
 
-#include "engine/core/reconstruct.hpp"
-#include "engine/core/renderer.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/ray_space.hpp"
+#include "engine/core/definition/reconstruct.hpp"
+#include "engine/core/fast/renderer.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 #include "tests/hostile/mutation.hpp"
 #include "tests/hostile/surviving.hpp"
 

@@ -1,12 +1,12 @@
 // Sets, scenes, recipes, models and photographs with faults: read, or refused with one line.
 
-#include "capture/calibration/known_files.hpp"
-#include "capture/tracer/mesh_file.hpp"
-#include "capture/tracer/scene_file.hpp"
+#include "capture/calibration/known/known_files.hpp"
+#include "capture/tracer/scene/mesh_file.hpp"
+#include "capture/tracer/scene/scene_file.hpp"
 #include "compositor/scene/scene_file.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/rig.hpp"
-#include "rayspace/write_file.hpp"
+#include "rayspace/file/write_file.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/hostile/mutation.hpp"
 #include "tests/hostile/surviving.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,5 +1,5 @@
-#include "rayspace/image.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <gtest/gtest.h>
 

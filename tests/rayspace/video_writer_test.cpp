@@ -1,4 +1,4 @@
-#include "rayspace/picture_io.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/small_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 

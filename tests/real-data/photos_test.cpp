@@ -3,8 +3,8 @@
 #include "capture/photos/import.hpp"
 #include "encode/hold_out.hpp"
 #include "encode/tools/evaluation.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/real_data.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -2,9 +2,9 @@
 // The fixture of the damage tests: a stream, and the check that the library's parsers and those written from
 // encode/FORMAT.md judge a payload of it the same and read the same from what they accept.
 
-#include "rayspace/codec/coded_chunks.hpp"
+#include "rayspace/codec/stream/coded_chunks.hpp"
+#include "tests/reference/decoder/reference_chunks.hpp"
 #include "tests/reference/random_stream.hpp"
-#include "tests/reference/reference_chunks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "tests/reference/golden_planes.hpp"
 
-#include "rayspace/object_chunks.hpp"
+#include "rayspace/format/object_chunks.hpp"
 
 #include <xxhash.h>
 

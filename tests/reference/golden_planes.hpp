@@ -1,9 +1,9 @@
 #pragma once
 // The golden files' expected samples: XXH64 (seed 0) of every plane of every picture.
 
-#include "rayspace/container.hpp"
-#include "rayspace/ray_space_object.hpp"
-#include "tests/reference/reference_decoder.hpp"
+#include "rayspace/format/container.hpp"
+#include "rayspace/object/ray_space_object.hpp"
+#include "tests/reference/decoder/reference_decoder.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // The golden files: the valid ones decode to the samples that are written down beside them, by either decoder; the
 // invalid ones are refused for the reason that is written down.
 
-#include "rayspace/file_output.hpp"
-#include "rayspace/object_file.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/format/object_file.hpp"
 #include "tests/reference/golden_planes.hpp"
 #include "tests/reference/library_tiles.hpp"
 

@@ -1,6 +1,6 @@
 #include "tests/reference/library_tiles.hpp"
 
-#include "rayspace/codec/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_picture.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #pragma once
 // The library's decoder, asked tile by tile.
 
-#include "rayspace/codec/coded_pictures.hpp"
-#include "rayspace/image.hpp"
+#include "rayspace/codec/code/coded_pictures.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "tests/reference/random_code.hpp"
 
-#include "tests/reference/reference_chunks.hpp"
-#include "tests/reference/reference_contexts.hpp"
+#include "tests/reference/decoder/reference_chunks.hpp"
+#include "tests/reference/decoder/reference_contexts.hpp"
 
 #include <zstd.h>
 

@@ -1,6 +1,6 @@
 #include "tests/reference/random_stream.hpp"
 
-#include "rayspace/codec/coded_chunks.hpp"
+#include "rayspace/codec/stream/coded_chunks.hpp"
 #include "tests/reference/random_code.hpp"
 
 #include <algorithm>

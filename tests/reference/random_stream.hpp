@@ -1,8 +1,8 @@
 #pragma once
 // Payloads of CODE and PICT that break no rule but say random things: any bytes of a tile decode to some samples.
 
-#include "rayspace/codec/coded_pictures.hpp"
-#include "tests/reference/reference_chunks.hpp"
+#include "rayspace/codec/code/coded_pictures.hpp"
+#include "tests/reference/decoder/reference_chunks.hpp"
 
 #include <cstddef>
 #include <cstdint>

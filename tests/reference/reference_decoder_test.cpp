@@ -1,12 +1,12 @@
 // Two decoders of coded pictures, the library's and the one written from encode/FORMAT.md, give the same samples: of
 // what the encoder writes, and of random bytes.
 
-#include "tests/reference/reference_decoder.hpp"
+#include "tests/reference/decoder/reference_decoder.hpp"
 
-#include "encode/codec/board_encoder.hpp"
+#include "encode/codec/board/board_encoder.hpp"
 #include "encode/codec/dense_encoder.hpp"
-#include "rayspace/codec/coded_chunks.hpp"
-#include "rayspace/codec/decode_picture.hpp"
+#include "rayspace/codec/stream/coded_chunks.hpp"
+#include "rayspace/codec/stream/decode_picture.hpp"
 #include "tests/reference/library_tiles.hpp"
 #include "tests/reference/random_stream.hpp"
 

@@ -1,10 +1,10 @@
 // Chunk shap: the library's parser and the one written from encode/FORMAT.md read the same of what they accept, and
 // refuse the same.
 
-#include "tests/reference/reference_shape.hpp"
-#include "rayspace/container.hpp"
-#include "rayspace/shape_chunk.hpp"
-#include "rayspace/shape_validate.hpp"
+#include "tests/reference/decoder/reference_shape.hpp"
+#include "rayspace/format/container.hpp"
+#include "rayspace/format/shape_chunk.hpp"
+#include "rayspace/format/shape_validate.hpp"
 #include "tests/support/random_shape.hpp"
 
 #include <gtest/gtest.h>

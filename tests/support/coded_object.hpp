@@ -1,9 +1,9 @@
 #pragma once
 // A small object whose pictures are coded: the drawn balls of drawn_set.hpp seen from a ring.
 
-#include "encode/codec/board_encoder.hpp"
+#include "encode/codec/board/board_encoder.hpp"
 #include "encode/codec/dense_encoder.hpp"
-#include "rayspace/ray_space_object.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/small_object.hpp"
 

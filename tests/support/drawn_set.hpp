@@ -1,10 +1,10 @@
 #pragma once
 // A capture set on disk with pictures drawn by arithmetic: coloured balls around the axis, seen by the set's cameras.
 
-#include "rayspace/conventions.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/picture_io.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <gtest/gtest.h>
 

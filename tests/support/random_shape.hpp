@@ -2,7 +2,7 @@
 // Shape maps that are valid but mean nothing: for ring objects (ring_object.hpp) and small ones, to compare renderers
 // on.
 
-#include "rayspace/shape_map.hpp"
+#include "rayspace/object/shape_map.hpp"
 #include "tests/support/small_shape.hpp"
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 #include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/plane_map.hpp"
 #include "encode/raymap/rings.hpp"
-#include "rayspace/ray_space_object.hpp"
-#include "rayspace/rig.hpp"
-#include "rayspace/yuv.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/object/ray_space_object.hpp"
+#include "rayspace/object/yuv.hpp"
 
 #include <cmath>
 #include <random>

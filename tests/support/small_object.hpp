@@ -1,9 +1,9 @@
 #pragma once
 // A small valid ray-space object, made by hand from the formulas of encode/FORMAT.md, with no help from the encoder.
 
-#include "rayspace/conventions.hpp"
-#include "rayspace/ray_space_object.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 #include <glm/glm.hpp>
 

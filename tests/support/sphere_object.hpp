@@ -1,8 +1,9 @@
 #pragma once
 // A ray-space object whose shape is known exactly: a ball beside the axis with a grey texture, drawn by ray casting
-// into the pictures of a ring_object() and into its shape map, straight from the formulas of rayspace/shape_map.hpp.
+// into the pictures of a ring_object() and into its shape map, straight from the formulas of
+// rayspace/object/shape_map.hpp.
 
-#include "rayspace/ray_space.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <algorithm>

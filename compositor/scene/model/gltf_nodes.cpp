@@ -2,8 +2,8 @@
 
 #include "compositor/scene/scene_pictures.hpp"
 #include "compositor/scene/strict_json.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/printable.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>

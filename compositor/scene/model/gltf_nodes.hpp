@@ -3,7 +3,7 @@
 // cameras, and lights (KHR_lights_punctual). Pure; thread-safe.
 
 #include "compositor/scene/scene.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <cstddef>
 #include <span>

@@ -2,8 +2,8 @@
 
 #include "compositor/scene/model/gltf_nodes.hpp"
 #include "compositor/scene/model/model_materials.hpp"
-#include "rayspace/file_output.hpp"
-#include "rayspace/model_files.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/models/model_files.hpp"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>

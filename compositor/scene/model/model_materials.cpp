@@ -1,7 +1,7 @@
 #include "compositor/scene/model/model_materials.hpp"
 
-#include "rayspace/picture_io.hpp"
-#include "rayspace/printable.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>

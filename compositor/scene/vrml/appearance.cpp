@@ -1,6 +1,6 @@
 #include "compositor/scene/vrml/appearance.hpp"
 
-#include "rayspace/linear_light.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 //
 // Names are replaced by "nK"; K counts the entries of `nodes`.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <string>
 #include <string_view>

@@ -2,7 +2,7 @@
 
 #include "compositor/scene/vrml/appearance.hpp"
 #include "compositor/scene/vrml/surroundings_nodes.hpp"
-#include "rayspace/printable.hpp"
+#include "rayspace/base/printable.hpp"
 
 #include <algorithm>
 #include <map>

@@ -5,7 +5,7 @@
 #include "compositor/scene/scene_pictures.hpp"
 #include "compositor/scene/vrml/graph.hpp"
 #include "compositor/scene/vrml/place.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <filesystem>
 #include <functional>

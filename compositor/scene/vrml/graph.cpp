@@ -5,7 +5,7 @@
 #include "compositor/scene/vrml/node_table.hpp"
 #include "compositor/scene/vrml/shape_lists.hpp"
 #include "compositor/scene/vrml/triangulate.hpp"
-#include "rayspace/check.hpp"
+#include "rayspace/base/check.hpp"
 
 #include <Inventor/SoDB.h>
 #include <Inventor/SoInput.h>

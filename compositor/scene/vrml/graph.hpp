@@ -4,7 +4,7 @@
 
 #include "compositor/scene/mesh.hpp"
 #include "compositor/scene/vrml/clean_vrml.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <glm/glm.hpp>
 

@@ -1,7 +1,7 @@
 #include "compositor/scene/vrml/surroundings_nodes.hpp"
 
 #include "compositor/scene/vrml/appearance.hpp"
-#include "rayspace/conventions.hpp"
+#include "rayspace/base/conventions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "compositor/scene/vrml/coin_pointer.hpp"
 #include "compositor/scene/vrml/node_table.hpp"
-#include "rayspace/linear_light.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <Inventor/SoPrimitiveVertex.h>
 #include <Inventor/actions/SoCallbackAction.h>

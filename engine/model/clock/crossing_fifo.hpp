@@ -3,7 +3,7 @@
 // pushed is seen by the reader at the second edge of its clock after the push; room made by a pop is seen by the writer
 // at the second edge of its clock after the pop. Where edges of both clocks coincide, the board's comes first.
 
-#include "rayspace/check.hpp"
+#include "rayspace/base/check.hpp"
 
 #include <cstdint>
 #include <string>

@@ -7,7 +7,7 @@
 // One push and one pop per cycle, as a RAM with a write port and a read port has. Breaking a rule is a defect of the
 // block and stops the program.
 
-#include "rayspace/check.hpp"
+#include "rayspace/base/check.hpp"
 
 #include <cstdint>
 #include <string>

@@ -5,7 +5,7 @@
 // with the contents of every FIFO and the state of every block.
 
 #include "engine/model/clock/block.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <cstdint>
 #include <functional>

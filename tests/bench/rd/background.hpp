@@ -2,7 +2,7 @@
 // What codecs without alpha are shown where the object is not. It is theirs to choose: nobody compares those pixels,
 // but they cost bits, and a hard edge to them costs more.
 
-#include "rayspace/image.hpp"
+#include "rayspace/image/image.hpp"
 
 namespace rs::bench {
 

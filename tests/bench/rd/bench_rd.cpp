@@ -7,9 +7,9 @@
 // so that nobody is paid for empty background. Quality: PSNR over object pixels (alpha >= 128) of straight sRGB, the
 // squared error pooled over all views. rd_ratios.csv gets the rates relative to ASTC at equal PSNR.
 
-#include "rayspace/tool_main.hpp"
-#include "rayspace/write_file.hpp"
-#include "tests/bench/rd/anchors.hpp"
+#include "rayspace/file/write_file.hpp"
+#include "rayspace/tool/tool_main.hpp"
+#include "tests/bench/rd/anchors/anchors.hpp"
 #include "tests/bench/rd/ours.hpp"
 #include "tests/bench/rd/rate_plot.hpp"
 #include "tests/bench/rd/report.hpp"

@@ -1,6 +1,6 @@
 #include "tests/bench/rd/coded.hpp"
 
-#include "rayspace/file_output.hpp"
+#include "rayspace/file/file_output.hpp"
 
 #include <xxhash.h>
 

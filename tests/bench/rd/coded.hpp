@@ -1,7 +1,7 @@
 #pragma once
 // What a codec made of a set at one setting, and how such answers of external encoders are kept between runs.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 #include "tests/bench/rd/object_error.hpp"
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 // How far decoded pictures are from the originals, over the object's pixels only.
 //
 // Colours are compared as they are stored: straight sRGB, where the original's alpha is at least 128; a codec is free
-// to leave anything where nobody looks. (rayspace/picture_metrics.hpp compares what is *shown*, premultiplied, which
-// would mix colour and silhouette in one number; here alpha is scored apart.)
+// to leave anything where nobody looks. (rayspace/image/picture_metrics.hpp compares what is *shown*, premultiplied,
+// which would mix colour and silhouette in one number; here alpha is scored apart.)
 
 #include "tests/bench/rd/reference_pictures.hpp"
 

@@ -1,8 +1,8 @@
 #include "tests/bench/rd/ours.hpp"
 
-#include "rayspace/object_chunks.hpp"
-#include "rayspace/object_file.hpp"
-#include "tests/bench/rd/tool_process.hpp"
+#include "rayspace/format/object_chunks.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "tests/bench/rd/anchors/tool_process.hpp"
 
 #include <system_error>
 

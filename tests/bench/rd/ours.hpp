@@ -1,7 +1,7 @@
 #pragma once
 // Rayspace's own picture coding: the set is built into an object by the command `rs-encode`, and read back.
 
-#include "rayspace/progress.hpp"
+#include "rayspace/base/progress.hpp"
 #include "tests/bench/rd/coded.hpp"
 #include "tests/bench/rd/curve.hpp"
 #include "tests/bench/rd/work_folder.hpp"

@@ -2,7 +2,7 @@
 // The curves of all sets in one picture: a panel per set, rate on a logarithmic axis, one legend for all.
 // (rayspace/page/line_plot.hpp draws single plots over linear axes, with fewer colours than there are codecs.)
 
-#include "tests/bench/rd/best_variant.hpp"
+#include "tests/bench/rd/anchors/best_variant.hpp"
 #include "tests/bench/rd/report.hpp"
 
 #include <string>

@@ -1,7 +1,7 @@
 #include "tests/bench/rd/reference_pictures.hpp"
 
-#include "encode/capture_set.hpp"
-#include "rayspace/parallel.hpp"
+#include "encode/set/capture_set.hpp"
+#include "rayspace/base/parallel.hpp"
 
 #include <xxhash.h>
 

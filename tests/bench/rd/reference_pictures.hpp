@@ -2,9 +2,9 @@
 // What every codec of this bench is given, and what its answer is measured against: the upright pictures of a capture
 // set, as the encoder sees them, and the 8x8 blocks of them that the object touches.
 
-#include "rayspace/image.hpp"
-#include "rayspace/progress.hpp"
-#include "rayspace/result.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 // What the bench says: all measured points and the rates relative to ASTC, as CSV and in words.
 
-#include "tests/bench/rd/best_variant.hpp"
+#include "tests/bench/rd/anchors/best_variant.hpp"
 
 #include <filesystem>
 #include <string>

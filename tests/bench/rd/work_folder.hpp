@@ -1,7 +1,7 @@
 #pragma once
 // The folder that a run of the bench works in: answers kept for the next run, and temporary files of this one.
 
-#include "rayspace/result.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <filesystem>
 

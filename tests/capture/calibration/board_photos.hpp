@@ -1,7 +1,7 @@
 #pragma once
 // Drawn photographs of a drum that stands on a printed board, with exact truth.
 
-#include "capture/calibration/board_sheet.hpp"
+#include "capture/calibration/board/board_sheet.hpp"
 #include "tests/capture/calibration/drawn_drum.hpp"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 // Turns of a board whose every number is known, for the tests of calibrating with a board.
 
-#include "capture/calibration/board_detection.hpp"
-#include "capture/calibration/board_start.hpp"
-#include "rayspace/conventions.hpp"
+#include "capture/calibration/board/board_detection.hpp"
+#include "capture/calibration/board/board_start.hpp"
+#include "rayspace/base/conventions.hpp"
 
 #include <cmath>
 #include <cstdint>

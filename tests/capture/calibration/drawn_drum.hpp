@@ -2,10 +2,10 @@
 // Drawn pictures of a spotted drum on a turntable, with exact truth: a short upright cylinder of solid noise with a
 // flat top, so that its surface has features all around and its outline says nothing of the angle.
 
-#include "capture/calibration/turntable_model.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/linear_light.hpp"
+#include "capture/calibration/model/turntable_model.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <tbb/parallel_for.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 // Masks of bodies of ellipsoids on a turntable.
 
-#include "capture/calibration/turntable_model.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/image.hpp"
+#include "capture/calibration/model/turntable_model.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <glm/glm.hpp>
 

@@ -1,9 +1,9 @@
 #pragma once
 // Turns of a body of points whose every number is known, for the tests of calibrating with points of the object.
 
-#include "capture/calibration/bundle.hpp"
-#include "capture/calibration/turntable_model.hpp"
-#include "rayspace/conventions.hpp"
+#include "capture/calibration/model/turntable_model.hpp"
+#include "capture/calibration/points/bundle.hpp"
+#include "rayspace/base/conventions.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Photographs that make no turn, or hardly one: what is wrong and what to do is said, and nothing half done is left.
 
 #include "capture/photos/import.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "tests/capture/photos/drum_photos.hpp"
 
 #include <gmock/gmock.h>

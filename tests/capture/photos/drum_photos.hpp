@@ -2,7 +2,7 @@
 // A folder of drawn photographs of a drum with alpha, and what must hold where importing them fails.
 
 #include "capture/photos/import.hpp"
-#include "rayspace/picture_io.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/capture/calibration/drawn_drum.hpp"
 #include "tests/support/temporary_folder.hpp"
 

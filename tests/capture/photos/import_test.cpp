@@ -1,7 +1,7 @@
 #include "capture/photos/import.hpp"
 
-#include "rayspace/picture_io.hpp"
-#include "rayspace/rig.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/capture/photos/turn_of_pictures.hpp"
 #include "tests/support/temporary_folder.hpp"
 

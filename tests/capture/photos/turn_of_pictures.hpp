@@ -2,9 +2,9 @@
 // A drawn turn: what the camera of a turntable would see of a coloured, textured ball on a stick's end, over a
 // backdrop, with the true alpha known. Everything is exact in linear light.
 
-#include "rayspace/conventions.hpp"
-#include "rayspace/image.hpp"
-#include "rayspace/linear_light.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // The white furnace: where the same light comes from everywhere, a surface that absorbs nothing cannot be told from it.
 
-#include "capture/tracer/microfacet.hpp"
+#include "capture/tracer/integrator/microfacet.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 
 #include <gtest/gtest.h>

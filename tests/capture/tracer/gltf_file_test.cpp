@@ -1,6 +1,6 @@
 // glTF and GLB files, and what their materials become.
 
-#include "capture/tracer/mesh_file.hpp"
+#include "capture/tracer/scene/mesh_file.hpp"
 #include "tests/capture/tracer/mesh_files.hpp"
 #include "tests/support/temporary_folder.hpp"
 

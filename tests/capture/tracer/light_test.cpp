@@ -1,7 +1,7 @@
 // Light sources against the formulas of radiometry.
 
-#include "capture/tracer/environment_map.hpp"
-#include "capture/tracer/sampler.hpp"
+#include "capture/tracer/integrator/sampler.hpp"
+#include "capture/tracer/light/environment_map.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #pragma once
 // Files that the tests of mesh formats write and read.
 
-#include "capture/tracer/mesh_file.hpp"
-#include "rayspace/picture_io.hpp"
+#include "capture/tracer/scene/mesh_file.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <gtest/gtest.h>
 

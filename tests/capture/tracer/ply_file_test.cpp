@@ -1,6 +1,6 @@
 // PLY files, written here byte by byte, and every way in which one can be wrong.
 
-#include "capture/tracer/mesh_file.hpp"
+#include "capture/tracer/scene/mesh_file.hpp"
 #include "tests/capture/tracer/mesh_files.hpp"
 #include "tests/support/temporary_folder.hpp"
 

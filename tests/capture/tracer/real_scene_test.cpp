@@ -1,8 +1,8 @@
 // Published meshes and light probes, rendered small.
 
-#include "capture/tracer/mesh_file.hpp"
-#include "capture/tracer/scene_file.hpp"
-#include "rayspace/picture_io.hpp"
+#include "capture/tracer/scene/mesh_file.hpp"
+#include "capture/tracer/scene/scene_file.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 #include "tests/support/real_data.hpp"
 #include "tests/support/temporary_folder.hpp"

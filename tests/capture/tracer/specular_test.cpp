@@ -1,7 +1,7 @@
 // Directions behind mirrors and glass.
 
-#include "capture/tracer/environment_map.hpp"
-#include "capture/tracer/microfacet.hpp"
+#include "capture/tracer/integrator/microfacet.hpp"
+#include "capture/tracer/light/environment_map.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 
 #include <gtest/gtest.h>

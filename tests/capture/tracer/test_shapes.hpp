@@ -1,10 +1,10 @@
 #pragma once
 // Shapes, cameras and averages that the tracer's tests share.
 
-#include "capture/tracer/scene.hpp"
-#include "capture/tracer/tracer.hpp"
-#include "rayspace/camera.hpp"
-#include "rayspace/conventions.hpp"
+#include "capture/tracer/integrator/tracer.hpp"
+#include "capture/tracer/scene/scene.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/camera.hpp"
 
 #include <gtest/gtest.h>
 

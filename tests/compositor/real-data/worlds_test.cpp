@@ -2,8 +2,8 @@
 
 #include "compositor/gl/context.hpp"
 #include "compositor/scene/scene_file.hpp"
-#include "compositor/viewer/frame_compositor.hpp"
-#include "compositor/viewer/framing.hpp"
+#include "compositor/viewer/drawing/frame_compositor.hpp"
+#include "compositor/viewer/views/framing.hpp"
 #include "tests/fuzz/entries.hpp"
 #include "tests/fuzz/mutated_world.hpp"
 #include "tests/support/real_data.hpp"

@@ -1,8 +1,8 @@
 // Objects with coded pictures in files: the chunks, what is refused, and what damage does.
 
-#include "rayspace/codec/coded_chunks.hpp"
-#include "rayspace/codec/decode_picture.hpp"
-#include "rayspace/object_file.hpp"
+#include "rayspace/codec/stream/coded_chunks.hpp"
+#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/format/object_file.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/temporary_folder.hpp"
 

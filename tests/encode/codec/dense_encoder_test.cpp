@@ -2,13 +2,13 @@
 
 #include "encode/codec/dense_encoder.hpp"
 #include "encode/codec/bool_encoder.hpp"
-#include "encode/codec/encode_pictures.hpp"
 #include "encode/codec/quantise.hpp"
-#include "rayspace/codec/byte_account.hpp"
-#include "rayspace/codec/coded_chunks.hpp"
-#include "rayspace/codec/decode_picture.hpp"
+#include "encode/encode_pictures.hpp"
 #include "rayspace/codec/part_syntax.hpp"
-#include "rayspace/yuv.hpp"
+#include "rayspace/codec/stream/byte_account.hpp"
+#include "rayspace/codec/stream/coded_chunks.hpp"
+#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/object/yuv.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/temporary_folder.hpp"
 

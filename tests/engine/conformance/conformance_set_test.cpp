@@ -2,7 +2,7 @@
 
 #include "engine/conformance/run_vectors.hpp"
 #include "engine/conformance/view_files.hpp"
-#include "rayspace/file_output.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

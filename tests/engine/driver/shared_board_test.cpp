@@ -2,9 +2,9 @@
 // is replaced; and a long run of random moves with both executors at work. Every picture is compared with the
 // definition.
 
-#include "engine/core/reconstruct.hpp"
+#include "engine/core/definition/reconstruct.hpp"
 #include "engine/driver/data_module.hpp"
-#include "engine/model/object_image.hpp"
+#include "engine/model/layout/object_image.hpp"
 #include "engine/model/simulated_board.hpp"
 #include "tests/support/random_shape.hpp"
 #include "tests/support/ring_object.hpp"

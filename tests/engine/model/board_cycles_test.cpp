@@ -1,8 +1,8 @@
 // Cycles of whole pictures: the same in any tick order, memory reads as a formula says, golden counts, and the
 // published figures.
 
-#include "engine/core/ray_setup.hpp"
-#include "engine/model/report.hpp"
+#include "engine/core/definition/ray_setup.hpp"
+#include "engine/model/report/report.hpp"
 #include "tests/engine/model/board_comparison.hpp"
 #include "tests/engine/model/board_test_objects.hpp"
 

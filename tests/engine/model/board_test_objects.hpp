@@ -1,11 +1,11 @@
 #pragma once
 // Objects and views for the tests of the board: rings of noise pictures, and cameras that stand upright.
 
-#include "engine/core/reconstruct.hpp"
+#include "engine/core/definition/reconstruct.hpp"
 #include "engine/model/board.hpp"
-#include "engine/model/object_image.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/ray_space.hpp"
+#include "engine/model/layout/object_image.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <gtest/gtest.h>

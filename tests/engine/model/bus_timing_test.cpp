@@ -1,7 +1,7 @@
 // The host bus and the disk controller, clock by clock.
 
-#include "engine/model/blocks/disk_controller.hpp"
-#include "engine/model/blocks/host_bus.hpp"
+#include "engine/model/blocks/host/host_bus.hpp"
+#include "engine/model/blocks/memory/disk_controller.hpp"
 
 #include <gtest/gtest.h>
 

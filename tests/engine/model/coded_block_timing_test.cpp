@@ -1,6 +1,6 @@
 // Latency and throughput of the blocks of decompression: nothing a cycle early, the result on time.
 
-#include "engine/model/coded_layout.hpp"
+#include "engine/model/limits/coded_layout.hpp"
 #include "tests/engine/model/block_bench.hpp"
 #include "tests/engine/model/coded_test_objects.hpp"
 

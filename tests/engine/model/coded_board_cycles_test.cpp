@@ -1,8 +1,8 @@
 // Cycles and memory reads of the board with compressed pictures.
 
-#include "engine/core/ray_setup.hpp"
-#include "engine/model/coded_layout.hpp"
-#include "engine/model/report.hpp"
+#include "engine/core/definition/ray_setup.hpp"
+#include "engine/model/limits/coded_layout.hpp"
+#include "engine/model/report/report.hpp"
 #include "tests/engine/model/board_comparison.hpp"
 #include "tests/engine/model/coded_test_objects.hpp"
 

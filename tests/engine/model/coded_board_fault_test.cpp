@@ -1,7 +1,7 @@
 // What can go wrong with compressed pictures: the wrong kind of object, an object in the place of another one, too
 // many.
 
-#include "engine/model/coded_layout.hpp"
+#include "engine/model/limits/coded_layout.hpp"
 #include "tests/engine/model/coded_test_objects.hpp"
 
 namespace rs::engine::model {

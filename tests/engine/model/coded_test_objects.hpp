@@ -2,8 +2,8 @@
 // Objects with pictures of profile `board` for the tests of block decompression: random ones, which no encoder makes,
 // and encoded ones.
 
-#include "rayspace/codec/board_chunk.hpp"
-#include "rayspace/codec/decode_picture.hpp"
+#include "rayspace/codec/board/board_chunk.hpp"
+#include "rayspace/codec/stream/decode_picture.hpp"
 #include "tests/engine/model/board_test_objects.hpp"
 #include "tests/support/coded_object.hpp"
 

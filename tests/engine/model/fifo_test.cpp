@@ -2,7 +2,7 @@
 
 #include "engine/model/clock/fifo.hpp"
 #include "engine/model/clock/crossing_fifo.hpp"
-#include "engine/model/messages.hpp"
+#include "engine/model/signals/messages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Cycles and memory reads of the parallel board.
 
-#include "engine/core/fixed_point.hpp"
-#include "engine/core/plane_point.hpp"
-#include "engine/core/ray_setup.hpp"
-#include "engine/core/shape_setup.hpp"
-#include "engine/model/coded_layout.hpp"
-#include "engine/model/parallel_layout.hpp"
-#include "engine/model/report.hpp"
+#include "engine/core/definition/fixed_point.hpp"
+#include "engine/core/definition/plane_point.hpp"
+#include "engine/core/definition/ray_setup.hpp"
+#include "engine/core/definition/shape_setup.hpp"
+#include "engine/model/limits/coded_layout.hpp"
+#include "engine/model/limits/parallel_layout.hpp"
+#include "engine/model/report/report.hpp"
 #include "tests/engine/model/board_comparison.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"
 

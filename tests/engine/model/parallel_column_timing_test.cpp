@@ -1,13 +1,13 @@
 // Latency and throughput of the blocks that set up a parallel board's columns: nothing a cycle early, the result on
 // time.
 
-#include "engine/core/fixed_point.hpp"
-#include "engine/model/arithmetic.hpp"
-#include "engine/model/blocks/band_reader.hpp"
-#include "engine/model/blocks/bracket_finder.hpp"
-#include "engine/model/blocks/column_setup.hpp"
-#include "engine/model/blocks/picture_reader.hpp"
-#include "engine/model/parallel_layout.hpp"
+#include "engine/core/definition/fixed_point.hpp"
+#include "engine/model/blocks/parallel/band_reader.hpp"
+#include "engine/model/blocks/parallel/bracket_finder.hpp"
+#include "engine/model/blocks/parallel/column_setup.hpp"
+#include "engine/model/blocks/parallel/picture_reader.hpp"
+#include "engine/model/limits/parallel_layout.hpp"
+#include "engine/model/signals/arithmetic.hpp"
 #include "tests/engine/model/block_bench.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"
 

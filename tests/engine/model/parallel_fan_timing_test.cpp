@@ -1,9 +1,9 @@
 // Latency and throughput of what a parallel board's pipe reads ahead, its codebooks, and of the blocks that join the
 // pipes.
 
-#include "engine/model/blocks/load_fan.hpp"
-#include "engine/model/blocks/twin_lookup.hpp"
-#include "engine/model/blocks/view_fan.hpp"
+#include "engine/model/blocks/parallel/load_fan.hpp"
+#include "engine/model/blocks/parallel/view_fan.hpp"
+#include "engine/model/blocks/texels/twin_lookup.hpp"
 #include "tests/engine/model/block_bench.hpp"
 #include "tests/engine/model/parallel_registers.hpp"
 

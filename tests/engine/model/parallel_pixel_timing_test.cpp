@@ -1,13 +1,13 @@
 // Latency and throughput of the blocks that a parallel board's pixels pass: nothing a cycle early, the result on time.
 
-#include "engine/model/blocks/cell_march.hpp"
-#include "engine/model/blocks/patch_store.hpp"
-#include "engine/model/blocks/pixel_scan.hpp"
-#include "engine/model/blocks/ray_rise.hpp"
-#include "engine/model/blocks/sample_place.hpp"
-#include "engine/model/blocks/surface_blend.hpp"
-#include "engine/model/blocks/texel_filter.hpp"
-#include "engine/model/parallel_layout.hpp"
+#include "engine/model/blocks/parallel/cell_march.hpp"
+#include "engine/model/blocks/parallel/patch_store.hpp"
+#include "engine/model/blocks/parallel/pixel_scan.hpp"
+#include "engine/model/blocks/parallel/ray_rise.hpp"
+#include "engine/model/blocks/texels/sample_place.hpp"
+#include "engine/model/blocks/texels/surface_blend.hpp"
+#include "engine/model/blocks/texels/texel_filter.hpp"
+#include "engine/model/limits/parallel_layout.hpp"
 #include "tests/engine/model/block_bench.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"
 

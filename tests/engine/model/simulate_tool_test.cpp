@@ -1,7 +1,7 @@
 // `rs-engine simulate` as a user calls it.
 
-#include "rayspace/object_file.hpp"
-#include "rayspace/picture_io.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -2,7 +2,7 @@
 // Damages that make an invalid file of a valid one, each against one rule of encode/FORMAT.md, and the words that a
 // refusal must contain. Checksums are made to fit afterwards, so that nothing but the rule is broken.
 
-#include "rayspace/object_chunks.hpp"
+#include "rayspace/format/object_chunks.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // The valid objects of the golden files: raw, of the encoders, and of random streams, which reach more of the format
 // than an encoder does.
 
-#include "rayspace/ray_space_object.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 
 #include <string>
 #include <vector>

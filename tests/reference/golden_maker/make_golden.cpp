@@ -1,7 +1,7 @@
 // Writes the golden files: `make_golden tests/reference/golden`. A golden file changes only with a written reason: run
 // it when the format changes, and say so in tests/reference/golden/README.md.
-#include "rayspace/object_file.hpp"
-#include "rayspace/write_file.hpp"
+#include "rayspace/file/write_file.hpp"
+#include "rayspace/format/object_file.hpp"
 #include "tests/reference/golden_maker/golden_damage.hpp"
 #include "tests/reference/golden_maker/golden_objects.hpp"
 #include "tests/reference/golden_planes.hpp"

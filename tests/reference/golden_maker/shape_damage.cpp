@@ -1,7 +1,7 @@
 // FORMAT.md, "shap", with its numbers of "Ranges".
 #include "tests/reference/golden_maker/golden_damage.hpp"
 
-#include "rayspace/check.hpp"
+#include "rayspace/base/check.hpp"
 
 #include <array>
 

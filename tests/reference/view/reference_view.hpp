@@ -3,8 +3,8 @@
 // with its names, without a thought for speed. Whole numbers are 128 bits wide, and where the section "Ranges" bounds
 // one, the bound is checked.
 
-#include "engine/core/view_registers.hpp"
-#include "rayspace/ray_space_object.hpp"
+#include "engine/core/definition/view_registers.hpp"
+#include "rayspace/object/ray_space_object.hpp"
 #include "tests/reference/view/reference_whole.hpp"
 
 #include <array>

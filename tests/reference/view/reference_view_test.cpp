@@ -4,10 +4,10 @@
 
 #include "tests/reference/view/reference_view.hpp"
 
-#include "engine/core/reconstruct.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/object_file.hpp"
-#include "rayspace/ray_space.hpp"
+#include "engine/core/definition/reconstruct.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/random_shape.hpp"
 #include "tests/support/ring_object.hpp"

@@ -1,12 +1,12 @@
 // Writes the conformance set: `make_conformance_vectors engine/conformance/vectors EDITION`. Run it when the normative
 // arithmetic or the format changes, or cases are added, with a new edition; what was right before must stay so.
 
-#include "encode/codec/board_encoder.hpp"
+#include "encode/codec/board/board_encoder.hpp"
 #include "engine/conformance/vectors.hpp"
-#include "engine/core/reconstruct.hpp"
-#include "rayspace/codec/decode_picture.hpp"
-#include "rayspace/conventions.hpp"
-#include "rayspace/object_file.hpp"
+#include "engine/core/definition/reconstruct.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/format/object_file.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/random_shape.hpp"
 #include "tests/support/ring_object.hpp"

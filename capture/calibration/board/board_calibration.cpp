@@ -1,0 +1,317 @@
+#include "capture/calibration/board/board_calibration.hpp"
+
+#include "capture/calibration/board/board_bundle.hpp"
+#include "capture/calibration/silhouettes/turn_diagnosis.hpp"
+#include "rayspace/base/conventions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace rs::capture {
+namespace {
+
+constexpr int kHeldOutEvery = 10;
+constexpr double kOutlierDeviations = 5;
+constexpr double kLeastNoise_px = 0.01;  // below that corners are numerically exact
+constexpr double kContradiction_rad = radians(15);
+
+struct Task {
+    std::span<const BoardCorners> views;
+    const BoardDesign& design;
+    const KnownInputs& known;
+    std::span<const std::string> names;
+    Lens lens;  // what is known, else ordinary
+    BoardBundleOptions options;
+    std::vector<BoardObservation> used, held_out;
+};
+
+std::string name_of(std::span<const std::string> names, std::size_t view) {
+    return view < names.size() ? names[view] : "view " + std::to_string(view);
+}
+
+std::string list_of(std::span<const std::string> names, const std::vector<std::size_t>& views) {
+    constexpr std::size_t kMost = 8;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(kMost, views.size()); ++i)
+        list += (i > 0 ? ", " : "") + name_of(names, views[i]);
+    return views.size() > kMost ? list + " and " + std::to_string(views.size() - kMost) + " more" : list;
+}
+
+std::vector<std::size_t> views_without_board(const Task& task) {
+    std::vector<std::size_t> without;
+    for (std::size_t i = 0; i < task.views.size(); ++i) {
+        if (!shows_board(task.views[i], task.design)) without.push_back(i);
+    }
+    return without;
+}
+
+Status check(const Task& task) {
+    if (Status valid = check_board_design(task.design); !valid) return valid;
+    if (task.known.angles_rad && task.known.angles_rad->size() != task.views.size()) {
+        return Error{"board: " + std::to_string(task.known.angles_rad->size()) + " angles for " +
+                     std::to_string(task.views.size()) + " views; give one for each"};
+    }
+    for (const BoardCorners& view : task.views) {
+        for (const SeenCorner& seen : view.corners) {
+            if (seen.corner < 0 || seen.corner >= corner_count(task.design) || !std::isfinite(seen.p.x + seen.p.y)) {
+                return Error{"board: corner " + std::to_string(seen.corner) + " is not on it; detect again with " +
+                             to_string(task.design)};
+            }
+        }
+    }
+    const std::vector<std::size_t> without = views_without_board(task);
+    if (task.views.size() - without.size() < 3) {
+        return Error{"board: " + std::to_string(task.views.size() - without.size()) + " of " +
+                     std::to_string(task.views.size()) + " views show at least " +
+                     std::to_string(kFewestCornersOfView) +
+                     " corners of it, three are needed; check that the board is the one described (" +
+                     to_string(task.design) + "), sharp, evenly lit and large in the picture"};
+    }
+    if (task.options.free.angles == AngleFreedom::kEach && !without.empty()) {
+        return Error{
+            "board: too few corners are seen in " + list_of(task.names, without) +
+            ", so nothing tells how far the object had turned there; leave those pictures out, or say that the "
+            "steps are equal or how large they are"};
+    }
+    return {};
+}
+
+void collect(Task& task) {
+    int count = 0;
+    for (std::size_t i = 0; i < task.views.size(); ++i) {
+        if (!shows_board(task.views[i], task.design)) continue;
+        for (const SeenCorner& seen : task.views[i].corners) {
+            const bool out = ++count % kHeldOutEvery == 0;
+            (out ? task.held_out : task.used)
+                .push_back({static_cast<int>(i), corner_mm(task.design, seen.corner), seen.p});
+        }
+    }
+}
+
+// The step that explains the start's angles, known where the board is shown; from neighbours first, then from all.
+std::optional<double> common_step(const Task& task, const std::vector<double>& angles_rad) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < task.views.size(); ++i) {
+        if (!shows_board(task.views[i - 1], task.design) || !shows_board(task.views[i], task.design)) continue;
+        steps.push_back(std::remainder(angles_rad[i] - angles_rad[i - 1], 2 * kPi));
+    }
+    if (steps.empty()) return std::nullopt;
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+    return steps[steps.size() / 2];
+}
+
+// Replaces the start's angles by those that are known or share a step; the board is turned so that the first view shown
+// looks as before.
+Status impose_angles(const Task& task, BoardTurn& turn) {
+    std::vector<double>& angles = turn.model.angles_rad;
+    const std::vector<double> measured = angles;
+    if (task.known.angles_rad) {
+        for (std::size_t i = 0; i < angles.size(); ++i)
+            angles[i] = (*task.known.angles_rad)[i] - task.known.angles_rad->front();
+    } else if (task.known.step_rad || task.known.equal_steps) {
+        const std::optional<double> step = task.known.step_rad ? task.known.step_rad : common_step(task, measured);
+        if (!step) return Error{"board: no two neighbouring views show it, so the step is not known; give the step"};
+        for (std::size_t i = 0; i < angles.size(); ++i) angles[i] = static_cast<double>(i) * *step;
+    } else {
+        return {};
+    }
+    std::size_t first = 0;
+    while (!shows_board(task.views[first], task.design)) ++first;
+    // Turning by the mean difference; the first view's own alone would carry its error into all.
+    glm::dvec2 mean(0);
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        if (!shows_board(task.views[i], task.design)) continue;
+        const double d = measured[i] - angles[i];
+        mean += glm::dvec2(std::cos(d), std::sin(d));
+    }
+    const double by = std::atan2(mean.y, mean.x);
+    if (task.options.free.angles == AngleFreedom::kHeld) {
+        for (std::size_t i = 0; i < angles.size(); ++i) {
+            if (!shows_board(task.views[i], task.design)) continue;
+            const double off = std::remainder(measured[i] - angles[i] - by, 2 * kPi);
+            if (std::abs(off) < kContradiction_rad) continue;
+            return Error{"board: it turned by " + std::to_string(degrees(measured[i] - measured[first])) +
+                         " degrees from " + name_of(task.names, first) + " to " + name_of(task.names, i) +
+                         ", not by the given " + std::to_string(degrees(angles[i] - angles[first])) +
+                         "; check the step and the direction of turning, or leave them out"};
+        }
+    }
+    const glm::dmat3 turn_by(turned({1, 0, 0}, by), turned({0, 1, 0}, by), turned({0, 0, 1}, by));
+    turn.board.object_from_board = turn_by * turn.board.object_from_board;
+    turn.board.middle = turn_by * turn.board.middle;
+    return {};
+}
+
+// The best of several starts after a few rounds of adjustment.
+Result<BoardTurn> best_start(const Task& task) {
+    std::vector<double> focal_lengths{task.lens.f_px};
+    if (!task.known.f_px) focal_lengths = likely_focal_lengths(task.views, task.design, task.lens);
+    BoardBundleOptions options = task.options;
+    options.noise_px = 1;
+    options.most_iterations = 25;
+    std::optional<BoardTurn> best;
+    std::optional<Error> refused;
+    double least = 0;
+    for (const double f_px : focal_lengths) {
+        Lens lens = task.lens;
+        lens.f_px = f_px;
+        std::optional<BoardTurn> turn = board_start(task.views, task.design, lens);
+        if (!turn) continue;
+        if (task.known.pose) turn->model.pose = *task.known.pose;
+        if (Status imposed = impose_angles(task, *turn); !imposed) {
+            if (!refused) refused = imposed.error();
+            continue;
+        }
+        const std::optional<double> cost = adjust(*turn, task.used, options);
+        if (cost && (!best || *cost < least)) {
+            best = turn;
+            least = *cost;
+        }
+    }
+    if (best) return *best;
+    if (refused) return *refused;
+    return Error{
+        "board: no turn about one axis explains its corners; check that only the plate turned, and that the board "
+        "lay still on it"};
+}
+
+// Standard deviation of a coordinate, from the median length of residuals (Rayleigh's distribution).
+double robust_noise_px(const BoardTurn& turn, std::span<const BoardObservation> seen) {
+    std::vector<double> lengths;
+    for (const BoardObservation& one : seen) {
+        const auto r = residual(turn, one);
+        lengths.push_back(r ? glm::length(*r) : 1e9);
+    }
+    std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2), lengths.end());
+    return std::max(kLeastNoise_px, lengths[lengths.size() / 2] / 1.1774);
+}
+
+std::vector<BoardObservation> within(const BoardTurn& turn, std::span<const BoardObservation> seen, double limit_px) {
+    std::vector<BoardObservation> kept;
+    for (const BoardObservation& one : seen) {
+        const auto r = residual(turn, one);
+        if (r && glm::length(*r) <= limit_px) kept.push_back(one);
+    }
+    return kept;
+}
+
+double rms_px(const BoardTurn& turn, std::span<const BoardObservation> seen) {
+    double sum = 0;
+    for (const BoardObservation& one : seen) {
+        if (const auto r = residual(turn, one)) sum += glm::dot(*r, *r);
+    }
+    return seen.empty() ? 0 : std::sqrt(sum / static_cast<double>(seen.size()));
+}
+
+std::vector<std::string> warnings_about(const Task& task, const Calibration& c) {
+    std::vector<std::string> warnings;
+    if (const auto without = views_without_board(task); !without.empty()) {
+        warnings.push_back("too few corners of the board are seen in " + list_of(task.names, without) +
+                           "; their angles follow from the other views or from what was given");
+    }
+    if (c.deviations.f_px > 0.02 * c.model.lens.f_px) {
+        warnings.emplace_back(
+            "the board hardly tells the focal length; photograph it from 20 to 60 degrees above, larger in the "
+            "picture");
+    }
+    if (c.deviations.cx > 0.02 * c.model.lens.width || c.deviations.cy > 0.02 * c.model.lens.width) {
+        warnings.emplace_back("a level board hardly tells the principal point; leave it at the picture's middle");
+    }
+    if (c.rms_px > 1.0) {
+        warnings.emplace_back(
+            "the board's corners are off by more than a pixel; it may be bent, may have slipped, or the "
+            "camera moved");
+    }
+    if (task.known.counter_clockwise && *task.known.counter_clockwise != (c.step_rad > 0)) {
+        warnings.emplace_back(std::string("the board turns ") + (c.step_rad > 0 ? "counter-clockwise" : "clockwise") +
+                              ", which is not what was given; the board is believed");
+    }
+    return warnings;
+}
+
+}  // namespace
+
+Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> views, const BoardDesign& design, int width,
+                                              int height, const KnownInputs& known,
+                                              std::span<const std::string> names) {
+    Task task{views, design, known, names, {}, {}, {}, {}};
+    const glm::dvec2 centre = known.principal_point.value_or(glm::dvec2(0.5 * width, 0.5 * height));
+    const glm::dvec2 distortion = known.distortion.value_or(glm::dvec2(0));
+    task.lens = {width,        height,      known.f_px.value_or(1.3 * std::max(width, height)), centre.x, centre.y,
+                 distortion.x, distortion.y};
+    BundleFreedom& free = task.options.free;
+    free.f = !known.f_px;
+    free.k1 = free.k2 = !known.distortion;
+    free.principal_point = known.estimate_principal_point && !known.principal_point;
+    free.pan = free.tilt = free.roll = !known.pose;
+    free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kHeld
+                  : known.equal_steps                ? AngleFreedom::kCommonStep
+                                                     : AngleFreedom::kEach;
+    if (Status usable = check(task); !usable) return usable.error();
+    collect(task);
+    Result<BoardTurn> turn = best_start(task);
+    if (!turn) return turn.error();
+
+    std::vector<BoardObservation> used = task.used;
+    for (int round = 0; round < 4; ++round) {
+        task.options.noise_px = robust_noise_px(*turn, used);
+        // Observations lost to a poor start get another chance.
+        used = within(*turn, task.used, kOutlierDeviations * task.options.noise_px);
+        if (!adjust(*turn, used, task.options)) {
+            return Error{"board: the adjustment fails; check that the pictures are of one turn and in order"};
+        }
+    }
+    std::vector<std::size_t> against;  // views of which nothing is left have no angle of their own
+    for (std::size_t i = 0; i < views.size() && free.angles == AngleFreedom::kEach; ++i) {
+        const bool left =
+            std::any_of(used.begin(), used.end(), [&](const auto& one) { return one.view == static_cast<int>(i); });
+        if (!left) against.push_back(i);
+    }
+    if (!against.empty()) {
+        return Error{
+            "board: its corners in " + list_of(names, against) +
+            " contradict all others; leave those pictures out, or check that the board lay still on the plate"};
+    }
+    // The residual variance, for the deviations: each observation has two coordinates, each unknown takes one.
+    std::set<int> shown, corners;
+    for (const BoardObservation& one : used) shown.insert(one.view);
+    const double unknowns = 13 + (free.angles == AngleFreedom::kEach ? static_cast<double>(shown.size()) - 1 : 1);
+    const double fitted = rms_px(*turn, used);
+    const double count = 2 * static_cast<double>(used.size());
+    task.options.noise_px = std::max(kLeastNoise_px, fitted * std::sqrt(0.5 * count / std::max(1.0, count - unknowns)));
+
+    BoardCalibration result;
+    Calibration& c = result.calibration;
+    c.method = CalibrationMethod::kBoard;
+    c.model = turn->model;
+    c.deviations = board_deviations(*turn, used, task.options);
+    for (const BoardCorners& view : views) {
+        for (const SeenCorner& seen : view.corners) corners.insert(seen.corner);
+    }
+    c.points = static_cast<int>(corners.size());
+    c.observations = static_cast<int>(used.size());
+    c.rms_px = fitted;
+    const auto held_out = within(*turn, task.held_out, kOutlierDeviations * task.options.noise_px);
+    c.held_out_rms_px = rms_px(*turn, held_out);
+    c.step_rad = median_step(c.model.angles_rad);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        std::vector<BoardObservation> here;
+        for (const BoardObservation& one : used) {
+            if (one.view == static_cast<int>(i)) here.push_back(one);
+        }
+        c.views.push_back({static_cast<int>(here.size()), rms_px(*turn, here)});
+    }
+    c.warnings = warnings_about(task, c);
+    result.object_from_board = turn->board.object_from_board;
+    result.middle = turn->board.middle;
+    result.units_per_mm = turn->board.units_per_mm;
+    result.mm_per_unit = 1 / turn->board.units_per_mm;
+    result.plane_normal = turn->board.object_from_board[1];
+    result.plane_offset = glm::dot(result.plane_normal, result.middle);
+    result.outliers = static_cast<int>(task.used.size() + task.held_out.size() - used.size() - held_out.size());
+    return result;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,301 @@
+#include "capture/calibration/board/board_detection.hpp"
+
+#include "capture/calibration/board/aruco_dictionary.hpp"
+#include "capture/calibration/board/corner_window.hpp"
+#include "rayspace/base/parallel.hpp"
+#include "rayspace/image/linear_light.hpp"
+
+#include <opencv2/aruco.hpp>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace rs::capture {
+namespace {
+
+constexpr std::size_t kFewestNeighbours = 4;
+constexpr double kSmoothing_px = 0.8;         // takes the pixels' stairs out before gradients are taken
+constexpr std::size_t kNeighbours = 16;       // matches that a local homography is made of
+constexpr double kMarkerNeighbourhood = 2.0;  // squares
+constexpr double kNeighbourhood = 3.2;
+constexpr double kMarkerLimit_px = 2.5;  // markers' corners are found to a pixel or so
+constexpr double kCornerLimit_px = 0.7;
+constexpr double kDisagreement_px =
+    1.0;  // with the neighbours' homography; a lens bends that little over three squares
+constexpr double kBoardDisagreement_px = 4;  // with the whole board's, which a lens bends
+constexpr int kMostRounds = 12;              // of growing from known corners to their neighbours
+
+// Known points of the board: its frame in squares from the top left, and OpenCV's pixels.
+struct Match {
+    cv::Point2d square;
+    cv::Point2d pixel;
+};
+
+struct FoundMarker {
+    int id = 0;
+    std::array<cv::Point2d, 4> pixels;  // clockwise from the top left as printed
+};
+
+std::map<int, cv::Point> squares_of_markers(const BoardDesign& design) {
+    std::map<int, cv::Point> squares;
+    for (int y = 0; y < design.squares_y; ++y) {
+        for (int x = 0; x < design.squares_x; ++x) {
+            if (const int marker = marker_of_square(design, x, y); marker >= 0) squares[marker] = {x, y};
+        }
+    }
+    return squares;
+}
+
+// Markers of the board in the picture stretched by sx, sy.
+std::vector<FoundMarker> markers_in(const cv::Mat1b& grey, const BoardDesign& design,
+                                    const std::map<int, cv::Point>& squares, double sx, double sy) {
+    cv::Mat1b stretched = grey;
+    if (sx != 1 || sy != 1) cv::resize(grey, stretched, {}, sx, sy, cv::INTER_LINEAR);
+    const cv::Ptr<cv::aruco::DetectorParameters> parameters = cv::aruco::DetectorParameters::create();
+    parameters->adaptiveThreshWinSizeMin = 5;
+    parameters->adaptiveThreshWinSizeMax = std::max(25, std::min(stretched.cols, stretched.rows) / 25);
+    parameters->adaptiveThreshWinSizeStep = std::max(6, (parameters->adaptiveThreshWinSizeMax - 5) / 4);
+    parameters->minMarkerPerimeterRate = 0.015;
+    parameters->perspectiveRemovePixelPerCell = 6;
+    parameters->cornerRefinementMethod = cv::aruco::CORNER_REFINE_NONE;  // corners of squares are refined, not these
+    std::vector<std::vector<cv::Point2f>> corners;
+    std::vector<int> ids;
+    const auto dictionary = cv::aruco::getPredefinedDictionary(find_dictionary(design.dictionary)->number);
+    cv::aruco::detectMarkers(stretched, dictionary, corners, ids, parameters);
+    std::map<int, int> times;
+    for (const int id : ids) ++times[id];
+    std::vector<FoundMarker> found;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (!squares.contains(ids[i]) || times[ids[i]] > 1) continue;  // another board's, or a mistake
+        FoundMarker marker{ids[i], {}};
+        for (std::size_t k = 0; k < 4; ++k) {
+            marker.pixels[k] = {(corners[i][k].x + 0.5) / sx - 0.5, (corners[i][k].y + 0.5) / sy - 0.5};
+        }
+        found.push_back(marker);
+    }
+    std::sort(found.begin(), found.end(), [](const FoundMarker& a, const FoundMarker& b) { return a.id < b.id; });
+    return found;
+}
+
+std::vector<FoundMarker> find_markers(const cv::Mat1b& grey, const BoardDesign& design,
+                                      const std::map<int, cv::Point>& squares) {
+    constexpr std::array<std::pair<double, double>, 5> kStretches{{{1, 1}, {1, 2}, {2, 1}, {1, 3.5}, {3.5, 1}}};
+    std::vector<FoundMarker> best;
+    for (const auto& [sx, sy] : kStretches) {
+        std::vector<FoundMarker> found = markers_in(grey, design, squares, sx, sy);
+        if (found.size() > best.size()) best = std::move(found);
+        if (best.size() * 3 >= squares.size()) break;  // enough to begin from
+    }
+    return best;
+}
+
+std::vector<Match> matches_of(const std::vector<FoundMarker>& markers, const std::map<int, cv::Point>& squares,
+                              double share) {
+    const double rim = 0.5 * (1 - share);
+    const std::array<cv::Point2d, 4> at{{{rim, rim}, {1 - rim, rim}, {1 - rim, 1 - rim}, {rim, 1 - rim}}};
+    std::vector<Match> matches;
+    for (const FoundMarker& marker : markers) {
+        const cv::Point2d square = squares.at(marker.id);
+        for (std::size_t k = 0; k < 4; ++k) matches.push_back({square + at[k], marker.pixels[k]});
+    }
+    return matches;
+}
+
+// From squares, counted from `centre`, to pixels: the homography of the matches nearest to it. Nothing where they are
+// too few or too far.
+// Matches farther than `limit_px` from what most of them say are wrong ones; 0: all count.
+std::optional<cv::Matx33d> homography_around(const cv::Point2d& centre, std::vector<Match> matches, std::size_t count,
+                                             double reach, double limit_px) {
+    std::erase_if(matches, [&](const Match& m) { return cv::norm(m.square - centre) > reach; });
+    if (matches.size() < kFewestNeighbours) return std::nullopt;
+    std::stable_sort(matches.begin(), matches.end(), [&](const Match& a, const Match& b) {
+        return cv::norm(a.square - centre) < cv::norm(b.square - centre);
+    });
+    if (matches.size() > count) matches.resize(count);
+    std::vector<cv::Point2d> from, to;
+    for (const Match& m : matches) {
+        from.push_back(m.square - centre);
+        to.push_back(m.pixel);
+    }
+    // Points on one line tell nothing across it.
+    cv::Matx22d spread = cv::Matx22d::zeros();
+    cv::Point2d mean;
+    for (const cv::Point2d& p : from) mean += p * (1.0 / static_cast<double>(from.size()));
+    for (const cv::Point2d& p : from) {
+        const cv::Vec2d d(p.x - mean.x, p.y - mean.y);
+        spread += d * d.t();
+    }
+    if (cv::determinant(spread) < 0.02 * spread(0, 0) * spread(1, 1) || cv::determinant(spread) < 1e-3) {
+        return std::nullopt;
+    }
+    // So do all points of one line and a single one beside it.
+    for (const cv::Point2d& p : from) {
+        for (const cv::Point2d& q : from) {
+            if (p == q) continue;
+            const auto beside = std::count_if(
+                from.begin(), from.end(), [&](const cv::Point2d& r) { return std::abs((q - p).cross(r - p)) > 1e-6; });
+            if (beside < 2) return std::nullopt;
+        }
+    }
+    // OpenCV's RANSAC begins from a fixed seed: the same points give the same result.
+    const cv::Mat h = cv::findHomography(from, to, limit_px > 0 && from.size() > 6 ? cv::RANSAC : 0, limit_px);
+    if (h.empty() || !cv::checkRange(h)) return std::nullopt;
+    return cv::Matx33d(h);
+}
+
+struct CornerSearch {
+    const cv::Mat1f& smooth;
+    const BoardDesign& design;
+    std::map<int, glm::dvec2> found;  // OpenCV's pixels
+
+    cv::Point2d square_of(int corner) const {
+        const cv::Point square(corner % (design.squares_x - 1), corner / (design.squares_x - 1));
+        return {square.x + 1.0, square.y + 1.0};
+    }
+
+    std::optional<glm::dvec2> refined(int corner, const cv::Matx33d& h) const {
+        const int x = corner % (design.squares_x - 1), y = corner / (design.squares_x - 1);
+        return refined_corner(smooth, h, square_is_black(x, y), 0.5 * (1 - design.marker_share));
+    }
+
+    // Refines every corner that is not found yet and lies among matches. How many were new.
+    int look_around(const std::vector<Match>& matches, std::size_t count, double reach, double limit_px) {
+        std::map<int, glm::dvec2> fresh;
+        for (int corner = 0; corner < corner_count(design); ++corner) {
+            if (found.contains(corner) || !corner_is_printed(design, corner)) continue;
+            const auto h = homography_around(square_of(corner), matches, count, reach, limit_px);
+            const auto p = h ? refined(corner, *h) : std::nullopt;
+            if (p) fresh[corner] = *p;
+        }
+        found.insert(fresh.begin(), fresh.end());
+        return static_cast<int>(fresh.size());
+    }
+
+    std::vector<Match> as_matches() const {
+        std::vector<Match> matches;
+        for (const auto& [corner, p] : found) matches.push_back({square_of(corner), {p.x, p.y}});
+        return matches;
+    }
+
+    // Of its neighbours, or where these lie on a line, as on one side of the object, of all the board.
+    static std::optional<cv::Matx33d> homography_near(const cv::Point2d& square, const std::vector<Match>& others,
+                                                      double limit_px, double& disagreement_px) {
+        disagreement_px = kDisagreement_px;
+        const auto near = homography_around(square, others, kNeighbours, kNeighbourhood, limit_px);
+        if (near) return near;
+        disagreement_px = kBoardDisagreement_px;
+        return homography_around(square, others, others.size(), std::numeric_limits<double>::infinity(),
+                                 limit_px > 0 ? kBoardDisagreement_px : 0);
+    }
+
+    // How far a match stands from where the others expect it, over what is allowed; 0 where they cannot tell.
+    static double disagreement(const Match& match, std::vector<Match> others) {
+        std::erase_if(others, [&](const Match& m) { return m.square == match.square; });
+        double allowed_px = 0;
+        const auto h = homography_near(match.square, others, kCornerLimit_px, allowed_px);
+        if (!h) return 0;
+        const cv::Point2d expected((*h)(0, 2) / (*h)(2, 2), (*h)(1, 2) / (*h)(2, 2));
+        return cv::norm(match.pixel - expected) / allowed_px;
+    }
+
+    // What does not agree with its neighbours goes, the worst first, for it may be what they disagree with; the rest is
+    // refined once more, with a homography of corners, which is better than the markers'.
+    void refine_again() {
+        std::vector<Match> agreed = as_matches();
+        while (!agreed.empty()) {
+            std::vector<double> off(agreed.size());
+            std::transform(agreed.begin(), agreed.end(), off.begin(),
+                           [&](const Match& match) { return disagreement(match, agreed); });
+            const auto worst = std::max_element(off.begin(), off.end());
+            if (*worst < 1) break;
+            agreed.erase(agreed.begin() + (worst - off.begin()));
+        }
+        std::map<int, glm::dvec2> kept;
+        for (const Match& match : agreed) {
+            const auto x = static_cast<int>(match.square.x) - 1, y = static_cast<int>(match.square.y) - 1;
+            const int corner = y * (design.squares_x - 1) + x;
+            double disagreement_px = 0;
+            auto h = homography_near(match.square, agreed, 0, disagreement_px);
+            if (h) {  // begin from where the corner was found
+                const cv::Point2d at((*h)(0, 2) / (*h)(2, 2), (*h)(1, 2) / (*h)(2, 2));
+                *h = cv::Matx33d(1, 0, match.pixel.x - at.x, 0, 1, match.pixel.y - at.y, 0, 0, 1) * *h;
+            }
+            const auto p = h ? refined(corner, *h) : std::nullopt;
+            if (p) kept[corner] = *p;
+        }
+        found = std::move(kept);
+    }
+};
+
+BoardCorners corners_in(const cv::Mat1b& grey, const BoardDesign& design) {
+    const std::map<int, cv::Point> squares = squares_of_markers(design);
+    const std::vector<Match> markers = matches_of(find_markers(grey, design, squares), squares, design.marker_share);
+    if (markers.empty()) return {};
+    // Edges stand where light is half, not where its sRGB code is.
+    cv::Mat1f smooth(grey.size());
+    for (int y = 0; y < grey.rows; ++y) {
+        for (int x = 0; x < grey.cols; ++x) smooth(y, x) = 255 * linear_from_srgb8(grey(y, x));
+    }
+    cv::GaussianBlur(smooth, smooth, {0, 0}, kSmoothing_px, kSmoothing_px, cv::BORDER_REPLICATE);
+    CornerSearch search{smooth, design, {}};
+    search.look_around(markers, kNeighbours, kMarkerNeighbourhood, kMarkerLimit_px);
+    for (int pass = 0; pass < 2; ++pass) {  // what a poor neighbour spoilt in the first is found in the second
+        for (int round = 0; round < kMostRounds; ++round) {
+            if (search.look_around(search.as_matches(), kNeighbours, kNeighbourhood, kCornerLimit_px) == 0) break;
+        }
+        search.refine_again();
+    }
+    BoardCorners seen;
+    for (const auto& [corner, p] : search.found) seen.corners.push_back({corner, p + glm::dvec2(0.5)});
+    return seen;
+}
+
+}  // namespace
+
+Result<BoardCorners> detect_board(ConstImageView<std::uint8_t> grey, const BoardDesign& design) {
+    if (Status valid = check_board_design(design); !valid) return valid.error();
+    if (grey.width() < 8 || grey.height() < 8) return BoardCorners{};
+    try {
+        const cv::Mat1b pixels(grey.height(), grey.width(), const_cast<std::uint8_t*>(grey.data()),
+                               static_cast<std::size_t>(grey.stride()));
+        return corners_in(pixels, design);
+    } catch (const cv::Exception& e) {
+        return Error{"the board could not be looked for: " + std::string(e.what()) +
+                     "; check that the picture can be shown by other programs"};
+    }
+}
+
+Result<BoardCorners> detect_board(ConstImageView<Rgba8> picture, const BoardDesign& design) {
+    Image<std::uint8_t> grey(picture.width(), picture.height());
+    for (int y = 0; y < picture.height(); ++y) {
+        const Rgba8* from = picture.row(y);
+        for (int x = 0; x < picture.width(); ++x) {
+            grey(x, y) = static_cast<std::uint8_t>((299 * from[x].r + 587 * from[x].g + 114 * from[x].b + 500) / 1000);
+        }
+    }
+    return detect_board(std::as_const(grey).view(), design);
+}
+
+Result<std::vector<BoardCorners>> detect_boards(int views, const std::function<Result<Image<Rgba8>>(int)>& load,
+                                                const BoardDesign& design, Progress* progress) {
+    std::vector<BoardCorners> seen(static_cast<std::size_t>(std::max(0, views)));
+    const Status done = for_each_in_parallel(views, "looking for the board", progress, [&](int view) -> Status {
+        const Result<Image<Rgba8>> picture = load(view);
+        if (!picture) return picture.error();
+        Result<BoardCorners> found = detect_board(picture->view(), design);
+        if (!found) return Error{"view " + std::to_string(view) + ": " + found.error().message};
+        seen[static_cast<std::size_t>(view)] = std::move(*found);
+        return {};
+    });
+    if (!done) return done.error();
+    return seen;
+}
+
+}  // namespace rs::capture

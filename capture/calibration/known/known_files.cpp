@@ -1,0 +1,220 @@
+#include "capture/calibration/known/known_files.hpp"
+
+#include "capture/calibration/known/known_turn.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/geometry/rig.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace rs::capture {
+namespace {
+
+constexpr std::uint64_t kMaxMiddlebury_bytes = std::uint64_t{16} << 20;
+constexpr std::size_t kMaxName_bytes = 4096;
+constexpr std::size_t kNumbersPerView = 21;
+constexpr double kMaxNumber = 1e9;
+constexpr double kRigidTolerance = 1e-3;
+constexpr double kSameIntrinsics = 1e-4;  // of f
+
+// Words between blanks; a line ends at '\n' or "\r\n".
+class Words {
+public:
+    explicit Words(std::string_view line) : rest_(line) {}
+    std::string_view next() {
+        constexpr std::string_view kBlanks = " \t\r";
+        const std::size_t first = rest_.find_first_not_of(kBlanks);
+        if (first == std::string_view::npos) {
+            rest_ = {};
+            return {};
+        }
+        rest_.remove_prefix(first);
+        const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
+        rest_.remove_prefix(word.size());
+        return word;
+    }
+
+private:
+    std::string_view rest_;
+};
+
+std::optional<double> number_from(std::string_view word) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    // NaN fails the comparison too.
+    if (error != std::errc{} || end != word.data() + word.size() || !(std::abs(number) <= kMaxNumber)) return {};
+    return number;
+}
+
+std::string_view take_line(std::string_view& text) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    return line;
+}
+
+struct MiddleburyView {
+    std::string name;
+    std::array<double, 9> k{};  // row by row
+    glm::dmat4 world_from_camera{1.0};
+};
+
+Result<MiddleburyView> view_from(std::string_view line, const std::string& place) {
+    Words words(line);
+    MiddleburyView view;
+    view.name = std::string(words.next());
+    if (view.name.empty()) return Error{place + " is empty; a view's name and 21 numbers belong there"};
+    if (view.name.size() > kMaxName_bytes) return Error{place + ": the picture's name is too long"};
+    std::array<double, kNumbersPerView> numbers{};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::string_view word = words.next();
+        const auto number = number_from(word);
+        if (!number) {
+            return Error{place + ": number " + std::to_string(i + 1) +
+                         (word.empty() ? " is missing" : " is not a finite number") +
+                         "; a view's name, k11..k33, r11..r33 and t1..t3 belong there"};
+        }
+        numbers[i] = *number;
+    }
+    if (!words.next().empty()) return Error{place + " has more than a name and 21 numbers"};
+
+    std::copy_n(numbers.begin(), 9, view.k.begin());
+    // p_in_camera = R p + t with y down and z forward: rows right, down, forward. Ours are right, up, back.
+    const auto row = [&](std::size_t r) {
+        return glm::dvec3(numbers[9 + 3 * r], numbers[10 + 3 * r], numbers[11 + 3 * r]);
+    };
+    const glm::dvec3 t(numbers[18], numbers[19], numbers[20]);
+    view.world_from_camera[0] = glm::dvec4(row(0), 0);
+    view.world_from_camera[1] = glm::dvec4(-row(1), 0);
+    view.world_from_camera[2] = glm::dvec4(-row(2), 0);
+    view.world_from_camera[3] = glm::dvec4(-(row(0) * t.x + row(1) * t.y + row(2) * t.z), 1);
+    Camera rotation;
+    rotation.world_from_camera = view.world_from_camera;
+    if (!(rotation_error(rotation) <= kRigidTolerance)) return Error{place + ": r11..r33 is not a rotation"};
+    return view;
+}
+
+Status set_lens(KnownInputs& known, const MiddleburyView& first, const std::string& where) {
+    const auto& k = first.k;
+    if (std::abs(k[8] - 1) > 1e-9 || k[3] != 0 || k[6] != 0 || k[7] != 0) {
+        return Error{where + ": K is not of the form fx s cx, 0 fy cy, 0 0 1"};
+    }
+    const auto f_px = common_focal_length(k[0], k[4], where);
+    if (!f_px) return f_px.error();
+    if (std::abs(k[1]) > 1e-3 * *f_px) return Error{where + ": K has skew, which no camera here has"};
+    known.f_px = *f_px;
+    known.principal_point = glm::dvec2(k[2] + 0.5, k[5] + 0.5);
+    known.distortion = glm::dvec2(0);
+    return {};
+}
+
+// Coefficients that NeRF tools write beside the intrinsics.
+Result<glm::dvec2> distortion_of(const nlohmann::json& extras, const std::string& where) {
+    const auto coefficient = [&](const char* key) -> Result<double> {
+        if (!extras.contains(key)) return 0.0;
+        if (!extras[key].is_number()) return Error{where + ": " + key + " must be a number"};
+        return extras[key].get<double>();
+    };
+    for (const char* key : {"k3", "k4", "k5", "k6", "p1", "p2"}) {
+        const auto value = coefficient(key);
+        if (!value) return value.error();
+        if (*value != 0) {
+            return Error{where + ": distortion " + key + " = " + std::to_string(*value) +
+                         " is not supported, only k1 and k2; calibrate with those alone or undistort the pictures"};
+        }
+    }
+    const auto k1 = coefficient("k1");
+    const auto k2 = coefficient("k2");
+    if (!k1) return k1.error();
+    if (!k2) return k2.error();
+    return glm::dvec2(*k1, *k2);
+}
+
+}  // namespace
+
+Result<KnownFile> middlebury_parameters_from(const std::string& text, const std::string& where) {
+    std::string_view rest = text;
+    Words head(take_line(rest));
+    const auto count = number_from(head.next());
+    if (!count || !(*count >= 1 && *count <= kMaxViews) || *count != std::floor(*count) || !head.next().empty()) {
+        return Error{where + ": line 1 must be the number of views, 1 to " + std::to_string(kMaxViews)};
+    }
+    std::vector<MiddleburyView> views;
+    for (int i = 0; i < static_cast<int>(*count); ++i) {
+        auto view = view_from(take_line(rest), where + ": line " + std::to_string(i + 2));
+        if (!view) return view.error();
+        views.push_back(std::move(*view));
+        for (std::size_t k = 0; k < 9; ++k) {
+            if (std::abs(views.back().k[k] - views[0].k[k]) > kSameIntrinsics * std::abs(views[0].k[0])) {
+                return Error{where + ": line " + std::to_string(i + 2) +
+                             ": K differs from the first view's; a turn is taken with one lens"};
+            }
+        }
+    }
+    if (rest.find_first_not_of(" \t\r\n") != std::string_view::npos) {
+        return Error{where + ": has more lines than the " + std::to_string(views.size()) + " views that line 1 says"};
+    }
+    KnownFile file;
+    if (Status status = set_lens(file.known, views[0], where); !status) return status.error();
+    std::vector<glm::dmat4> cameras;
+    for (MiddleburyView& view : views) {
+        cameras.push_back(view.world_from_camera);
+        file.pictures.push_back(std::move(view.name));
+    }
+    if (Status status = set_turn(file.known, cameras, where); !status) return status.error();
+    return file;
+}
+
+Result<KnownFile> read_middlebury_parameters(const std::filesystem::path& path) {
+    const auto bytes = read_file(path, kMaxMiddlebury_bytes);
+    if (!bytes) return bytes.error();
+    return middlebury_parameters_from({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+}
+
+Result<KnownFile> read_known_rig(const std::filesystem::path& path, PicturePixels pictures) {
+    const auto rig = read_rig(path);
+    if (!rig) return rig.error();
+    const std::string where = path.string();
+    if (rig->views.empty()) return Error{where + ": has no views"};
+    const Camera& first = rig->views[0].camera;
+    const auto f_px = common_focal_length(first.fl_x, first.fl_y, where);
+    if (!f_px) return f_px.error();
+    if (pictures.width > 0 && (first.width != pictures.width || first.height != pictures.height)) {
+        return Error{where + ": is of pictures of " + std::to_string(first.width) + " x " +
+                     std::to_string(first.height) + " pixels, these have " + std::to_string(pictures.width) + " x " +
+                     std::to_string(pictures.height) + "; use pictures of the size it was made for"};
+    }
+    const auto distortion = distortion_of(rig->extras, where);
+    if (!distortion) return distortion.error();
+
+    KnownFile file;
+    std::vector<glm::dmat4> cameras;
+    for (std::size_t i = 0; i < rig->views.size(); ++i) {
+        const RigView& view = rig->views[i];
+        const Camera& camera = view.camera;
+        const double limit = kSameIntrinsics * *f_px;
+        const bool same = camera.width == first.width && camera.height == first.height &&
+                          std::abs(camera.fl_x - first.fl_x) <= limit && std::abs(camera.fl_y - first.fl_y) <= limit &&
+                          std::abs(camera.cx - first.cx) <= limit && std::abs(camera.cy - first.cy) <= limit;
+        const auto own = distortion_of(view.extras, where);
+        if (!own) return own.error();
+        if (!same || *own != glm::dvec2(0)) {
+            return Error{where + ": view " + std::to_string(i + 1) +
+                         " has a lens of its own; a turn is taken with one lens"};
+        }
+        cameras.push_back(camera.world_from_camera);
+        file.pictures.push_back(view.file_path);
+    }
+    file.known.f_px = *f_px;
+    file.known.principal_point = glm::dvec2(first.cx, first.cy);
+    file.known.distortion = *distortion;
+    if (Status status = set_turn(file.known, cameras, where); !status) return status.error();
+    return file;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,184 @@
+#include "capture/calibration/points/patch_alignment.hpp"
+
+#include "capture/calibration/points/patch.hpp"
+#include "rayspace/base/conventions.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace rs::capture {
+namespace {
+
+constexpr double kFarthest_rad = 0.75;  // from the reference view; beyond, a surface is seen too aslant
+constexpr double kMostCurvature = 0.1;  // 1/px
+constexpr std::size_t kFewestAligned = 3;
+
+double nearest_turn(double angle_rad) {
+    return std::remainder(angle_rad, 2 * kPi);
+}
+
+// A point with a piece of surface through it, as the reference camera sees it: two vectors across the line of sight and
+// one along it, each one (reduced) px long there, and how the surface falls back.
+struct Facet {
+    Observation reference;
+    glm::dvec3 point{0.0};
+    glm::dvec3 along_x{0.0};
+    glm::dvec3 along_y{0.0};
+    glm::dvec3 away{0.0};
+    glm::dvec2 slope{0.0};
+    glm::dvec3 curvature{0.0};  // 1/px, for i^2 / 2, j^2 / 2, i j
+    [[nodiscard]] glm::dvec3 at(double i, double j) const {
+        const double depth =
+            slope.x * i + slope.y * j + 0.5 * curvature.x * i * i + 0.5 * curvature.y * j * j + curvature.z * i * j;
+        return point + along_x * i + along_y * j + away * depth;
+    }
+};
+
+std::optional<Facet> facet_of(const Bundle& bundle, std::size_t i, int reduction) {
+    const TurntableModel& model = bundle.model;
+    Facet facet;
+    facet.reference = middle_of_arc(model, bundle.tracks[i]);
+    facet.point = bundle.points[i];
+    const auto view = static_cast<std::size_t>(facet.reference.view);
+    const Camera camera = object_camera(model, view);
+    const double depth = glm::dot(facet.point - camera.centre(), camera.forward());
+    if (depth <= 0) return std::nullopt;
+    facet.along_x = camera.right() * (depth / camera.fl_x * reduction);
+    facet.along_y = -camera.up() * (depth / camera.fl_x * reduction);
+    facet.away = camera.forward() * (depth / camera.fl_x * reduction);
+    return facet;
+}
+
+// Where the facet is expected in a view, px of the reduced pictures.
+std::optional<Warp> expected(const TurntableModel& model, const Facet& facet, int view, int reduction) {
+    const auto seen = [&](const glm::dvec3& p) { return projected(model, p, view); };
+    // Differences over a few px, like the patch: a quadratic is what the patch sees of it.
+    constexpr double kReach_px = 4;
+    const auto centre = seen(facet.point);
+    const auto left = seen(facet.at(-kReach_px, 0)), right = seen(facet.at(kReach_px, 0));
+    const auto upper = seen(facet.at(0, -kReach_px)), lower = seen(facet.at(0, kReach_px));
+    const auto corner = seen(facet.at(kReach_px, kReach_px)), opposite = seen(facet.at(-kReach_px, -kReach_px));
+    const auto deeper = seen(facet.point + facet.away);
+    if (!centre || !left || !right || !upper || !lower || !corner || !opposite || !deeper) return std::nullopt;
+    const double scale = 1.0 / reduction;
+    const double first = scale / (2 * kReach_px), second = scale / (kReach_px * kReach_px);
+    Warp warp;
+    warp.centre = *centre * scale;
+    warp.matrix = glm::dmat2((*right - *left) * first, (*lower - *upper) * first);
+    warp.bent[0] = (*left + *right - 2.0 * *centre) * second;
+    warp.bent[1] = (*upper + *lower - 2.0 * *centre) * second;
+    warp.bent[2] = 0.5 * ((*corner + *opposite - 2.0 * *centre) * second - warp.bent[0] - warp.bent[1]);
+    warp.deeper = (*deeper - *centre) * scale;
+    return warp;
+}
+
+// [view][point]
+std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const CalibrationPicture> turn, int reduction,
+                                                             const TurntableModel& model,
+                                                             const std::vector<std::optional<Facet>>& facets,
+                                                             const std::vector<std::optional<Patch>>& patches,
+                                                             bool curvature_is_known) {
+    std::vector<std::vector<std::optional<Alignment>>> found(turn.size());
+    tbb::parallel_for(std::size_t{0}, turn.size(), [&](std::size_t view) {
+        const Image<float> picture = smoothed(turn[view].grey);
+        found[view].resize(facets.size());
+        for (std::size_t i = 0; i < facets.size(); ++i) {
+            if (!facets[i]) continue;
+            auto& here = found[view][i];
+            const auto reference = static_cast<std::size_t>(facets[i]->reference.view);
+            if (reference == view) {
+                here = Alignment{facets[i]->reference, glm::dmat2(1.0), {}, {}};
+                continue;
+            }
+            const double apart = nearest_turn(model.angles_rad[view] - model.angles_rad[reference]);
+            if (std::abs(apart) > kFarthest_rad) continue;
+            const auto warp = expected(model, *facets[i], static_cast<int>(view), reduction);
+            if (warp) here = align(picture, turn[view].alpha, *patches[i], *warp, curvature_is_known);
+            if (here) {
+                here->seen.p *= static_cast<double>(reduction);
+                here->seen.view = static_cast<int>(view);
+            }
+        }
+    });
+    return found;
+}
+
+// The facet's slope and curvature, from its alignments in all views.
+void shape(Facet& facet, const TurntableModel& model, int reduction,
+           const std::vector<std::vector<std::optional<Alignment>>>& found, std::size_t point) {
+    constexpr double kSlopeInformation = 1e-3;  // towards facing the camera
+    glm::dvec2 slope(0.0);
+    glm::dvec3 curvature(0.0), information(1 / (kTypicalCurvature * kTypicalCurvature));
+    double moved = kSlopeInformation;
+    for (std::size_t view = 0; view < found.size(); ++view) {
+        const auto& seen = found[view][point];
+        if (!seen || seen->seen.view == facet.reference.view) continue;
+        const auto warp = expected(model, facet, static_cast<int>(view), reduction);
+        if (!warp) continue;
+        for (int k = 0; k < 2; ++k) slope[k] += glm::dot(seen->matrix[k] - warp->matrix[k], warp->deeper);
+        moved += glm::dot(warp->deeper, warp->deeper);
+        curvature += seen->curvature * seen->curvature_information;
+        information += seen->curvature_information;
+    }
+    facet.slope += slope / moved;
+    facet.curvature = glm::clamp(curvature / information, -kMostCurvature, kMostCurvature);
+}
+
+}  // namespace
+
+const Observation& middle_of_arc(const TurntableModel& model, const Track& track) {
+    glm::dvec2 sum(0.0);
+    const auto angle = [&](const Observation& seen) { return model.angles_rad[static_cast<std::size_t>(seen.view)]; };
+    for (const Observation& seen : track.seen) sum += glm::dvec2(std::cos(angle(seen)), std::sin(angle(seen)));
+    const double middle = std::atan2(sum.y, sum.x);
+    return *std::min_element(track.seen.begin(), track.seen.end(), [&](const Observation& a, const Observation& b) {
+        return std::abs(nearest_turn(angle(a) - middle)) < std::abs(nearest_turn(angle(b) - middle));
+    });
+}
+
+std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int reduction, const Bundle& bundle,
+                                  std::size_t known) {
+    const TurntableModel& model = bundle.model;
+    const std::size_t points = bundle.points.size();
+    std::vector<std::optional<Facet>> facets(points);
+    for (std::size_t i = 0; i < points; ++i) facets[i] = facet_of(bundle, i, reduction);
+
+    std::vector<std::optional<Patch>> patches(points);
+    tbb::parallel_for(std::size_t{0}, turn.size(), [&](std::size_t view) {
+        const Image<float> picture = smoothed(turn[view].grey);
+        for (std::size_t i = 0; i < points; ++i) {
+            if (!facets[i] || facets[i]->reference.view != static_cast<int>(view)) continue;
+            patches[i] = textured_patch(picture, turn[view].alpha, facets[i]->reference.p * (1.0 / reduction));
+            if (!patches[i]) facets[i].reset();
+        }
+    });
+
+    // First how the surface lies and is curved around each point, as all views together say; then, with that held,
+    // where it is.
+    std::vector<std::vector<std::optional<Alignment>>> found =
+        align_all(turn, reduction, model, facets, patches, false);
+    for (std::size_t i = 0; i < points; ++i) {
+        if (facets[i]) shape(*facets[i], model, reduction, found, i);
+    }
+    found = align_all(turn, reduction, model, facets, patches, true);
+
+    std::vector<Track> tracks(points);
+    for (std::size_t view = 0; view < turn.size(); ++view) {
+        for (std::size_t i = 0; i < points; ++i) {
+            if (!found[view][i]) continue;
+            tracks[i].seen.push_back(found[view][i]->seen);
+        }
+    }
+    for (std::size_t i = 0; i < std::min(known, points); ++i) {
+        if (tracks[i].seen.size() >= kFewestAligned) continue;
+        tracks[i] = bundle.tracks[i];
+        for (Observation& seen : tracks[i].seen) seen.weight = glm::dmat2(kDetectedWeight);
+    }
+    std::erase_if(tracks, [](const Track& track) { return track.seen.size() < kFewestAligned; });
+    return tracks;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,250 @@
+#include "capture/calibration/silhouettes/outline_tangency.hpp"
+
+#include "rayspace/base/conventions.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace rs::capture {
+namespace {
+
+constexpr double kHalf_code = 127.5;  // of alpha: there the outline runs
+constexpr double kNearestPair_rad = 0.15;
+constexpr double kFarthestPair_rad = 2.6;
+constexpr std::size_t kFewestResiduals = 60;
+constexpr double kRobustDeviations = 2;
+constexpr int kTangencyRounds = 8;
+// One view takes part in many pairs with nearly the same corner of its hull: so many pairs count as one.
+constexpr double kAlikePerView = 0.25;
+// Outlines err together, too, in ways no residual shows, most of all those of a body that looks the same from all
+// sides; by how much more than they say, true errors on photographs with known truth tell.
+constexpr double kUntold = 3;
+
+struct HullPoint {
+    glm::dvec2 plane{0.0};  // without distortion
+    glm::dvec2 p{0.0};      // px
+};
+
+// Where alpha is half along every row and column, from the picture's borders inwards, px of the reduced picture.
+// Nothing where the object touches the border.
+std::vector<glm::dvec2> outermost(const Image<std::uint8_t>& alpha) {
+    std::vector<glm::dvec2> points;
+    bool cut_off = false;
+    const auto scan = [&](int count, auto at, auto place) {
+        int first = -1, last = -1;
+        for (int i = 0; i < count; ++i) {
+            if (at(i) <= kHalf_code) continue;
+            if (first < 0) first = i;
+            last = i;
+        }
+        if (first < 0) return;
+        if (first == 0 || last == count - 1) {
+            cut_off = true;
+            return;
+        }
+        points.push_back(place(first + 0.5 - (at(first) - kHalf_code) / (at(first) - at(first - 1))));
+        points.push_back(place(last + 0.5 + (at(last) - kHalf_code) / (at(last) - at(last + 1))));
+    };
+    for (int y = 0; y < alpha.height(); ++y) {
+        scan(
+            alpha.width(), [&](int x) { return static_cast<double>(alpha(x, y)); },
+            [&](double x) { return glm::dvec2(x, y + 0.5); });
+    }
+    for (int x = 0; x < alpha.width(); ++x) {
+        scan(
+            alpha.height(), [&](int y) { return static_cast<double>(alpha(x, y)); },
+            [&](double y) { return glm::dvec2(x + 0.5, y); });
+    }
+    if (cut_off) points.clear();
+    return points;
+}
+
+// Andrew's monotone chain.
+OutlineHull convex_hull(std::vector<HullPoint> points) {
+    std::sort(points.begin(), points.end(), [](const HullPoint& a, const HullPoint& b) {
+        return a.plane.x < b.plane.x || (a.plane.x == b.plane.x && a.plane.y < b.plane.y);
+    });
+    const auto turns_right = [](const HullPoint& o, const HullPoint& a, const HullPoint& b) {
+        const glm::dvec2 u = a.plane - o.plane, v = b.plane - o.plane;
+        return u.x * v.y - u.y * v.x <= 0;
+    };
+    std::vector<HullPoint> hull;
+    const auto add = [&](const HullPoint& point, std::size_t fewest) {
+        while (hull.size() >= fewest && turns_right(hull[hull.size() - 2], hull.back(), point)) hull.pop_back();
+        hull.push_back(point);
+    };
+    for (const HullPoint& point : points) add(point, 2);
+    const std::size_t lower = hull.size() + 1;
+    for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
+    OutlineHull corners;
+    for (std::size_t i = 0; i + 1 < hull.size(); ++i) corners.push_back(hull[i].p);
+    return corners;
+}
+
+// One side of a pencil of planes: the outermost that touches a hull, and the sine of the angle between the line of
+// sight to where it does and the pencil's axis.
+struct Tangent {
+    double slope = 0;  // tangent of the plane's angle from the pencil's middle
+    double sine = 1;
+};
+
+struct Pencil {
+    glm::dvec3 axis{0.0};    // from one camera centre to the other
+    glm::dvec3 middle{0.0};  // across it, towards the object
+    glm::dvec3 across{0.0};  // across both
+};
+
+std::optional<Tangent> tangent(const std::vector<glm::dvec3>& rays, const Pencil& pencil, double side) {
+    Tangent best;
+    const glm::dvec3* touching = nullptr;
+    for (const glm::dvec3& ray : rays) {
+        const double forward = glm::dot(ray, pencil.middle);
+        if (forward < 1e-3) return std::nullopt;
+        const double slope = glm::dot(ray, pencil.across) / forward;
+        if (touching != nullptr && side * slope <= side * best.slope) continue;
+        best.slope = slope;
+        touching = &ray;
+    }
+    if (touching == nullptr) return std::nullopt;
+    const double along = glm::dot(*touching, pencil.axis);
+    best.sine = std::sqrt(std::max(0.0, 1 - along * along));
+    return best;
+}
+
+double median_size(std::vector<double> values) {
+    for (double& value : values) value = std::abs(value);
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+// By how much camera numbers that moved by `step` (the axis' position is known from outlines already) went farther than
+// their covariance would have them: the mean square in deviations, at least 1.
+double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covariance, const Eigen::VectorXd& step) {
+    std::vector<int> chosen;
+    for (std::size_t k = 0; k < kCameraNumbers; ++k) {
+        if (k != CameraNumber::kPan && places.camera[k] >= 0) chosen.push_back(places.camera[k]);
+    }
+    if (chosen.empty()) return 1;
+    const Eigen::MatrixXd among = covariance(chosen, chosen);
+    const Eigen::VectorXd went = step(chosen);
+    return std::max(1.0, went.dot(among.ldlt().solve(went)) / static_cast<double>(chosen.size()));
+}
+
+}  // namespace
+
+std::vector<OutlineHull> outline_hulls(std::span<const CalibrationPicture> turn, int reduction,
+                                       const TurntableModel& model) {
+    std::vector<OutlineHull> hulls;
+    for (const CalibrationPicture& picture : turn) {
+        std::vector<HullPoint> points;
+        for (const glm::dvec2& p : outermost(picture.alpha)) {
+            const glm::dvec2 in_photo = p * static_cast<double>(reduction);
+            if (const auto plane = undistorted(model.lens, in_photo)) points.push_back({*plane, in_photo});
+        }
+        hulls.push_back(points.size() < 3 ? OutlineHull{} : convex_hull(std::move(points)));
+    }
+    return hulls;
+}
+
+std::vector<ViewPair> comparable_views(const TurntableModel& model, std::span<const OutlineHull> hulls) {
+    std::vector<ViewPair> pairs;
+    for (std::size_t i = 0; i < hulls.size(); ++i) {
+        for (std::size_t j = i + 1; j < hulls.size() && !hulls[i].empty(); ++j) {
+            const double apart = std::abs(std::remainder(model.angles_rad[j] - model.angles_rad[i], 2 * kPi));
+            if (!hulls[j].empty() && apart >= kNearestPair_rad && apart <= kFarthestPair_rad) pairs.push_back({i, j});
+        }
+    }
+    return pairs;
+}
+
+std::vector<double> tangency_residuals(const TurntableModel& model, std::span<const OutlineHull> hulls,
+                                       std::span<const ViewPair> pairs) {
+    const std::size_t views = hulls.size();
+    std::vector<std::vector<glm::dvec3>> rays(views);
+    std::vector<glm::dvec3> centres;
+    for (std::size_t view = 0; view < views; ++view) {
+        const double back = -model.angles_rad[view];
+        centres.push_back(turned({0, 0, 1}, back));
+        for (const glm::dvec2& p : hulls[view]) {
+            if (const auto ray = table_ray(model.lens, model.pose, p)) rays[view].push_back(turned(*ray, back));
+        }
+    }
+    std::vector<double> residuals;
+    for (const auto& [i, j] : pairs) {
+        Pencil pencil;
+        pencil.axis = glm::normalize(centres[j] - centres[i]);
+        const glm::dvec3 inwards = -(centres[i] + centres[j]);
+        pencil.middle = glm::normalize(inwards - pencil.axis * glm::dot(inwards, pencil.axis));
+        pencil.across = glm::cross(pencil.axis, pencil.middle);
+        for (const double side : {-1.0, 1.0}) {
+            const auto a = tangent(rays[i], pencil, side), b = tangent(rays[j], pencil, side);
+            const double px_per_rad = a && b ? model.lens.f_px * 0.5 * (a->sine + b->sine) : 0;
+            residuals.push_back(a && b ? (std::atan(a->slope) - std::atan(b->slope)) * px_per_rad : 0);
+        }
+    }
+    return residuals;
+}
+
+std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const NumberPlaces& places,
+                                        const Eigen::MatrixXd& covariance, std::span<const OutlineHull> hulls,
+                                        double worst_px) {
+    const auto n = static_cast<Eigen::Index>(places.count);
+    if (n == 0 || covariance.rows() != n) return std::nullopt;
+    const Eigen::LDLT<Eigen::MatrixXd> known(covariance);
+    if (known.info() != Eigen::Success || !known.isPositive()) return std::nullopt;
+    const Eigen::MatrixXd claimed = known.solve(Eigen::MatrixXd::Identity(n, n));
+    if (!claimed.allFinite()) return std::nullopt;
+    const std::vector<ViewPair> pairs = comparable_views(model, hulls);
+    if (2 * pairs.size() < kFewestResiduals) return std::nullopt;
+    TangencyFit fit{model, covariance, 0};
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
+    double disbelief = 1;
+    const double alike = std::max(1.0, kAlikePerView * static_cast<double>(hulls.size()));
+    for (int round = 0; round < kTangencyRounds; ++round) {
+        const std::vector<double> now = tangency_residuals(fit.model, hulls, pairs);
+        const auto count = static_cast<Eigen::Index>(now.size());
+        fit.deviation_px = 1.4826 * median_size(now);
+        if (!(fit.deviation_px > 0)) return std::nullopt;
+        Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(count, n);
+        for (Eigen::Index k = 0; k < n; ++k) {
+            if (!(covariance(k, k) > 0)) continue;
+            // A part of the uncertainty, so that corners of hulls change little.
+            const double width = 0.3 * std::sqrt(std::max(covariance(k, k), 1e-16));
+            Eigen::VectorXd there = step;
+            there(k) += width;
+            const std::vector<double> then = tangency_residuals(stepped(model, places, there), hulls, pairs);
+            for (Eigen::Index q = 0; q < count; ++q) {
+                const auto at = static_cast<std::size_t>(q);
+                slopes(q, k) = (then[at] - now[at]) / width;
+            }
+        }
+        Eigen::VectorXd r(count), weight(count);
+        for (Eigen::Index q = 0; q < count; ++q) {
+            r(q) = now[static_cast<std::size_t>(q)];
+            const double far = r(q) / (kRobustDeviations * fit.deviation_px);
+            weight(q) = 1 / (fit.deviation_px * fit.deviation_px * alike * (1 + far * far));
+        }
+        const Eigen::MatrixXd before = claimed / disbelief;
+        const Eigen::MatrixXd of_outlines = slopes.transpose() * weight.asDiagonal() * slopes;
+        const Eigen::LDLT<Eigen::MatrixXd> solver(before + of_outlines);
+        if (solver.info() != Eigen::Success) return std::nullopt;
+        step += solver.solve(-slopes.transpose() * (weight.asDiagonal() * r) - before * step);
+        if (!step.allFinite()) return std::nullopt;
+        fit.model = stepped(model, places, step);
+        if (!(fit.model.lens.f_px > 0)) return std::nullopt;
+        const Eigen::MatrixXd half = solver.solve(before + kUntold * kUntold * of_outlines);
+        fit.covariance = solver.solve(half.transpose());
+        disbelief = beyond_belief(places, covariance, step);
+    }
+    // Judged at the end: where the model began wrong, outlines that agree well do not seem to.
+    fit.deviation_px = 1.4826 * median_size(tangency_residuals(fit.model, hulls, pairs));
+    if (!(fit.deviation_px <= worst_px)) return std::nullopt;
+    return fit;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,104 @@
+#include "capture/calibration/silhouettes/silhouette_angles.hpp"
+
+#include "capture/calibration/points/model_covariance.hpp"
+#include "capture/calibration/silhouettes/outline_coherence.hpp"
+#include "capture/calibration/silhouettes/silhouette_fit.hpp"
+#include "capture/calibration/silhouettes/silhouette_turn.hpp"
+#include "rayspace/base/conventions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+const SilhouetteDetail kDetail{600, 200};
+
+// What was found under wrong angles is off by more than it says; and it was found from the same outlines, which are not
+// to count twice.
+constexpr double kWider = 3;
+constexpr double kDistortion = 0.1;  // k1 that lenses of photographs have
+constexpr double kWorst_px = 1;      // of the turn
+// So that twice the deviations covered the errors on ten traced dolls and a lattice.
+constexpr double kUntoldTogether = 3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// f, tilt, roll and the axis' position where outlines say nothing.
+std::array<double, SilhouetteParameters::kCount> unknown_deviations(const TurntableModel& model, double picture_px) {
+    std::array<double, SilhouetteParameters::kCount> all = kSilhouettePriors;
+    all[SilhouetteParameters::kLogF] *= model.lens.f_px;
+    all[SilhouetteParameters::kAxis] *= picture_px;
+    return all;
+}
+
+Eigen::MatrixXd expected(const TurntableModel& model, const NumberPlaces& places, const ModelDeviations& deviations,
+                         double picture_px) {
+    using Name = SilhouetteParameters;
+    const auto unknown = unknown_deviations(model, picture_px);
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(places.count, places.count);
+    const auto set = [&](std::size_t number, double deviation) {
+        if (const int k = places.camera[number]; k >= 0) covariance(k, k) = deviation * deviation;
+    };
+    set(CameraNumber::kF, std::min(kWider * deviations.f_px, unknown[Name::kLogF]));
+    set(CameraNumber::kK1, kDistortion);
+    set(CameraNumber::kPan, std::min(kWider * deviations.axis_position_px, unknown[Name::kAxis]) / model.lens.f_px);
+    set(CameraNumber::kTilt, std::min(kWider * deviations.tilt_rad, unknown[Name::kTilt]));
+    set(CameraNumber::kRoll, std::min(kWider * deviations.roll_rad, unknown[Name::kRoll]));
+    // Angles count from the first view's, whose own error is in all of them.
+    const double variance = std::pow(radians(kAssumedAngle_deg), 2);
+    for (const int i : places.angles) {
+        for (const int j : places.angles) {
+            if (i >= 0 && j >= 0) covariance(i, j) = i == j ? 2 * variance : variance;
+        }
+    }
+    return covariance;
+}
+
+// What is not estimated is not known, either; and what is hardly surer than before has not been told.
+void admit(ModelDeviations& deviations, const TurntableModel& model, const KnownInputs& known, double picture_px) {
+    const auto unknown = unknown_deviations(model, picture_px);
+    const auto told = [](double deviation, double before) {
+        return deviation < kToldNothing * before ? deviation : kInfinity;
+    };
+    deviations.f_px = told(deviations.f_px, unknown[SilhouetteParameters::kLogF]);
+    deviations.tilt_rad = told(deviations.tilt_rad, unknown[SilhouetteParameters::kTilt]);
+    deviations.roll_rad = told(deviations.roll_rad, unknown[SilhouetteParameters::kRoll]);
+    deviations.axis_direction_rad = std::hypot(deviations.tilt_rad, deviations.roll_rad);
+    deviations.axis_position_px = told(deviations.axis_position_px, unknown[SilhouetteParameters::kAxis]);
+    for (double& angle : deviations.angles_rad) angle = told(angle, radians(kAssumedAngle_deg));
+    if (!known.distortion) {
+        deviations.k1 = told(deviations.k1, kDistortion);
+        deviations.k2 = kInfinity;
+    }
+    if (!known.principal_point) deviations.cx = deviations.cy = kInfinity;
+}
+
+}  // namespace
+
+std::optional<AnglesOfOutlines> angles_of_outlines(std::span<const Image<std::uint8_t>> masks,
+                                                   const TurntableModel& model, const ModelDeviations& deviations,
+                                                   const KnownInputs& known) {
+    if (known.angles_rad || known.step_rad || known.equal_steps) return std::nullopt;
+    const auto turn = SilhouetteTurn::of(masks, kDetail);
+    if (!turn || turn->touches_border()) return std::nullopt;
+    const double picture_px = turn->reduction() * static_cast<double>(model.lens.width) / masks[0].width();
+    BundleFreedom free;
+    free.f = !known.f_px;
+    free.k1 = !known.distortion;
+    free.pan = free.tilt = free.roll = !known.pose;
+    const NumberPlaces places(free, std::vector<bool>(model.angles_rad.size(), true));
+    const CoherenceOptions options{kWorst_px * picture_px, places.count, kUntoldTogether};
+    const auto fit =
+        fit_coherence(model, places, expected(model, places, deviations, picture_px), *turn, picture_px, options);
+    if (!fit) return std::nullopt;
+    const double at_px = 0.5 * (lies_sideways(fit->model.pose) ? model.lens.width : model.lens.height);
+    AnglesOfOutlines found{fit->model, deviations_of(fit->model, places, fit->covariance, at_px)};
+    admit(found.deviations, model, known, picture_px);
+    return found;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,306 @@
+#include "capture/calibration/silhouettes/silhouettes.hpp"
+
+#include "capture/calibration/silhouettes/silhouette_angles.hpp"
+#include "capture/calibration/silhouettes/silhouette_fit.hpp"
+#include "capture/calibration/silhouettes/turn_diagnosis.hpp"
+#include "rayspace/base/conventions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+using Parameters = SilhouetteParameters;
+
+constexpr std::array<double, 9> kAxisTries = {0, -0.03, 0.03, -0.06, 0.06, -0.1, 0.1, -0.15, 0.15};  // of the width
+constexpr std::array<double, 5> kTiltTries_deg = {0, 10, 20, 35, -10};                               // from the start
+constexpr std::array<double, 7> kTiltsCompared_deg = {-30, -15, -5, 0, 5, 15, 30};                   // from the start
+constexpr std::size_t kBestTries = 4;
+constexpr double kSearchOutlier_px = 12;
+constexpr std::size_t kGroups = 6;     // of the jackknife
+constexpr double kGoodEnough_px = 1;   // of a start that needs no improvement, reduced px
+constexpr double kDisagree_px = 3;     // of a fit that is not to be believed, reduced px
+constexpr double kImprovement = 0.98;  // of the cost
+
+Lens scaled(const Lens& lens, double by) {
+    Lens result = lens;
+    result.f_px *= by;
+    result.cx *= by;
+    result.cy *= by;
+    return result;
+}
+
+Status check_start(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start) {
+    if (start.angles_rad.size() != masks.size()) {
+        return Error{"silhouettes: " + std::to_string(masks.size()) + " outlines but " +
+                     std::to_string(start.angles_rad.size()) + " angles; give one angle per view"};
+    }
+    if (!(start.lens.f_px > 0) || start.lens.width <= 0 || start.lens.height <= 0) {
+        return Error{"silhouettes: the assumed lens has no focal length or no picture size"};
+    }
+    const double scale = static_cast<double>(masks[0].width()) / start.lens.width;
+    if (scale > 1 || std::abs(masks[0].height() - scale * start.lens.height) > 1) {
+        return Error{"silhouettes: masks of " + std::to_string(masks[0].width()) + " x " +
+                     std::to_string(masks[0].height()) + " pixels are no reduced pictures of " +
+                     std::to_string(start.lens.width) + " x " + std::to_string(start.lens.height)};
+    }
+    return {};
+}
+
+void hold(TurntableModel& model, const KnownInputs& known) {
+    if (known.f_px) model.lens.f_px = *known.f_px;
+    if (known.principal_point) {
+        model.lens.cx = known.principal_point->x;
+        model.lens.cy = known.principal_point->y;
+    }
+    if (known.distortion) {
+        model.lens.k1 = known.distortion->x;
+        model.lens.k2 = known.distortion->y;
+    }
+    if (known.pose) model.pose = *known.pose;
+    for (std::size_t i = 0; i < model.angles_rad.size() && known.step_rad; ++i)
+        model.angles_rad[i] = static_cast<double>(i) * *known.step_rad;
+    if (known.angles_rad) model.angles_rad = *known.angles_rad;
+}
+
+// The best of a coarse grid over axis and tilt, each fitted with few rays, then the best of those with all.
+SilhouetteFit search(SilhouetteProblem problem) {
+    const double width_px = problem.turn->width_px();
+    std::vector<SilhouetteFit> tries;
+    problem.outlier_px = kSearchOutlier_px;
+    for (const double axis : kAxisTries) {
+        if (!problem.free[Parameters::kAxis] && axis != 0) continue;
+        for (const double tilt_deg : kTiltTries_deg) {
+            if (!problem.free[Parameters::kTilt] && tilt_deg != 0) continue;
+            SilhouetteFit each;
+            each.at.value[Parameters::kAxis] = axis * width_px;
+            each.at.value[Parameters::kTilt] = radians(tilt_deg);
+            each.cost = silhouette_cost(problem, each.at, {6, {}});
+            tries.push_back(each);
+        }
+    }
+    const auto better = [](const SilhouetteFit& a, const SilhouetteFit& b) { return a.cost < b.cost; };
+    std::stable_sort(tries.begin(), tries.end(), better);
+    tries.resize(std::min(tries.size(), kBestTries));
+    for (SilhouetteFit& each : tries) each = fit_silhouettes(problem, each.at, {4, {}}, 8);
+    std::stable_sort(tries.begin(), tries.end(), better);
+    problem.outlier_px = SilhouetteProblem{}.outlier_px;
+    return fit_silhouettes(problem, tries[0].at, {1, {}}, 10);
+}
+
+// The best fits with the tilt held at several values. Outlines may leave a whole valley of tilts open, with another
+// axis and lens for each, and the curvature at one place in it says nothing of that.
+std::vector<SilhouetteFit> fits_along_tilts(SilhouetteProblem problem, const SilhouetteFit& fit,
+                                            const RaySelection& rays) {
+    std::vector<SilhouetteFit> fits;
+    if (!problem.free[Parameters::kTilt]) return fits;
+    problem.free[Parameters::kTilt] = false;
+    for (const double tilt_deg : kTiltsCompared_deg) {
+        Parameters at = fit.at;
+        at.value[Parameters::kTilt] = radians(tilt_deg);
+        fits.push_back(fit_silhouettes(problem, at, rays, 6));
+        fits.back().deviation = fit.deviation;
+    }
+    return fits;
+}
+
+// Where the best fit stands out by less than one standard error, the tilt nearest to the start is as good.
+SilhouetteFit nearest_to_start(const SilhouetteFit& fit, double fit_cost, const std::vector<SilhouetteFit>& along) {
+    SilhouetteFit nearest = fit;
+    for (const SilhouetteFit& each : along) {
+        const bool nearer =
+            std::abs(each.at.value[Parameters::kTilt]) < std::abs(nearest.at.value[Parameters::kTilt]) - 1e-9;
+        if (nearer && each.cost < fit_cost + 1) nearest = each;
+    }
+    return nearest;
+}
+
+// How far each number is off if one of the fits along the tilts is the truth: all the way where that fit is as good,
+// less by the standard errors that it is worse; for a cost that is a parabola this is one standard deviation.
+std::array<double, Parameters::kCount> valley(const SilhouetteFit& fit, double fit_cost,
+                                              const std::vector<SilhouetteFit>& along) {
+    std::array<double, Parameters::kCount> deviation{};
+    for (const SilhouetteFit& each : along) {
+        for (std::size_t k = 0; k < Parameters::kCount; ++k) {
+            const double apart = std::abs(each.at.value[k] - fit.at.value[k]);
+            deviation[k] = std::max(deviation[k], apart / std::sqrt(std::max(1.0, each.cost - fit_cost)));
+        }
+    }
+    for (std::size_t k = 0; k < Parameters::kCount; ++k) {
+        if (deviation[k] > kToldNothing * kSilhouettePriors[k]) deviation[k] = std::numeric_limits<double>::infinity();
+    }
+    return deviation;
+}
+
+// Fits without each of a few interleaved groups of views: honest about errors that neighbouring points share.
+std::array<double, Parameters::kCount> jackknife(const SilhouetteProblem& problem, const SilhouetteFit& fit) {
+    const std::size_t views = problem.turn->views();
+    const std::size_t groups = std::min(kGroups, views / 3);
+    std::vector<Parameters> without;
+    for (std::size_t g = 0; g < groups; ++g) {
+        RaySelection rays{2, {}};
+        for (std::size_t i = 0; i < views; ++i) rays.left_out.push_back(i % groups == g ? 1 : 0);
+        without.push_back(fit_silhouettes(problem, fit.at, rays, 3).at);
+    }
+    std::array<double, Parameters::kCount> deviation{};
+    const auto n = static_cast<double>(groups);
+    for (std::size_t k = 0; k < Parameters::kCount; ++k) {
+        double mean = 0;
+        for (const Parameters& each : without) mean += each.value[k] / n;
+        double sum = 0;
+        for (const Parameters& each : without) sum += (each.value[k] - mean) * (each.value[k] - mean);
+        deviation[k] = std::sqrt(sum * (n - 1) / n);
+    }
+    return deviation;
+}
+
+ModelDeviations deviations_of(const SilhouetteFit& fit, const std::array<double, Parameters::kCount>& spread,
+                              const TurntableModel& model, const KnownInputs& known, double picture_px) {
+    const auto of = [&](Parameters::Name name) { return std::max(fit.deviation[name], spread[name]); };
+    ModelDeviations deviations;
+    deviations.f_px = of(Parameters::kLogF) * model.lens.f_px;
+    deviations.tilt_rad = of(Parameters::kTilt);
+    deviations.roll_rad = of(Parameters::kRoll);
+    deviations.axis_direction_rad = std::hypot(deviations.tilt_rad, deviations.roll_rad);
+    deviations.axis_position_px = of(Parameters::kAxis) * picture_px;
+    if (known.principal_point) deviations.cx = deviations.cy = 0;
+    if (known.distortion) deviations.k1 = deviations.k2 = 0;
+    const bool angles_known = known.step_rad || known.angles_rad;
+    const double mean_rad = [&] {
+        double sum = 0;
+        for (const double angle : model.angles_rad) sum += angle / static_cast<double>(model.angles_rad.size());
+        return sum;
+    }();
+    for (const double angle : model.angles_rad) {
+        // Assumed angles are as sure as nobody knows; estimated ones as sure as their common step.
+        double deviation = angles_known ? 0 : std::numeric_limits<double>::infinity();
+        if (fit.deviation[Parameters::kStep] > 0) deviation = of(Parameters::kStep) * std::abs(angle - mean_rad);
+        deviations.angles_rad.push_back(deviation);
+    }
+    return deviations;
+}
+
+double rms(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double v : values) sum += v * v;
+    return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+std::vector<ViewFit> fits_by_view(const SilhouetteTurn& turn, const std::vector<double>& shortfalls,
+                                  double picture_px) {
+    const std::vector<std::size_t> view_of = views_of_rays(turn, {});
+    std::vector<ViewFit> views(turn.views());
+    for (std::size_t r = 0; r < shortfalls.size(); ++r) {
+        ++views[view_of[r]].observations;
+        views[view_of[r]].rms_px += shortfalls[r] * shortfalls[r];
+    }
+    for (ViewFit& view : views)
+        view.rms_px = view.observations > 0 ? picture_px * std::sqrt(view.rms_px / view.observations) : 0;
+    return views;
+}
+
+void warn(Calibration& calibration, const SilhouetteTurn& turn) {
+    const ModelDeviations& d = calibration.deviations;
+    auto& warnings = calibration.warnings;
+    if (std::isinf(d.tilt_rad)) {
+        warnings.emplace_back(
+            "the outlines do not say how far the camera looks down (a round object looks alike from all sides): its "
+            "height is assumed; put a printed board under the object");
+    } else if (seems_to_look_up(calibration)) {
+        warnings.emplace_back(
+            "the outlines fit a camera that looks up from below; if it looks down, the object turns the other way: "
+            "give the other sense of turning");
+    }
+    if (!(d.f_px < 0.15 * calibration.model.lens.f_px)) {
+        warnings.emplace_back(
+            "the outlines do not say what the lens is: its focal length is assumed; give it if it is known");
+    }
+    if (turn.touches_border()) {
+        warnings.emplace_back("the object reaches the border of the pictures: what is cut off there was not compared");
+    }
+    for (std::size_t i = 0; i < calibration.views.size(); ++i) {
+        const double limit = std::max(3 * calibration.rms_px, 2.0 * turn.reduction());
+        if (calibration.views[i].rms_px > limit) {
+            warnings.push_back("the outline of view " + std::to_string(i + 1) +
+                               " does not fit the others; check its cut-out and whether the object stood still");
+        }
+    }
+}
+
+}  // namespace
+
+bool seems_to_look_up(const Calibration& found) {
+    return found.model.pose.tilt_rad < -std::max(2 * found.deviations.tilt_rad, radians(3));
+}
+
+Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start,
+                                               const KnownInputs& known) {
+    auto turn = SilhouetteTurn::of(masks);
+    if (!turn) return turn.error();
+    TurntableModel held = start;
+    hold(held, known);
+    if (Status status = check_start(masks, held); !status) return status.error();
+
+    // Photograph px per px of the turn.
+    const double picture_px = turn->reduction() * static_cast<double>(start.lens.width) / masks[0].width();
+    SilhouetteProblem problem;
+    problem.turn = &*turn;
+    problem.start = held;
+    problem.start.lens = scaled(held.lens, 1 / picture_px);
+    const bool pose_free = !known.pose;
+    problem.free = {pose_free, pose_free, pose_free, !known.f_px, !known.step_rad && !known.angles_rad};
+
+    const SilhouetteFit best = search(problem);
+    const RaySelection half{2, {}};
+    const double best_cost = silhouette_cost(problem, best.at, half);
+    const std::vector<SilhouetteFit> along = fits_along_tilts(problem, best, half);
+    SilhouetteFit fit = nearest_to_start(best, best_cost, along);
+    const double start_cost = silhouette_cost(problem, {}, {});
+    const double start_rms = rms(shortfalls_px(*turn, problem.start, {}));
+    if (start_rms > kGoodEnough_px && !(fit.cost < kImprovement * start_cost)) {
+        return Error{
+            "silhouettes: no axis, tilt, roll or focal length near the assumed ones makes the outlines agree "
+            "better; check the steps, the sense of turning and the cut-outs"};
+    }
+    Calibration calibration;
+    calibration.method = CalibrationMethod::kSilhouettes;
+    TurntableModel of_turn = changed(problem.start, fit.at);
+    std::vector<double> shortfalls = shortfalls_px(*turn, of_turn, {});
+    calibration.model = of_turn;
+    calibration.model.lens = scaled(calibration.model.lens, picture_px);
+    std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
+    const std::array<double, Parameters::kCount> open = valley(fit, best_cost, along);
+    // Outlines that fit worse than good ones should are surer of nothing.
+    const double doubt = std::max(1.0, rms(shortfalls) / kSilhouetteError_px);
+    for (std::size_t k = 0; k < Parameters::kCount; ++k) {
+        spread[k] = std::max(spread[k], doubt * open[k]);
+        fit.deviation[k] *= doubt;
+    }
+    calibration.deviations = deviations_of(fit, spread, calibration.model, known, picture_px);
+    if (auto found = angles_of_outlines(masks, calibration.model, calibration.deviations, known)) {
+        calibration.model = std::move(found->model);
+        calibration.deviations = std::move(found->deviations);
+        of_turn = calibration.model;
+        of_turn.lens = scaled(of_turn.lens, 1 / picture_px);
+        shortfalls = shortfalls_px(*turn, of_turn, {});
+    }
+    const double fit_rms = rms(shortfalls);
+    if (fit_rms > kDisagree_px) {
+        return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(fit_rms * picture_px)) +
+                     " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
+    }
+    calibration.observations = static_cast<int>(shortfalls.size());
+    calibration.rms_px = fit_rms * picture_px;
+    calibration.views = fits_by_view(*turn, shortfalls, picture_px);
+    calibration.step_rad = median_step(calibration.model.angles_rad);
+    warn(calibration, *turn);
+    return calibration;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,238 @@
+#include "capture/calibration/silhouettes/turn_diagnosis.hpp"
+
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/median.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace rs::capture {
+namespace {
+
+constexpr double kFewestAgreeing = 0.2;        // of all candidates
+constexpr double kFewestAgreeingOfView = 0.4;  // of the median over all views
+constexpr double kMostViewsApart = 0.15;
+constexpr double kLeastExplained = 0.6;  // of the shares' scatter, by one change
+constexpr double kLeastChange = 0.25;
+constexpr double kLargestRms = 0.004;        // of the picture's longer side: 4 px of 1000
+constexpr double kMostUncertainLens = 0.25;  // deviation of f over f
+constexpr double kStepWarning_deg = 0.5;
+constexpr double kRepeat = 0.1;  // of the median step
+constexpr double kGap = 1.6;
+constexpr double kAxesApart_px = 0.5;
+
+std::string number(double value, int digits) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
+}
+
+// [view], of its candidates: those that agree with the rig.
+std::vector<double> agreeing_shares(const Bundle& bundle, std::span<const int> candidates) {
+    const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
+    std::vector<double> shares;
+    for (std::size_t view = 0; view < kept.size(); ++view) {
+        shares.push_back(static_cast<double>(kept[view]) / std::max(1, candidates[view]));
+    }
+    return shares;
+}
+
+// Views whose candidates mostly disagree with the rig.
+std::vector<std::size_t> views_apart(const Bundle& bundle, std::span<const int> candidates) {
+    const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
+    const std::vector<double> shares = agreeing_shares(bundle, candidates);
+    const double least = kFewestAgreeingOfView * median(shares);
+    std::vector<std::size_t> apart;
+    for (std::size_t view = 0; view < kept.size(); ++view) {
+        if (kept[view] < kFewestObservations || shares[view] < least) {
+            apart.push_back(view);
+        }
+    }
+    return apart;
+}
+
+std::string listed(const std::vector<std::size_t>& views, std::span<const std::string> names) {
+    std::string text;
+    for (std::size_t i = 0; i < views.size() && i < 3; ++i) text += (i > 0 ? ", " : "") + names[views[i]];
+    if (views.size() > 3) text += " and " + std::to_string(views.size() - 3) + " more";
+    return text;
+}
+
+// The first view after something changed at one moment: the shares before it and after it are two different levels that
+// explain most of how shares differ. Nothing where they differ otherwise, as where two cameras take turns.
+std::optional<std::size_t> moment_of_change(std::span<const double> shares) {
+    const auto count = static_cast<double>(shares.size());
+    double mean = 0, scatter = 0;
+    for (const double share : shares) mean += share / count;
+    for (const double share : shares) scatter += (share - mean) * (share - mean);
+    std::optional<std::size_t> moment;
+    double most = kLeastExplained * scatter;
+    double before = 0;  // sum
+    for (std::size_t view = 1; view < shares.size(); ++view) {
+        before += shares[view - 1];
+        const auto first = static_cast<double>(view);
+        const double change = (count * mean - before) / (count - first) - before / first;
+        const double explained = first * (count - first) / count * change * change;
+        if (std::abs(change) < kLeastChange || explained < most) continue;
+        most = explained;
+        moment = view;
+    }
+    return moment;
+}
+
+}  // namespace
+
+double median_step(std::span<const double> angles_rad) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < angles_rad.size(); ++i) steps.push_back(angles_rad[i] - angles_rad[i - 1]);
+    return median(std::move(steps));
+}
+
+std::vector<int> repeated_views(std::span<const double> angles_rad) {
+    const double usual = std::abs(median_step(angles_rad));
+    std::vector<int> repeated;
+    std::vector<double> taken;
+    for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+        const bool repeats = std::any_of(taken.begin(), taken.end(), [&](double other) {
+            return std::abs(std::remainder(angles_rad[i] - other, 2 * kPi)) < kRepeat * usual;
+        });
+        if (repeats) {
+            repeated.push_back(static_cast<int>(i));
+        } else {
+            taken.push_back(angles_rad[i]);
+        }
+    }
+    return repeated;
+}
+
+Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span<const int> candidates,
+              std::span<const std::string> names) {
+    const TurntableModel& model = bundle.model;
+    double offered = 0;
+    for (const int count : candidates) offered += count;
+    const double share = observation_count(bundle) / std::max(1.0, offered);
+    const std::vector<std::size_t> apart = views_apart(bundle, candidates);
+    const auto views = static_cast<double>(names.size());
+    if (share < kFewestAgreeing || static_cast<double>(apart.size()) > kMostViewsApart * views) {
+        std::string text = "the pictures do not show one turn before a still camera: " + number(100 * share, 0) +
+                           " % of the observations agree with the best one";
+        if (!apart.empty()) text += ", and not those of " + listed(apart, names);
+        if (const auto moment = moment_of_change(agreeing_shares(bundle, candidates))) {
+            text += "; was the camera or the tripod moved at about " + names[*moment] + "? Take the turn again";
+        } else {
+            text += "; are they of one camera, one zoom and one object that stood still on the plate?";
+        }
+        return Error{text};
+    }
+    const double longer = std::max(model.lens.width, model.lens.height);
+    if (rms_px(bundle) > kLargestRms * longer) {
+        return Error{"the best turn misses the observations by " + number(rms_px(bundle), 1) +
+                     " px; are the pictures in the order they were taken, from one still camera?"};
+    }
+    const double usual = median_step(model.angles_rad);
+    int against = 0;
+    for (std::size_t i = 1; i < model.angles_rad.size(); ++i) {
+        if ((model.angles_rad[i] - model.angles_rad[i - 1]) * usual < -kRepeat * usual * usual) ++against;
+    }
+    if (std::abs(degrees(usual)) < 0.05 || against > 0.1 * views) {
+        return Error{"the angles make no turn (median step " + number(degrees(usual), 2) + " degrees, " +
+                     std::to_string(against) +
+                     " steps against it); are the pictures in the order they were taken? Names are sorted naturally"};
+    }
+    const double turn_deg = std::abs(degrees(model.angles_rad.back() - model.angles_rad.front()));
+    if (turn_deg < 15 || turn_deg > 400) {
+        return Error{"the pictures cover " + number(turn_deg, 1) +
+                     " degrees of turn; 15 to 400 are needed (one turn, without repeats)"};
+    }
+    if (!(deviations.f_px < kMostUncertainLens * model.lens.f_px)) {
+        return Error{"the pictures leave the focal length open; give it with --fov, or put a board under the object"};
+    }
+    return {};
+}
+
+bool changes_at_one_moment(const Bundle& bundle, std::span<const int> candidates) {
+    return moment_of_change(agreeing_shares(bundle, candidates)).has_value();
+}
+
+std::vector<std::string> step_warnings(std::span<const double> angles, const ModelDeviations& deviations,
+                                       std::span<const std::string> names) {
+    std::vector<std::string> lines;
+    const double usual = degrees(median_step(angles));
+    const auto off = [&](std::size_t i) {  // how far step i - 1 -> i differs from the usual one, degrees forward
+        return (degrees(angles[i] - angles[i - 1]) - usual) * (usual < 0 ? -1 : 1);
+    };
+    const auto tolerance = [&](std::size_t i) {
+        return std::max(kStepWarning_deg,
+                        4 * degrees(std::hypot(deviations.angles_rad[i], deviations.angles_rad[i - 1])));
+    };
+    for (std::size_t i = 1; i < angles.size(); ++i) {
+        const double step = std::abs(usual) + off(i);
+        if (std::abs(off(i)) <= tolerance(i)) continue;
+        if (std::abs(step) < kRepeat * std::abs(usual)) {
+            lines.push_back(names[i] + " stands where " + names[i - 1] + " does (" + number(step, 2) +
+                            " degrees on); the turntable had not turned");
+        } else if (i + 1 < angles.size() && std::abs(off(i) + off(i + 1)) <= tolerance(i)) {
+            lines.push_back(names[i] + " is " + number(std::abs(off(i)), 1) + " degrees off (" +
+                            (off(i) > 0 ? "too far" : "not far enough") + "); its true angle is used");
+            ++i;
+        } else if (step > kGap * std::abs(usual)) {
+            lines.push_back("there is a gap of " + number(step, 1) + " degrees between " + names[i - 1] + " and " +
+                            names[i] + " where other steps are " + number(std::abs(usual), 1));
+        } else {
+            lines.push_back("the step from " + names[i - 1] + " to " + names[i] + " is " + number(step, 1) +
+                            " degrees where others are " + number(std::abs(usual), 1) + "; the true angles are used");
+        }
+    }
+    const double closing = 360 - std::abs(degrees(angles.back() - angles.front()));
+    if (closing > kGap * std::abs(usual) && closing < 90) {
+        lines.push_back("the turn does not close: " + number(closing, 1) + " degrees are missing between " +
+                        names.back() + " and " + names.front());
+    }
+    return lines;
+}
+
+std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const int> candidates,
+                                          std::span<const int> features, std::span<const std::string> names) {
+    std::vector<std::string> lines;
+    std::vector<double> counts(features.begin(), features.end());
+    const double ordinary = median(counts);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (features[i] < 0.25 * ordinary) {
+            lines.push_back(names[i] + " shows " + std::to_string(features[i]) + " features where others show " +
+                            number(ordinary, 0) + "; is it blurred?");
+        }
+    }
+    const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
+    for (const std::size_t view : views_apart(bundle, candidates)) {
+        lines.push_back(names[view] + " does not fit the turn (" + std::to_string(kept[view]) + " of " +
+                        std::to_string(candidates[view]) +
+                        " observations agree); was the object or the camera moved? Take it again or leave it out");
+    }
+    return lines;
+}
+
+std::string place_warning(std::span<const PicturePlace> places) {
+    double shift_px = 0;
+    double least = places.front().scale, most = least;
+    for (const PicturePlace& place : places) {
+        shift_px = std::max(shift_px, glm::length(place.shift_px - places.front().shift_px));
+        least = std::min(least, place.scale);
+        most = std::max(most, place.scale);
+    }
+    return "the pictures were moved (by up to " + number(shift_px, 0) + " px) and scaled (by up to " +
+           number(100 * (most / least - 1), 0) + " %) one by one, as shops do; they are put back";
+}
+
+std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_outlines, int reduction) {
+    const double apart = std::abs(of_tracks.position_px - of_outlines.position_px);
+    const double believed = 3 * std::hypot(of_tracks.deviation_px, of_outlines.deviation_px);
+    if (!(apart > std::max(believed, kAxesApart_px * reduction))) return std::nullopt;
+    return "the object's texture turns about an axis " + number(apart, 1) +
+           " px beside that of its outlines, which is taken; stripes wound around the object mislead like this, but so "
+           "do cut-outs that lack the same side in all pictures: look at those, or put a printed board under the "
+           "object";
+}
+
+}  // namespace rs::capture

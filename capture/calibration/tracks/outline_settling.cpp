@@ -1,0 +1,107 @@
+#include "capture/calibration/tracks/outline_settling.hpp"
+
+#include "capture/calibration/silhouettes/outline_coherence.hpp"
+#include "capture/calibration/silhouettes/outline_symmetry.hpp"
+#include "capture/calibration/silhouettes/outline_tangency.hpp"
+#include "capture/calibration/silhouettes/silhouette_turn.hpp"
+#include "capture/calibration/silhouettes/turn_diagnosis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+// Outlines of two views that agree no better than this are of fur, or cut out wrong, and would mislead.
+constexpr double kWorstPairs_px = 0.15;
+constexpr double kWorstTogether_px = 0.5;  // of all views; cut-outs of real photographs stray by 0.3
+
+// The points with the model; not where too few could be seen as they were.
+bool move_to(const TurntableModel& model, Bundle& bundle, std::size_t fewest_tracks) {
+    Bundle moved = make_bundle(model, bundle.tracks);
+    if (moved.tracks.size() < fewest_tracks) return false;
+    bundle = std::move(moved);
+    return true;
+}
+
+// What a fit has found. The axis' position has been asked of the same outlines before: it gets no surer.
+void take(const TurntableModel& model, const Eigen::MatrixXd& covariance, TrackSolution& solution,
+          std::size_t fewest_tracks) {
+    if (!move_to(model, solution.bundle, fewest_tracks)) return;
+    const double before_px = solution.deviations.axis_position_px;
+    solution.deviations = deviations_of(solution.bundle.model, solution.places, covariance, solution.at_px);
+    solution.deviations.axis_position_px = std::max(solution.deviations.axis_position_px, before_px);
+    solution.covariance = covariance;
+}
+
+// Moves the axis to where tracks and outlines together see it, and the points with it. All else stays: texture that
+// glides alike around the whole object looks as if it turned about an axis beside the true one, and bending lens and
+// angles until it fits the true one only spreads the error. `deviations` are those of the bundle as it stands; the
+// position's is made that of both. A line for the photographer where they disagree.
+std::optional<std::string> settle_axis(TrackSolution& solution, const TurnPictures& turn, std::size_t fewest_tracks) {
+    const NumberPlaces& places = solution.places;
+    if (places.camera[CameraNumber::kPan] < 0) return std::nullopt;
+    const TurntableModel& found = solution.bundle.model;
+    const auto of_outlines = axis_of_outlines(covered_together(turn.pictures), turn.reduction, found);
+    if (!of_outlines) return std::nullopt;
+    const auto position = axis_position(found.lens, found.pose, of_outlines->at_px);
+    if (!position) return std::nullopt;
+    const double deviation_px = deviations_of(found, places, solution.covariance, of_outlines->at_px).axis_position_px;
+    const AxisPlace of_tracks{of_outlines->at_px, *position, deviation_px};
+    const AxisPlace agreed = agreed_axis(of_tracks, *of_outlines);
+    const auto model = with_axis_at(found, agreed);
+    if (!model || !move_to(*model, solution.bundle, fewest_tracks)) return std::nullopt;
+    ModelDeviations& deviations = solution.deviations;
+    deviations.axis_position_px =
+        std::hypot(agreed.deviation_px, deviations.roll_rad * (agreed.at_px - solution.at_px));
+    return axis_warning(of_tracks, *of_outlines, turn.reduction);
+}
+
+// Brings the whole model to where tracks and outlines together see it (outline_tangency.hpp), and the points with it.
+// The covariance is that of the tracks alone; the axis' position is known as the deviations say.
+void settle_pairs(TrackSolution& solution, const TurnPictures& turn, std::size_t fewest_tracks) {
+    Eigen::MatrixXd& covariance = solution.covariance;
+    const TurntableModel& found = solution.bundle.model;
+    if (const int pan = solution.places.camera[CameraNumber::kPan]; pan >= 0) {
+        covariance.row(pan).setZero();
+        covariance.col(pan).setZero();
+        covariance(pan, pan) = std::pow(solution.deviations.axis_position_px / found.lens.f_px, 2);
+    }
+    const std::vector<OutlineHull> hulls = outline_hulls(turn.pictures, turn.reduction, found);
+    const auto fit = fit_tangency(found, solution.places, covariance, hulls, kWorstPairs_px * turn.reduction);
+    if (fit) take(fit->model, fit->covariance, solution, fewest_tracks);
+}
+
+// How finely all outlines are compared with all others: the work grows with the square of the views.
+SilhouetteDetail detail_of(std::size_t views) {
+    const double fewer = std::min(1.0, 36.0 / static_cast<double>(views));
+    return {views <= 72 ? 600 : 300, static_cast<std::size_t>(std::max(32.0, 800 * fewer * fewer))};
+}
+
+// The same with the outlines of all views together (outline_coherence.hpp).
+void settle_all(TrackSolution& solution, const TurnPictures& turn, std::size_t fewest_tracks) {
+    std::vector<Image<std::uint8_t>> masks;
+    for (const CalibrationPicture& picture : turn.pictures) masks.push_back(picture.alpha);
+    const auto outlines = SilhouetteTurn::of(masks, detail_of(masks.size()));
+    if (!outlines || outlines->touches_border()) return;
+    const double picture_px = outlines->reduction() * turn.reduction;
+    const auto fit = fit_coherence(solution.bundle.model, solution.places, solution.covariance, *outlines, picture_px,
+                                   {kWorstTogether_px * turn.reduction});
+    if (fit) take(fit->model, fit->covariance, solution, fewest_tracks);
+}
+
+}  // namespace
+
+std::optional<std::string> settle_with_outlines(TrackSolution& solution, const TurnPictures& turn,
+                                                std::size_t fewest_tracks) {
+    std::optional<std::string> axis_disagrees = settle_axis(solution, turn, fewest_tracks);
+    if (solution.covariance.size() == 0) return axis_disagrees;
+    settle_pairs(solution, turn, fewest_tracks);
+    settle_all(solution, turn, fewest_tracks);
+    return axis_disagrees;
+}
+
+}  // namespace rs::capture

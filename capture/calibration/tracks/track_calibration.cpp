@@ -1,0 +1,315 @@
+#include "capture/calibration/tracks/track_calibration.hpp"
+
+#include "capture/calibration/points/bundle_deviations.hpp"
+#include "capture/calibration/points/model_covariance.hpp"
+#include "capture/calibration/points/patch_alignment.hpp"
+#include "capture/calibration/points/patch_growth.hpp"
+#include "capture/calibration/points/picture_places.hpp"
+#include "capture/calibration/points/start_search.hpp"
+#include "capture/calibration/silhouettes/turn_diagnosis.hpp"
+#include "capture/calibration/tracks/outline_settling.hpp"
+#include "rayspace/base/conventions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace rs::capture {
+namespace {
+
+constexpr std::size_t kFewestViews = 5;
+constexpr std::size_t kFewestTracks = 40;
+constexpr std::size_t kHeldOutEvery = 10;  // of the tracks
+constexpr double kFewestAgreeingPlaced = 0.75;
+constexpr int kPlaceRounds = 1;
+constexpr double kLossDeviations = 2;
+constexpr double kOutlierDeviations = 4;
+constexpr double kSharedError_px = 0.2;  // what the true errors on photographs with known truth ask for
+constexpr std::size_t kEnoughWideTracks = 80;
+constexpr double kWideArc_rad = 0.35;
+constexpr std::size_t kEnoughTracks = 2000;  // more would only take time
+constexpr int kObservationsPerView = 280;    // until so many, points are grown beside those there are
+constexpr int kAlignmentRounds = 2;
+constexpr int kMostAlignmentRounds = 3;  // where points still grow
+constexpr double kRoom = 1.15;           // around the points known, for those not known yet
+constexpr double kLeastOutlierLimit_px = 0.8;
+constexpr double kAlignedLimit_px = 1;  // alignment that went to another place
+
+void split(const std::vector<Track>& tracks, std::vector<Track>& part, std::vector<Track>& held_out) {
+    for (std::size_t i = 0; i < tracks.size(); ++i) (i % kHeldOutEvery == 3 ? held_out : part).push_back(tracks[i]);
+}
+
+double outlier_limit(const Bundle& bundle, int reduction) {
+    return std::max(kLeastOutlierLimit_px * reduction, kOutlierDeviations * robust_deviation_px(bundle));
+}
+
+std::vector<ViewFit> fits(const Bundle& bundle) {
+    std::vector<ViewFit> views(bundle.model.angles_rad.size());
+    for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
+        for (const Observation& seen : bundle.tracks[i].seen) {
+            const auto r = residual(bundle.model, bundle.points[i], seen);
+            if (!r) continue;
+            ViewFit& fit = views[static_cast<std::size_t>(seen.view)];
+            ++fit.observations;
+            fit.rms_px += glm::dot(*r, *r);
+        }
+    }
+    for (ViewFit& fit : views) fit.rms_px = fit.observations > 0 ? std::sqrt(fit.rms_px / fit.observations) : 0;
+    return views;
+}
+
+// The representation whose picture is the same but whose axis points the other way; an axis that lies sideways has no
+// upper end in the picture, so the end that the camera looks down from is taken for it.
+void choose_upper_end(Bundle& bundle) {
+    CameraPose& pose = bundle.model.pose;
+    if (!lies_sideways(pose) || pose.tilt_rad >= 0) return;
+    pose.tilt_rad = -pose.tilt_rad;
+    pose.pan_rad = -pose.pan_rad;
+    pose.roll_rad += pose.roll_rad > 0 ? -kPi : kPi;
+    for (double& angle : bundle.model.angles_rad) angle = -angle;
+    for (glm::dvec3& p : bundle.points) p = {-p.x, -p.y, p.z};
+}
+
+// Of the points, but for the farthest few, which may be wrong.
+double farthest_radius(const Bundle& bundle) {
+    std::vector<double> radii;
+    for (const glm::dvec3& p : bundle.points) radii.push_back(std::hypot(p.x, p.z));
+    const auto most = radii.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(radii.size() - 1));
+    std::nth_element(radii.begin(), most, radii.end());
+    return *most;
+}
+
+const char* const kNoSolution = "the bundle adjustment fails; are the pictures in order?";
+
+Lens known_lens(const TurnPictures& turn, const KnownInputs& known) {
+    Lens lens{turn.width, turn.height, known.f_px.value_or(0), turn.width / 2.0, turn.height / 2.0, 0, 0};
+    if (known.principal_point) {
+        lens.cx = known.principal_point->x;
+        lens.cy = known.principal_point->y;
+    }
+    if (known.distortion) {
+        lens.k1 = known.distortion->x;
+        lens.k2 = known.distortion->y;
+    }
+    return lens;
+}
+
+BundleFreedom freedom(const KnownInputs& known) {
+    BundleFreedom free;
+    free.f = !known.f_px;
+    free.pan = free.tilt = free.roll = !known.pose;
+    free.principal_point = known.estimate_principal_point && !known.principal_point;
+    free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kHeld
+                  : known.equal_steps                ? AngleFreedom::kCommonStep
+                                                     : AngleFreedom::kEach;
+    return free;
+}
+
+// From a start that is roughly right to the best bundle of features as they were detected and matched.
+bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k1_is_free, BundleOptions& options) {
+    options.loss_px = 2.0 * reduction;
+    for (int round = 0; round < 5; ++round) {
+        options.free.k1 = round > 0 && k1_is_free;
+        if (!adjust(bundle, options)) return false;
+        const double limit = outlier_limit(bundle, reduction);
+        // Observations lost to a poor start get another chance.
+        if (round < 4) {
+            bundle = make_agreeing_bundle(bundle.model, tracks, limit);
+        } else {
+            drop_outliers(bundle, limit);
+        }
+        options.loss_px = std::max(0.3 * reduction, 2 * robust_deviation_px(bundle));
+    }
+    return adjust(bundle, options).has_value();
+}
+
+// The way around the turn from which a track is seen.
+double arc_rad(const TurntableModel& model, const Track& track) {
+    const double first = model.angles_rad[static_cast<std::size_t>(track.seen.front().view)];
+    double low = 0, high = 0;
+    for (const Observation& seen : track.seen) {
+        const double turn = std::remainder(model.angles_rad[static_cast<std::size_t>(seen.view)] - first, 2 * kPi);
+        low = std::min(low, turn);
+        high = std::max(high, turn);
+    }
+    return high - low;
+}
+
+template <class Condition>
+void keep(Bundle& bundle, Condition condition) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
+        if (!condition(i)) continue;
+        if (kept != i) {
+            bundle.tracks[kept] = std::move(bundle.tracks[i]);
+            bundle.points[kept] = bundle.points[i];
+        }
+        ++kept;
+    }
+    bundle.tracks.resize(kept);
+    bundle.points.resize(kept);
+}
+
+// What is seen only for a short way may be the crossing of two contours or the edge of a shadow, which glide over the
+// object and still look like a point for that long. Where enough others are there it is left out.
+void keep_wide_tracks(Bundle& bundle) {
+    std::vector<double> arcs;
+    for (const Track& track : bundle.tracks) arcs.push_back(arc_rad(bundle.model, track));
+    std::vector<double> sorted = arcs;
+    std::sort(sorted.begin(), sorted.end(), std::greater<>());
+    if (sorted.size() <= kEnoughWideTracks) return;
+    keep(bundle,
+         [&, least = std::min(kWideArc_rad, sorted[kEnoughWideTracks])](std::size_t i) { return arcs[i] >= least; });
+}
+
+// Some of all kinds, where there are more than enough: the longest alone would be those seen most aslant.
+void keep_enough_tracks(Bundle& bundle) {
+    const std::size_t count = bundle.tracks.size();
+    if (count <= kEnoughTracks) return;
+    keep(bundle, [&](std::size_t i) { return i * kEnoughTracks / count != (i + 1) * kEnoughTracks / count; });
+}
+
+// The same points observed anew, by alignment of their patches, and points beside them, until there are `most`
+// observations; leaves in `options` the loss that fits them. Nothing where no bundle of them can be had.
+std::optional<Bundle> refined(Bundle bundle, const TurnPictures& turn, BundleOptions& options, int most) {
+    for (int round = 0; round < kMostAlignmentRounds; ++round) {
+        const std::size_t known = bundle.tracks.size();
+        grow(bundle, turn.reduction, most);
+        if (round >= kAlignmentRounds && bundle.tracks.size() == known) break;
+        const std::vector<Track> tracks = aligned_tracks(turn.pictures, turn.reduction, bundle, known);
+        bundle = make_agreeing_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
+        keep_wide_tracks(bundle);
+        for (int again = 0; again < 2; ++again) {
+            options.loss_px = std::max(0.05 * turn.reduction, kLossDeviations * robust_deviation_px(bundle));
+            if (!adjust(bundle, options)) return std::nullopt;
+            drop_outliers(bundle, std::max(0.2 * turn.reduction, kOutlierDeviations * robust_deviation_px(bundle)));
+        }
+    }
+    return bundle;
+}
+
+// Tracks that had no part in a model, with their points and outliers found as those were that had; the model stays.
+Bundle judged_by(const TurntableModel& model, const Bundle& unseen, const TurnPictures& turn, bool aligned) {
+    Bundle bundle = make_agreeing_bundle(model, unseen.tracks, outlier_limit(unseen, turn.reduction));
+    if (!aligned) return bundle;
+    BundleOptions held;
+    held.free = {.f = false, .pan = false, .tilt = false, .roll = false, .angles = AngleFreedom::kHeld};
+    return refined(bundle, turn, held, 0).value_or(bundle);
+}
+
+// Where no turn before a still camera explains the points, nor a tripod that was moved once, `placed` becomes the best
+// one with pictures moved and scaled one by one. Null: they were, and are put back.
+Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownInputs& known, Progress* progress,
+                                         std::optional<PlacedTurn>* placed) {
+    const std::size_t views = turn.pictures.size();
+    if (views < kFewestViews) {
+        return Error{std::to_string(views) + " pictures do not make a turn that could be calibrated; take at least " +
+                     std::to_string(kFewestViews) + ", better 36"};
+    }
+    if (progress != nullptr) progress->start("following points", 2 * static_cast<std::int64_t>(views));
+    const Result<PointFollower> follower = PointFollower::look_at(turn.pictures, turn.reduction, {}, progress);
+    if (!follower) return follower.error();
+    Result<FollowedPoints> followed = follower->follow(progress);
+    if (!followed) return followed.error();
+    TrackCalibration result;
+    result.followed = std::move(*followed);
+    const std::vector<Track>& tracks = result.followed.tracks;
+    if (tracks.size() < kFewestTracks) {
+        return Error{"only " + std::to_string(tracks.size()) +
+                     " points of the object can be followed over three pictures and more; an object with so little "
+                     "texture needs a board under it (rs-capture board)"};
+    }
+    std::vector<Track> part, held_out;
+    split(tracks, part, held_out);
+
+    if (progress != nullptr) progress->start("solving for axis, lens and angles", 3);
+    const auto start = find_start(part, result.followed.pairs, static_cast<int>(views), known_lens(turn, known), known);
+    if (!start) return Error{"no turn of equal steps explains how the object's points move"};
+    if (progress != nullptr) progress->advance();
+
+    BundleOptions options;
+    options.free = freedom(known);
+    Bundle bundle = make_agreeing_bundle(start->model, part, 4.0 * turn.reduction);
+    if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
+    choose_upper_end(bundle);
+    if (progress != nullptr) progress->advance();
+    const double at_px = 0.5 * (lies_sideways(bundle.model.pose) ? turn.width : turn.height);
+    const std::vector<int> candidates = observations_per_view(part, views);
+    Status accepted = accept(bundle, bundle_deviations(bundle, options, at_px), candidates, turn.names);
+    if (!accepted) {
+        if (placed != nullptr && !changes_at_one_moment(bundle, candidates)) {
+            *placed = find_places(tracks, known_lens(turn, known), views, turn.reduction, known);
+        }
+        return accepted.error();
+    }
+    const Bundle settled = bundle;
+    // Now that it is known where a point can be, more of them are found.
+    const Result<std::vector<Track>> guided =
+        follower->follow_guided(bundle.model, kRoom * farthest_radius(bundle), 2.0 * turn.reduction);
+    if (!guided) return guided.error();
+    part.clear();
+    held_out.clear();
+    split(*guided, part, held_out);
+    bundle = make_agreeing_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
+    if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
+    const Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
+    keep_enough_tracks(bundle);
+    std::optional<Bundle> finest = refined(bundle, turn, options, kObservationsPerView * static_cast<int>(views));
+    const bool is_aligned = finest && finest->tracks.size() >= kFewestTracks / 2;
+    bundle = is_aligned ? *std::move(finest) : settled;
+    TrackSolution solution{
+        std::move(bundle), NumberPlaces(options.free, std::vector<bool>(views, true)), {}, at_px, {}};
+    solution.covariance = bundle_covariance(solution.bundle, options, kSharedError_px * turn.reduction);
+    solution.deviations = deviations_of(solution.bundle.model, solution.places, solution.covariance, at_px);
+    const auto axis_disagrees = settle_with_outlines(solution, turn, kFewestTracks / 2);
+    bundle = std::move(solution.bundle);
+    if (progress != nullptr) progress->advance();
+
+    Calibration& calibration = result.calibration;
+    calibration.method = CalibrationMethod::kTracks;
+    calibration.model = bundle.model;
+    calibration.deviations = std::move(solution.deviations);
+    calibration.step_rad = median_step(bundle.model.angles_rad);
+    Bundle judged = settled;  // its observations, the better angles
+    judged.model = bundle.model;
+    // Of pictures that were moved, angles and axis are only as the moves leave them.
+    if (placed != nullptr) {
+        calibration.warnings = step_warnings(bundle.model.angles_rad, calibration.deviations, turn.names);
+        if (axis_disagrees) calibration.warnings.push_back(*axis_disagrees);
+    }
+    const auto of_pictures = picture_warnings(judged, candidates, result.followed.features, turn.names);
+    calibration.warnings.insert(calibration.warnings.end(), of_pictures.begin(), of_pictures.end());
+    calibration.points = static_cast<int>(bundle.tracks.size());
+    calibration.observations = observation_count(bundle);
+    calibration.rms_px = rms_px(bundle);
+    calibration.held_out_rms_px = rms_px(judged_by(bundle.model, unseen, turn, is_aligned));
+    calibration.views = fits(bundle);
+    result.bundle = std::move(bundle);
+    return result;
+}
+
+}  // namespace
+
+Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
+    std::optional<PlacedTurn> placed;
+    Result<TrackCalibration> still = calibrate_still(turn, known, progress, &placed);
+    if (!placed || placed->agreeing < kFewestAgreeingPlaced) return still;
+    std::vector<PicturePlace> places = std::move(placed->places);
+    for (int round = 0;; ++round) {
+        Result<TrackCalibration> found = calibrate_still(put_back(turn, places), known, progress, nullptr);
+        if (!found) return still;
+        found->calibration.places = places;
+        const auto remaining =
+            round < kPlaceRounds ? remaining_places(found->bundle, turn.reduction, known) : std::nullopt;
+        if (!remaining) {
+            found->calibration.warnings.push_back(place_warning(places));
+            return found;
+        }
+        for (std::size_t i = 0; i < places.size(); ++i) places[i] = places[i].of((*remaining)[i]);
+    }
+}
+
+}  // namespace rs::capture

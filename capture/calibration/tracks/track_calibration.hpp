@@ -1,0 +1,26 @@
+#pragma once
+// Calibration of a turn from points of the object: start search, bundle, outliers, hold-out, judgement. The outlines of
+// a full turn have their say in where the axis is (outline_symmetry.hpp). Where no turn before a still camera explains
+// the points, pictures are taken to have been moved and scaled one by one, as shops do, and put back
+// (picture_places.hpp).
+
+#include "capture/calibration/model/calibration.hpp"
+#include "capture/calibration/points/bundle.hpp"
+#include "capture/calibration/points/tracks.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+
+namespace rs::capture {
+
+struct TrackCalibration {
+    Calibration calibration;
+    FollowedPoints followed;  // positions in px of the photographs, put back to their places
+    Bundle bundle;            // the tracks that took part, at the optimum but for the axis' position
+};
+
+// Fails, with what a photographer can do about it, where the pictures do not determine a single-axis motion: too few
+// points, neighbours that share too little, points that do not agree (two cameras, a moved tripod), angles that make no
+// turn. One thread calls; works on all cores.
+Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress);
+
+}  // namespace rs::capture

@@ -1,0 +1,260 @@
+#include "capture/photos/background/backdrop.hpp"
+
+#include "capture/photos/background/disc_bridging.hpp"
+#include "capture/photos/background/plate.hpp"
+#include "capture/photos/background/turn_plate.hpp"
+#include "capture/photos/intake/colour_difference.hpp"
+
+#include <tbb/parallel_for.h>
+#include <opencv2/core.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+
+namespace rs::capture {
+namespace {
+
+constexpr int kTransparent = 128;              // alpha below this is a hole ...
+constexpr double kMinTransparentShare = 0.01;  // ... and so many of them are a matte
+constexpr int kWhite_code = 225;               // every channel at least
+constexpr int kBlack_code = 40;                // every channel at most
+constexpr double kBorderMajority = 0.6;
+constexpr int kBorderColours = 4;
+constexpr double kStillBorder = 0.5;
+constexpr float kStillShare = 0.6F;  // of the samples agree: never or seldom hidden
+constexpr float kNeverHidden = 0.95F;
+constexpr float kSeenShare = 0.3F;     // of the samples agree: the backdrop, if its colour is right
+constexpr double kShadowReach = 0.25;  // of the disc's radius
+constexpr float kSameColour_delta_e = 16;
+constexpr std::size_t kMinSamplesForStillness = 6;
+
+int border_px(int width, int height) {
+    return std::max(2, std::min(width, height) / 50);
+}
+
+template <class Visit>
+void for_border(int width, int height, Visit visit) {
+    const int border = border_px(width, height);
+    for (int y = 0; y < height; ++y) {
+        const bool whole_row = y < border || y >= height - border;
+        for (int x = 0; x < width; ++x) {
+            if (!whole_row && x == border) x = std::max(border, width - border);
+            visit(x, y);
+        }
+    }
+}
+
+bool brings_alpha(const Survey& survey) {
+    std::size_t matted = 0;
+    for (const Image<Rgba8>& sample : survey.samples) {
+        const auto holes = std::count_if(sample.pixels().begin(), sample.pixels().end(),
+                                         [](const Rgba8& p) { return p.a < kTransparent; });
+        matted +=
+            static_cast<double>(holes) >= kMinTransparentShare * static_cast<double>(sample.pixels().size()) ? 1 : 0;
+    }
+    return 2 * matted > survey.samples.size();
+}
+
+// The few colours that the border consists of, commonest first.
+std::vector<Rgba8> border_colours(const StillPicture& still, bool only_still) {
+    std::vector<cv::Vec3f> seen;
+    for_border(still.colour.width(), still.colour.height(), [&](int x, int y) {
+        if (only_still && still.agreement(x, y) < kStillShare) return;
+        const Rgba8& c = still.colour(x, y);
+        seen.emplace_back(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b));
+    });
+    if (seen.size() < kBorderColours) return {};
+    cv::theRNG().state = 1;  // kmeans draws its starts from here: the same pictures must give the same backdrop
+    std::vector<int> labels;
+    cv::Mat centres;
+    cv::kmeans(cv::Mat(seen).reshape(1), kBorderColours, labels,
+               cv::TermCriteria(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 20, 0.5), 3, cv::KMEANS_PP_CENTERS,
+               centres);
+    std::vector<std::pair<std::ptrdiff_t, Rgba8>> ranked;
+    for (int k = 0; k < centres.rows; ++k) {
+        const auto code = [&](int channel) { return cv::saturate_cast<std::uint8_t>(centres.at<float>(k, channel)); };
+        ranked.emplace_back(std::count(labels.begin(), labels.end(), k), Rgba8{code(0), code(1), code(2), 255});
+    }
+    std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<Rgba8> colours;
+    for (const auto& [count, colour] : ranked) {
+        if (static_cast<double>(count) >= 0.02 * static_cast<double>(seen.size())) colours.push_back(colour);
+    }
+    return colours;
+}
+
+bool resembles(const Rgba8& pixel, const std::vector<Rgba8>& colours) {
+    return std::any_of(colours.begin(), colours.end(), [&](const Rgba8& colour) {
+        return explain_by_backdrop(linear_rgb(pixel), linear_rgb(colour), 0.5F, 1.5F).shaded < kSameColour_delta_e;
+    });
+}
+
+constexpr const char* kNoColour =
+    ": the pictures' borders are neither even nor still; give --backdrop R,G,B, or cut the object out beforehand and "
+    "give pictures with alpha";
+
+// The colour that a backdrop of this kind has by its name.
+std::optional<Rgba8> own_colour(BackdropKind kind) {
+    if (kind == BackdropKind::kWhite) return Rgba8{255, 255, 255, 255};
+    if (kind == BackdropKind::kBlack) return Rgba8{0, 0, 0, 255};
+    return std::nullopt;
+}
+
+struct BorderShares {
+    double white = 0, black = 0;
+    double still = 0;  // agree over time
+};
+
+BorderShares border_shares(const StillPicture& still) {
+    BorderShares shares;
+    double count = 0;
+    for_border(still.colour.width(), still.colour.height(), [&](int x, int y) {
+        const Rgba8& c = still.colour(x, y);
+        ++count;
+        shares.white += std::min({c.r, c.g, c.b}) >= kWhite_code ? 1 : 0;
+        shares.black += std::max({c.r, c.g, c.b}) <= kBlack_code ? 1 : 0;
+        shares.still += still.agreement(x, y) >= kStillShare ? 1 : 0;
+    });
+    shares.white /= count;
+    shares.black /= count;
+    shares.still /= count;
+    return shares;
+}
+
+template <class Condition>
+Image<std::uint8_t> mask_of(const StillPicture& still, Condition condition) {
+    Image<std::uint8_t> mask(still.agreement.width(), still.agreement.height());
+    std::transform(still.agreement.pixels().begin(), still.agreement.pixels().end(), mask.pixels().begin(),
+                   [&](float agreement) { return condition(agreement) ? std::uint8_t{255} : std::uint8_t{0}; });
+    return mask;
+}
+
+// Where the plate is known because it is of the border's colours and seen often enough.
+Image<std::uint8_t> alike(const StillPicture& still, const std::vector<Rgba8>& colours, bool turn) {
+    Image<std::uint8_t> known(still.colour.width(), still.colour.height());
+    for (int y = 0; y < known.height(); ++y) {
+        for (int x = 0; x < known.width(); ++x) {
+            const bool seen = !turn || still.agreement(x, y) >= kSeenShare;
+            known(x, y) = seen && resembles(still.colour(x, y), colours) ? 255 : 0;
+        }
+    }
+    return known;
+}
+
+// Those of the border's colours that are strong, as objects hardly have them.
+std::vector<Rgba8> screen_colours(std::vector<Rgba8> colours) {
+    constexpr float kScreenChroma = 30;
+    std::erase_if(colours, [](const Rgba8& colour) {
+        const Lab lab = lab_from_linear(linear_rgb(colour));
+        return std::hypot(lab.a, lab.b) < kScreenChroma;
+    });
+    return colours;
+}
+
+}  // namespace
+
+std::string to_string(BackdropKind kind) {
+    switch (kind) {
+        case BackdropKind::kAlpha:
+            return "alpha";
+        case BackdropKind::kWhite:
+            return "white";
+        case BackdropKind::kBlack:
+            return "black";
+        case BackdropKind::kColour:
+            return "colour";
+    }
+    RS_CHECK(false);
+}
+
+Result<BackdropRequest> parse_backdrop(const std::string& text) {
+    if (text == "auto") return BackdropRequest{};
+    for (const BackdropKind kind : {BackdropKind::kAlpha, BackdropKind::kWhite, BackdropKind::kBlack}) {
+        if (text == to_string(kind)) return BackdropRequest{kind, std::nullopt};
+    }
+    std::array<int, 3> codes{};
+    const char* at = text.data();
+    const char* const end = text.data() + text.size();
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        const auto [behind, failure] = std::from_chars(at, end, codes[i]);
+        const bool separated = i == 2 ? behind == end : behind != end && *behind == ',';
+        if (failure != std::errc{} || codes[i] < 0 || codes[i] > 255 || !separated) {
+            return Error{"\"" + text +
+                         "\" is no backdrop; give auto, white, black, alpha or R,G,B with numbers 0..255"};
+        }
+        at = behind + 1;
+    }
+    const auto code = [&](std::size_t i) { return static_cast<std::uint8_t>(codes[i]); };
+    return BackdropRequest{BackdropKind::kColour, Rgba8{code(0), code(1), code(2), 255}};
+}
+
+Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& request, const std::string& where) {
+    if (survey.samples.empty())
+        return Error{where + ": no pictures to find the backdrop in; give a folder of pictures"};
+    const bool alpha = brings_alpha(survey);
+    if (request.kind == BackdropKind::kAlpha && !alpha) {
+        return Error{where + ": the pictures have no transparent pixels; leave --backdrop alpha away"};
+    }
+    if (request.kind == BackdropKind::kAlpha || (!request.kind && alpha)) {
+        return Backdrop{};
+    }
+
+    EvenedSamples samples(survey.samples);
+    StillPicture still = agree_over_time(samples);
+    const bool turn = survey.samples.size() >= kMinSamplesForStillness;
+    const BorderShares shares = border_shares(still);
+    Backdrop found;
+    std::vector<Rgba8> colours = border_colours(still, turn);
+    if (request.kind) {
+        found.kind = *request.kind;
+    } else if (shares.white >= kBorderMajority) {
+        found.kind = BackdropKind::kWhite;
+    } else if (shares.black >= kBorderMajority) {
+        found.kind = BackdropKind::kBlack;
+    } else if (colours.empty() || (turn && shares.still < kStillBorder)) {
+        return Error{where + kNoColour};
+    } else {
+        found.kind = BackdropKind::kColour;
+    }
+    // A colour that the user names rules out the border's other colours only where the border does not show it at all.
+    // White and black are known even where nothing along the border is still, as under a flickering exposure.
+    const std::optional<Rgba8> named = request.colour ? request.colour : own_colour(found.kind);
+    if (named && (request.kind || colours.empty())) colours.insert(colours.begin(), *named);
+    if (colours.empty()) return Error{where + kNoColour};
+    found.colour = colours.front();
+    if (found.kind == BackdropKind::kColour) found.screen = screen_colours(colours);
+
+    if (turn) {
+        samples.even_out(still.colour, mask_of(still, [](float agreement) { return agreement >= kNeverHidden; }));
+        still = agree_over_time(samples);
+        found.untouched = mask_of(still, [](float agreement) { return agreement >= kNeverHidden; });
+    }
+    Image<std::uint8_t> known;
+    std::optional<TurntableDisc> disc;
+    if (turn && shares.still >= kStillBorder) {
+        TurnPlate plate = plate_of_turn(samples, still.colour, found.untouched);
+        still.colour = std::move(plate.colour);
+        known = std::move(plate.known);
+        disc = plate.disc;
+        found.untouched = std::move(plate.untouched);
+        // Through the loops of an object a white or black backdrop looks the same all the time, too.
+        if (found.kind == BackdropKind::kColour) found.hidden = std::move(plate.hidden);
+    } else {
+        known = alike(still, colours, turn);
+    }
+    if (std::count(known.pixels().begin(), known.pixels().end(), 0) == std::ssize(known.pixels())) {
+        still.colour = Image<Rgba8>(known.width(), known.height(), found.colour);
+    }
+    found.known = known;
+    if (disc) found.ground = disc_mask(*disc, known.width(), known.height(), kShadowReach);
+    if (turn) bridge_gaps(disc, still.colour, known);
+    fill_unknown(still.colour, known);
+    found.plate = std::move(still.colour);
+    if (turn) found.noise_delta_e = plate_noise(samples, found.plate, found.known);
+    return found;
+}
+
+}  // namespace rs::capture

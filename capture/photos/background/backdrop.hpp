@@ -1,0 +1,53 @@
+#pragma once
+// What stands behind the object: known to be transparent, one colour, or found in the pictures.
+//
+// The camera of a turntable stands still, so whatever is behind the object and does not turn with it (the wall, an even
+// turntable disc, the black frame of a frame grabber) is the same in every picture. The *plate* is that still picture:
+// per pixel the value that most pictures agree on, where it is of the colours seen along the border; filled in smoothly
+// from around where the object always hides it.
+
+#include "capture/photos/intake/survey.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rs::capture {
+
+enum class BackdropKind { kAlpha, kWhite, kBlack, kColour };
+std::string to_string(BackdropKind kind);  // "alpha", "white", "black", "colour"
+
+// What the user asked for. No kind: automatic. `colour` (sRGB) only with kColour.
+struct BackdropRequest {
+    std::optional<BackdropKind> kind;
+    std::optional<Rgba8> colour;
+};
+
+// "auto", "white", "black", "alpha" or "R,G,B" (0..255 each).
+Result<BackdropRequest> parse_backdrop(const std::string& text);
+
+struct Backdrop {
+    BackdropKind kind = BackdropKind::kAlpha;
+    Rgba8 colour;                 // the commonest colour along the border (kAlpha: transparent black)
+    std::vector<Rgba8> screen{};  // strong colours of the border, as of a chroma key: backdrop wherever they are seen
+    Image<Rgba8> plate;           // sRGB, opaque, in the samples' size; empty for kAlpha
+    Image<std::uint8_t> known{};  // 255 where the pictures show it, 0 where it is filled in; empty for kAlpha
+    // 255 where nothing ever covers it; and where the object always does although it stands still there, as the white
+    // ground of a painted vase. Empty where there are too few pictures to tell.
+    Image<std::uint8_t> untouched{};
+    Image<std::uint8_t> hidden{};
+    // 255 on a turntable's disc and around it, where the object's shadow falls; empty where no disc was found.
+    Image<std::uint8_t> ground{};
+    // Mean difference near by between the samples that show the plate and the plate; as empty.
+    Image<float> noise_delta_e{};
+};
+
+// Automatic: the pictures' own alpha where at least 1 % of the pixels are transparent in most of the samples; otherwise
+// white or black where most of the border is; otherwise colour. Fails where the border is neither of few colours nor
+// still, where alpha is asked for and there is none, and where there are no samples. `where` names the folder in
+// errors.
+Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& request, const std::string& where);
+
+}  // namespace rs::capture

@@ -1,0 +1,47 @@
+#include "capture/photos/background/evened_samples.hpp"
+
+#include "capture/photos/intake/opencv_image.hpp"
+#include "rayspace/base/check.hpp"
+#include "rayspace/image/linear_light.hpp"
+
+#include <tbb/parallel_for.h>
+#include <opencv2/imgproc.hpp>
+
+namespace rs::capture {
+namespace {
+
+std::array<std::uint8_t, 256> divided_by(float gain) {
+    std::array<std::uint8_t, 256> codes{};
+    for (std::size_t code = 0; code < codes.size(); ++code) {
+        const auto own = static_cast<std::uint8_t>(code);
+        codes[code] = srgb8_from_linear(linear_from_srgb8(own) / gain);
+    }
+    codes[255] = 255;  // a clipped value may have been anything
+    return codes;
+}
+
+}  // namespace
+
+EvenedSamples::EvenedSamples(std::span<const Image<Rgba8>> samples)
+    : samples_(samples), smooth_(samples.size()), codes_(samples.size()) {
+    RS_CHECK(!samples.empty());
+    for (Codes& codes : codes_) codes.fill(divided_by(1));
+    tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+        smooth_[i] = Image<Rgba8>(samples[i].width(), samples[i].height());
+        cv::Mat smooth(smooth_[i].height(), smooth_[i].width(), CV_8UC4, smooth_[i].data());
+        cv::GaussianBlur(mat_over(samples[i]), smooth, {3, 3}, 0, 0, cv::BORDER_REPLICATE);
+    });
+}
+
+void EvenedSamples::even_out(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> untouched) {
+    Image<LinearRgb> plate(still.width(), still.height());
+    for (int y = 0; y < still.height(); ++y) {
+        for (int x = 0; x < still.width(); ++x) plate(x, y) = linear_rgb(still(x, y));
+    }
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+        const LinearRgb gain = exposure_gain(samples_[i], plate, untouched);
+        codes_[i] = {divided_by(gain.r), divided_by(gain.g), divided_by(gain.b)};
+    }
+}
+
+}  // namespace rs::capture

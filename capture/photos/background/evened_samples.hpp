@@ -1,0 +1,46 @@
+#pragma once
+// The samples of a survey as they would look had all of them been exposed alike, and a copy of them without the
+// sensor's noise to judge by what stands still: noise differs from pixel to pixel, what moves seldom does.
+
+#include "capture/photos/intake/exposure.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace rs::capture {
+
+class EvenedSamples {
+public:
+    // Exposed as they are. At least one sample, all of one size; they must outlive this. Takes as much memory again.
+    explicit EvenedSamples(std::span<const Image<Rgba8>> samples);
+
+    // Divides sample i by exposure_gain() from `still`, over the pixels where `untouched` is not 0.
+    void even_out(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> untouched);
+
+    [[nodiscard]] std::size_t count() const { return samples_.size(); }
+    [[nodiscard]] int width() const { return samples_[0].width(); }
+    [[nodiscard]] int height() const { return samples_[0].height(); }
+    [[nodiscard]] Rgba8 operator()(std::size_t sample, int x, int y) const {
+        return evened(codes_[sample], samples_[sample](x, y));
+    }
+    // The weighted mean of 3 x 3 pixels (1 2 1 either way).
+    [[nodiscard]] Rgba8 smooth(std::size_t sample, int x, int y) const {
+        return evened(codes_[sample], smooth_[sample](x, y));
+    }
+
+private:
+    using Codes = std::array<std::array<std::uint8_t, 256>, 3>;  // [channel][code]
+
+    static Rgba8 evened(const Codes& codes, const Rgba8& p) {
+        return {codes[0][p.r], codes[1][p.g], codes[2][p.b], 255};
+    }
+
+    std::span<const Image<Rgba8>> samples_;
+    std::vector<Image<Rgba8>> smooth_;
+    std::vector<Codes> codes_;  // [sample]
+};
+
+}  // namespace rs::capture

@@ -1,0 +1,34 @@
+#pragma once
+// How different two colours look, and whether a colour can be the backdrop with a shadow on it.
+
+#include "rayspace/image/image.hpp"
+
+namespace rs::capture {
+
+struct LinearRgb {
+    float r = 0, g = 0, b = 0;  // linear light, sRGB primaries
+};
+
+LinearRgb linear_rgb(const Rgba8& srgb);  // alpha is left aside
+
+struct Lab {
+    float l = 0, a = 0, b = 0;  // CIE 1976 L*a*b*, white D65; l is 0..100
+};
+Lab lab_from_linear(const LinearRgb& colour);
+
+// CIE 1976 colour difference; 2.3 is just noticeable.
+float delta_e(const Lab& x, const Lab& y);
+
+// Whether a backdrop has so much colour that the shaded grey parts of an object do not look like it in a shadow.
+bool is_colourful(const LinearRgb& colour);
+
+// How well `backdrop` explains `pixel`. A shadow multiplies the backdrop's linear light by one factor for all channels,
+// so `shaded` is the difference to the multiple of the backdrop that fits best.
+struct Explanation {
+    float plain = 0;   // delta E to the backdrop as it is
+    float shaded = 0;  // delta E to shade * backdrop
+    float shade = 1;   // the factor, within the range given
+};
+Explanation explain_by_backdrop(const LinearRgb& pixel, const LinearRgb& backdrop, float min_shade, float max_shade);
+
+}  // namespace rs::capture

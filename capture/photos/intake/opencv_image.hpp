@@ -1,0 +1,44 @@
+#pragma once
+// Between the project's pictures and OpenCV matrices. Only for .cpp files of this folder: no header that others include
+// may need OpenCV.
+
+#include "rayspace/image/image.hpp"
+#include "rayspace/image/linear_light.hpp"
+
+#include <opencv2/core.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace rs::capture {
+
+// The picture's own pixels as CV_8UC4 in the order R, G, B, A; nothing is copied, and nothing may be written.
+inline cv::Mat mat_over(ConstImageView<Rgba8> picture) {
+    return {picture.height(), picture.width(), CV_8UC4,
+            const_cast<Rgba8*>(picture.data()),  // cv::Mat knows no constant pixels
+            static_cast<std::size_t>(picture.stride()) * sizeof(Rgba8)};
+}
+
+// A mask's own bytes as CV_8UC1; likewise.
+inline cv::Mat1b mat_over(ConstImageView<std::uint8_t> mask) {
+    return {mask.height(), mask.width(), const_cast<std::uint8_t*>(mask.data()),
+            static_cast<std::size_t>(mask.stride())};
+}
+
+// Linear-light RGB, CV_32FC3.
+inline cv::Mat3f linear_mat(ConstImageView<Rgba8> picture) {
+    cv::Mat3f linear(picture.height(), picture.width());
+    for (int y = 0; y < picture.height(); ++y) {
+        const Rgba8* from = picture.row(y);
+        cv::Vec3f* to = linear[y];
+        for (int x = 0; x < picture.width(); ++x)
+            to[x] = {linear_from_srgb8(from[x].r), linear_from_srgb8(from[x].g), linear_from_srgb8(from[x].b)};
+    }
+    return linear;
+}
+
+inline Rgba8 rgba8_from_linear(const cv::Vec3f& light, std::uint8_t alpha) {
+    return {srgb8_from_linear(light[0]), srgb8_from_linear(light[1]), srgb8_from_linear(light[2]), alpha};
+}
+
+}  // namespace rs::capture

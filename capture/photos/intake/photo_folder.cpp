@@ -1,0 +1,115 @@
+#include "capture/photos/intake/photo_folder.hpp"
+
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+namespace rs::capture {
+namespace {
+
+constexpr bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+constexpr char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+// The run of digits that starts at `at`, its leading zeros left out; moves `at` behind it.
+std::string_view take_number(std::string_view text, std::size_t& at) {
+    while (at < text.size() && text[at] == '0') ++at;
+    const std::size_t begin = at;
+    while (at < text.size() && is_digit(text[at])) ++at;
+    return text.substr(begin, at - begin);
+}
+
+std::string size_text(int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+bool natural_less(std::string_view a, std::string_view b) {
+    std::size_t i = 0;
+    std::size_t j = 0;
+    while (i < a.size() && j < b.size()) {
+        if (is_digit(a[i]) && is_digit(b[j])) {
+            const std::string_view m = take_number(a, i);
+            const std::string_view n = take_number(b, j);
+            if (m.size() != n.size()) return m.size() < n.size();
+            if (m != n) return m < n;
+        } else {
+            const char c = lower(a[i++]);
+            const char d = lower(b[j++]);
+            if (c != d) return static_cast<unsigned char>(c) < static_cast<unsigned char>(d);
+        }
+    }
+    if (i < a.size() || j < b.size()) return i == a.size();
+    return a < b;
+}
+
+bool is_picture_name(const std::filesystem::path& name) {
+    static constexpr std::array<std::string_view, 11> kExtensions = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp",
+                                                                     ".bmp", ".exr", ".hdr",  ".tga", ".ppm"};
+    std::string extension = name.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), lower);
+    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder) {
+    std::error_code failure;
+    std::filesystem::directory_iterator entries(folder, failure);
+    if (failure) {
+        return Error{folder.string() + ": cannot be listed (" + failure.message() + "); give a folder of pictures"};
+    }
+    PhotoFolder found;
+    for (const std::filesystem::directory_iterator end; entries != end; entries.increment(failure)) {
+        const std::filesystem::path& path = entries->path();
+        const std::string name = path.filename().string();
+        if (name.starts_with(".")) continue;
+        std::error_code ignored;
+        if (entries->is_regular_file(ignored) && is_picture_name(path)) {
+            found.photos.push_back(path);
+        } else {
+            found.ignored.push_back(name);
+        }
+        if (failure) break;
+    }
+    if (failure) return Error{folder.string() + ": listing stopped (" + failure.message() + "); check the disk"};
+    if (found.photos.empty()) {
+        return Error{folder.string() + ": holds no pictures; give a folder of PNG, JPEG, TIFF or WebP files"};
+    }
+    if (found.photos.size() > static_cast<std::size_t>(kMaxViews)) {
+        return Error{folder.string() + ": holds " + std::to_string(found.photos.size()) + " pictures; at most " +
+                     std::to_string(kMaxViews) + " can be imported"};
+    }
+    std::sort(found.ignored.begin(), found.ignored.end());
+    std::sort(found.photos.begin(), found.photos.end(),
+              [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
+
+    found.has_alpha = true;
+    for (const std::filesystem::path& photo : found.photos) {
+        const Result<PictureInfo> info = read_picture_info(photo);
+        if (!info) return info.error();
+        // Before the sizes are compared: photographs on their side and upright ones differ in size too.
+        if (info->orientation != 1) {
+            return Error{
+                photo.string() + ": wants to be shown turned (EXIF orientation " + std::to_string(info->orientation) +
+                "), which is not done here; rotate the pixels, e.g. with exiftran -ai or mogrify -auto-orient"};
+        }
+        if (found.width == 0) {
+            found.width = info->width;
+            found.height = info->height;
+        } else if (info->width != found.width || info->height != found.height) {
+            return Error{photo.string() + ": is " + size_text(info->width, info->height) + " but " +
+                         found.photos.front().filename().string() + " is " + size_text(found.width, found.height) +
+                         "; all pictures of a turn must have one size"};
+        }
+        found.has_alpha = found.has_alpha && info->has_alpha;
+    }
+    return found;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,36 @@
+#pragma once
+// One quick look at all pictures of a turn: small copies, from which the repeat of the first picture and the backdrop
+// are judged before any picture is cut out. The pictures themselves are not kept but read again later, so the memory
+// needed does not grow with their number, but for the small copies.
+
+#include "capture/photos/intake/photo_folder.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <vector>
+
+namespace rs::capture {
+
+// Samples are at most this large, thumbnails at most kThumbnailSide_px.
+inline constexpr int kSampleSide_px = 1024;
+inline constexpr int kThumbnailSide_px = 160;
+inline constexpr int kMaxSamples = 48;
+
+struct Survey {
+    std::vector<Image<Rgba8>> thumbnails;    // [photo]
+    std::vector<Image<Rgba8>> samples;       // of at most kMaxSamples photos, evenly spread over the turn
+    std::vector<std::size_t> sample_photos;  // [sample] -> photo
+};
+
+// A picture made smaller by averaging, so that no side is longer than `side_px`; a copy where it is small enough.
+// Colours are averaged with alpha as their weight. Besides the result it takes the memory of a few rows.
+Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px);
+
+// What reading takes of memory per pixel of a picture, at most: 16-bit and float files pass through float.
+inline constexpr int kReadBytesPerPixel = 24;
+
+// Reads every picture; after one that cannot be read no further one is begun. Works side by side (bounded_work.hpp).
+Result<Survey> survey_photos(const PhotoFolder& folder, Progress* progress);
+
+}  // namespace rs::capture

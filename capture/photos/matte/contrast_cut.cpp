@@ -1,0 +1,96 @@
+#include "capture/photos/matte/contrast_cut.hpp"
+
+#include "capture/photos/intake/colour_difference.hpp"
+#include "capture/photos/matte/object_mask.hpp"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc/detail/gcgraph.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+constexpr int kNoNode = -1;
+
+// Half of the 8-neighbourhood, so that every pair is met once.
+constexpr std::pair<int, int> kNeighbours[] = {{1, 0}, {-1, 1}, {0, 1}, {1, 1}};
+
+float difference(const Rgba8& p, const Rgba8& q) {
+    return delta_e(lab_from_linear(linear_rgb(p)), lab_from_linear(linear_rgb(q)));
+}
+
+}  // namespace
+
+Image<std::uint8_t> cut_by_contrast(ConstImageView<Rgba8> photo, ConstImageView<float> preference,
+                                    const CutOptions& options) {
+    RS_CHECK(photo.width() == preference.width() && photo.height() == preference.height());
+    const int width = photo.width();
+    const int height = photo.height();
+    Image<int> node(width, height, kNoNode);
+    int nodes = 0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (std::abs(preference(x, y)) < kDecided) node(x, y) = nodes++;
+        }
+    }
+    Image<std::uint8_t> object(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) object(x, y) = preference(x, y) >= kDecided ? 255 : 0;
+    }
+    if (nodes == 0) return object;
+
+    // A decided neighbour is a terminal: parting from it costs the same as parting from an undecided one.
+    std::vector<float> to_object(static_cast<std::size_t>(nodes), 0.0F);
+    std::vector<float> to_backdrop(static_cast<std::size_t>(nodes), 0.0F);
+    cv::detail::GCGraph<float> graph(static_cast<unsigned>(nodes) + 2, static_cast<unsigned>(nodes) * 8 + 2);
+    for (int i = 0; i < nodes; ++i) graph.addVtx();
+    // GCGraph refuses to be without edges, as it would be where no two undecided pixels touch.
+    const int spare = graph.addVtx();
+    graph.addEdges(spare, graph.addVtx(), 0, 0);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            for (const auto& [dx, dy] : kNeighbours) {
+                const int u = x + dx;
+                const int v = y + dy;
+                if (u < 0 || u >= width || v >= height) continue;
+                const int a = node(x, y);
+                const int b = node(u, v);
+                if (a == kNoNode && b == kNoNode) continue;
+                const float contrast = difference(photo(x, y), photo(u, v)) / options.contrast_delta_e;
+                const float length = dx != 0 && dy != 0 ? 0.70710678F : 1.0F;
+                const float cost =
+                    length * (options.floor + options.smoothness * std::exp(-0.5F * contrast * contrast));
+                if (a != kNoNode && b != kNoNode) {
+                    graph.addEdges(a, b, cost, cost);
+                } else {
+                    const int undecided = a != kNoNode ? a : b;
+                    const bool decided_object = (a == kNoNode ? object(x, y) : object(u, v)) != 0;
+                    (decided_object ? to_object : to_backdrop)[static_cast<std::size_t>(undecided)] += cost;
+                }
+            }
+        }
+    }
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const int i = node(x, y);
+            if (i == kNoNode) continue;
+            const float own = preference(x, y);
+            graph.addTermWeights(i, to_object[static_cast<std::size_t>(i)] + std::max(0.0F, own),
+                                 to_backdrop[static_cast<std::size_t>(i)] + std::max(0.0F, -own));
+        }
+    }
+    graph.maxFlow();
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const int i = node(x, y);
+            if (i != kNoNode) object(x, y) = graph.inSourceSegment(i) ? 255 : 0;
+        }
+    }
+    return object;
+}
+
+}  // namespace rs::capture

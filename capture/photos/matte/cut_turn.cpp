@@ -1,0 +1,119 @@
+#include "capture/photos/matte/cut_turn.hpp"
+
+#include "capture/photos/intake/bounded_work.hpp"
+#include "capture/photos/intake/survey.hpp"
+#include "capture/photos/matte/cut_out.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <mutex>
+
+namespace rs::capture {
+namespace {
+
+constexpr int kTurningSide_px = 512;
+
+// Of the picture. Somewhere around the object the backdrop must be seen; where it is not, it was mistaken.
+constexpr double kFullCoverage = 0.95;
+
+double coverage(const Image<Rgba8>& cut) {
+    const auto solid =
+        std::count_if(cut.pixels().begin(), cut.pixels().end(), [](const Rgba8& p) { return p.a >= 128; });
+    return static_cast<double>(solid) / static_cast<double>(cut.pixels().size());
+}
+
+Status check_coverage(double covered, BackdropKind kind, const std::string& photo) {
+    if (covered == 0) {
+        return Error{photo + ": shows no object before the " + to_string(kind) +
+                     " backdrop; give another --backdrop, or take the picture out"};
+    }
+    if (covered >= kFullCoverage && kind != BackdropKind::kAlpha) {
+        return Error{photo + ": the object fills the whole picture; nothing is left of the " + to_string(kind) +
+                     " backdrop: give another --backdrop, or take the picture out"};
+    }
+    return {};
+}
+
+bool reaches_border(const TurnOutline::Box& box, const PhotoFolder& folder) {
+    return box.left == 0 || box.top == 0 || box.right == folder.width || box.bottom == folder.height;
+}
+
+// The mask of a photograph; its grey becomes the photograph's alpha.
+Status apply_mask(const std::filesystem::path& masks, const std::filesystem::path& photo, Image<Rgba8>& picture) {
+    std::filesystem::path found = masks / photo.filename();
+    std::error_code failure;
+    for (const char* ending : {"", ".png", ".PNG", ".jpg", ".JPG", ".jpeg", ".tif", ".tiff", ".webp", ".bmp"}) {
+        if (*ending != 0) found = masks / (photo.stem().string() + ending);
+        if (std::filesystem::exists(found, failure)) break;
+    }
+    if (!std::filesystem::exists(found, failure)) {
+        return Error{masks.string() + ": has no mask for " + photo.filename().string() +
+                     "; one picture per photograph is needed, of its name, white where the object is"};
+    }
+    const Result<Image<Rgba8>> mask = read_picture(found);
+    if (!mask) return mask.error();
+    if (mask->width() != picture.width() || mask->height() != picture.height()) {
+        return Error{found.string() + ": is " + std::to_string(mask->width()) + "x" + std::to_string(mask->height()) +
+                     ", the photograph " + std::to_string(picture.width()) + "x" + std::to_string(picture.height()) +
+                     "; masks have the photographs' size"};
+    }
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            const Rgba8 m = (*mask)(x, y);  // white on transparent is a mask too
+            picture(x, y).a = static_cast<std::uint8_t>((std::max({m.r, m.g, m.b}) * m.a + 127) / 255);
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string cut_picture_name(std::size_t view) {
+    char name[32];
+    std::snprintf(name, sizeof name, "images/%04zu.png", view);
+    return name;
+}
+
+Result<CutTurn> cut_turn(const PhotoFolder& folder, const CutSource& source, const std::filesystem::path& output,
+                         Progress* progress) {
+    // A mask is an alpha that is given.
+    const Backdrop& backdrop = source.backdrop;
+    const BackdropKind kind = source.masks.empty() ? backdrop.kind : BackdropKind::kAlpha;
+    const ObjectCutter cutter(source.masks.empty() ? backdrop : Backdrop{}, folder.width, folder.height);
+    CutTurn turn{TurnOutline(folder.width, folder.height), std::vector<TurnOutline::Box>(folder.photos.size()),
+                 std::vector<Image<Rgba8>>(folder.photos.size())};
+    std::mutex mutex;
+    const auto cut_photo = [&](std::size_t i) -> Status {
+        const std::string name = folder.photos[i].string();
+        Result<Image<Rgba8>> photo = read_picture(folder.photos[i]);
+        if (!photo) return photo.error();
+        if (photo->width() != folder.width || photo->height() != folder.height) {
+            return Error{name + ": changed while it was imported; import again"};
+        }
+        if (!source.masks.empty()) {
+            if (Status status = apply_mask(source.masks, folder.photos[i], *photo); !status) return status;
+        }
+        const Image<Rgba8> cut = cutter.cut(*photo);
+        const double covered = coverage(cut);
+        if (Status status = check_coverage(covered, kind, name); !status) return status;
+        if (Status status = write_png(output / cut_picture_name(i), cut); !status) return status;
+        turn.small[i] = reduced(cut, kTurningSide_px);
+        TurnOutline outline(folder.width, folder.height);
+        outline.add(cut);
+        turn.boxes[i] = outline.visible();
+        const std::lock_guard lock(mutex);
+        turn.outline.merge(outline);
+        turn.min_coverage = std::min(turn.min_coverage, covered);
+        turn.max_coverage = std::max(turn.max_coverage, covered);
+        turn.at_border += reaches_border(outline.visible(), folder) ? 1 : 0;
+        return {};
+    };
+    if (Status status = for_each_photo(folder, kCutBytesPerPixel, "cutting the object out", progress, cut_photo);
+        !status) {
+        return status.error();
+    }
+    return turn;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,325 @@
+#include "capture/photos/matte/object_mask.hpp"
+
+#include "capture/photos/intake/opencv_image.hpp"
+#include "capture/photos/matte/contrast_cut.hpp"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+// What the colour says where it is almost the plate's, and on a small island of it.
+constexpr float kAlmostPlain = -0.4F;
+constexpr float kIsland = -0.1F;
+
+// For a plate that is known from a turn and neither white nor black.
+constexpr double kChance = 0.00002;
+constexpr float kShadowRather = -0.1F;
+
+// Where the object is known to hide the backdrop always, whatever the colour: the plate is a guess there.
+constexpr float kHidden = 2;
+
+// A part of which no pixel is clearer than this is a shadow, not an object.
+constexpr float kStrong = 1;
+
+// A camera shakes and a border of the backdrop blurs: where a pixel seems to be the object, the plate a little beside
+// it may explain it.
+constexpr int kShake_px = 2;
+
+// 0 at `low`, 1 at `high`.
+float ramp(float value, float low, float high) {
+    return std::clamp((value - low) / (high - low), 0.0F, 1.0F);
+}
+
+bool on_ground(const PlateView& plate, int x, int y) {
+    return !plate.ground.empty() && plate.ground(x, y) != 0;
+}
+
+// Where an object throws its shadow the light that it mirrors falls, too, and between its feet next to none.
+MaskOptions options_on_ground(MaskOptions options) {
+    options.possible_delta_e = 12;
+    options.certain_delta_e = 26;
+    options.shadow_tolerance = 1;
+    options.min_shade = options.crevice_shade = 0.1F;
+    return options;
+}
+
+// Far behind the object there are hardly any shadows of it.
+MaskOptions options_above_ground(MaskOptions options) {
+    options.shadow_or_grey = 0.3F;
+    return options;
+}
+
+float preference_against(const LinearRgb& pixel, const LinearRgb& behind, float noise_delta_e,
+                         const MaskOptions& options) {
+    const bool colourful = is_colourful(behind);
+    const Explanation e = explain_by_backdrop(
+        pixel, behind, colourful ? options.min_shade_colourful : options.min_shade, options.max_shade);
+    const float plain_delta_e = std::max(colourful ? options.plain_colourful_delta_e : options.plain_delta_e,
+                                         options.noise_margin * noise_delta_e);
+    const float possible_delta_e = std::max(options.possible_delta_e, 1.5F * plain_delta_e);
+    const float certain_delta_e = std::max(options.certain_delta_e, 2 * possible_delta_e);
+    if (e.plain <= plain_delta_e) return -kDecided;
+    const float tolerance = 1 + options.shadow_tolerance * std::max(0.0F, 1 - e.shade);
+    const float object = ramp(e.shaded, possible_delta_e * tolerance, certain_delta_e * tolerance);
+    if (object > 0) return std::max(std::abs(options.shadow_or_grey), object * kDecided);
+    const float plain = 1 - ramp(e.plain, plain_delta_e, 2 * plain_delta_e);
+    if (plain > 0) return plain * kAlmostPlain;
+    const bool likely = e.shade >= options.crevice_shade && e.shaded <= 0.8F * possible_delta_e;
+    return likely ? options.shadow_or_grey : std::abs(options.shadow_or_grey);
+}
+
+constexpr int kHoleRim_px = 2;
+constexpr double kTinyHole_px = 8;  // closed in pictures of any size
+// Connected parts of a binary picture; label 0 is what is outside all parts.
+class Parts {
+public:
+    Parts(const cv::Mat1b& picture, int connectivity) {
+        count_ = cv::connectedComponentsWithStats(picture, labels_, stats_, centroids_, connectivity);
+    }
+    [[nodiscard]] int count() const { return count_; }
+    [[nodiscard]] int label(int x, int y) const { return labels_(y, x); }
+    [[nodiscard]] int area(int label) const { return stats_.at<int>(label, cv::CC_STAT_AREA); }
+    [[nodiscard]] bool touches_border(int label) const {
+        const int x = stats_.at<int>(label, cv::CC_STAT_LEFT);
+        const int y = stats_.at<int>(label, cv::CC_STAT_TOP);
+        return x == 0 || y == 0 || x + stats_.at<int>(label, cv::CC_STAT_WIDTH) == labels_.cols ||
+               y + stats_.at<int>(label, cv::CC_STAT_HEIGHT) == labels_.rows;
+    }
+    // One value per label, 0 at first.
+    template <class T>
+    [[nodiscard]] std::vector<T> per_label() const {
+        return std::vector<T>(static_cast<std::size_t>(count_));
+    }
+
+private:
+    int count_ = 0;
+    cv::Mat1i labels_;
+    cv::Mat stats_;
+    cv::Mat centroids_;
+};
+
+// White patches of an object look like a white backdrop. What looks plain on a grey backdrop but is a small island, cut
+// off from the border of the picture, is no longer certain: it becomes a slight preference, and the contrast around it
+// decides.
+void doubt_small_islands(Image<float>& preference, ConstImageView<LinearRgb> plate, double max_island) {
+    cv::Mat1b plain(preference.height(), preference.width());
+    for (int y = 0; y < plain.rows; ++y) {
+        for (int x = 0; x < plain.cols; ++x) plain(y, x) = preference(x, y) <= -kDecided ? 255 : 0;
+    }
+    const Parts parts(plain, 4);
+    for (int y = 0; y < plain.rows; ++y) {
+        for (int x = 0; x < plain.cols; ++x) {
+            const int label = parts.label(x, y);
+            if (label == 0 || parts.touches_border(label)) continue;
+            const bool small = parts.area(label) < max_island * static_cast<double>(plain.total());
+            if (small && !is_colourful(plate(x, y))) preference(x, y) = kIsland;
+        }
+    }
+}
+
+// Keeps the parts of `mask` that hold a pixel which strongly speaks for the object, and are no specks.
+void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, double min_part) {
+    const Parts parts(mask, 8);
+    auto keep = parts.per_label<std::uint8_t>();
+    for (int y = 0; y < mask.rows; ++y) {
+        for (int x = 0; x < mask.cols; ++x) {
+            if (mask(y, x) != 0 && preference(x, y) >= kStrong) keep[static_cast<std::size_t>(parts.label(x, y))] = 1;
+        }
+    }
+    int largest = 0;
+    for (int label = 1; label < parts.count(); ++label) {
+        if (keep[static_cast<std::size_t>(label)] != 0) largest = std::max(largest, parts.area(label));
+    }
+    for (int y = 0; y < mask.rows; ++y) {
+        for (int x = 0; x < mask.cols; ++x) {
+            const int label = parts.label(x, y);
+            const bool solid =
+                label != 0 && keep[static_cast<std::size_t>(label)] != 0 && parts.area(label) >= min_part * largest;
+            mask(y, x) = solid ? 255 : 0;
+        }
+    }
+}
+
+// Closes the holes through which the backdrop is not really seen, and the tiny ones. A hole's rim is blurred, so its
+// inner part is asked where there is one: a true hole shows the plain backdrop all over, while a white inside of the
+// object is plain only here and there. A shadow counts as the backdrop where the backdrop has a colour to know it by.
+void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstImageView<LinearRgb> plate,
+                       const MaskOptions& options) {
+    cv::Mat1b outside;
+    cv::bitwise_not(mask, outside);
+    cv::Mat1b inner;
+    cv::erode(outside, inner, cv::Mat(), {-1, -1}, kHoleRim_px);
+    const Parts holes(outside, 4);
+    struct Tally {
+        int area = 0, seen = 0;              // of the whole hole
+        int inner_area = 0, inner_seen = 0;  // without its rim
+    };
+    auto tallies = holes.per_label<Tally>();
+    for (int y = 0; y < mask.rows; ++y) {
+        for (int x = 0; x < mask.cols; ++x) {
+            if (mask(y, x) != 0) continue;
+            const int seen = preference(x, y) < 0 || is_colourful(plate(x, y)) ? 1 : 0;
+            Tally& tally = tallies[static_cast<std::size_t>(holes.label(x, y))];
+            tally.area += 1;
+            tally.seen += seen;
+            tally.inner_area += inner(y, x) != 0 ? 1 : 0;
+            tally.inner_seen += inner(y, x) != 0 ? seen : 0;
+        }
+    }
+    for (int y = 0; y < mask.rows; ++y) {
+        for (int x = 0; x < mask.cols; ++x) {
+            const int label = holes.label(x, y);
+            if (label == 0 || holes.touches_border(label)) continue;
+            const Tally& tally = tallies[static_cast<std::size_t>(label)];
+            const bool shines_through = tally.inner_area > 0 ? tally.inner_seen >= options.hole_share * tally.inner_area
+                                                             : 2 * tally.seen >= tally.area;
+            const bool tiny = tally.area < std::max(kTinyHole_px, options.min_hole * static_cast<double>(mask.total()));
+            if (!shines_through || tiny) mask(y, x) = 255;
+        }
+    }
+}
+
+// 255 where `part` is at most `width_px` wide along a row, a column or a diagonal; it is taken to go on beyond the
+// picture's border.
+cv::Mat1b thin_parts(const cv::Mat1b& part, int width_px) {
+    cv::Mat1b around;
+    cv::copyMakeBorder(part, around, width_px, width_px, width_px, width_px, cv::BORDER_CONSTANT, 255);
+    const cv::Rect inner(width_px, width_px, part.cols, part.rows);
+    const int length = width_px + 1;
+    cv::Mat1b diagonal(length, length, std::uint8_t{0});
+    cv::setIdentity(diagonal);
+    cv::Mat1b other_diagonal;
+    cv::flip(diagonal, other_diagonal, 0);
+    const std::array<cv::Mat1b, 4> lines{cv::Mat1b(1, length, std::uint8_t{1}), cv::Mat1b(length, 1, std::uint8_t{1}),
+                                         diagonal, other_diagonal};
+    cv::Mat1b thin(part.size(), std::uint8_t{0});
+    for (const cv::Mat1b& line : lines) {
+        // An opening; its anchors are the line's two ends, so that lines of even length shift nothing.
+        const cv::Point first(0, line(0, 0) != 0 ? 0 : line.rows - 1);
+        const cv::Point last(line.cols - 1, line.rows - 1 - first.y);
+        cv::Mat1b wide;
+        cv::erode(around, wide, line, first);
+        cv::dilate(wide, wide, line, last);
+        cv::Mat1b narrow;
+        cv::subtract(part, wide(inner), narrow);
+        cv::bitwise_or(thin, narrow, thin);
+    }
+    return thin;
+}
+
+// Shadows are broad: a narrow part that differs clearly from a plate of which noise and exposure are known is the
+// object's, wires and stripes of rods, even if a shadow of that depth would look the same. Not before a colour that
+// tells shadows from grey parts.
+void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options,
+                                  Image<float>& preference) {
+    constexpr int kThinShare = 45;  // of the picture's longer side: narrower than that is thin
+    constexpr float kThinRather = 2;
+    cv::Mat3f smooth;
+    cv::GaussianBlur(linear_mat(photo), smooth, {3, 3}, 0);
+    const int width_px = std::max(1, std::max(smooth.cols, smooth.rows) / kThinShare);
+    // Only around what is undecided anything depends on it, which is little of a picture.
+    cv::Mat1b asked(smooth.size());
+    for (int y = 0; y < smooth.rows; ++y) {
+        for (int x = 0; x < smooth.cols; ++x) asked(y, x) = std::abs(preference(x, y)) < kDecided ? 255 : 0;
+    }
+    cv::dilate(asked, asked, cv::getStructuringElement(cv::MORPH_RECT, {2 * width_px + 1, 2 * width_px + 1}));
+    cv::Mat1f beyond_noise(smooth.size(), 0.0F);
+    cv::Mat1b differs(smooth.size(), std::uint8_t{0});
+    for (int y = 0; y < smooth.rows; ++y) {
+        for (int x = 0; x < smooth.cols; ++x) {
+            if (asked(y, x) == 0) continue;
+            const cv::Vec3f& p = smooth(y, x);
+            const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
+            const float delta = delta_e(lab_from_linear({p[0], p[1], p[2]}), lab_from_linear(plate.light(x, y)));
+            beyond_noise(y, x) = delta - noise;
+            differs(y, x) = delta > std::max(options.plain_delta_e, 1.2F * noise) ? 255 : 0;
+        }
+    }
+    const cv::Mat1b thin = thin_parts(differs, width_px);
+    for (int y = 0; y < smooth.rows; ++y) {
+        for (int x = 0; x < smooth.cols; ++x) {
+            float& own = preference(x, y);
+            if (std::abs(own) >= kDecided || thin(y, x) == 0 || beyond_noise(y, x) < options.thin_delta_e) continue;
+            if (beyond_noise(y, x) < options.thin_on_ground_delta_e && on_ground(plate, x, y)) continue;
+            if (!is_colourful(plate.light(x, y))) own = std::max(own, kThinRather);
+        }
+    }
+}
+
+}  // namespace
+
+MaskOptions mask_options_for(const Backdrop& backdrop) {
+    MaskOptions options;
+    if (backdrop.kind == BackdropKind::kBlack) options.min_shade = options.min_shade_colourful = options.max_shade = 1;
+    // A plate that is known exactly, texture and all, is hardly met by chance.
+    if (backdrop.kind == BackdropKind::kColour && !backdrop.untouched.empty()) {
+        options.max_island = kChance;
+        options.shadow_or_grey = kShadowRather;
+        options.possible_delta_e = 6;
+        options.certain_delta_e = 14;
+        options.shadow_tolerance = 0.5F;
+        options.hole_share = 0.5;
+        options.thin_delta_e = 3;
+        options.thin_on_ground_delta_e = 8;
+    }
+    return options;
+}
+
+Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& anywhere) {
+    RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
+    const MaskOptions ground = options_on_ground(anywhere);
+    const MaskOptions above = options_above_ground(anywhere);
+    Image<float> preference(photo.width(), photo.height());
+    for (int y = 0; y < photo.height(); ++y) {
+        for (int x = 0; x < photo.width(); ++x) {
+            const MaskOptions& options = plate.ground.empty() ? anywhere : (on_ground(plate, x, y) ? ground : above);
+            const LinearRgb pixel = linear_rgb(photo(x, y));
+            const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
+            const LinearRgb& behind = plate.light(x, y);
+            float best = preference_against(pixel, behind, noise, options);
+            if (!plate.hidden.empty() && plate.hidden(x, y) != 0) {
+                preference(x, y) = std::max(best, kHidden);
+                continue;
+            }
+            if (best > 0) {
+                for (const auto& [dx, dy] :
+                     {std::pair{-kShake_px, 0}, {kShake_px, 0}, {0, -kShake_px}, {0, kShake_px}}) {
+                    const LinearRgb& beside = plate.light(std::clamp(x + dx, 0, plate.light.width() - 1),
+                                                          std::clamp(y + dy, 0, plate.light.height() - 1));
+                    if (delta_e(lab_from_linear(beside), lab_from_linear(behind)) < options.plain_delta_e) continue;
+                    best = std::min(best, preference_against(pixel, beside, noise, options));
+                }
+            }
+            for (const LinearRgb& colour : plate.screen) {
+                if (best <= 0) break;
+                best = std::min(best, preference_against(pixel, colour, noise, options));
+            }
+            preference(x, y) = best;
+        }
+    }
+    return preference;
+}
+
+Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options) {
+    RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
+    Image<std::uint8_t> result(photo.width(), photo.height());
+    if (result.empty()) return result;
+    Image<float> preference = object_preference(photo, plate, options);
+    if (options.thin_delta_e > 0) lean_to_object_in_thin_parts(photo, plate, options, preference);
+    doubt_small_islands(preference, plate.light, options.max_island);
+    result = cut_by_contrast(photo, preference, {});
+    cv::Mat1b mask(result.height(), result.width(), result.data());
+    keep_solid_parts(mask, preference, options.min_part);
+    close_false_holes(mask, preference, plate.light, options);
+    return result;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,65 @@
+#pragma once
+// Which pixels of a photograph show the object: yes or no. The soft edge comes after it, in soft_edge.hpp.
+//
+// Every pixel gets a preference: above 0 for the object, below 0 for the backdrop. Pixels that look like the plate are
+// surely backdrop, pixels that no shadow on the plate explains are surely object. What lies between (shadows on the
+// ground, grey or glossy parts of the object on white) says little alone, so a minimum cut decides it by where the
+// contrast is: a soft shadow fades into the backdrop without an edge, the object has one all around. Where the plate is
+// known from a turn, it also counts that shadows are broad, and that they fall on the ground if one is known. Then
+// specks (chalk, dust, noise) go and holes through which the backdrop is not really seen are closed.
+
+#include "capture/photos/background/backdrop.hpp"
+#include "capture/photos/intake/colour_difference.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <vector>
+
+namespace rs::capture {
+
+// Differences are delta E, shades factors of linear light.
+struct MaskOptions {
+    float plain_delta_e = 2.5F;         // up to this from a grey plate: surely backdrop
+    float plain_colourful_delta_e = 6;  // the same for a plate that has a colour, which objects seldom share
+    float possible_delta_e = 10;        // from here on a pixel leans to the object, in full light ...
+    float certain_delta_e = 22;         // ... and from here on it is surely object
+    float shadow_tolerance = 1;         // both grow by this share of what the shadow takes away: objects tint shadows
+    float noise_margin = 2;             // what is plain lies within so many times the noise
+    // What the colour says where nothing but a shadow on a grey backdrop explains it: next to nothing, so that the
+    // contrast decides. Above 0 a closed border around a grey patch of the object can hold it.
+    float shadow_or_grey = 0.08F;
+    float min_shade = 0.25F;  // light left in the deepest shadow on a grey backdrop (or black were a shadow) ...
+    float min_shade_colourful = 0.08F;  // ... and on one that has a colour
+    float max_shade = 1.15F;
+    float crevice_shade = 0.3F;  // what has less light left is rather a crevice of the object
+    // What is narrow and differs by more from the plate is no shadow; 0: it may be one. On the ground there are slivers
+    // of shadow, so more is asked there.
+    float thin_delta_e = 0;
+    float thin_on_ground_delta_e = 0;
+    double max_island = 0.003;  // plain grey patches smaller than this share of the picture may be the object's
+    double min_part = 0.01;     // parts smaller than this share of the largest are specks
+    // Of a true hole's inner part at least so much looks plain; measured on a shoe before white: loops of its straps
+    // 0.94 to 1.00, white insoles 0.74 to 0.85.
+    double hole_share = 0.9;
+    double min_hole = 0.00004;  // holes smaller than this share of the picture are closed
+};
+
+// What is behind the object in one photograph, in its size.
+struct PlateView {
+    Image<LinearRgb> light;         // exposed like the photograph
+    Image<std::uint8_t> hidden;     // 255 where the object always is before it; empty: nobody can tell
+    Image<std::uint8_t> ground;     // 255 where shadows fall; empty: they may fall anywhere
+    std::vector<LinearRgb> screen;  // colours that are backdrop wherever they are seen, lit or in shadow
+    Image<float> noise_delta_e;     // how far the photograph is from it where it shows it; empty: next to nothing
+};
+
+// A shadow on black cannot be seen, so it is not looked for.
+MaskOptions mask_options_for(const Backdrop& backdrop);
+
+// The preference, -kDecided..kDecided; the ends are certain.
+inline constexpr float kDecided = 4;
+Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options);
+
+// 255 = object, 0 = backdrop.
+Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options);
+
+}  // namespace rs::capture

@@ -1,0 +1,260 @@
+#include "capture/photos/matte/soft_edge.hpp"
+
+#include "capture/photos/intake/opencv_image.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+// What a colour is off by for reasons of its own, in linear light, whatever side it is of.
+constexpr float kIndistinct = 0.02F;
+
+// A side's colours scatter along few directions near by; in every direction at least by this share of all of it.
+constexpr float kEveryDirection = 0.05F;
+
+// Photographs keep colours at half the resolution of their brightness: colour alone says alpha to within this.
+constexpr float kChromaDoubt = 0.2F;
+
+// By distance alone: of an edge without blur, a pixel's own width mixes.
+constexpr float kAlphaPerPx = 0.75F;
+
+// The mask's border lies up to a pixel outside the object: a pixel with little of the object does not look like the
+// backdrop any more. So colours say where it is first and are heeded more then: standard deviations of what the
+// distance says are taken for so many times what they are where edges are clear.
+constexpr std::array<float, 2> kLeeway{3.0F, 1.5F};
+
+// What one side of the border looks like near by.
+struct Side {
+    using Covariance = cv::Vec<float, 6>;  // of red and red, red and green, red and blue, green and green, ...
+    cv::Mat3f mean;                        // linear light; 0 where nothing weighs
+    cv::Mat_<Covariance> covariance;
+};
+
+// Of `colour` with `weight`, over a Gaussian neighbourhood.
+Side side_of(const cv::Mat3f& colour, const cv::Mat1f& weight, double sigma_px) {
+    using Moments = cv::Vec<float, 10>;
+    cv::Mat_<Moments> moments(colour.size());
+    for (int y = 0; y < colour.rows; ++y) {
+        for (int x = 0; x < colour.cols; ++x) {
+            const auto [r, g, b] = colour(y, x).val;
+            moments(y, x) = Moments(1, r, g, b, r * r, r * g, r * b, g * g, g * b, b * b) * weight(y, x);
+        }
+    }
+    cv::GaussianBlur(moments, moments, {0, 0}, sigma_px);
+    Side side{cv::Mat3f(colour.size()), cv::Mat_<Side::Covariance>(colour.size())};
+    for (int y = 0; y < colour.rows; ++y) {
+        for (int x = 0; x < colour.cols; ++x) {
+            const float sum = moments(y, x)[0];
+            const Moments m = sum > 1e-6F ? moments(y, x) * (1 / sum) : Moments();
+            side.mean(y, x) = {m[1], m[2], m[3]};
+            side.covariance(y, x) = {m[4] - m[1] * m[1], m[5] - m[1] * m[2], m[6] - m[1] * m[3],
+                                     m[7] - m[2] * m[2], m[8] - m[2] * m[3], m[9] - m[3] * m[3]};
+        }
+    }
+    return side;
+}
+
+// In px from the border, which runs half a pixel before the first pixel of either side; positive inside.
+cv::Mat1f signed_distance(const cv::Mat1b& inside) {
+    cv::Mat1f distance;  // to the nearest pixel of the other side
+    cv::distanceTransform(inside, distance, cv::DIST_L2, cv::DIST_MASK_5);
+    cv::Mat1b outside;
+    cv::bitwise_not(inside, outside);
+    cv::Mat1f beyond;
+    cv::distanceTransform(outside, beyond, cv::DIST_L2, cv::DIST_MASK_5);
+    for (int y = 0; y < inside.rows; ++y) {
+        for (int x = 0; x < inside.cols; ++x) {
+            distance(y, x) =
+                inside(y, x) != 0 ? std::max(0.5F, distance(y, x) - 0.5F) : -std::max(0.5F, beyond(y, x) - 0.5F);
+        }
+    }
+    return distance;
+}
+
+// How much a pixel's colour is that of `side` (1: the object, -1: the backdrop): little at the border, where both mix,
+// growing to band_px + 1. Not nothing at the border either, for of a thin claw there may be no more than that.
+cv::Mat1f trust(const cv::Mat1f& distance, int band_px, int side) {
+    constexpr float kMixed = 0.02F;
+    cv::Mat1f weight(distance.size(), 0.0F);
+    for (int y = 0; y < distance.rows; ++y) {
+        for (int x = 0; x < distance.cols; ++x) {
+            const float depth = static_cast<float>(side) * distance(y, x) + 0.5F;
+            if (depth <= 0.5F) continue;
+            const float own = std::min(depth, static_cast<float>(band_px + 1)) - 1;
+            weight(y, x) = kMixed + own * own;
+        }
+    }
+    return weight;
+}
+
+LinearRgb rgb(const cv::Vec3f& v) {
+    return {v[0], v[1], v[2]};
+}
+
+// What a pixel's colour says of its alpha.
+struct Reading {
+    float alpha = 0;
+    float variance = 0;
+};
+
+// The projection of `colour` between `backdrop` and `object` that is least led astray by how both scatter (Fisher's
+// linear discriminant), where a pixel is expected to show `expected` of the object.
+Reading read_alpha(const cv::Vec3f& colour, const cv::Vec3f& object, const cv::Vec3f& backdrop,
+                   const Side::Covariance& of_object, const Side::Covariance& of_backdrop, float expected) {
+    const cv::Vec3f span = object - backdrop;
+    const Side::Covariance c = of_object * (expected * expected) + of_backdrop * ((1 - expected) * (1 - expected));
+    cv::Matx33f scatter(c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5]);
+    const float brightness = span.dot(cv::Vec3f(0.2126F, 0.7152F, 0.0722F));
+    const cv::Vec3f chroma = kChromaDoubt * (span - cv::Vec3f::all(brightness));
+    scatter += chroma * chroma.t();
+    scatter += (kIndistinct * kIndistinct + kEveryDirection * (c[0] + c[3] + c[5])) * cv::Matx33f::eye();
+    const cv::Vec3f direction = scatter.solve(span, cv::DECOMP_CHOLESKY);
+    const float information = std::max(1e-6F, direction.dot(span));
+    return {std::clamp(direction.dot(colour - backdrop) / information, 0.0F, 1.0F), 1 / information};
+}
+
+// What the distance to the border says of alpha: mean and variance, learnt where the colours of the same picture say it
+// clearly. That is how much the picture blurs and how well the mask fits.
+class EdgeProfile {
+public:
+    explicit EdgeProfile(int band_px) : bins_(static_cast<std::size_t>(4 * band_px + 1)), band_px_(band_px) {
+        for (std::size_t i = 0; i < bins_.size(); ++i) {
+            constexpr double kBegin = 50;  // readings
+            const float distance_px = 0.5F * static_cast<float>(i) - static_cast<float>(band_px);
+            const double mean = by_distance(distance_px);
+            const double deviation = std::abs(distance_px) < 1 ? 0.25 : 0.1;
+            bins_[i] = {kBegin, kBegin * mean, kBegin * (mean * mean + deviation * deviation), 0};
+        }
+    }
+
+    static float by_distance(float distance_px) { return std::clamp(0.5F + kAlphaPerPx * distance_px, 0.0F, 1.0F); }
+
+    void learn(float distance_px, const Reading& reading) {
+        constexpr double kClearVariance = 0.05 * 0.05;
+        const double weight = std::pow(1 + reading.variance / kClearVariance, -2);
+        Bin& bin = bins_[bin_of(distance_px)];
+        bin.weight += weight;
+        bin.sum += weight * reading.alpha;
+        bin.squares += weight * reading.alpha * reading.alpha;
+        bin.noise += weight * reading.variance;
+    }
+
+    [[nodiscard]] Reading at(float distance_px) const {
+        constexpr double kLeastVariance = 0.03 * 0.03;
+        const Bin& bin = bins_[bin_of(distance_px)];
+        const double mean = bin.sum / bin.weight;
+        const double variance = (bin.squares - bin.noise) / bin.weight - mean * mean;
+        return {static_cast<float>(mean), static_cast<float>(std::max(kLeastVariance, variance))};
+    }
+
+private:
+    struct Bin {
+        double weight = 0, sum = 0, squares = 0, noise = 0;
+    };
+    [[nodiscard]] std::size_t bin_of(float distance_px) const {
+        return static_cast<std::size_t>(std::lround(2 * distance_px) + 2 * band_px_);
+    }
+    std::vector<Bin> bins_;  // half pixels from -band_px to band_px
+    int band_px_;
+};
+
+// Below and above this alpha is taken for none and all: what remains is noise.
+float snapped(float alpha) {
+    constexpr float kSnap = 0.03F;
+    return std::clamp((alpha - kSnap) / (1 - 2 * kSnap), 0.0F, 1.0F);
+}
+
+struct InBand {
+    int x, y;
+    float distance_px;
+    Reading reading;
+};
+
+// The band's pixels within `core` and what their colours say; both sides' colours go to `edge`.
+void read_band(const cv::Mat3f& light, const cv::Mat1f& distance, const cv::Rect& core, int band_px, SoftEdge& edge,
+               std::vector<InBand>& in_band) {
+    const double sigma_px = band_px + 1.0;
+    const int margin_px = static_cast<int>(std::ceil(4 * sigma_px)) + 1;  // beyond OpenCV's kernel
+    const cv::Rect around =
+        cv::Rect(core.x - margin_px, core.y - margin_px, core.width + 2 * margin_px, core.height + 2 * margin_px) &
+        cv::Rect(0, 0, light.cols, light.rows);
+    const Side object = side_of(light(around), trust(distance(around), band_px, 1), sigma_px);
+    const Side backdrop = side_of(light(around), trust(distance(around), band_px, -1), sigma_px);
+    for (int y = core.y; y < core.y + core.height; ++y) {
+        for (int x = core.x; x < core.x + core.width; ++x) {
+            if (std::abs(distance(y, x)) >= static_cast<float>(band_px)) continue;
+            const int v = y - around.y;
+            const int u = x - around.x;
+            const Reading reading =
+                read_alpha(light(y, x), object.mean(v, u), backdrop.mean(v, u), object.covariance(v, u),
+                           backdrop.covariance(v, u), EdgeProfile::by_distance(distance(y, x)));
+            edge.object(x, y) = rgb(object.mean(v, u));
+            edge.backdrop(x, y) = rgb(backdrop.mean(v, u));
+            in_band.push_back({x, y, distance(y, x), reading});
+        }
+    }
+}
+
+SoftEdge softened(const cv::Mat3f& light, const cv::Mat1b& inside, int band_px, float leeway) {
+    SoftEdge edge{Image<float>(light.cols, light.rows), Image<LinearRgb>(light.cols, light.rows),
+                  Image<LinearRgb>(light.cols, light.rows)};
+    const cv::Mat1f distance = signed_distance(inside);
+    std::vector<InBand> in_band;
+    // In strips, and of them what the band takes of their width: memory and time go with the border, not the picture.
+    constexpr int kStrip_px = 128;
+    for (int top = 0; top < light.rows; top += kStrip_px) {
+        const int bottom = std::min(light.rows, top + kStrip_px);
+        int left = light.cols;
+        int right = 0;
+        for (int y = top; y < bottom; ++y) {
+            for (int x = 0; x < light.cols; ++x) {
+                edge.alpha(x, y) = distance(y, x) > 0 ? 1.0F : 0.0F;
+                if (std::abs(distance(y, x)) >= static_cast<float>(band_px)) continue;
+                left = std::min(left, x);
+                right = std::max(right, x + 1);
+            }
+        }
+        if (left < right) read_band(light, distance, {left, top, right - left, bottom - top}, band_px, edge, in_band);
+    }
+    EdgeProfile profile(band_px);
+    for (const InBand& p : in_band) profile.learn(p.distance_px, p.reading);
+    for (const InBand& p : in_band) {
+        const Reading expected = profile.at(p.distance_px);
+        const float variance = leeway * leeway * expected.variance;
+        const float trusted = variance / (variance + p.reading.variance);
+        edge.alpha(p.x, p.y) = snapped(expected.alpha + trusted * (p.reading.alpha - expected.alpha));
+    }
+    return edge;
+}
+
+}  // namespace
+
+int expected_band_px(int width, int height) {
+    return std::clamp((std::max(width, height) + 225) / 450, 2, 8);
+}
+
+SoftEdge soften_edge(ConstImageView<Rgba8> photo, ConstImageView<std::uint8_t> mask, int band_px) {
+    RS_CHECK(photo.width() == mask.width() && photo.height() == mask.height() && band_px >= 1 && band_px <= 16);
+    const int width = photo.width();
+    const int height = photo.height();
+    if (width == 0 || height == 0)
+        return {Image<float>(width, height), Image<LinearRgb>(width, height), Image<LinearRgb>(width, height)};
+    const cv::Mat3f light = linear_mat(photo);
+    cv::Mat1b inside = mat_over(mask).clone();
+    SoftEdge edge = softened(light, inside, band_px, kLeeway.front());
+    for (std::size_t pass = 1; pass < kLeeway.size(); ++pass) {
+        for (int y = 0; y < inside.rows; ++y) {
+            for (int x = 0; x < inside.cols; ++x) inside(y, x) = edge.alpha(x, y) >= 0.5F ? 255 : 0;
+        }
+        edge = softened(light, inside, band_px, kLeeway[pass]);
+    }
+    return edge;
+}
+
+}  // namespace rs::capture

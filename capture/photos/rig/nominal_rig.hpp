@@ -1,0 +1,45 @@
+#pragma once
+// A rig for a turntable that nobody measured: equal steps around a vertical axis, a level camera, a plausible lens.
+//
+// It says where rays go well enough to show the object turning; what it does not know (the lens, the height of the
+// camera) it assumes:
+//   - The camera is level with the middle of what the pictures show and looks at the axis. It may really look down;
+//     then the object seems a little tilted, from every side alike.
+//   - The principal point is not the picture's middle but where the axis and that middle height appear, so pictures are
+//     neither cropped nor shifted: cx = axis column, cy = middle row of the visible box.
+//   - The unit of length is the object radius. With w the widest extent from the axis column in px and f the focal
+//   length
+//     in px, the outermost ray is tangent to the circle of radius r about the axis: sin(atan(w / f)) = r / d, so the
+//     camera stands at d = r sqrt(w^2 + f^2) / w.
+
+#include "capture/photos/matte/outline.hpp"
+#include "rayspace/geometry/rig.hpp"
+
+#include <optional>
+
+namespace rs::capture {
+
+// Seen from above.
+enum class Turning { kClockwise, kCounterClockwise };
+
+struct NominalRigOptions {
+    int width = 0;  // px, of every picture
+    int height = 0;
+    int views = 0;
+    // Horizontal. Product pictures are taken from far away: 25 degrees is a lens of 80 mm before a 36 mm wide sensor.
+    double fov_deg = 25;
+    double step_deg = 0;  // from view to view; 360 / views for a full turn
+    double axis_x_px = 0;
+    // How the *object* turns. Clockwise: its front goes to the left, as if the camera went around to the right
+    // (towards +X from +Z), as in make_ring().
+    Turning turning = Turning::kClockwise;
+};
+
+// Distance of a camera whose outermost ray, `extent_px` beside the axis, is tangent to a circle of radius 1 about it.
+double distance_for_unit_radius(double extent_px, double fl_px);
+
+// Views without file names, object_radius 1. `visible` must not be empty and must reach to one side of the axis at
+// least.
+Rig make_nominal_rig(const NominalRigOptions& options, const TurnOutline::Box& visible);
+
+}  // namespace rs::capture

@@ -1,0 +1,213 @@
+#include "capture/photos/rig/photo_calibration.hpp"
+
+#include "capture/calibration/silhouettes/silhouettes.hpp"
+#include "capture/calibration/silhouettes/turn_diagnosis.hpp"
+#include "capture/photos/intake/bounded_work.hpp"
+#include "capture/photos/intake/opencv_image.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSilhouetteSide_px = 640;
+
+// Cut-outs, so that nothing of the backdrop is followed.
+Result<TurnPictures> read_turn(const PhotoFolder& folder, const fs::path& cut_folder, Progress* progress) {
+    TurnPictures turn;
+    turn.width = folder.width;
+    turn.height = folder.height;
+    const int longer = std::max(folder.width, folder.height);
+    turn.reduction = (longer + kCalibrationSide_px - 1) / kCalibrationSide_px;
+    turn.pictures.resize(folder.photos.size());
+    for (const fs::path& photo : folder.photos) turn.names.push_back(photo.filename().string());
+    const auto read = [&](std::size_t i) -> Status {
+        const Result<Image<Rgba8>> cut = read_picture(cut_folder / cut_picture_name(i));
+        if (!cut) return cut.error();
+        turn.pictures[i] = calibration_picture(*cut, turn.reduction);
+        return {};
+    };
+    if (Status status = for_each_photo(folder, kReadBytesPerPixel, "reading the cut-outs", progress, read); !status) {
+        return status.error();
+    }
+    return turn;
+}
+
+Result<BoardCalibration> from_board(const PhotoFolder& folder, const CalibrationRequest& request,
+                                    const std::vector<std::string>& names, Progress* progress) {
+    const auto load = [&](int i) { return read_picture(folder.photos[static_cast<std::size_t>(i)]); };
+    const Result<std::vector<BoardCorners>> views =
+        detect_boards(static_cast<int>(folder.photos.size()), load, *request.board, progress);
+    if (!views) return views.error();
+    return calibrate_with_board(*views, *request.board, folder.width, folder.height, request.known, names);
+}
+
+// The outlines, at most kSilhouetteSide_px for the longer side.
+struct Silhouettes {
+    std::vector<Image<std::uint8_t>> masks;
+    int reduction = 1;  // of the photographs' sides; what is left over at the right and below is cut off
+};
+
+Silhouettes silhouettes(const TurnPictures& turn) {
+    const Image<std::uint8_t>& first = turn.pictures.front().alpha;
+    const int longer = std::max(first.width(), first.height());
+    const int factor = (longer + kSilhouetteSide_px - 1) / kSilhouetteSide_px;
+    Silhouettes result{{}, turn.reduction * factor};
+    for (const CalibrationPicture& picture : turn.pictures) {
+        Image<std::uint8_t> mask(std::max(1, first.width() / factor), std::max(1, first.height() / factor));
+        for (int y = 0; y < mask.height(); ++y) {
+            for (int x = 0; x < mask.width(); ++x) {
+                int sum = 0, count = 0;
+                for (int dy = 0; dy < factor && y * factor + dy < first.height(); ++dy) {
+                    for (int dx = 0; dx < factor && x * factor + dx < first.width(); ++dx, ++count) {
+                        sum += picture.alpha(x * factor + dx, y * factor + dy);
+                    }
+                }
+                mask(x, y) = static_cast<std::uint8_t>(sum / count);
+            }
+        }
+        result.masks.push_back(std::move(mask));
+    }
+    return result;
+}
+
+// How many times the object has stepped on before each view, for views whose outline is that of the view before did
+// not: a picture that was taken or copied twice.
+std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
+    constexpr double kRepeatRatio = 0.2;  // of what the outlines change before and behind
+    std::vector<double> change;           // [view], to the next
+    for (std::size_t i = 0; i + 1 < masks.size(); ++i) {
+        change.push_back(cv::norm(mat_over(masks[i]), mat_over(masks[i + 1]), cv::NORM_L1));
+    }
+    std::vector<int> steps(masks.size());
+    std::iota(steps.begin(), steps.end(), 0);
+    if (masks.size() < 4) return steps;
+    for (std::size_t i = 1; i < masks.size(); ++i) {
+        const double before = i >= 2 ? change[i - 2] : change[i];
+        const double behind = i < change.size() ? change[i] : before;
+        const bool repeats = change[i - 1] < kRepeatRatio * std::min(before, behind);
+        steps[i] = steps[i - 1] + (repeats ? 0 : 1);
+    }
+    return steps;
+}
+
+// Where nobody knows the sense of turning it was guessed, and outlines may refute it: they agree with the other one
+// only, or else only with a camera that looks up from below the plate.
+Result<Calibration> from_silhouettes(const TurnPictures& turn, const CalibrationRequest& request) {
+    const Silhouettes outlines = silhouettes(turn);
+    // The part of the photographs that the outlines show, for their sides must be the outlines' times a whole number.
+    TurntableModel start = request.nominal;
+    start.lens.width = outlines.reduction * outlines.masks.front().width();
+    start.lens.height = outlines.reduction * outlines.masks.front().height();
+    const KnownInputs& known = request.known;
+    if (const std::vector<int> steps = steps_before(outlines.masks);
+        steps.back() + 1 < static_cast<int>(steps.size())) {
+        const double whole_rad = start.angles_rad[1] * static_cast<double>(steps.size());
+        for (std::size_t i = 0; i < steps.size(); ++i) start.angles_rad[i] = whole_rad * steps[i] / (steps.back() + 1);
+    }
+    // A turn may lack its last picture, so the step that closes it is a guess.
+    Result<Calibration> found = calibrate_with_silhouettes(outlines.masks, start, known);
+    const bool is_guessed = !known.counter_clockwise && !known.step_rad && !known.angles_rad;
+    if (is_guessed && (!found || seems_to_look_up(*found))) {
+        for (double& angle : start.angles_rad) angle = -angle;
+        constexpr double kAsGood = 1.5;
+        Result<Calibration> other = calibrate_with_silhouettes(outlines.masks, start, known);
+        if (other && (!found || (!seems_to_look_up(*other) && other->rms_px < kAsGood * found->rms_px))) {
+            found = std::move(other);
+            found->warnings.emplace_back(
+                "the pictures seem to turn the other way, but the outlines fit this one better");
+        }
+    }
+    if (!found) return found;
+    found->model.lens.width = turn.width;
+    found->model.lens.height = turn.height;
+    return found;
+}
+
+// Everything is known: nothing is estimated, so there are no deviations either.
+std::optional<Calibration> given(const CalibrationRequest& request, std::size_t views) {
+    const KnownInputs& known = request.known;
+    if (!known.f_px || !known.pose || !(known.angles_rad || known.step_rad)) return std::nullopt;
+    Calibration calibration;
+    calibration.method = CalibrationMethod::kGiven;
+    calibration.model = request.nominal;
+    calibration.model.lens.f_px = *known.f_px;
+    calibration.model.pose = *known.pose;
+    if (known.angles_rad) calibration.model.angles_rad = *known.angles_rad;
+    calibration.step_rad = median_step(calibration.model.angles_rad);
+    calibration.views.resize(views);
+    ModelDeviations& held = calibration.deviations;
+    held.f_px = held.cx = held.cy = held.k1 = held.k2 = held.axis_direction_rad = held.tilt_rad = held.roll_rad =
+        held.axis_position_px = 0;
+    held.angles_rad.assign(views, 0);
+    return calibration;
+}
+
+}  // namespace
+
+Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const fs::path& cut_folder,
+                                          const CalibrationRequest& request, Progress* progress) {
+    PhotoCalibration result;
+    const CalibrationChoice choice = request.choice;
+    if (choice == CalibrationChoice::kNominal) return result;
+    const std::size_t views = folder.photos.size();
+    if (request.known.angles_rad && request.known.angles_rad->size() != views) {
+        return Error{"the given rig has " + std::to_string(request.known.angles_rad->size()) + " views, the folder " +
+                     std::to_string(views) + " photographs; give a rig of these photographs"};
+    }
+    Result<TurnPictures> turn = read_turn(folder, cut_folder, progress);
+    if (!turn) return turn.error();
+    if (choice == CalibrationChoice::kBoard && !request.board) {
+        return Error{
+            "calibration by a board was asked for, but the board is not described; say --board default for "
+            "what rs-capture board prints"};
+    }
+    if (request.board && (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kBoard)) {
+        Result<BoardCalibration> board = from_board(folder, request, turn->names, progress);
+        if (board) {
+            result.calibration = board->calibration;
+            result.board = std::move(*board);
+            return result;
+        }
+        if (choice == CalibrationChoice::kBoard) return board.error();
+        result.notes.push_back("no calibration from the board: " + board.error().message);
+    }
+    if (choice == CalibrationChoice::kAuto) {
+        if (auto calibration = given(request, views)) {
+            result.calibration = std::move(*calibration);
+            return result;
+        }
+    }
+    if (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kTracks) {
+        Result<TrackCalibration> tracks = calibrate_with_tracks(*turn, request.known, progress);
+        if (tracks) {
+            result.calibration = tracks->calibration;
+            result.tracks = std::move(*tracks);
+            return result;
+        }
+        if (choice == CalibrationChoice::kTracks) return tracks.error();
+        result.notes.push_back("no calibration from points: " + tracks.error().message);
+    }
+    if (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kSilhouettes) {
+        if (progress != nullptr) progress->start("fitting the silhouettes", 1);
+        Result<Calibration> outlines = from_silhouettes(*turn, request);
+        if (progress != nullptr) progress->advance();
+        if (outlines) {
+            result.calibration = std::move(*outlines);
+            return result;
+        }
+        if (choice == CalibrationChoice::kSilhouettes) return outlines.error();
+        result.notes.push_back("no calibration from silhouettes: " + outlines.error().message);
+    }
+    return result;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,68 @@
+#pragma once
+// How a surface scatters light: evaluates and draws directions at one point of one material.
+//
+// Directions are in the local frame of the shading normal (z), on the side that the ray came from: wo.z > 0. wi.z < 0
+// is the far side (translucent petals, glass). Values are f * |cos|. Every kind conserves energy: a surface of colour 1
+// reflects all the light it gets.
+//   diffuse  colour / pi, a share `translucency` of it on the far side
+//   glossy   GGX dielectric coat over a Lambert base that gets what the coat does not reflect:
+//            colour (1 - E(wo)) (1 - E(wi)) / (pi (1 - mean E))   (Kelemen and Szirmay-Kalos 2001)
+//   metal    GGX conductor, scaled by 1 + F0 (1 - E) / E for multiple scattering (Turquin 2019, eq. 16)
+//   mirror, glass   drawn only; their directions are unique
+
+#include "capture/tracer/integrator/microfacet.hpp"
+#include "capture/tracer/scene/scene.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace rs::capture {
+
+// What is constant over a material.
+struct SurfaceModel {
+    SurfaceKind kind = SurfaceKind::diffuse;
+    float alpha = 0.09F;
+    float ior = 1.5F;
+    float translucency = 0.0F;
+    std::shared_ptr<const AlbedoTable> albedo;  // glossy and metal; shared by materials of equal roughness and ior
+};
+std::vector<SurfaceModel> make_surface_models(const std::vector<Material>& materials);
+
+struct SurfaceSample {
+    glm::vec3 direction;  // local
+    glm::vec3 weight;     // f |cos| / density
+    float pdf;            // per steradian; meaningless where specular
+    bool specular;        // a unique direction, which no light sample can hit
+};
+
+class Surface {
+public:
+    // `colour` is the material's times the texture's. `leaving` tells that wo is inside of the glass.
+    Surface(const SurfaceModel& model, const glm::vec3& colour, const glm::vec3& wo, bool leaving);
+
+    [[nodiscard]] bool is_specular() const {
+        return model_.kind == SurfaceKind::mirror || model_.kind == SurfaceKind::glass;
+    }
+
+    struct Value {
+        glm::vec3 f_cos{0.0F};
+        float pdf = 0.0F;  // with which sample() draws wi
+    };
+    // All zero for specular kinds.
+    [[nodiscard]] Value evaluate(const glm::vec3& wi) const;
+
+    // False where the path ends here.
+    [[nodiscard]] bool sample(float u_lobe, const glm::vec2& u, SurfaceSample& drawn) const;
+
+private:
+    [[nodiscard]] bool sample_specular(float u_lobe, SurfaceSample& drawn) const;
+
+    const SurfaceModel& model_;
+    glm::vec3 colour_;
+    glm::vec3 wo_;
+    bool leaving_;
+    float albedo_ = 0.0F;            // E(wo)
+    float coat_probability_ = 0.0F;  // glossy: share of the samples that the coat gets
+};
+
+}  // namespace rs::capture

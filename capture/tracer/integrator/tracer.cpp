@@ -1,0 +1,204 @@
+#include "capture/tracer/integrator/tracer.hpp"
+
+#include "capture/tracer/integrator/in_parallel.hpp"
+#include "capture/tracer/integrator/path.hpp"
+#include "capture/tracer/scene/scene_check.hpp"
+#include "rayspace/base/check.hpp"
+#include "rayspace/image/linear_light.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace rs::capture {
+
+namespace {
+
+constexpr int kTileSide_px = 16;
+
+int tiles_along(int pixels) {
+    return (pixels + kTileSide_px - 1) / kTileSide_px;
+}
+
+// The pixels [x0, x1) x [y0, y1) that can show anything.
+struct PixelRectangle {
+    int x0, y0, x1, y1;
+};
+
+PixelRectangle visible_rectangle(const Camera& camera, const RayScene& rays) {
+    const PixelRectangle whole{0, 0, camera.width, camera.height};
+    if (rays.empty()) return {0, 0, 0, 0};
+    double left = camera.width, top = camera.height, right = 0, bottom = 0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p((corner & 1U) != 0 ? rays.upper().x : rays.lower().x,
+                           (corner & 2U) != 0 ? rays.upper().y : rays.lower().y,
+                           (corner & 4U) != 0 ? rays.upper().z : rays.lower().z);
+        const glm::dvec3 projected = camera.project(p);
+        if (!(projected.z > 1e-6)) return whole;  // behind the camera: the projection bounds nothing
+        left = std::min(left, projected.x);
+        right = std::max(right, projected.x);
+        top = std::min(top, projected.y);
+        bottom = std::max(bottom, projected.y);
+    }
+    // The projection of a box is the hull of its projected corners. One pixel of margin covers rounding.
+    const auto clamp = [](double v, int limit) {
+        return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(limit)));
+    };
+    return {clamp(std::floor(left) - 1, camera.width), clamp(std::floor(top) - 1, camera.height),
+            clamp(std::ceil(right) + 1, camera.width), clamp(std::ceil(bottom) + 1, camera.height)};
+}
+
+// Each camera position has noise of its own, so that neighbouring views do not share a pattern.
+std::uint64_t picture_key(std::uint64_t seed, std::initializer_list<glm::dvec3> placement) {
+    std::uint64_t key = mix_bits(seed);
+    for (const glm::dvec3& vector : placement) {
+        for (int row = 0; row < 3; ++row) {
+            // Adding 0 makes -0 and 0 the same.
+            key = mix_bits(key ^ std::bit_cast<std::uint64_t>(vector[row] + 0.0));
+        }
+    }
+    return key;
+}
+
+std::uint64_t picture_key(std::uint64_t seed, const Camera& camera) {
+    const glm::dmat4& m = camera.world_from_camera;
+    return picture_key(seed, {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2]), glm::dvec3(m[3])});
+}
+
+}  // namespace
+
+// What of a picture may show something, and what its noise is drawn from.
+struct Tracer::Frame {
+    PixelRectangle visible;
+    std::uint64_t key;
+};
+
+// `rays` and `lights` refer to `scene`, so they come after it and the whole never moves. The environment's pixels are
+// in `lights` only.
+struct Tracer::State {
+    Scene scene;
+    std::optional<RayScene> rays;
+    std::optional<LightSet> lights;
+    std::vector<SurfaceModel> models;
+};
+
+Tracer::Tracer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer& Tracer::operator=(Tracer&&) noexcept = default;
+Tracer::~Tracer() = default;
+
+std::int64_t Tracer::step_count(const Camera& camera) {
+    return static_cast<std::int64_t>(tiles_along(camera.width)) * tiles_along(camera.height);
+}
+
+std::int64_t Tracer::step_count(const RayPicture& rays) {
+    return static_cast<std::int64_t>(tiles_along(rays.width)) * tiles_along(rays.height);
+}
+
+void Tracer::turn_lights(double angle_rad) {
+    state_->lights->turn(static_cast<float>(angle_rad));
+}
+
+Rendering Tracer::render(const Camera& camera, const RenderOptions& options, Progress* progress) const {
+    const RayPicture rays{camera.width, camera.height, camera.centre(), camera.forward(),
+                          [&camera](double x, double y) { return camera.ray(x, y); }};
+    return render(rays, {visible_rectangle(camera, *state_->rays), picture_key(options.seed, camera)}, options,
+                  progress);
+}
+
+Rendering Tracer::render(const RayPicture& rays, const RenderOptions& options, Progress* progress) const {
+    const PixelRectangle whole{0, 0, rays.width, rays.height};
+    return render(rays, {whole, picture_key(options.seed, {rays.centre, rays.forward})}, options, progress);
+}
+
+Rendering Tracer::render(const RayPicture& rays, const Frame& frame, const RenderOptions& options,
+                         Progress* progress) const {
+    RS_CHECK(options.samples_per_pixel >= 1 && options.samples_per_pixel <= 65536);
+    RS_CHECK(options.filter_radius_px > 0.0F && options.filter_radius_px <= 0.5F);
+    RS_CHECK(options.max_bounces >= 0);
+    Rendering rendering;
+    rendering.picture = Image<RgbaF>(rays.width, rays.height);
+    if (options.depth) rendering.depth = Image<float>(rays.width, rays.height);
+
+    const PathTracer paths(state_->scene, *state_->rays, *state_->lights, state_->models, options.max_bounces);
+    const PixelRectangle& visible = frame.visible;
+    const glm::vec3 centre(rays.centre);
+    const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);
+
+    const auto render_pixel = [&](int x, int y) {
+        const std::uint64_t pixel_key =
+            mix_bits(frame.key ^ (static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x)));
+        glm::vec3 sum(0.0F);
+        int hits = 0;
+        for (int s = 0; s < options.samples_per_pixel; ++s) {
+            Sampler sampler(pixel_key, static_cast<std::uint32_t>(s));
+            const glm::dvec2 offset = (glm::dvec2(sampler.next_2d()) - 0.5) * filter_width_px;
+            const glm::vec3 direction(glm::normalize(rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)));
+            glm::vec3 radiance;
+            if (!paths.trace(centre, direction, sampler, radiance)) continue;
+            sum += radiance;
+            ++hits;
+        }
+        if (hits > 0) {
+            const glm::vec3 mean = sum / static_cast<float>(hits);
+            rendering.picture(x, y) = {mean.r, mean.g, mean.b,
+                                       static_cast<float>(hits) / static_cast<float>(options.samples_per_pixel)};
+        }
+        if (options.depth) {
+            const glm::dvec3 ray = glm::normalize(rays.ray(x + 0.5, y + 0.5));
+            SurfacePoint point;
+            if (state_->rays->intersect(centre, glm::vec3(ray), point)) {
+                rendering.depth(x, y) =
+                    static_cast<float>(glm::dot(glm::dvec3(point.position) - rays.centre, rays.forward));
+            }
+        }
+    };
+    const auto render_tile = [&](std::int64_t tile) {
+        const int across = tiles_along(rays.width);
+        const int tile_x = static_cast<int>(tile % across) * kTileSide_px;
+        const int tile_y = static_cast<int>(tile / across) * kTileSide_px;
+        const int x1 = std::min(tile_x + kTileSide_px, visible.x1);
+        const int y1 = std::min(tile_y + kTileSide_px, visible.y1);
+        for (int y = std::max(tile_y, visible.y0); y < y1; ++y) {
+            for (int x = std::max(tile_x, visible.x0); x < x1; ++x) render_pixel(x, y);
+        }
+        if (progress != nullptr) progress->advance(1);
+    };
+
+    for_each_index(step_count(rays), options.threads, render_tile);
+    return rendering;
+}
+
+Result<Tracer> Tracer::create(Scene scene) {
+    if (Status checked = check_scene(scene); !checked) return checked.error();
+    auto state = std::make_unique<State>();
+    state->scene = std::move(scene);
+    Result<RayScene> rays = RayScene::create(state->scene);
+    if (!rays) return rays.error();
+    state->rays = std::move(rays).value();
+    const glm::vec3 diagonal = state->rays->upper() - state->rays->lower();
+    const float radius = state->rays->empty() ? 1.0F : 0.5F * glm::length(diagonal);
+    Environment environment = std::exchange(state->scene.environment, Environment{});
+    state->lights.emplace(state->scene, std::move(environment), state->rays->lower() + 0.5F * diagonal, radius);
+    state->models = make_surface_models(state->scene.materials);
+    return Tracer(std::move(state));
+}
+
+Image<Rgba8> to_srgb8(ConstImageView<RgbaF> picture) {
+    Image<Rgba8> result(picture.width(), picture.height());
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            const RgbaF& p = picture(x, y);
+            const auto alpha = static_cast<std::uint8_t>(std::lround(std::clamp(p.a, 0.0F, 1.0F) * 255.0F));
+            if (alpha > 0)
+                result(x, y) = {srgb8_from_linear(p.r), srgb8_from_linear(p.g), srgb8_from_linear(p.b), alpha};
+        }
+    }
+    return result;
+}
+
+}  // namespace rs::capture

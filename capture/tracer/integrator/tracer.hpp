@@ -1,0 +1,68 @@
+#pragma once
+// The tracer: pictures of a Scene from any camera. Second room of the capture pipeline's synthetic branch:
+//
+//     mesh file, recipe -> Scene -> Tracer -> pictures -> capture set (capture_set.hpp)
+//
+// The same scene, camera and options give the same bytes, whatever the number of threads. Source: J. Kajiya, "The
+// Rendering Equation", 1986; E. Veach's thesis, 1997, for multiple importance sampling.
+
+#include "capture/tracer/integrator/ray_picture.hpp"
+#include "capture/tracer/scene/scene.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/camera.hpp"
+
+#include <cstdint>
+#include <memory>
+
+namespace rs::capture {
+
+struct RenderOptions {
+    int samples_per_pixel = 64;  // 1..65536; powers of two are stratified best
+    std::uint64_t seed = 1;
+    int max_bounces = 16;           // surfaces that a path may visit after the first
+    float filter_radius_px = 0.5F;  // box filter, (0, 0.5]: a picture shows no blur of its own
+    bool depth = false;
+    int threads = 0;  // 0 = as many as the processor has
+};
+
+struct Rendering {
+    Image<RgbaF> picture;  // linear light, straight alpha = share of camera rays that hit a surface
+    Image<float>
+        depth;  // axial depth of the first surface through the pixel's centre, 0 = none; empty if not asked for
+};
+
+class Tracer {
+public:
+    // Checks the scene (scene_check.hpp) and builds what rendering needs; a second or so per million triangles.
+    static Result<Tracer> create(Scene scene);
+    Tracer(Tracer&&) noexcept;
+    Tracer& operator=(Tracer&&) noexcept;
+    ~Tracer();
+
+    // Advances `progress` (may be null) by step_count(camera) steps. May be called from several threads at once.
+    [[nodiscard]] Rendering render(const Camera& camera, const RenderOptions& options,
+                                   Progress* progress = nullptr) const;
+    [[nodiscard]] static std::int64_t step_count(const Camera& camera);
+    // The same for any projection.
+    [[nodiscard]] Rendering render(const RayPicture& rays, const RenderOptions& options,
+                                   Progress* progress = nullptr) const;
+    [[nodiscard]] static std::int64_t step_count(const RayPicture& rays);
+
+    // Turns the scene's lights and environment, but not surfaces that shine, about Y by `angle_rad` from where the
+    // scene has them; positive angles take +Z to +X. Costs nothing. Not while render() runs.
+    void turn_lights(double angle_rad);
+
+private:
+    struct State;
+    struct Frame;
+    [[nodiscard]] Rendering render(const RayPicture& rays, const Frame& frame, const RenderOptions& options,
+                                   Progress* progress) const;
+    explicit Tracer(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+// 8-bit sRGB with straight alpha; radiance above 1 is clipped. Transparent pixels are (0, 0, 0, 0).
+Image<Rgba8> to_srgb8(ConstImageView<RgbaF> picture);
+
+}  // namespace rs::capture

@@ -1,0 +1,54 @@
+#pragma once
+// An Environment made ready for light transport: look-up by direction, and directions drawn by brightness.
+//
+// Look-ups are bilinear. The density is constant over each pixel of the map (rows weighted by their solid angle), and
+// proportional to the mean luminance of the 3x3 pixels around it, so that it is positive wherever a look-up is.
+
+#include "capture/tracer/scene/scene.hpp"
+
+#include <vector>
+
+namespace rs::capture {
+
+class EnvironmentMap {
+public:
+    // Pixel values must be finite and not negative.
+    explicit EnvironmentMap(Environment environment);
+
+    // As Environment::turn_rad.
+    void set_turn(float turn_rad) { turn_rad_ = turn_rad; }
+
+    // No light at all: radiance() is 0 everywhere and sample() must not be called.
+    [[nodiscard]] bool is_black() const { return row_cdf_.empty(); }
+
+    // Radiance arriving from unit direction `towards_sky`.
+    [[nodiscard]] glm::vec3 radiance(const glm::vec3& towards_sky) const;
+
+    // Density of sample() per steradian.
+    [[nodiscard]] float pdf(const glm::vec3& towards_sky) const;
+
+    struct Sample {
+        glm::vec3 direction;
+        float pdf;  // per steradian, > 0
+    };
+    [[nodiscard]] Sample sample(const glm::vec2& u) const;
+
+    // Mean luminance over the sphere.
+    [[nodiscard]] float mean_luminance() const { return mean_luminance_; }
+
+private:
+    struct MapPosition {
+        float x;  // px
+        float y;
+    };
+    [[nodiscard]] MapPosition position_of(const glm::vec3& direction) const;
+
+    Image<RgbaF> pixels_;  // multiplied by the environment's scale
+    float turn_rad_;
+    float mean_luminance_ = 0.0F;
+    std::vector<float> row_cdf_;      // height + 1, from 0 to 1
+    std::vector<float> column_cdf_;   // height * (width + 1): row y begins at y * (width + 1)
+    std::vector<float> cos_of_edge_;  // height + 1: cosine of the polar angle of the edge above row y
+};
+
+}  // namespace rs::capture

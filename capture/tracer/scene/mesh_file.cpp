@@ -1,0 +1,141 @@
+#include "capture/tracer/scene/mesh_file.hpp"
+
+#include "capture/tracer/scene/mesh_material.hpp"
+#include "capture/tracer/scene/plain_ply.hpp"
+#include "rayspace/models/model_files.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <utility>
+
+namespace rs::capture {
+
+namespace {
+
+constexpr std::uint64_t kMaxModelFile_bytes = std::uint64_t{4} << 30;
+constexpr float kCreaseAngle_deg = 60.0F;
+
+std::string lower_case_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+glm::vec3 to_vec(const aiVector3D& v) {
+    return {v.x, v.y, v.z};
+}
+
+Mesh convert_mesh(const aiMesh& source) {
+    Mesh mesh;
+    mesh.name = source.mName.length > 0 ? source.mName.C_Str() : "mesh";
+    mesh.material = static_cast<int>(source.mMaterialIndex);
+    mesh.positions.reserve(source.mNumVertices);
+    for (unsigned i = 0; i < source.mNumVertices; ++i) mesh.positions.push_back(to_vec(source.mVertices[i]));
+    if (source.HasNormals()) {
+        mesh.normals.reserve(source.mNumVertices);
+        for (unsigned i = 0; i < source.mNumVertices; ++i) {
+            // Vertices of degenerate faces have no normal of their own; a zero normal falls back to the facet's.
+            const glm::vec3 normal = to_vec(source.mNormals[i]);
+            const float length = glm::length(normal);
+            mesh.normals.push_back(length > 0.0F && std::isfinite(length) ? normal / length : glm::vec3(0.0F));
+        }
+    }
+    if (source.HasTextureCoords(0)) {
+        mesh.uvs.reserve(source.mNumVertices);
+        for (unsigned i = 0; i < source.mNumVertices; ++i) {
+            mesh.uvs.emplace_back(source.mTextureCoords[0][i].x, source.mTextureCoords[0][i].y);
+        }
+    }
+    mesh.triangles.reserve(source.mNumFaces);
+    for (unsigned i = 0; i < source.mNumFaces; ++i) {
+        const aiFace& face = source.mFaces[i];
+        if (face.mNumIndices == 3) mesh.triangles.emplace_back(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
+    }
+    return mesh;
+}
+
+Result<Scene> convert_scene(const aiScene& source, const std::filesystem::path& path) {
+    Scene scene;
+    scene.name = path.stem().string();
+    if (Status converted = convert_materials(source, path, scene); !converted) return converted.error();
+    for (unsigned i = 0; i < source.mNumMeshes; ++i) {
+        if ((source.mMeshes[i]->mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) continue;
+        Mesh mesh = convert_mesh(*source.mMeshes[i]);
+        if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
+    }
+    if (scene.meshes.empty())
+        return Error{path.string() + ": has no faces; a mesh with triangles or polygons is needed"};
+    return scene;
+}
+
+}  // namespace
+
+bool is_mesh_file(const std::filesystem::path& path) {
+    const std::string extension = lower_case_extension(path);
+    return extension == ".obj" || extension == ".ply" || extension == ".gltf" || extension == ".glb";
+}
+
+Error missing_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by) {
+    return Error{asked_by.string() + ": asks for the texture " + path.string() + ", which is not there; put it there"};
+}
+
+Result<Texture> read_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) {
+        return missing_texture(path, asked_by);
+    }
+    Result<Image<RgbaF>> pixels = read_picture_linear(path);
+    if (!pixels) return pixels.error();
+    return Texture{path.filename().string(), std::move(pixels).value()};
+}
+
+Result<Scene> read_mesh_file(const std::filesystem::path& path) {
+    if (!is_mesh_file(path))
+        return Error{path.string() + ": not a mesh file by its name; use .obj, .ply, .gltf or .glb"};
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored))
+        return Error{path.string() + ": there is no such file; check the path"};
+    std::string plain_ply;
+    if (lower_case_extension(path) == ".ply") {
+        Result<std::string> plain = read_plain_ply(path);
+        if (!plain) return plain.error();
+        plain_ply = std::move(plain).value();
+    }
+    try {
+        Assimp::Importer importer;
+        const ModelFiles& files = read_models_only(importer, kMaxModelFile_bytes);
+        importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+        importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseAngle_deg);
+        const aiScene* source = plain_ply.empty()
+                                    ? importer.ReadFile(path.string(), 0)
+                                    : importer.ReadFileFromMemory(plain_ply.data(), plain_ply.size(), 0, "ply");
+        if (source != nullptr) {
+            // Before post-processing, which merges vertices that are not a number with their neighbours.
+            if (Status finite = check_finite(*source, path.string()); !finite) return finite.error();
+            note_lines(*source);
+            source = importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | aiProcess_Triangulate |
+                                                  aiProcess_SortByPType | aiProcess_GenSmoothNormals |
+                                                  aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices);
+        }
+        if (!files.refusal().empty()) return Error{files.refusal()};
+        if (source == nullptr) {
+            return Error{path.string() + ": cannot be read as a mesh: " + shown_error(importer.GetErrorString())};
+        }
+        return convert_scene(*source, path);
+    } catch (const std::exception& problem) {
+        return Error{path.string() + ": cannot be read as a mesh: " + shown_error(problem.what())};
+    }
+}
+
+}  // namespace rs::capture

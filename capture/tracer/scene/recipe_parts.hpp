@@ -1,0 +1,32 @@
+#pragma once
+// The parts of a recipe that are the same whatever the object: materials, lights, environment, camera. The schema is in
+// capture/README.md. Part of scene_file.
+
+#include "capture/tracer/scene/recipe_reader.hpp"
+#include "capture/tracer/scene/scene.hpp"
+
+#include <filesystem>
+
+namespace rs::capture {
+
+// How the turntable's camera stands, when the command line says nothing else.
+struct CameraRecipe {
+    double distance_radii = 3.5;  // from the axis, in bounding-sphere radii
+    double focal_widths = 1.4;    // focal length over picture width
+    double elevation_deg = 0;
+    double look_at_height = 0;
+    int views = 90;
+    int width = 512;
+    int height = 512;
+    int samples_per_pixel = 64;
+};
+
+// Each reads its JSON value over what `material`, `camera` ... hold; errors go to `errors`, under `place`.
+void read_material(const nlohmann::json& json, const std::string& place, RecipeErrors& errors, Material& material);
+void read_camera(const nlohmann::json& json, RecipeErrors& errors, CameraRecipe& camera);
+void read_lights(const nlohmann::json& json, RecipeErrors& errors, Scene& scene);
+// Files are relative to `folder`.
+void read_environment(const nlohmann::json& json, const std::filesystem::path& folder, RecipeErrors& errors,
+                      Environment& environment);
+
+}  // namespace rs::capture

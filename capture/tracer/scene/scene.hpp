@@ -1,0 +1,87 @@
+#pragma once
+// What the tracer renders: triangle meshes with materials, textures, lights and an environment.
+//
+// Units and axes as in rayspace/base/conventions.hpp: Y up, the turntable's axis is Y. Colours are linear-light RGB.
+
+#include "rayspace/image/image.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rs::capture {
+
+enum class SurfaceKind {
+    diffuse,  // Lambert
+    glossy,   // a GGX dielectric coat (ior, roughness) over a Lambert base of `colour`
+    metal,    // GGX conductor, reflectance at normal incidence `colour`, roughness
+    mirror,   // perfectly smooth, reflectance `colour`
+    // Smooth dielectric interface (ior); inside, light is absorbed to `colour` per unit length. Glass inside of glass
+    // absorbs by the innermost one (up to 4 deep), but each surface refracts as against air.
+    glass,
+};
+
+struct Material {
+    std::string name;
+    SurfaceKind kind = SurfaceKind::diffuse;
+    glm::vec3 colour{0.8F};  // linear; multiplied by the texture where there is one
+    int texture = -1;        // index into Scene::textures, -1 = none
+    float roughness = 0.3F;  // GGX alpha = roughness^2; 0..1
+    float ior = 1.5F;
+    glm::vec3 emission{0.0F};   // radiance, W/(m^2 sr) in arbitrary units; multiplied by emission_texture
+    int emission_texture = -1;  // index into Scene::textures, -1 = none; its alpha counts nothing
+    bool two_sided = true;      // thin surfaces (petals, leaves): shaded the same from both sides
+    float translucency = 0.0F;  // diffuse only: share of the light that leaves on the other side (petals), 0..1
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;  // per vertex, unit length; empty = flat shading
+    std::vector<glm::vec2> uvs;      // per vertex, (0, 0) = the texture's lower left corner; empty = none
+    std::vector<glm::uvec3> triangles;
+    int material = 0;
+};
+
+// sRGB-decoded to linear when it was made; wraps around, bilinear.
+struct Texture {
+    std::string name;
+    Image<RgbaF> pixels;  // alpha below 0.5 = a hole in the surface
+};
+
+struct DirectionalLight {
+    glm::vec3 direction{0, -1, 0};  // the way the light travels
+    glm::vec3 irradiance{1.0F};     // on a surface that faces it
+};
+struct PointLight {
+    glm::vec3 position{0.0F};
+    glm::vec3 intensity{1.0F};  // radiant intensity; irradiance = intensity / distance^2
+};
+struct RectangleLight {  // emits from the side that cross(edge_u, edge_v) points to; not seen by the camera
+    glm::vec3 corner{0.0F};
+    glm::vec3 edge_u{1, 0, 0};
+    glm::vec3 edge_v{0, 0, 1};
+    glm::vec3 radiance{1.0F};
+};
+
+// Latitude-longitude map: row 0 is +Y, the picture's middle column is -Z, u grows towards +X from there. Empty = black.
+struct Environment {
+    Image<RgbaF> pixels;
+    float scale = 1.0F;
+    float turn_rad = 0.0F;  // about Y
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<DirectionalLight> directional_lights;
+    std::vector<PointLight> point_lights;
+    std::vector<RectangleLight> rectangle_lights;
+    Environment environment;
+};
+
+}  // namespace rs::capture

@@ -1,0 +1,126 @@
+#include "capture/tracer/scene/scene_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace rs::capture {
+
+namespace {
+
+bool finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+bool is_light(const glm::vec3& v) {
+    return finite(v) && v.x >= 0.0F && v.y >= 0.0F && v.z >= 0.0F;
+}
+bool in_range(float v, float low, float high) {
+    return v >= low && v <= high;
+}
+
+using Problem = std::optional<std::string>;
+
+Problem check_mesh(const Mesh& mesh, std::size_t material_count) {
+    const std::string name = "mesh \"" + mesh.name + "\": ";
+    if (mesh.material < 0 || static_cast<std::size_t>(mesh.material) >= material_count) {
+        return name + "material " + std::to_string(mesh.material) + " does not exist; there are " +
+               std::to_string(material_count);
+    }
+    if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
+        return name + "as many normals as vertices are needed, or none";
+    }
+    if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) {
+        return name + "as many texture coordinates as vertices are needed, or none";
+    }
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (!finite(mesh.positions[i])) return name + "vertex " + std::to_string(i) + " is not finite; repair the mesh";
+        if (!mesh.normals.empty() && !finite(mesh.normals[i])) {
+            return name + "the normal of vertex " + std::to_string(i) + " is not finite; repair the mesh";
+        }
+        if (!mesh.uvs.empty() && !(std::isfinite(mesh.uvs[i].x) && std::isfinite(mesh.uvs[i].y))) {
+            return name + "the texture coordinate of vertex " + std::to_string(i) + " is not finite; repair the mesh";
+        }
+    }
+    for (const glm::uvec3& t : mesh.triangles) {
+        if (std::max({t.x, t.y, t.z}) >= mesh.positions.size()) {
+            return name + "a triangle names vertex " + std::to_string(std::max({t.x, t.y, t.z})) + ", there are " +
+                   std::to_string(mesh.positions.size());
+        }
+    }
+    return std::nullopt;
+}
+
+Problem check_material(const Material& material, std::size_t texture_count) {
+    const std::string name = "material \"" + material.name + "\": ";
+    for (const int texture : {material.texture, material.emission_texture}) {
+        if (texture < -1 || (texture >= 0 && static_cast<std::size_t>(texture) >= texture_count)) {
+            return name + "texture " + std::to_string(texture) + " does not exist";
+        }
+    }
+    if (!is_light(material.colour) || glm::any(glm::greaterThan(material.colour, glm::vec3(1.0F)))) {
+        return name + "colour must be within 0..1";
+    }
+    if (!in_range(material.roughness, 0.0F, 1.0F)) return name + "roughness must be within 0..1";
+    if (!in_range(material.ior, 1.0F, 10.0F)) return name + "ior must be within 1..10";
+    if (!in_range(material.translucency, 0.0F, 1.0F)) return name + "translucency must be within 0..1";
+    if (!is_light(material.emission)) return name + "emission must be finite and not negative";
+    return std::nullopt;
+}
+
+bool pixels_are_light(const Image<RgbaF>& pixels) {
+    return std::ranges::all_of(pixels.pixels(), [](const RgbaF& p) {
+        return is_light({p.r, p.g, p.b}) && std::isfinite(p.a);
+    });
+}
+
+Problem check_lights(const Scene& scene) {
+    for (const DirectionalLight& light : scene.directional_lights) {
+        if (!finite(light.direction) || !(glm::length(light.direction) > 0.0F)) {
+            return "directional light: the direction must be finite and not (0, 0, 0)";
+        }
+        if (!is_light(light.irradiance)) return "directional light: irradiance must be finite and not negative";
+    }
+    for (const PointLight& light : scene.point_lights) {
+        if (!finite(light.position)) return "point light: the position must be finite";
+        if (!is_light(light.intensity)) return "point light: intensity must be finite and not negative";
+    }
+    for (const RectangleLight& light : scene.rectangle_lights) {
+        if (!finite(light.corner) || !finite(light.edge_u) || !finite(light.edge_v)) {
+            return "rectangle light: corner and edges must be finite";
+        }
+        if (!is_light(light.radiance)) return "rectangle light: radiance must be finite and not negative";
+    }
+    return std::nullopt;
+}
+
+Problem check_parts(const Scene& scene) {
+    for (const Texture& texture : scene.textures) {
+        if (texture.pixels.empty()) return "texture \"" + texture.name + "\" has no pixels";
+        if (!pixels_are_light(texture.pixels)) {
+            return "texture \"" + texture.name + "\" has pixels that are negative or not finite";
+        }
+    }
+    for (const Material& material : scene.materials) {
+        if (Problem problem = check_material(material, scene.textures.size())) return problem;
+    }
+    for (const Mesh& mesh : scene.meshes) {
+        if (Problem problem = check_mesh(mesh, scene.materials.size())) return problem;
+    }
+    if (Problem problem = check_lights(scene)) return problem;
+    if (!in_range(scene.environment.scale, 0.0F, 1e9F)) return "environment: scale must be within 0..1e9";
+    if (!std::isfinite(scene.environment.turn_rad)) return "environment: the turn must be finite";
+    if (!pixels_are_light(scene.environment.pixels)) return "environment: pixels must be finite and not negative";
+    return std::nullopt;
+}
+
+}  // namespace
+
+Status check_scene(const Scene& scene) {
+    if (const Problem problem = check_parts(scene)) {
+        return Error{(scene.name.empty() ? std::string("scene") : scene.name) + ": " + *problem};
+    }
+    return {};
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,34 @@
+#pragma once
+// SCENE arguments: a mesh file, or a recipe (.json) that says object, materials, camera, lights and environment. The
+// recipe's schema is in capture/README.md.
+
+#include "capture/tracer/scene/recipe_parts.hpp"
+#include "capture/tracer/scene/scene.hpp"
+#include "rayspace/base/result.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace rs::capture {
+
+struct SceneFile {
+    Scene scene;               // normalised: centred (normalise.hpp), farthest vertex at distance 1
+    double object_radius = 1;  // the largest distance of a vertex from the Y axis
+    double foot_height = 0;    // Y of the lowest vertex
+    CameraRecipe camera;
+    std::uint64_t seed = 1;
+};
+
+// Makes the procedural object `name`. Who calls load_scene_file brings it; its errors need not name the recipe.
+using Generator =
+    std::function<Result<Scene>(const std::string& name, const nlohmann::json& parameters, std::uint64_t seed)>;
+
+// A mesh file gets the default studio and camera. A recipe replaces the lights and the environment that its generator
+// set, where it names any; an object without either gets the default studio. Errors name the file and the key.
+Result<SceneFile> load_scene_file(const std::filesystem::path& path, const Generator& generator);
+
+}  // namespace rs::capture

@@ -1,0 +1,77 @@
+#include "capture/tracer/session/capture_set.hpp"
+
+#include "capture/tracer/session/view_number.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+namespace rs::capture {
+
+namespace {
+
+double coverage(ConstImageView<RgbaF> picture) {
+    double sum = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+        for (const RgbaF& p : picture.row_span(y)) sum += static_cast<double>(p.a);
+    }
+    return sum / (static_cast<double>(picture.width()) * picture.height());
+}
+
+bool touches_edge(ConstImageView<RgbaF> picture) {
+    const auto seen = [](const RgbaF& p) { return p.a > 0.0F; };
+    if (std::ranges::any_of(picture.row_span(0), seen)) return true;
+    if (std::ranges::any_of(picture.row_span(picture.height() - 1), seen)) return true;
+    for (int y = 0; y < picture.height(); ++y) {
+        if (seen(picture(0, y)) || seen(picture(picture.width() - 1, y))) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+Result<CaptureSetSummary> write_capture_set(const Tracer& tracer, Rig rig, const CaptureSetOptions& options,
+                                            const std::filesystem::path& folder, Progress* progress) {
+    using Clock = std::chrono::steady_clock;
+    Result<StagedFolder> staged = StagedFolder::create(folder);
+    if (!staged) return staged.error();
+    if (progress != nullptr) {
+        std::int64_t steps = 0;
+        for (const RigView& view : rig.views) steps += Tracer::step_count(view.camera);
+        progress->start("tracing " + std::to_string(rig.views.size()) + " views", steps);
+    }
+
+    CaptureSetSummary summary;
+    for (std::size_t i = 0; i < rig.views.size(); ++i) {
+        RigView& view = rig.views[i];
+        const Clock::time_point begun = Clock::now();
+        const Rendering rendering = tracer.render(view.camera, options.render, progress);
+        summary.render_s += std::chrono::duration<double>(Clock::now() - begun).count();
+        summary.mean_coverage += coverage(rendering.picture) / static_cast<double>(rig.views.size());
+        summary.clipped_views += touches_edge(rendering.picture) ? 1 : 0;
+        ++summary.views;
+
+        view.file_path = view_number(i) + (options.format == PictureFormat::png ? ".png" : ".exr");
+        view.depth_file_path = options.render.depth ? view_number(i) + ".depth.exr" : "";
+        const std::filesystem::path& where = staged->temporary_path();
+        Status written = options.format == PictureFormat::png
+                             ? write_png(where / view.file_path, to_srgb8(rendering.picture).view())
+                             : write_exr(where / view.file_path, rendering.picture);
+        if (written && options.render.depth) {
+            written = write_exr_channel(where / view.depth_file_path, rendering.depth.view());
+        }
+        if (!written) return written.error();
+    }
+    if (!(summary.mean_coverage > 0.0)) {
+        return Error{folder.string() + ": no view shows the object; check the poses or the mesh"};
+    }
+    if (Status written = write_rig(staged->temporary_path() / kRigFileName, rig); !written) return written.error();
+    if (Status committed = staged->commit(); !committed) return committed.error();
+    if (progress != nullptr) progress->finish();
+    return summary;
+}
+
+}  // namespace rs::capture

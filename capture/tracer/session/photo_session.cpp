@@ -1,0 +1,235 @@
+#include "capture/tracer/session/photo_session.hpp"
+
+#include "capture/tracer/integrator/coverage.hpp"
+#include "capture/tracer/integrator/sampler.hpp"
+#include "capture/tracer/integrator/tracer.hpp"
+#include "capture/tracer/session/recentring.hpp"
+#include "capture/tracer/session/sensor.hpp"
+#include "capture/tracer/session/session_truth.hpp"
+#include "capture/tracer/session/still_backdrop.hpp"
+#include "capture/tracer/session/view_number.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace rs::capture {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The outermost vertices at each height, as circles about the axis, and those of the plate.
+std::vector<AxisCircle> shown_circles(const Scene& object, const Plate& plate) {
+    constexpr double kBands_per_unit = 100;
+    std::map<int, AxisCircle> widest;  // by height
+    for (const Mesh& mesh : object.meshes) {
+        for (const glm::vec3& p : mesh.positions) {
+            const auto y = static_cast<double>(p.y);
+            const double radius = std::hypot(static_cast<double>(p.x), static_cast<double>(p.z));
+            AxisCircle& circle = widest[static_cast<int>(std::floor(y * kBands_per_unit))];
+            if (radius >= circle.radius) circle = {radius, y};
+        }
+    }
+    std::vector<AxisCircle> circles;
+    for (const auto& [band, circle] : widest) circles.push_back(circle);
+    if (plate.reach() > 0) circles.insert(circles.end(), {{plate.reach(), plate.top}, {plate.reach(), plate.foot()}});
+    return circles;
+}
+
+Result<Image<RgbaF>> make_backdrop(const PhotoOptions& options, const SessionPlan& plan, const Plate& plate) {
+    const Lens& lens = plan.model.lens;
+    if (options.backdrop == "wall") return wall_backdrop(plan, plate, options.session.seed);
+    if (options.backdrop == "blue") return even_backdrop(lens, {0.04F, 0.12F, 0.45F});
+    if (options.backdrop == "white") return even_backdrop(lens, glm::vec3(0.88F));
+    Result<Image<RgbaF>> picture = read_picture_linear(options.backdrop);
+    if (!picture) return picture.error();
+    return picture_backdrop(lens, std::move(picture).value());
+}
+
+// What the lights must be dimmed by so that bright parts of object and plate are not clipped: a photographer's meter,
+// on a small first view.
+double metered_dimming(const Tracer& tracer, const SessionPlan& plan, const PhotoOptions& options) {
+    constexpr int kCoarse = 8;
+    constexpr float kBright = 0.85F;  // linear; what one pixel in a hundred may exceed
+    RayPicture rays = lens_rays_of(plan, 0);
+    rays.width = std::max(1, rays.width / kCoarse);
+    rays.height = std::max(1, rays.height / kCoarse);
+    rays.ray = [whole = rays.ray](double x, double y) { return whole(x * kCoarse, y * kCoarse); };
+    RenderOptions render;
+    render.samples_per_pixel = 16;
+    render.seed = options.session.seed;
+    render.threads = options.threads;
+    std::vector<float> brightest;
+    const Rendering metered = tracer.render(rays, render);
+    for (const RgbaF& p : metered.picture.pixels()) {
+        if (p.a > 0) brightest.push_back(std::max({p.r, p.g, p.b}));
+    }
+    if (brightest.empty()) return 1;
+    const auto at = brightest.begin() + static_cast<std::ptrdiff_t>(brightest.size() * 99 / 100);
+    std::nth_element(brightest.begin(), at, brightest.end());
+    return *at > kBright ? static_cast<double>(kBright / *at) : 1.0;
+}
+
+// The front's light is multiplied by `dimming`.
+Image<RgbaF> over(const Image<RgbaF>& front, double dimming, const Image<RgbaF>& backdrop) {
+    const auto factor = static_cast<float>(dimming);
+    Image<RgbaF> result(front.width(), front.height());
+    for (std::size_t i = 0; i < result.pixels().size(); ++i) {
+        const RgbaF& f = front.pixels()[i];
+        const RgbaF& b = backdrop.pixels()[i];
+        const auto mix = [&](float of_front, float of_back) { return of_front * factor * f.a + of_back * (1 - f.a); };
+        result.pixels()[i] = {mix(f.r, b.r), mix(f.g, b.g), mix(f.b, b.b), 1};
+    }
+    return result;
+}
+
+Image<Rgba8> grey_picture(const Image<float>& shares) {
+    Image<Rgba8> picture(shares.width(), shares.height());
+    for (std::size_t i = 0; i < shares.pixels().size(); ++i) {
+        const auto code = static_cast<std::uint8_t>(std::lround(shares.pixels()[i] * 255.0F));
+        picture.pixels()[i] = {code, code, code, 255};
+    }
+    return picture;
+}
+
+double mean_of(const Image<float>& shares) {
+    double sum = 0;
+    for (const float share : shares.pixels()) sum += static_cast<double>(share);
+    return sum / static_cast<double>(shares.pixels().size());
+}
+
+bool touches_edge(const Image<float>& shares) {
+    for (int y = 0; y < shares.height(); ++y) {
+        const bool whole_row = y == 0 || y == shares.height() - 1;
+        for (int x = 0; x < shares.width(); x += whole_row ? 1 : std::max(1, shares.width() - 1)) {
+            if (shares(x, y) > 0) return true;
+        }
+    }
+    return false;
+}
+
+// Everything that the views have in common.
+struct Session {
+    SessionPlan plan;
+    Plate plate;
+    Image<RgbaF> backdrop;
+    Tracer tracer;      // of object, plate and board
+    RayScene outlines;  // of the object alone
+    double dimming;     // of the scene's lights
+};
+
+struct View {
+    Image<Rgba8> photo;
+    Image<float> alpha;
+    PicturePlace place;
+};
+
+View take_photo(Session& session, std::size_t view, const PhotoOptions& options, Progress* progress) {
+    RayPicture rays = lens_rays_of(session.plan, view);
+    PicturePlace place;
+    if (options.recentred) {
+        place = recentred_place(trace_coverage(session.outlines, rays, options.threads));
+        rays = rays_at(std::move(rays), place);
+    }
+    RenderOptions render;
+    render.samples_per_pixel = options.samples_per_pixel;
+    render.seed = options.session.seed;
+    render.threads = options.threads;
+    session.tracer.turn_lights(-session.plan.model.angles_rad[view]);
+    const Rendering traced = session.tracer.render(rays, render, progress);
+    const Sensor sensor{session.plan.exposures[view], options.noise_codes,
+                        mix_bits(options.session.seed) + static_cast<std::uint64_t>(view)};
+    const Image<RgbaF> light = over(traced.picture, session.dimming,
+                                    options.recentred ? picture_at(session.backdrop, place) : session.backdrop);
+    return {expose(light, sensor), trace_coverage(session.outlines, rays, options.threads), place};
+}
+
+Status make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) return Error{folder.string() + ": cannot be made: " + error.message()};
+    return {};
+}
+
+}  // namespace
+
+bool is_made_backdrop(const std::string& name) {
+    return name == "wall" || name == "blue" || name == "white";
+}
+
+Result<CaptureSetSummary> write_photo_session(const Scene& object, double object_radius, const PhotoOptions& options,
+                                              const fs::path& folder, Progress* progress) {
+    using Clock = std::chrono::steady_clock;
+    Result<StagedFolder> staged = StagedFolder::create(folder);
+    if (!staged) return staged.error();
+
+    Plate plate = fit_plate(object, object_radius, options.plate, options.session.seed);
+    if (!options.board.empty()) {
+        Result<Image<RgbaF>> picture = read_picture_linear(options.board);
+        if (!picture) return picture.error();
+        lay_board(plate, std::move(picture).value(), options.board_width * object_radius);
+    }
+    Result<SessionPlan> plan = plan_session(options.session, shown_circles(object, plate));
+    if (!plan) return plan.error();
+    Result<Image<RgbaF>> backdrop = make_backdrop(options, *plan, plate);
+    if (!backdrop) return backdrop.error();
+    Scene whole = object;
+    add_plate(whole, plate);
+    Result<Tracer> tracer = Tracer::create(std::move(whole));
+    if (!tracer) return tracer.error();
+    Result<RayScene> outlines = RayScene::create(object);
+    if (!outlines) return outlines.error();
+    const double dimming = metered_dimming(*tracer, *plan, options);
+    Session session{std::move(plan).value(),     std::move(plate),
+                    std::move(backdrop).value(), std::move(tracer).value(),
+                    std::move(outlines).value(), dimming};
+
+    const auto views = session.plan.model.angles_rad.size();
+    if (progress != nullptr) {
+        progress->start("photographing " + std::to_string(views) + " views",
+                        static_cast<std::int64_t>(views) * Tracer::step_count(lens_rays_of(session.plan, 0)));
+    }
+    const fs::path photos = staged->temporary_path() / "photos";
+    const fs::path truth = staged->temporary_path() / "truth";
+    for (const fs::path& inner : {photos, truth / "alpha"}) {
+        if (Status made = make_folder(inner); !made) return made.error();
+    }
+
+    CaptureSetSummary summary;
+    std::vector<std::string> names;
+    std::vector<PicturePlace> places;
+    for (std::size_t i = 0; i < views; ++i) {
+        const Clock::time_point begun = Clock::now();
+        const View view = take_photo(session, i, options, progress);
+        summary.render_s += std::chrono::duration<double>(Clock::now() - begun).count();
+        if (options.recentred) places.push_back(view.place);
+        summary.mean_coverage += mean_of(view.alpha) / static_cast<double>(views);
+        summary.clipped_views += touches_edge(view.alpha) ? 1 : 0;
+        ++summary.views;
+
+        const std::string name = view_number(i) + (options.jpeg_quality > 0 ? ".jpg" : ".png");
+        names.push_back("../photos/" + name);
+        Status written = options.jpeg_quality > 0 ? write_jpeg(photos / name, view.photo, options.jpeg_quality)
+                                                  : write_png(photos / name, view.photo);
+        if (written) written = write_png(truth / "alpha" / (view_number(i) + ".png"), grey_picture(view.alpha));
+        if (!written) return written.error();
+    }
+    if (!(summary.mean_coverage > 0)) {
+        return Error{folder.string() + ": no view shows the object; check the distance or the mesh"};
+    }
+    const Rig rig = truth_rig(session.plan, session.plate, object_radius, options, session.dimming, names, places);
+    if (Status written = write_rig(truth / kRigFileName, rig); !written) return written.error();
+    if (Status committed = staged->commit(); !committed) return committed.error();
+    if (progress != nullptr) progress->finish();
+    return summary;
+}
+
+}  // namespace rs::capture

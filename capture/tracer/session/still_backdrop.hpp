@@ -1,0 +1,21 @@
+#pragma once
+// What stands still behind a turntable, as one picture in linear light.
+
+#include "capture/tracer/session/session_plan.hpp"
+#include "capture/tracer/session/turntable_plate.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <cstdint>
+
+namespace rs::capture {
+
+// A table top that the plate stands on, with its shadow, and a wall behind: low contrast, out of focus, a few marks.
+Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Plate& plate, std::uint64_t seed);
+
+// An even backdrop of this colour that falls off by a seventh towards the corners.
+Image<RgbaF> even_backdrop(const Lens& lens, const glm::vec3& colour);
+
+// `picture` over the whole frame, stretched where its shape differs.
+Image<RgbaF> picture_backdrop(const Lens& lens, Image<RgbaF> picture);
+
+}  // namespace rs::capture

@@ -1,0 +1,190 @@
+#include "capture/tracer/session/turntable_plate.hpp"
+
+#include "capture/tracer/scene/normalise.hpp"
+#include "capture/tracer/session/seeded_draws.hpp"
+#include "capture/tracer/session/soft_step.hpp"
+#include "rayspace/base/conventions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace rs::capture {
+
+namespace {
+
+constexpr double kHair = 1e-4;  // against coinciding surfaces; a fortieth of a pixel in usual pictures
+constexpr int kSegments = 256;  // the plate's rim is true to 1e-4 of its radius
+constexpr int kTextureSide_px = 1024;
+
+enum PlatePurpose : std::uint64_t { kSpeckles = 11, kBoard };
+
+int add_material(Scene& scene, const std::string& name, const glm::vec3& colour, int texture = -1) {
+    Material material;
+    material.name = name;
+    material.colour = colour;
+    material.texture = texture;
+    scene.materials.push_back(std::move(material));
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
+int add_texture(Scene& scene, const std::string& name, Image<RgbaF> pixels) {
+    scene.textures.push_back({name, std::move(pixels)});
+    return static_cast<int>(scene.textures.size()) - 1;
+}
+
+RgbaF grey(double value) {
+    const auto v = static_cast<float>(value);
+    return {v, v, v, 1};
+}
+
+// `value(r)` of the distance r from the middle, 1 at the rim.
+template <class Value>
+Image<RgbaF> round_texture(const Value& value) {
+    Image<RgbaF> pixels(kTextureSide_px, kTextureSide_px);
+    for (int y = 0; y < kTextureSide_px; ++y) {
+        for (int x = 0; x < kTextureSide_px; ++x) {
+            const double u = (x + 0.5) / kTextureSide_px * 2 - 1;
+            const double v = (y + 0.5) / kTextureSide_px * 2 - 1;
+            pixels(x, y) = grey(value(std::hypot(u, v)));
+        }
+    }
+    return pixels;
+}
+
+Image<RgbaF> ring_texture() {
+    constexpr double kSoft = 3.0 / kTextureSide_px;
+    return round_texture([&](double r) {
+        double value = 0.55;
+        for (const double ring : {0.25, 0.5, 0.75, 0.94}) {
+            value -= 0.2 * soft_step((0.008 - std::abs(r - ring)) / kSoft);
+        }
+        return value;
+    });
+}
+
+Image<RgbaF> speckled_texture(std::uint64_t seed) {
+    Image<RgbaF> pixels(kTextureSide_px, kTextureSide_px, grey(0.5));
+    SeededDraws draws(seed, kSpeckles);
+    for (int dot = 0; dot < 700; ++dot) {
+        const double x = draws.uniform() * kTextureSide_px;
+        const double y = draws.uniform() * kTextureSide_px;
+        const double radius = draws.uniform(3, 16);
+        const double value = draws.uniform(0.08, 0.85);
+        const auto from = [](double low) { return std::max(0, static_cast<int>(low)); };
+        const auto to = [](double high) { return std::min(kTextureSide_px, static_cast<int>(high) + 1); };
+        for (int py = from(y - radius - 3); py < to(y + radius + 3); ++py) {
+            for (int px = from(x - radius - 3); px < to(x + radius + 3); ++px) {
+                const double share = soft_step((radius - std::hypot(px + 0.5 - x, py + 0.5 - y)) / 1.5);
+                RgbaF& p = pixels(px, py);
+                p = grey(static_cast<double>(p.r) * (1 - share) + value * share);
+            }
+        }
+    }
+    return pixels;
+}
+
+Mesh plate_top(const Plate& plate) {
+    Mesh mesh;
+    mesh.name = "plate";
+    const auto y = static_cast<float>(plate.top);
+    mesh.positions.push_back({0, y, 0});
+    mesh.uvs.push_back({0.5F, 0.5F});
+    for (unsigned i = 0; i < kSegments; ++i) {
+        const double angle = 2 * kPi * i / kSegments;
+        const double x = std::sin(angle), z = std::cos(angle);
+        mesh.positions.push_back({static_cast<float>(plate.radius * x), y, static_cast<float>(plate.radius * z)});
+        mesh.uvs.push_back({static_cast<float>(0.5 + 0.5 * x), static_cast<float>(0.5 - 0.5 * z)});
+        mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % kSegments});
+    }
+    return mesh;
+}
+
+Mesh plate_side(const Plate& plate) {
+    Mesh mesh;
+    mesh.name = "plate side";
+    for (unsigned i = 0; i < kSegments; ++i) {
+        const double angle = 2 * kPi * i / kSegments;
+        const glm::vec3 normal(static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle)));
+        for (const double height : {plate.top, plate.foot()}) {
+            const auto radius = static_cast<float>(plate.radius);
+            mesh.positions.push_back({normal.x * radius, static_cast<float>(height), normal.z * radius});
+            mesh.normals.push_back(normal);
+        }
+        const unsigned a = 2 * i, b = 2 * ((i + 1) % kSegments);
+        mesh.triangles.insert(mesh.triangles.end(), {{a, a + 1, b + 1}, {a, b + 1, b}});
+    }
+    return mesh;
+}
+
+Mesh board_mesh(const Board& board) {
+    Mesh mesh;
+    mesh.name = "board";
+    for (const glm::dvec3& corner : board.corners) mesh.positions.emplace_back(corner);
+    mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    mesh.triangles = {{0, 3, 2}, {0, 2, 1}};  // the outer side is up
+    return mesh;
+}
+
+}  // namespace
+
+double Plate::reach() const {
+    double farthest = surface == PlateSurface::none ? 0.0 : radius;
+    if (board) {
+        for (const glm::dvec3& corner : board->corners) farthest = std::max(farthest, std::hypot(corner.x, corner.z));
+    }
+    return farthest;
+}
+
+Plate fit_plate(const Scene& object, double object_radius, PlateSurface surface, std::uint64_t seed) {
+    Plate plate;
+    plate.surface = surface;
+    plate.radius = 1.15 * object_radius;
+    plate.top = foot_height(object) - kHair;
+    plate.thickness = 0.08 * object_radius;
+    plate.seed = seed;
+    return plate;
+}
+
+void lay_board(Plate& plate, Image<RgbaF> picture, double width) {
+    SeededDraws draws(plate.seed, kBoard);
+    const double distance = width * draws.uniform(0.06, 0.14);
+    const double way = draws.uniform(0, 2 * kPi);
+    const double turn = draws.uniform(0, 2 * kPi);
+    const double height = width * picture.height() / picture.width();
+    const glm::dvec3 right(std::cos(turn), 0, -std::sin(turn));
+    const glm::dvec3 down(std::sin(turn), 0, std::cos(turn));  // of the picture: towards +Z where it is not turned
+    const glm::dvec3 middle(distance * std::sin(way), plate.top, distance * std::cos(way));
+    plate.top -= kHair;  // between object and plate
+    Board board;
+    for (RgbaF& p : picture.pixels()) p.a = 1;
+    board.picture = std::move(picture);
+    const glm::dvec3 u = right * (width / 2), v = down * (height / 2);
+    board.corners = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
+    plate.board = std::move(board);
+}
+
+void add_plate(Scene& scene, const Plate& plate) {
+    if (plate.surface != PlateSurface::none) {
+        int texture = -1;
+        if (plate.surface == PlateSurface::rings) texture = add_texture(scene, "rings", ring_texture());
+        if (plate.surface == PlateSurface::speckled) {
+            texture = add_texture(scene, "speckles", speckled_texture(plate.seed));
+        }
+        Mesh top = plate_top(plate);
+        top.material = add_material(scene, "plate", glm::vec3(texture < 0 ? 0.5F : 1.0F), texture);
+        scene.meshes.push_back(std::move(top));
+        Mesh side = plate_side(plate);
+        side.material = add_material(scene, "plate side", glm::vec3(0.12F));
+        scene.meshes.push_back(std::move(side));
+    }
+    if (plate.board) {
+        Mesh board = board_mesh(*plate.board);
+        board.material =
+            add_material(scene, "board", glm::vec3(1.0F), add_texture(scene, "board", plate.board->picture));
+        scene.meshes.push_back(std::move(board));
+    }
+}
+
+}  // namespace rs::capture

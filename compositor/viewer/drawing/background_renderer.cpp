@@ -1,0 +1,59 @@
+#include "compositor/viewer/drawing/background_renderer.hpp"
+
+#include "compositor/gl/draw.hpp"
+#include "compositor/viewer/drawing/background_shaders.hpp"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+namespace rs::compositor {
+namespace {
+
+// Appends the colours that have an angle; the first one's is 0.
+int append_stops(const std::vector<glm::vec3>& colours, const std::vector<double>& angles_rad,
+                 std::vector<glm::vec4>& stops) {
+    const std::size_t count = std::min(colours.size(), angles_rad.size() + 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        stops.emplace_back(colours[i], i == 0 ? 0.0F : static_cast<float>(angles_rad[i - 1]));
+    }
+    return static_cast<int>(count);
+}
+
+}  // namespace
+
+Result<BackgroundRenderer> BackgroundRenderer::create(const Background& background) {
+    RS_CHECK(!background.sky.empty());
+    auto program = gl::Program::create("background", shaders::kBackgroundVertex, shaders::kBackgroundFragment);
+    if (!program) return program.error();
+    BackgroundRenderer renderer(std::move(*program));
+    std::vector<glm::vec4> stops;
+    renderer.stop_counts_.x = append_stops(background.sky, background.sky_angles_rad, stops);
+    renderer.stop_counts_.y = append_stops(background.ground, background.ground_angles_rad, stops);
+    renderer.stops_.emplace(std::as_bytes(std::span(stops)));
+    for (std::size_t i = 0; i < background.pictures.size(); ++i) {
+        if (!background.pictures[i]) continue;
+        renderer.pictures_[i].emplace(background.pictures[i]->picture.view(), gl::TextureWrap{false, false});
+        renderer.shown_pictures_ |= 1 << i;
+    }
+    renderer.background_from_world_ = glm::transpose(background.world_from_background);
+    renderer.zenith_ = background.sky.front();
+    renderer.plain_ = renderer.stop_counts_.x == 1 && renderer.stop_counts_.y <= 1 && renderer.shown_pictures_ == 0;
+    return renderer;
+}
+
+void BackgroundRenderer::draw(const Camera& camera) const {
+    const glm::dvec3 along_x = camera.right() / camera.fl_x;
+    const glm::dvec3 along_y = -camera.up() / camera.fl_y;
+    const glm::dmat3 world_from_pixel(along_x, along_y, camera.ray(0, 0));
+    program_.set("direction_from_pixel", glm::mat3(background_from_world_ * world_from_pixel));
+    program_.set("stop_counts", stop_counts_);
+    program_.set("shown_pictures", shown_pictures_);
+    stops_->bind_table(3);
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+        if (pictures_[i]) pictures_[i]->bind(static_cast<unsigned>(i) + 1);
+    }
+    gl::draw(program_, rectangle_, {.depth_test = false, .depth_write = false});
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,43 @@
+#pragma once
+// Draws a scene's background over the whole frame (background_shaders.hpp).
+
+#include "compositor/gl/buffer.hpp"
+#include "compositor/gl/program.hpp"
+#include "compositor/gl/texture.hpp"
+#include "compositor/gl/vertex_array.hpp"
+#include "compositor/scene/surroundings.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/camera.hpp"
+
+#include <array>
+#include <optional>
+
+namespace rs::compositor {
+
+// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+class BackgroundRenderer {
+public:
+    static Result<BackgroundRenderer> create(const Background& background);
+
+    // One colour everywhere: clearing the frame with it is enough.
+    [[nodiscard]] bool plain() const { return plain_; }
+    [[nodiscard]] const glm::vec3& zenith() const { return zenith_; }
+
+    // To be drawn before everything else; leaves depth alone.
+    void draw(const Camera& camera) const;
+
+private:
+    explicit BackgroundRenderer(gl::Program program) : program_(std::move(program)), rectangle_(4) {}
+
+    gl::Program program_;
+    gl::VertexArray rectangle_;
+    std::optional<gl::Buffer> stops_;
+    glm::ivec2 stop_counts_{0};
+    std::array<std::optional<gl::Texture>, 6> pictures_;
+    int shown_pictures_ = 0;
+    glm::dmat3 background_from_world_{1.0};
+    glm::vec3 zenith_{0};
+    bool plain_ = true;
+};
+
+}  // namespace rs::compositor

@@ -1,0 +1,277 @@
+#include "compositor/viewer/drawing/frame_compositor.hpp"
+
+#include "compositor/gl/draw.hpp"
+#include "compositor/viewer/drawing/shaders.hpp"
+#include "compositor/viewer/views/engine_views.hpp"
+#include "engine/core/views/depth_picture.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+// How much of an object's own light is left at a distance.
+float kept_in_fog(const std::optional<Fog>& fog, double distance) {
+    if (!fog) return 1;
+    if (distance >= fog->visibility) return 0;
+    const double left = fog->visibility - distance;
+    return static_cast<float>(fog->kind == FogKind::kLinear ? left / fog->visibility : std::exp(-distance / left));
+}
+
+// Seconds from lap to lap; of all that was drawn until then if `waits`, else of giving it to the driver.
+class PartClock {
+public:
+    explicit PartClock(bool waits) : waits_(waits) {}
+    double lap() {
+        if (waits_) gl::finish();
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    }
+
+private:
+    bool waits_;
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Result<FrameCompositor::Frame> FrameCompositor::Frame::create(int width, int height, int samples) {
+    auto drawn = gl::Framebuffer::create(width, height, samples);
+    if (!drawn) return drawn.error();
+    if (drawn->samples() == 1) return Frame{std::move(*drawn), std::nullopt};
+    auto resolved = gl::Framebuffer::create(width, height, 1);
+    if (!resolved) return resolved.error();
+    return Frame{std::move(*drawn), std::move(*resolved)};
+}
+
+Result<FrameCompositor> FrameCompositor::create(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+                                                std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options) {
+    auto background = BackgroundRenderer::create(scene.background);
+    if (!background) return background.error();
+    auto surfaces = SurfaceRenderer::create(scene);
+    if (!surfaces) return surfaces.error();
+    auto floor = gl::Program::create("floor", shaders::kFloorVertex, shaders::kFloorFragment);
+    if (!floor) return floor.error();
+    auto objects = ObjectRenderer::create(nodes->size(), options.object_depth);
+    if (!objects) return objects.error();
+    auto placeholders = PlaceholderRenderer::create();
+    if (!placeholders) return placeholders.error();
+    auto frame = Frame::create(options.width, options.height, options.samples);
+    if (!frame) return frame.error();
+    return FrameCompositor(scene, std::move(engine), std::move(nodes),
+                           {std::move(*floor), std::move(*objects), std::move(*placeholders), std::move(*background),
+                            std::move(*surfaces), std::move(*frame)},
+                           options);
+}
+
+Result<FrameCompositor> FrameCompositor::create(const Scene& scene, const std::vector<PlacedObject>& objects,
+                                                const FrameOptions& options) {
+    const auto engine = std::make_shared<engine::DataModule>(limits_of_viewer());
+    Result<std::shared_ptr<const ShownNodes>> nodes = show_all(objects, *engine);
+    if (!nodes) return nodes.error();
+    return create(scene, engine, std::move(*nodes), options);
+}
+
+FrameCompositor::FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+                                 std::shared_ptr<const ShownNodes> nodes, Renderers renderers,
+                                 const FrameOptions& options)
+    : floor_(scene.floor),
+      floor_background_(background_colour(scene.background, {0, 0, -1})),
+      fog_(scene.fog),
+      engine_(std::move(engine)),
+      nodes_(std::move(nodes)),
+      turns_rad_(nodes_->size()),
+      renderers_(std::move(renderers)),
+      wire_frame_(options.wire_frame),
+      time_parts_(options.time_parts),
+      samples_(options.samples),
+      object_depth_(options.object_depth),
+      object_samples_(options.object_samples),
+      upright_pictures_(options.upright_pictures),
+      rectangle_(4) {
+    for (const Light& light : scene.lights) {
+        if (light.kind != LightKind::kDirectional || !light.everywhere) continue;
+        floor_light_ += light.ambient + light.colour * static_cast<float>(std::max(-light.towards.y, 0.0));
+    }
+}
+
+Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {
+    if (Status status = draw(camera); !status) return status.error();
+    return picture();
+}
+
+std::optional<ObjectView> FrameCompositor::view_of_node(std::size_t index, const Camera& camera) const {
+    const ShownNode& node = (*nodes_)[index];
+    if (!node.object) return std::nullopt;
+    PlacedObject placed = *node.object;
+    const double angle = placed.world_from_object.mirrors() ? -turns_rad_[index] : turns_rad_[index];
+    placed.world_from_object = placed.world_from_object * NodeTransform{.angle_rad = angle}.parent_from_node();
+    return view_of_object(placed, camera, {object_samples_, upright_pictures_});
+}
+
+std::vector<FrameCompositor::SeenNode> FrameCompositor::seen_nodes(const Camera& camera) const {
+    std::vector<SeenNode> seen;
+    for (std::size_t i = 0; i < nodes_->size(); ++i) {
+        if (auto view = view_of_node(i, camera)) seen.push_back({i, *view, {}});
+    }
+    return seen;
+}
+
+Status FrameCompositor::draw(const Camera& camera) {
+    RS_CHECK(camera.width == width() && camera.height == height());
+    const FrameView view = view_of_frame(camera);
+    statistics_ = {};
+    statistics_.nodes.resize(nodes_->size());
+    camera_ = camera;
+    PartClock clock(time_parts_);
+    for (std::size_t i = 0; i < nodes_->size(); ++i) {
+        if (!(*nodes_)[i].object) renderers_.objects.release(i);
+    }
+    std::vector<SeenNode> seen = seen_nodes(camera);
+    statistics_.nodes_not_seen = static_cast<int>(nodes_->size() - seen.size());
+    std::vector<engine::ViewRequest> requests;
+    for (const SeenNode& node : seen) {
+        requests.push_back({(*nodes_)[node.index].handle, node.view.camera, object_depth_ == ObjectDepth::kPixel});
+    }
+    EngineViews views(*engine_);
+    if (const Status status = views.submit(std::move(requests)); !status) return status.error();
+
+    renderers_.frame.drawn.begin(renderers_.background.zenith());
+    if (!renderers_.background.plain()) renderers_.background.draw(camera);
+    const auto transparent = renderers_.surfaces.draw_opaque(view, wire_frame_);
+    statistics_.geometry_in_view = renderers_.surfaces.nodes_in_view();
+    if (floor_) draw_floor(view);
+    gl::flush();
+    statistics_.geometry_s = clock.lap();
+
+    Result<std::vector<engine::DrawnView>> drawn = views.retrieve();
+    if (!drawn) return drawn.error();
+    statistics_.engine_wait_s = clock.lap();
+    for (std::size_t n = 0; n < seen.size(); ++n) {
+        seen[n].drawn = std::move((*drawn)[n]);
+        upload(seen[n]);
+    }
+    statistics_.upload_s = clock.lap();
+    draw_blended(transparent, seen, view);
+    if (const auto& resolved = renderers_.frame.resolved) renderers_.frame.drawn.resolve_to(*resolved);
+    statistics_.composite_s = clock.lap();
+    return {};
+}
+
+// Everything that is blended, the farthest first; of the same distance geometry before objects.
+void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparent>& surfaces,
+                                   const std::vector<SeenNode>& nodes, const FrameView& view) {
+    struct Blended {
+        double distance;
+        const SurfaceRenderer::Transparent* surface;
+        const SeenNode* node;
+        const Placeholder* placeholder;
+    };
+    std::vector<Blended> blended;
+    for (const auto& surface : surfaces) blended.push_back({surface.distance, &surface, nullptr, nullptr});
+    for (const SeenNode& node : nodes) blended.push_back({node.view.plane_distance, nullptr, &node, nullptr});
+    for (std::size_t i = 0; i < nodes_->size(); ++i) {
+        const auto& placeholder = (*nodes_)[i].placeholder;
+        if (!placeholder || !may_be_seen(bounds_of(*placeholder), view)) continue;
+        statistics_.nodes[i].missing = !(*nodes_)[i].object;
+        statistics_.nodes_missing += statistics_.nodes[i].missing ? 1 : 0;
+        const double distance = glm::distance(placeholder->world_from_object.translation, view.camera.centre());
+        blended.push_back({distance, nullptr, nullptr, &*placeholder});
+    }
+    std::stable_sort(blended.begin(), blended.end(),
+                     [](const Blended& a, const Blended& b) { return a.distance > b.distance; });
+    for (const Blended& item : blended) {
+        if (item.surface != nullptr) renderers_.surfaces.draw_transparent(*item.surface, view, wire_frame_);
+        if (item.node != nullptr) draw_object(*item.node);
+        if (item.placeholder != nullptr) renderers_.placeholders.draw(*item.placeholder, view);
+    }
+}
+
+Status FrameCompositor::resize(int width, int height) {
+    auto frame = Frame::create(width, height, samples_);
+    if (!frame) return frame.error();
+    renderers_.frame = std::move(*frame);
+    camera_.reset();
+    return {};
+}
+
+void FrameCompositor::turn_object(std::size_t index, double angle_rad) {
+    turns_rad_[index] = angle_rad;
+}
+
+std::optional<double> FrameCompositor::distance_ahead() const {
+    const float depth = renderers_.frame.depth_at(width() / 2, height() / 2);
+    if (!(depth > 0)) return std::nullopt;
+    return kNear / depth;
+}
+
+std::optional<std::size_t> FrameCompositor::object_at(int x, int y) const {
+    if (!camera_ || x < 0 || y < 0 || x >= width() || y >= height()) return std::nullopt;
+    const double geometry = renderers_.frame.depth_at(x, y);  // kNear / distance, 0 where there is none
+    const glm::dvec3 position(x + 0.5, y + 0.5, 1);
+    std::optional<std::size_t> nearest;
+    double nearest_distance = 0;
+    for (std::size_t i = 0; i < nodes_->size(); ++i) {
+        const auto view = view_of_node(i, *camera_);
+        if (!view || (nearest && view->plane_distance >= nearest_distance)) continue;
+        const ScreenRectangle& area = view->rectangle;
+        if (x < area.x || y < area.y || x >= area.x + area.width || y >= area.y + area.height) continue;
+        if (glm::dot(view->inverse_depth_facing, position) * kNear < geometry) continue;  // hidden
+        const auto at = view->picture_pixel(x, y);
+        if (!at) continue;
+        Camera pixel = view->camera;
+        pixel.cx -= at->x;
+        pixel.cy -= at->y;
+        pixel.width = 1;
+        pixel.height = 1;
+        EngineViews views(*engine_);
+        if (!views.submit({{(*nodes_)[i].handle, pixel}})) continue;
+        const Result<std::vector<engine::DrawnView>> drawn = views.retrieve();
+        if (!drawn || drawn->front().picture(0, 0).a < 128) continue;
+        nearest = i;
+        nearest_distance = view->plane_distance;
+    }
+    return nearest;
+}
+
+void FrameCompositor::draw_floor(const FrameView& view) const {
+    const gl::Program& program = renderers_.floor;
+    program.set("clip_from_world", glm::mat4(view.clip_from_world));
+    program.set("height", static_cast<float>(floor_->height));
+    program.set("radius", static_cast<float>(floor_->radius));
+    program.set("square", static_cast<float>(floor_->square));
+    program.set("colour_a", floor_->colour_a * floor_light_);
+    program.set("colour_b", floor_->colour_b * floor_light_);
+    program.set("background", floor_background_);
+    gl::draw(program, rectangle_, {});
+}
+
+void FrameCompositor::upload(const SeenNode& node) {
+    const engine::DrawnView& drawn = node.drawn;
+    Image<float> depths;
+    if (object_depth_ == ObjectDepth::kPixel) {
+        const RaySpaceObject& object = (*nodes_)[node.index].object->object->renderer.object();
+        depths = engine::depth_picture(object, node.view.camera, drawn.depth_q20);
+    }
+    renderers_.objects.upload(node.index, node.view, drawn.picture, depths);
+    const int width = drawn.picture.width();
+    const int height = drawn.picture.height();
+    statistics_.nodes[node.index] = {true, width, height, drawn.seconds, drawn.by_board};
+    statistics_.engine_s += drawn.seconds;
+    statistics_.nodes_rendered += 1;
+    statistics_.nodes_by_board += drawn.by_board ? 1 : 0;
+    statistics_.pixels_rendered += std::int64_t{width} * height;
+}
+
+void FrameCompositor::draw_object(const SeenNode& node) const {
+    renderers_.objects.draw(node.index, node.view,
+                            {.screen_px = {width(), height()},
+                             .fog = fog_ ? fog_->colour : glm::vec3(0),
+                             .own_light = kept_in_fog(fog_, node.view.plane_distance),
+                             .opacity = (*nodes_)[node.index].opacity});
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,163 @@
+#pragma once
+// Composites frames: the scene's geometry with a depth buffer, and the pictures that the engine reconstructs of its
+// ray-space nodes, each at the depth of its reference plane.
+//
+// A frame:  views of the nodes that can be seen: camera into the node's coordinates (equation 3), only the pixels that
+//           the node can cover -> engine, which draws them while
+//           background -> opaque geometry -> floor  are drawn
+//           -> transparent geometry and the engine's pictures, the farthest first: texture -> rectangle at the depth of
+//           its planes (object_view.hpp), tested against the geometry, blended over.
+//
+// Nodes do not hide each other by depth (half-transparent rims would cut holes) but by their order.
+
+#include "compositor/gl/framebuffer.hpp"
+#include "compositor/gl/program.hpp"
+#include "compositor/gl/vertex_array.hpp"
+#include "compositor/scene/scene.hpp"
+#include "compositor/viewer/drawing/background_renderer.hpp"
+#include "compositor/viewer/drawing/object_renderer.hpp"
+#include "compositor/viewer/drawing/placeholder_renderer.hpp"
+#include "compositor/viewer/drawing/shown_node.hpp"
+#include "compositor/viewer/drawing/surface_renderer.hpp"
+#include "compositor/viewer/residency/placed_object.hpp"
+#include "compositor/viewer/views/frustum.hpp"
+#include "compositor/viewer/views/object_view.hpp"
+#include "engine/driver/data_module.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace rs::compositor {
+
+struct FrameOptions {
+    int width = 1280;  // px
+    int height = 720;
+    int samples = 4;          // per pixel, for the edges of geometry
+    bool wire_frame = false;  // of the geometry, floor excepted
+    ObjectDepth object_depth = ObjectDepth::kPlane;
+    int object_samples =
+        kUsualSamplesAcross;  // across a pixel, at most, where objects are far (object_view.hpp); from 1
+    // Objects are drawn for a level camera in the same place and looked up (upright_picture.hpp): faster, and a board
+    // can do it; a touch softer.
+    bool upright_pictures = false;
+    // Waits for the drawing of each part, so that the times of FrameStatistics are its own. Slower.
+    bool time_parts = false;
+};
+
+// Of one ray-space node in one frame.
+struct NodeStatistics {
+    bool in_view = false;
+    int width = 0;  // of the picture that the engine drew, px
+    int height = 0;
+    double engine_s = 0;
+    bool by_board = false;
+    bool missing = false;  // a placeholder is in view
+};
+
+struct FrameStatistics {
+    int nodes_rendered = 0;            // by the engine
+    int nodes_by_board = 0;            // of them
+    int nodes_not_seen = 0;            // off the screen, too small, or not there
+    int nodes_missing = 0;             // placeholders in view
+    std::int64_t pixels_rendered = 0;  // by the engine
+    int geometry_in_view = 0;          // geometry nodes that were drawn
+    double geometry_s = 0;             // background, geometry, floor
+    double engine_s = 0;               // of drawing the views, at the same time as the geometry
+    double engine_wait_s = 0;          // the part of it that the frame waited for
+    double upload_s = 0;               // of the engine's pictures
+    double composite_s = 0;            // blending, transparent geometry, averaging of samples
+    std::vector<NodeStatistics> nodes;
+};
+
+// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+class FrameCompositor {
+public:
+    // `nodes` may change from frame to frame, but not in number; their objects are loaded in `engine`, to which nobody
+    // else submits while a frame is drawn.
+    static Result<FrameCompositor> create(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+                                          std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options = {});
+    // Of objects that are there from the beginning on, drawn by the software core.
+    static Result<FrameCompositor> create(const Scene& scene, const std::vector<PlacedObject>& objects,
+                                          const FrameOptions& options = {});
+
+    // The camera in scene coordinates; its size must be that of the options. The picture is opaque. Fails where the
+    // engine refuses the view, naming the object.
+    Result<Image<Rgba8>> compose(const Camera& camera);
+
+    // The same in two steps: draw() leaves the frame with the context's device, for show_in_window() or picture().
+    Status draw(const Camera& camera);
+    [[nodiscard]] Image<Rgba8> picture() const { return renderers_.frame.shown().read_picture(); }
+    void show_in_window(int width, int height) const { renderers_.frame.shown().show_in_window(width, height); }
+
+    // Of the last draw() or compose().
+    [[nodiscard]] const FrameStatistics& statistics() const { return statistics_; }
+    // Which ray-space node is seen at a pixel of the last frame.
+    [[nodiscard]] std::optional<std::size_t> object_at(int x, int y) const;
+    // How far geometry is along the middle pixel's ray in the last frame, scene units; nothing where there is none.
+    [[nodiscard]] std::optional<double> distance_ahead() const;
+
+    [[nodiscard]] int width() const { return renderers_.frame.drawn.width(); }
+    [[nodiscard]] int height() const { return renderers_.frame.drawn.height(); }
+    // Frames of another size from now on. Fails, with nothing changed, where the driver cannot.
+    Status resize(int width, int height);
+    void set_wire_frame(bool wire_frame) { wire_frame_ = wire_frame; }
+    // Turns a node about its object's axis: counter-clockwise seen from above, from where the scene has put it.
+    void turn_object(std::size_t index, double angle_rad);
+
+private:
+    struct Frame {
+        gl::Framebuffer drawn;
+        std::optional<gl::Framebuffer> resolved;  // to one sample; only where there are several
+
+        static Result<Frame> create(int width, int height, int samples);
+        [[nodiscard]] const gl::Framebuffer& shown() const { return resolved ? *resolved : drawn; }
+        [[nodiscard]] float depth_at(int x, int y) const { return drawn.depth_at(x, y, shown()); }
+    };
+    struct Renderers {
+        gl::Program floor;
+        ObjectRenderer objects;
+        PlaceholderRenderer placeholders;
+        BackgroundRenderer background;
+        SurfaceRenderer surfaces;
+        Frame frame;
+    };
+    FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+                    std::shared_ptr<const ShownNodes> nodes, Renderers renderers, const FrameOptions& options);
+
+    struct SeenNode {
+        std::size_t index = 0;
+        ObjectView view;
+        engine::DrawnView drawn;
+    };
+    [[nodiscard]] std::optional<ObjectView> view_of_node(std::size_t index, const Camera& camera) const;
+    [[nodiscard]] std::vector<SeenNode> seen_nodes(const Camera& camera) const;
+    void draw_floor(const FrameView& view) const;
+    void upload(const SeenNode& node);
+    void draw_object(const SeenNode& node) const;
+    void draw_blended(const std::vector<SurfaceRenderer::Transparent>& surfaces, const std::vector<SeenNode>& nodes,
+                      const FrameView& view);
+
+    std::optional<Floor> floor_;
+    glm::vec3 floor_light_{0};       // that falls on it from above
+    glm::vec3 floor_background_{0};  // into which it fades
+    std::optional<Fog> fog_;
+    std::shared_ptr<engine::DataModule> engine_;
+    std::shared_ptr<const ShownNodes> nodes_;
+    std::vector<double> turns_rad_;  // [node]: by which the visitor has turned it
+    std::optional<Camera> camera_;   // of the last frame
+    Renderers renderers_;
+    bool wire_frame_;
+    bool time_parts_;
+    int samples_;
+    ObjectDepth object_depth_;
+    int object_samples_;
+    bool upright_pictures_;
+    gl::VertexArray rectangle_;
+    FrameStatistics statistics_;
+};
+
+}  // namespace rs::compositor

@@ -1,0 +1,141 @@
+#include "compositor/viewer/drawing/object_renderer.hpp"
+
+#include "compositor/gl/draw.hpp"
+#include "compositor/viewer/drawing/shader_constants.hpp"
+#include "compositor/viewer/drawing/shaders.hpp"
+#include "compositor/viewer/drawing/shown_parts.hpp"
+#include "compositor/viewer/views/frustum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace rs::compositor {
+
+namespace {
+
+constexpr float kHidingAlpha = 0.5F;  // alpha from which a pixel hides what is behind it
+
+// A texture that holds at least width x height texels.
+gl::Texture& large_enough(std::optional<gl::Texture>& texture, int width, int height, gl::TexelKind kind) {
+    if (!texture || texture->width() < width || texture->height() < height) {
+        texture.emplace(std::max(texture ? texture->width() : 0, width),
+                        std::max(texture ? texture->height() : 0, height), kind);
+    }
+    return *texture;
+}
+
+// How far from its place a pixel of the screen, or one that touches it, reads the picture.
+int margin_of(const ObjectView& view) {
+    const auto place = [&](double x, double y) {
+        const glm::dvec3 p = view.picture_from_screen * glm::dvec3(x, y, 1);
+        return glm::dvec2(p) / p.z;
+    };
+    const ScreenRectangle& area = view.rectangle;
+    double farthest = 0;
+    for (const int x : {area.x, area.x + area.width - 1}) {
+        for (const int y : {area.y, area.y + area.height - 1}) {
+            const glm::dvec2 across = glm::abs(place(x + 1, y) - place(x, y));
+            const glm::dvec2 down = glm::abs(place(x, y + 1) - place(x, y));
+            farthest = std::max({farthest, across.x + down.x, across.y + down.y});
+        }
+    }
+    constexpr double kBetweenTexels = 1.5;
+    constexpr double kMost = 64;
+    return static_cast<int>(std::ceil(std::min(farthest, kMost) + kBetweenTexels));
+}
+
+std::optional<gl::VertexArray> triangles(const std::vector<glm::vec3>& corners,
+                                         const std::vector<std::uint32_t>& indices) {
+    if (indices.empty()) return std::nullopt;
+    return std::make_optional<gl::VertexArray>(std::as_bytes(std::span(corners)), static_cast<int>(sizeof(glm::vec3)),
+                                               std::vector<gl::VertexAttribute>{{3, 0}}, indices);
+}
+
+}  // namespace
+
+Result<ObjectRenderer> ObjectRenderer::create(std::size_t nodes, ObjectDepth depth) {
+    Programs programs;
+    for (const bool opaque : {false, true}) {
+        for (int samples = 0; samples <= kMostSamplesAcross; ++samples) {
+            const std::string constants =
+                "#version 450 core\n" + shader_constant("kPixelDepth", depth == ObjectDepth::kPixel) +
+                shader_constant("kOpaque", opaque) + shader_constant("kSamplesAcross", std::max(samples, 1)) +
+                shader_constant("kSmooth", samples == 0);
+            auto program = gl::Program::create("object", shaders::kObjectVertex, constants + shaders::kObjectFragment);
+            if (!program) return program.error();
+            (opaque ? programs.opaque : programs.blended).push_back(std::move(*program));
+        }
+    }
+    return ObjectRenderer(std::move(programs), nodes, depth);
+}
+
+ObjectRenderer::ObjectRenderer(Programs programs, std::size_t nodes, ObjectDepth depth)
+    : depth_(depth), programs_(std::move(programs)), textures_(nodes) {}
+
+void ObjectRenderer::upload(std::size_t node, const ObjectView& view, ConstImageView<Rgba8> picture,
+                            ConstImageView<float> depths) {
+    Textures& textures = textures_[node];
+    const ShownMesh shown = shown_mesh(shown_bands(picture, margin_of(view)), glm::inverse(view.picture_from_screen));
+    textures.opaque = triangles(shown.corners, shown.opaque);
+    textures.blended = triangles(shown.corners, shown.blended);
+    textures.filled_last ^= 1;
+    const int width = picture.width();
+    const int height = picture.height();
+    large_enough(textures.in_turns[textures.filled_last], width, height, gl::TexelKind::kColour).upload(picture);
+    if (depth_ != ObjectDepth::kPixel) return;
+    RS_CHECK(depths.width() == width && depths.height() == height);
+    large_enough(textures.depths[textures.filled_last], width, height, gl::TexelKind::kFloat).upload(depths);
+}
+
+const gl::Program& ObjectRenderer::set_up(const std::vector<gl::Program>& programs, const ObjectView& view,
+                                          const Appearance& appearance) const {
+    const gl::Program& program = programs[view.smooth ? 0 : static_cast<std::size_t>(view.samples_across)];
+    program.set("screen", glm::vec2(appearance.screen_px));
+    program.set("picture_from_screen", glm::mat3(view.picture_from_screen));
+    program.set("facing_depth", glm::vec3(view.inverse_depth_facing * kNear));
+    program.set("foot_depth", glm::vec3(view.inverse_depth_foot * kNear));
+    program.set("from_above", view.from_above ? 1 : 0);
+    program.set("fog", glm::vec4(appearance.fog, appearance.own_light));
+    program.set("opacity", appearance.opacity);
+    if (depth_ == ObjectDepth::kPixel) {
+        program.set("near_of_depths", static_cast<float>(kNear / view.units_per_rig_unit));
+    }
+    return program;
+}
+
+void ObjectRenderer::draw(std::size_t node, const ObjectView& view, const Appearance& appearance) const {
+    const Textures& textures = textures_[node];
+    textures.in_turns[textures.filled_last]->bind(0);
+    if (depth_ == ObjectDepth::kPixel) textures.depths[textures.filled_last]->bind(1);
+    const bool there = appearance.opacity >= 1;  // what is still fading in hides nothing
+    if (textures.opaque) {
+        gl::draw(set_up(programs_.opaque, view, appearance), *textures.opaque,
+                 {.depth_write = there && depth_ == ObjectDepth::kPixel,
+                  .blending = there ? gl::Blending::kReplace : gl::Blending::kOverPremultiplied});
+    }
+    if (textures.blended) {
+        const gl::Program& program = set_up(programs_.blended, view, appearance);
+        program.set("picture_size", glm::ivec2(view.camera.width, view.camera.height));
+        draw_blended_parts(*textures.blended, program, there);
+    }
+}
+
+void ObjectRenderer::draw_blended_parts(const gl::VertexArray& parts, const gl::Program& program, bool there) const {
+    const auto draw_alphas = [&](float least, float end, bool hides) {
+        program.set("alphas", glm::vec2(least, end));
+        gl::draw(program, parts, {.depth_write = hides, .blending = gl::Blending::kOverPremultiplied});
+    };
+    constexpr float kMoreThanAll = 2;
+    if (depth_ == ObjectDepth::kPlane) return draw_alphas(0, kMoreThanAll, false);
+    draw_alphas(kHidingAlpha, kMoreThanAll, there);
+    draw_alphas(0, kHidingAlpha, false);
+}
+
+void ObjectRenderer::release(std::size_t node) {
+    textures_[node] = {};
+}
+
+}  // namespace rs::compositor

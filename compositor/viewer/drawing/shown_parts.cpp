@@ -1,0 +1,158 @@
+#include "compositor/viewer/drawing/shown_parts.hpp"
+
+#include <algorithm>
+
+namespace rs::compositor {
+namespace {
+
+constexpr int kClosedGap_px = 8;        // no longer ones are drawn with what is beside them
+constexpr int kShortestOpaque_px = 16;  // shorter ones are not worth polygons of their own
+
+struct ColumnRange {
+    int begin = 0;
+    int end = 0;
+};
+
+// Of the places within `margin` of it: the largest or least alpha of each column, those beyond the picture are 0.
+// Element x + margin is column x, from -margin to width + margin.
+struct ColumnAlphas {
+    std::vector<std::uint8_t> largest;
+    std::vector<std::uint8_t> least;
+};
+
+ColumnAlphas column_alphas(ConstImageView<Rgba8> picture, int first_row, int end_row, int margin) {
+    const auto width = static_cast<std::size_t>(picture.width());
+    std::vector<std::uint8_t> largest(width, 0);
+    std::vector<std::uint8_t> least(width, first_row < 0 || end_row > picture.height() ? 0 : 255);
+    for (int y = std::max(first_row, 0); y < std::min(end_row, picture.height()); ++y) {
+        const Rgba8* row = picture.row(y);
+        for (std::size_t x = 0; x < width; ++x) {
+            largest[x] = std::max(largest[x], row[x].a);
+            least[x] = std::min(least[x], row[x].a);
+        }
+    }
+    const auto beside = static_cast<std::size_t>(margin);
+    ColumnAlphas around{std::vector<std::uint8_t>(width + 2 * beside, 0),
+                        std::vector<std::uint8_t>(width + 2 * beside, 0)};
+    for (std::size_t shift = 0; shift <= 2 * beside; ++shift) {
+        for (std::size_t x = 0; x < width; ++x) {
+            around.largest[x + shift] = std::max(around.largest[x + shift], largest[x]);
+        }
+    }
+    // What is fewer than `margin` columns from an end has nothing beyond it.
+    for (std::size_t x = beside; x + beside < width; ++x) {
+        around.least[x + beside] = *std::min_element(least.begin() + static_cast<std::ptrdiff_t>(x - beside),
+                                                     least.begin() + static_cast<std::ptrdiff_t>(x + beside + 1));
+    }
+    return around;
+}
+
+// The ranges of columns where `holds`, in order; gaps of at most `closed` columns are closed and ranges of fewer than
+// `shortest` left out.
+template <class Predicate>
+std::vector<ColumnRange> ranges_where(int count, int closed, int shortest, Predicate holds) {
+    std::vector<ColumnRange> ranges;
+    for (int x = 0; x < count; ++x) {
+        if (!holds(static_cast<std::size_t>(x))) continue;
+        if (!ranges.empty() && x <= ranges.back().end + closed) {
+            ranges.back().end = x + 1;
+        } else {
+            ranges.push_back({x, x + 1});
+        }
+    }
+    std::erase_if(ranges, [&](const ColumnRange& range) { return range.end - range.begin < shortest; });
+    return ranges;
+}
+
+// All split points of a line between two bands: the ends of the runs above and below it.
+std::vector<int> split_columns(const ShownBand* above, const ShownBand* below) {
+    std::vector<int> columns;
+    for (const ShownBand* band : {above, below}) {
+        if (band == nullptr) continue;
+        for (const ShownRun& run : band->runs) columns.insert(columns.end(), {run.begin, run.end});
+    }
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    return columns;
+}
+
+// The corners of one line, of which corner i of the mesh is at columns[i - first].
+struct CornerLine {
+    std::vector<int> columns;
+    std::uint32_t first = 0;
+
+    [[nodiscard]] std::uint32_t corner(int column) const {
+        const auto at = std::lower_bound(columns.begin(), columns.end(), column);
+        return first + static_cast<std::uint32_t>(at - columns.begin());
+    }
+};
+
+// The polygon between two lines, from column run.begin to run.end: along both, the lesser column first.
+void add_triangles(const ShownRun& run, const CornerLine& top, const CornerLine& bottom,
+                   std::vector<std::uint32_t>& indices) {
+    std::uint32_t upper = top.corner(run.begin);
+    std::uint32_t lower = bottom.corner(run.begin);
+    const std::uint32_t upper_end = top.corner(run.end);
+    const std::uint32_t lower_end = bottom.corner(run.end);
+    while (upper < upper_end || lower < lower_end) {
+        const bool along_top =
+            lower == lower_end ||
+            (upper < upper_end && top.columns[upper + 1 - top.first] <= bottom.columns[lower + 1 - bottom.first]);
+        indices.insert(indices.end(), {upper, lower, along_top ? upper + 1 : lower + 1});
+        ++(along_top ? upper : lower);
+    }
+}
+
+}  // namespace
+
+std::vector<ShownBand> shown_bands(ConstImageView<Rgba8> picture, int margin_px) {
+    RS_CHECK(margin_px >= 0);
+    std::vector<ShownBand> bands;
+    for (int top = 0; top < picture.height(); top += kBandRows) {
+        const int bottom = std::min(top + kBandRows, picture.height());
+        const ColumnAlphas alphas = column_alphas(picture, top - margin_px, bottom + margin_px, margin_px);
+        const auto count = static_cast<int>(alphas.largest.size());
+        const auto shown = ranges_where(count, kClosedGap_px, 1, [&](std::size_t x) { return alphas.largest[x] > 0; });
+        const auto opaque =
+            ranges_where(count, 0, kShortestOpaque_px, [&](std::size_t x) { return alphas.least[x] == 255; });
+        ShownBand band{top, bottom, {}};
+        if (top == 0) band.top -= margin_px;
+        if (bottom == picture.height()) band.bottom += margin_px;
+        for (const ColumnRange& range : shown) {
+            int begin = range.begin;
+            for (const ColumnRange& inner : opaque) {
+                if (inner.begin < range.begin || inner.end > range.end) continue;
+                if (begin < inner.begin) band.runs.push_back({begin - margin_px, inner.begin - margin_px, false});
+                band.runs.push_back({inner.begin - margin_px, inner.end - margin_px, true});
+                begin = inner.end;
+            }
+            if (begin < range.end) band.runs.push_back({begin - margin_px, range.end - margin_px, false});
+        }
+        bands.push_back(std::move(band));
+    }
+    return bands;
+}
+
+ShownMesh shown_mesh(const std::vector<ShownBand>& bands, const glm::dmat3& screen_from_picture) {
+    ShownMesh mesh;
+    const auto line = [&](const ShownBand* above, const ShownBand* below, int row) {
+        CornerLine made{split_columns(above, below), static_cast<std::uint32_t>(mesh.corners.size())};
+        for (const int column : made.columns) {
+            mesh.corners.emplace_back(screen_from_picture * glm::dvec3(column, row, 1));
+        }
+        return made;
+    };
+    if (bands.empty()) return mesh;
+    CornerLine top = line(nullptr, &bands.front(), bands.front().top);
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+        const ShownBand* below = i + 1 < bands.size() ? &bands[i + 1] : nullptr;
+        CornerLine bottom = line(&bands[i], below, bands[i].bottom);
+        for (const ShownRun& run : bands[i].runs) {
+            add_triangles(run, top, bottom, run.opaque ? mesh.opaque : mesh.blended);
+        }
+        top = std::move(bottom);
+    }
+    return mesh;
+}
+
+}  // namespace rs::compositor

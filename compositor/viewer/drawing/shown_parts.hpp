@@ -1,0 +1,48 @@
+#pragma once
+// Which parts of an object's picture show something, and their outline on the screen: a third or more of a picture's
+// pixels are empty, and what is opaque need not be blended. Pure; thread-safe.
+//
+//   picture -> bands of kBandRows rows -> in each of them runs of columns, opaque ones and others -> polygons
+//
+// Polygons that touch share their corners exactly, so no pixel between them is left out or drawn twice.
+
+#include "rayspace/image/image.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace rs::compositor {
+
+inline constexpr int kBandRows = 16;
+
+// Columns [begin, end) of the picture, which may reach beyond it by the margin.
+struct ShownRun {
+    int begin = 0;
+    int end = 0;
+    bool opaque = false;  // with everything around it that is nearer than the margin
+    bool operator==(const ShownRun&) const = default;
+};
+
+// Rows [top, bottom). The runs are in order; what lies between two of them, or is nearer to it than the margin, is
+// empty.
+struct ShownBand {
+    int top = 0;
+    int bottom = 0;
+    std::vector<ShownRun> runs;
+};
+
+// From top to bottom without gaps. `margin_px` >= 0: how far around its place a pixel of the screen reads the picture.
+std::vector<ShownBand> shown_bands(ConstImageView<Rgba8> picture, int margin_px);
+
+// Triangles of the runs. Corners are homogeneous: (x, y, w) is the place (x / w, y / w) on the screen.
+struct ShownMesh {
+    std::vector<glm::vec3> corners;
+    std::vector<std::uint32_t> opaque;  // three corners each
+    std::vector<std::uint32_t> blended;
+};
+// screen_from_picture * (u, v, 1) = w * (x, y, 1).
+ShownMesh shown_mesh(const std::vector<ShownBand>& bands, const glm::dmat3& screen_from_picture);
+
+}  // namespace rs::compositor

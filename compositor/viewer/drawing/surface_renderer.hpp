@@ -1,0 +1,63 @@
+#pragma once
+// Draws the geometry of a scene: lit (geometry_shaders.hpp), textured, in fog, culled by the frustum. Meshes and
+// pictures are on the GPU from the beginning on, and every kind of surface has its shader. The nearest is drawn
+// first, so that light is computed for little that is hidden.
+
+#include "compositor/gl/draw.hpp"
+#include "compositor/gl/program.hpp"
+#include "compositor/gl/texture.hpp"
+#include "compositor/gl/vertex_array.hpp"
+#include "compositor/scene/scene.hpp"
+#include "compositor/viewer/drawing/surface_tables.hpp"
+#include "compositor/viewer/views/frustum.hpp"
+#include "rayspace/base/result.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace rs::compositor {
+
+// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+class SurfaceRenderer {
+public:
+    static Result<SurfaceRenderer> create(const Scene& scene);
+
+    struct Transparent {
+        std::size_t index;
+        double distance;  // from the viewpoint to the middle of what is drawn, scene units
+    };
+    // Draws what is opaque and returns what is not but may be in the picture, to be drawn from the farthest on.
+    std::vector<Transparent> draw_opaque(const FrameView& view, bool wire_frame);
+    void draw_transparent(const Transparent& item, const FrameView& view, bool wire_frame) const;
+
+    // Of the last draw_opaque(): geometry nodes that the frustum let pass.
+    [[nodiscard]] int nodes_in_view() const { return nodes_in_view_; }
+
+private:
+    struct Item {
+        std::shared_ptr<const gl::VertexArray> mesh;
+        std::shared_ptr<const gl::Texture> picture;
+        glm::dmat4 world_from_node;
+        BoundingBox bounds;                          // in scene coordinates
+        std::shared_ptr<const gl::Program> program;  // of its kind
+        MaterialRow material;
+        std::vector<LightRow> lights;
+        glm::mat3 texture_transform{1};
+        bool transparent = false;
+        bool two_sided = true;
+        bool mirrored = false;  // by its matrix
+    };
+    SurfaceRenderer() = default;
+    void set_frame(const FrameView& view) const;
+    void draw(const Item& item, const FrameView& view, gl::DrawState state) const;
+
+    std::vector<std::shared_ptr<const gl::Program>> programs_;  // one for each kind of surface that there is
+    std::vector<Item> items_;
+    std::optional<Fog> fog_;
+    bool headlight_ = false;
+    int nodes_in_view_ = 0;
+};
+
+}  // namespace rs::compositor

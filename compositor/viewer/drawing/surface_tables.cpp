@@ -1,0 +1,112 @@
+#include "compositor/viewer/drawing/surface_tables.hpp"
+
+#include <algorithm>
+
+namespace rs::compositor {
+
+static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 64);
+
+namespace {
+
+// The corners of a node's triangles as its shader lights them.
+class SurfaceInWorld {
+public:
+    explicit SurfaceInWorld(const GeometryNode& node) : mesh_(*node.mesh) {
+        const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(node.world_from_node)));
+        for (const MeshVertex& vertex : mesh_.vertices) {
+            places_.emplace_back(node.world_from_node * glm::dvec4(vertex.position, 1));
+            const glm::dvec3 normal = turn * glm::dvec3(vertex.normal);
+            const double length = glm::length(normal);
+            normals_.push_back(length > 0 ? normal / length : normal);
+        }
+    }
+
+    // Nowhere on a triangle can the light be reflected: neither place nor normal leave the hull of its corners', and
+    // normal . (light - place) is linear in both.
+    [[nodiscard]] bool turns_its_back_to(const Light& light) const {
+        if (mesh_.two_sided || mesh_.topology != Topology::kTriangles) return false;
+        constexpr double kGrazing = 1e-4;  // the shader computes in single precision
+        if (light.kind == LightKind::kDirectional) {
+            return std::none_of(mesh_.indices.begin(), mesh_.indices.end(),
+                                [&](std::uint32_t i) { return -glm::dot(normals_[i], light.towards) > -kGrazing; });
+        }
+        for (std::size_t first = 0; first + 2 < mesh_.indices.size(); first += 3) {
+            for (std::size_t corner = 0; corner < 9; ++corner) {
+                const glm::dvec3& normal = normals_[mesh_.indices[first + corner / 3]];
+                const glm::dvec3 way = light.location - places_[mesh_.indices[first + corner % 3]];
+                if (glm::dot(normal, way) > -kGrazing * glm::length(way)) return false;
+            }
+        }
+        return true;
+    }
+
+private:
+    const Mesh& mesh_;
+    std::vector<glm::dvec3> places_;
+    std::vector<glm::dvec3> normals_;  // of unit length, or 0
+};
+
+}  // namespace
+
+LightRow row_of(const Light& light) {
+    return {{light.colour, 0},
+            {light.ambient, static_cast<float>(light.radius)},
+            {glm::vec3(light.location), static_cast<float>(light.cut_off_rad)},
+            {glm::vec3(light.towards), static_cast<float>(light.beam_width_rad)},
+            {light.attenuation, 0}};
+}
+
+AlphaUse alpha_use(const SceneTexture& texture) {
+    if (!texture.has_alpha) return AlphaUse::kNone;
+    std::size_t between = 0;
+    std::size_t not_opaque = 0;
+    const std::span<const Rgba8> pixels = texture.picture.pixels();
+    for (const Rgba8& pixel : pixels) {
+        between += pixel.a > 16 && pixel.a < 239;
+        not_opaque += pixel.a < 239;
+    }
+    if (not_opaque == 0) return AlphaUse::kNone;
+    return between * 20 > pixels.size() ? AlphaUse::kBlend : AlphaUse::kMask;
+}
+
+MaterialRow row_of(const Material& material) {
+    return {{material.diffuse, material.opacity},
+            {material.specular, material.shininess * 128},
+            {material.emissive, material.ambient},
+            {}};
+}
+
+SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world) {
+    std::vector<std::uint32_t> reaching = node.lights;
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        if (!light.everywhere) continue;
+        const glm::dvec3 nearest = glm::clamp(light.location, box_in_world.lowest, box_in_world.highest);
+        if (light.kind == LightKind::kDirectional || glm::distance(nearest, light.location) <= light.radius) {
+            reaching.push_back(i);
+        }
+    }
+    SurfaceLights found;
+    const SurfaceInWorld surface(node);
+    for (const std::uint32_t i : reaching) {
+        const Light& light = scene.lights[i];
+        const bool directional = light.kind == LightKind::kDirectional;
+        if (directional) found.ambient += light.ambient;
+        const bool ambient_is_counted = directional || light.ambient == glm::vec3(0);
+        if (ambient_is_counted && surface.turns_its_back_to(light)) continue;
+        found.lights.push_back(i);
+    }
+    return found;
+}
+
+std::vector<LightRow> rows_of(const Scene& scene, const std::vector<std::uint32_t>& lights) {
+    std::vector<LightRow> rows;
+    for (const LightKind kind : {LightKind::kDirectional, LightKind::kPoint, LightKind::kSpot}) {
+        for (const std::uint32_t i : lights) {
+            if (scene.lights[i].kind == kind) rows.push_back(row_of(scene.lights[i]));
+        }
+    }
+    return rows;
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,86 @@
+#include "compositor/viewer/residency/object_source.hpp"
+
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/format/object_memory.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+constexpr int kLowPriority = 5;  // "nice"
+
+// How far reading has come at its steps, about as long as they take.
+constexpr float kBegun = 0.05F;
+constexpr float kRead = 0.7F;
+
+class ObjectFiles final : public ObjectSource {
+public:
+    ObjectFiles(std::shared_ptr<const engine::DataModule> engine, bool background)
+        : engine_(std::move(engine)), background_(background), arena_(background ? 1 : tbb::task_arena::automatic) {}
+
+    Result<std::int64_t> most_bytes(const std::filesystem::path& file) override {
+        const auto container = ContainerReader::open(file);
+        if (!container) return container.error();
+        const Result<ReadingMemory> reading = memory_to_read(*container);
+        if (!reading) return reading.error();
+        const std::int64_t texels =
+            engine::TexelStore::bytes_of_pictures(reading->width, reading->height, reading->pictures);
+        // A board that takes it gets a copy of its own, made of what may be a changed one.
+        const int copies = engine_->has_board() ? 3 : 1;
+        return std::max(reading->most_bytes, copies * reading->object_bytes + texels);
+    }
+
+    Result<ViewableObject> read(const std::filesystem::path& file, std::int64_t most_bytes, const Tell& tell) override {
+        if (background_ && !slowed_) {  // the thread that reads is always the same
+            slowed_ = true;
+            static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kLowPriority));
+        }
+        try {
+            return arena_.execute([&]() -> Result<ViewableObject> { return read_in_arena(file, most_bytes, tell); });
+        } catch (const std::bad_alloc&) {
+            return Error{file.string() + ": there is no memory for it; lower the budget (--memory)"};
+        }
+    }
+
+private:
+    Result<ViewableObject> read_in_arena(const std::filesystem::path& file, std::int64_t most_bytes,
+                                         const Tell& tell) const {
+        tell(kBegun);
+        const auto container = ContainerReader::open(file);
+        if (!container) return container.error();
+        // The file may have changed since it was measured.
+        Result<RaySpaceObject> object =
+            read_object(*container, {.memory_cap_bytes = static_cast<std::uint64_t>(most_bytes)});
+        if (!object) return object.error();
+        tell(kRead);
+        std::shared_ptr<const RaySpaceObject> for_board = engine_->as_board_draws(*object);
+        object->coded.reset();  // unpacked by now
+        Result<ViewableObject> viewable = make_viewable(std::move(*object));
+        if (!viewable) return viewable.error();
+        viewable->for_board = std::move(for_board);
+        tell(1);
+        return viewable;
+    }
+
+    std::shared_ptr<const engine::DataModule> engine_;
+    bool background_;
+    bool slowed_ = false;
+    tbb::task_arena arena_;
+};
+
+}  // namespace
+
+std::unique_ptr<ObjectSource> object_files(std::shared_ptr<const engine::DataModule> engine, bool background) {
+    return std::make_unique<ObjectFiles>(std::move(engine), background);
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,56 @@
+#include "compositor/viewer/residency/room_plan.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace rs::compositor {
+namespace {
+
+// Of a room's longest side: what makes no difference to what is wanted.
+constexpr double kDoorOfRoom = 0.05;
+
+double distance_to(const BoundingBox& box, const glm::dvec3& point) {
+    return glm::length(point - glm::clamp(point, box.lowest, box.highest));
+}
+
+double longest_side(const BoundingBox& box) {
+    const glm::dvec3 sides = box.highest - box.lowest;
+    return std::max({sides.x, sides.y, sides.z});
+}
+
+}  // namespace
+
+RoomPlan::RoomPlan(const Scene& scene) {
+    std::map<std::filesystem::path, std::size_t> known;
+    for (const RaySpaceNode& node : scene.objects) {
+        const auto [found, is_new] = known.try_emplace(node.file, files_.size());
+        if (is_new) files_.push_back(node.file);
+        const Similarity place = world_from_node(node.chain);
+        nodes_.push_back({found->second, node.room, place.translation});
+        door_ = std::max(door_, 0.5 * place.scale);
+    }
+    for (const Room& room : scene.rooms) {
+        rooms_.push_back({room.box, room.box.empty() ? 0 : kDoorOfRoom * longest_side(room.box)});
+    }
+}
+
+std::vector<Wish> RoomPlan::wishes(const VisitorPlace& visitor) const {
+    std::vector<Wish> wishes(files_.size());
+    std::vector<bool> wished(files_.size());
+    for (const Node& node : nodes_) {
+        Wish wish;
+        wish.distance = glm::distance(node.middle, visitor.eye);
+        wish.door = door_;
+        if (node.room && !rooms_[*node.room].box.empty()) {
+            const Place& room = rooms_[*node.room];
+            wish.door = room.door;
+            wish.room_now = distance_to(room.box, visitor.eye);
+            wish.room = wish.room_now > 0 ? distance_to(room.box, visitor.soon) : Wish::kHere;
+        }
+        if (!wished[node.file] || wish < wishes[node.file]) wishes[node.file] = wish;
+        wished[node.file] = true;
+    }
+    return wishes;
+}
+
+}  // namespace rs::compositor

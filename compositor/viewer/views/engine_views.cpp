@@ -1,0 +1,44 @@
+#include "compositor/viewer/views/engine_views.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace rs::compositor {
+
+EngineViews::~EngineViews() {
+    for (const engine::CycleHandle cycle : under_way_) static_cast<void>(engine_.retrieve_views(cycle));
+}
+
+Status EngineViews::submit(std::vector<engine::ViewRequest> views) {
+    views_ = std::move(views);
+    return submit_more();
+}
+
+Status EngineViews::submit_more() {
+    const engine::DataModuleLimits& limits = engine_.limits();
+    while (submitted_ < views_.size() && under_way_.size() < static_cast<std::size_t>(limits.cycles_in_flight)) {
+        const std::size_t count =
+            std::min(views_.size() - submitted_, static_cast<std::size_t>(limits.views_per_cycle));
+        const auto first = views_.begin() + static_cast<std::ptrdiff_t>(submitted_);
+        const Result<engine::CycleHandle> cycle = engine_.submit({first, first + static_cast<std::ptrdiff_t>(count)});
+        if (!cycle) return cycle.error();
+        under_way_.push_back(*cycle);
+        submitted_ += count;
+    }
+    return {};
+}
+
+Result<std::vector<engine::DrawnView>> EngineViews::retrieve() {
+    std::vector<engine::DrawnView> all;
+    while (!under_way_.empty()) {
+        Result<std::vector<engine::DrawnView>> drawn = engine_.retrieve_views(under_way_.front());
+        under_way_.pop_front();
+        if (!drawn) return drawn.error();
+        std::move(drawn->begin(), drawn->end(), std::back_inserter(all));
+        if (const Status status = submit_more(); !status) return status.error();
+    }
+    return all;
+}
+
+}  // namespace rs::compositor

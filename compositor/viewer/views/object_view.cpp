@@ -1,0 +1,113 @@
+#include "compositor/viewer/views/object_view.hpp"
+
+#include "compositor/viewer/views/upright_picture.hpp"
+#include "engine/core/definition/view_registers.hpp"
+#include "rayspace/base/conventions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rs::compositor {
+namespace {
+
+// The foot's depth is taken this much above it (object radii), to be on the right side of the
+// ground that it stands on.
+constexpr double kAboveGround = 0.01;
+
+// The reciprocal depth, as a linear form of (x, y, 1), of the plane { p : dot(p - eye, normal) = distance }.
+glm::dvec3 inverse_depth_of_plane(const Camera& camera, const glm::dvec3& normal, double distance) {
+    // eye + depth * ray(x, y) lies on the plane where depth * dot(normal, ray) = distance.
+    return glm::dvec3(glm::dot(normal, camera.right()) / camera.fl_x, -glm::dot(normal, camera.up()) / camera.fl_y,
+                      glm::dot(normal, camera.ray(0, 0))) /
+           distance;
+}
+
+// How many pixels of a captured picture are as wide as one of the camera's, where the object's axis is.
+double captured_pixels(const RaySpaceObject& object, const Camera& camera, double distance) {
+    const CapturedView& captured = object.views.front();
+    const double radius_px = std::ldexp(captured.fl_y_q16, -16) / std::ldexp(captured.lines.front().l0_q20, -20);
+    return radius_px / (camera.fl_x / distance);
+}
+
+struct ObjectPicture {
+    Camera camera;  // in object radii
+    glm::dmat3 picture_from_screen{1.0};
+};
+
+// The rectangle as the camera sees it, with so many pixels for one of its own.
+ObjectPicture direct_picture(const Camera& camera, const ScreenRectangle& area, int samples_across, bool mirrored) {
+    ObjectPicture made{camera, glm::dmat3(1.0)};
+    made.camera.cx -= area.x;
+    made.camera.cy -= area.y;
+    double right = samples_across;
+    double left_edge = area.x;
+    if (mirrored) {  // left-handed, which engines do not take: its mirror image shows the mirror image
+        made.camera.world_from_camera[0] = -made.camera.world_from_camera[0];
+        made.camera.cx = area.width - made.camera.cx;
+        right = -right;
+        left_edge = area.x + area.width;
+    }
+    for (double* length_px : {&made.camera.fl_x, &made.camera.fl_y, &made.camera.cx, &made.camera.cy}) {
+        *length_px *= samples_across;
+    }
+    made.camera.width = area.width * samples_across;
+    made.camera.height = area.height * samples_across;
+    const double down = samples_across;
+    made.picture_from_screen =
+        glm::dmat3(glm::dvec3(right, 0, 0), glm::dvec3(0, down, 0), glm::dvec3(-right * left_edge, -down * area.y, 1));
+    return made;
+}
+
+}  // namespace
+
+std::optional<glm::ivec2> ObjectView::picture_pixel(int x, int y) const {
+    const glm::dvec3 p = picture_from_screen * glm::dvec3(x + 0.5, y + 0.5, 1);
+    const glm::ivec2 at(static_cast<int>(std::floor(p.x / p.z)), static_cast<int>(std::floor(p.y / p.z)));
+    if (at.x < 0 || at.y < 0 || at.x >= camera.width || at.y >= camera.height) return std::nullopt;
+    return at;
+}
+
+std::optional<ObjectView> view_of_object(const PlacedObject& placed, const Camera& camera_in_world,
+                                         const ObjectViewOptions& options) {
+    const Camera camera = camera_in_node(camera_in_world, placed.world_from_object);
+    const glm::dvec3 eye = camera.centre();
+    if (camera.fl_x < 0.5 * glm::length(eye)) return std::nullopt;
+    const double distance = std::hypot(eye.x, eye.z);
+    if (distance < 1e-6) return std::nullopt;
+    const BoundingCylinder& bounds = placed.object->bounds;
+    const auto rectangle = covering_rectangle(bounds, camera);
+    if (!rectangle) return std::nullopt;
+
+    const RaySpaceObject& object = placed.object->renderer.object();
+    const double scale = placed.world_from_object.scale;
+    ObjectView view;
+    view.rectangle = *rectangle;
+    const int most = std::min({options.most_samples_across, kMostSamplesAcross,
+                               kMaxPictureSide_px / std::max(rectangle->width, rectangle->height)});
+    const double wanted = std::clamp(captured_pixels(object, camera, glm::length(eye)), 1.0, std::max<double>(most, 1));
+    view.samples_across = static_cast<int>(std::lround(wanted));
+    std::optional<UprightPicture> upright;
+    if (options.upright && !is_upright(camera)) {
+        upright = upright_picture(camera, *rectangle, bounds, wanted);
+    }
+    view.smooth = upright && view.samples_across == 1;
+    const ObjectPicture picture =
+        upright ? ObjectPicture{upright->camera, upright->picture_from_screen}
+                : direct_picture(camera, *rectangle, view.samples_across, placed.world_from_object.mirrors());
+    view.camera = picture.camera;
+    view.picture_from_screen = picture.picture_from_screen;
+    view.camera.world_from_camera[3] = glm::dvec4(eye * object.units_per_radius, 1);
+    // A window much wider than high shows things so far aside that no engine draws them.
+    if (!engine::prepare_view(object, view.camera)) return std::nullopt;
+    view.units_per_rig_unit = scale / object.units_per_radius;
+    view.plane_distance = distance * scale;
+    const glm::dvec3 inward(-eye.x / distance, 0, -eye.z / distance);
+    view.inverse_depth_facing = inverse_depth_of_plane(camera, inward, distance * scale);
+    const double above_foot = eye.y - (placed.object->extent.bottom + kAboveGround);
+    view.from_above = above_foot >= 0;
+    const double foot_distance = std::copysign(std::max(std::abs(above_foot), 1e-6), above_foot);
+    view.inverse_depth_foot = inverse_depth_of_plane(camera, {0, -1, 0}, foot_distance * scale);
+    return view;
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,67 @@
+#include "compositor/viewer/views/screen_rectangle.hpp"
+
+#include "rayspace/base/conventions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace rs::compositor {
+namespace {
+
+constexpr int kSides = 16;
+constexpr double kNearest = 1e-3;  // axial depth, object radii: what is nearer is cut off
+
+// The corners of a prism around the cylinder, in camera coordinates with depth as z.
+std::array<glm::dvec3, 2 * kSides> prism_corners(const BoundingCylinder& bound, const Camera& camera) {
+    std::array<glm::dvec3, 2 * kSides> corners;
+    const double radius = bound.radius / std::cos(kPi / kSides);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double angle = 2 * kPi * static_cast<double>(i % kSides) / kSides;
+        const glm::dvec3 corner(radius * std::sin(angle), i < kSides ? bound.bottom : bound.top,
+                                radius * std::cos(angle));
+        const glm::dvec3 v = corner - camera.centre();
+        corners[i] = {glm::dot(v, camera.right()), glm::dot(v, camera.up()), glm::dot(v, camera.forward())};
+    }
+    return corners;
+}
+
+}  // namespace
+
+std::optional<ScreenRectangle> covering_rectangle(const BoundingCylinder& bound, const Camera& camera) {
+    if (bound.empty()) return std::nullopt;
+    double left = std::numeric_limits<double>::infinity();
+    double top = left;
+    double right = -left;
+    double bottom = -left;
+    const auto include = [&](const glm::dvec3& p) {
+        const double x = camera.cx + camera.fl_x * p.x / p.z;
+        const double y = camera.cy - camera.fl_y * p.y / p.z;
+        left = std::min(left, x);
+        right = std::max(right, x);
+        top = std::min(top, y);
+        bottom = std::max(bottom, y);
+    };
+    const auto corners = prism_corners(bound, camera);
+    for (const glm::dvec3& p : corners) {
+        if (p.z >= kNearest) {
+            include(p);
+            continue;
+        }
+        // The prism is convex: cutting it at the near plane leaves the corners in front and points between a corner in
+        // front and one behind. All such pairs are taken; those that are no edges lie inside and do no harm.
+        for (const glm::dvec3& q : corners) {
+            if (q.z > kNearest) include(p + (q - p) * ((kNearest - p.z) / (q.z - p.z)));
+        }
+    }
+    left = std::floor(std::max(left, 0.0));
+    top = std::floor(std::max(top, 0.0));
+    right = std::ceil(std::min(right, static_cast<double>(camera.width)));
+    bottom = std::ceil(std::min(bottom, static_cast<double>(camera.height)));
+    if (!(left < right && top < bottom)) return std::nullopt;
+    return ScreenRectangle{static_cast<int>(left), static_cast<int>(top), static_cast<int>(right - left),
+                           static_cast<int>(bottom - top)};
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,23 @@
+#pragma once
+// A potted flower: thin curved petals and leaves that let light through, on bent stems, in a terracotta pot.
+// Hard for image-based rendering because there are holes between all its parts: neighbouring rays see different petals.
+//
+// Parameter   default  range       meaning
+// blooms      7        1..12       open flowers
+// petals      13       6..24       in the outer ring of a flower
+// leaves      40       0..60       on stems and around their feet
+// spread      0.62     0.2..0.9    how far the stems lean outwards, share of their height
+// hue         0.93     0..1        of the first flower, in turns (0 red, 1/3 green, 2/3 blue); the others are near it
+
+#include "capture/tracer/scene/scene.hpp"
+#include "rayspace/base/result.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+
+namespace rs::synthetic {
+
+Result<capture::Scene> generate_flower(const nlohmann::json& parameters, std::uint64_t seed);
+
+}  // namespace rs::synthetic

@@ -1,0 +1,44 @@
+#pragma once
+// Reads an object's parameters from JSON. The first mistake is kept and reported by finish(), so that a generator reads
+// all its parameters in a row and checks once.
+//
+//     Parameters in("vase", json);
+//     const float height = in.number("height", 2.1F, 1.6F, 2.6F);
+//     if (Status read = in.finish(); !read) return read.error();
+
+#include "rayspace/base/result.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rs::synthetic {
+
+class Parameters {
+public:
+    // `values` is a JSON object or null (all defaults).
+    Parameters(std::string object, const nlohmann::json& values);
+
+    // The value of `name`, `otherwise` where it is absent; an error unless low <= value <= high.
+    float number(const std::string& name, float otherwise, float low, float high);
+    int whole_number(const std::string& name, int otherwise, int low, int high);
+    // 1..max_length letters A..Z.
+    std::string letters(const std::string& name, const std::string& otherwise, int max_length);
+
+    // The first error, if any: a bad value, or a name that was not asked for.
+    [[nodiscard]] Status finish() const;
+
+private:
+    const nlohmann::json* find(const std::string& name, const std::string& range);
+    void complain(const std::string& name, const std::string& range);
+
+    std::string object_;
+    const nlohmann::json& values_;
+    std::vector<std::string> names_;
+    std::vector<std::string> descriptions_;  // "height (1.6 to 2.6)"
+    std::optional<Error> error_;
+};
+
+}  // namespace rs::synthetic

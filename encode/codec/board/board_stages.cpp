@@ -1,0 +1,154 @@
+#include "encode/codec/board/board_stages.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace rs::encode {
+namespace {
+
+using codec::kBlockDimensions;
+using codec::kQuarterDimensions;
+
+constexpr int kTrainingRounds = 2;
+constexpr int kRoundsPerStage = 5;
+constexpr double kPackedByte = 0.55;  // of a codebook's byte, in the file
+
+struct Vector {
+    std::array<std::int16_t, kBlockDimensions> values = {};
+    std::array<std::int16_t, kBlockDimensions> weights = {};
+    WeightedVectors::Place place() { return {values.data(), weights.data()}; }
+};
+
+std::uint8_t code_block(const TrainedBook& book, BlockResidual& residual) {
+    Vector vector;
+    block_vector(residual, vector.place());
+    const std::size_t index = nearest_entry(book, vector.values.data(), vector.weights.data()).index;
+    subtract_block(residual, &book.entries[index * kBlockDimensions]);
+    return static_cast<std::uint8_t>(index);
+}
+
+std::uint8_t code_quarter(const TrainedBook& book, int quarter, BlockResidual& residual) {
+    Vector vector;
+    quarter_vector(residual, quarter, vector.place());
+    const std::size_t index = nearest_entry(book, vector.values.data(), vector.weights.data()).index;
+    subtract_quarter(residual, quarter, &book.entries[index * kQuarterDimensions]);
+    return static_cast<std::uint8_t>(index);
+}
+
+WeightedVectors vectors_of(std::span<const BlockResidual> residuals, const std::vector<bool>& wanted, bool quarters) {
+    WeightedVectors vectors;
+    vectors.dimensions = quarters ? kQuarterDimensions : kBlockDimensions;
+    for (std::size_t b = 0; b < residuals.size(); ++b) {
+        if (!wanted[b]) continue;
+        if (!quarters) {
+            block_vector(residuals[b], vectors.add());
+        } else {
+            for (int q = 0; q < 4; ++q) quarter_vector(residuals[b], q, vectors.add());
+        }
+    }
+    return vectors;
+}
+
+codec::Book stored(const TrainedBook& book) {
+    codec::Book bytes(book.entries.size());
+    std::transform(book.entries.begin(), book.entries.end(), bytes.begin(),
+                   [](std::int16_t v) { return static_cast<std::int8_t>(v); });
+    return bytes;
+}
+
+}  // namespace
+
+StagedBlock walk_stages(const StageBooks& books, BlockResidual residual) {
+    StagedBlock staged;
+    std::size_t stage = 0;
+    staged.error[stage++] = residual.error();
+    for (std::size_t s = 0; s < books.block.size(); ++s) {
+        staged.block[s] = code_block(books.block[s], residual);
+        staged.error[stage++] = residual.error();
+    }
+    for (std::size_t s = 0; s < books.quarter.size(); ++s) {
+        for (int q = 0; q < 4; ++q) {
+            staged.quarter[s][static_cast<std::size_t>(q)] = code_quarter(books.quarter[s], q, residual);
+        }
+        staged.error[stage++] = residual.error();
+    }
+    return staged;
+}
+
+int stages_of(const codec::RecordClass& record_class) {
+    return record_class.block_stages + record_class.quarter_stages;
+}
+
+int cheapest_class(const StagedBlock& staged, const std::array<codec::RecordClass, codec::kBoardClasses>& classes,
+                   unsigned may, double lambda) {
+    int best = 0;
+    double best_cost = std::numeric_limits<double>::max();
+    for (int c = 1; c < codec::kBoardClasses; ++c) {
+        if ((may >> static_cast<unsigned>(c) & 1U) == 0) continue;
+        const codec::RecordClass& record_class = classes[static_cast<std::size_t>(c)];
+        const double cost = static_cast<double>(staged.error[static_cast<std::size_t>(stages_of(record_class))]) +
+                            lambda * record_class.bytes();
+        if (cost < best_cost) {
+            best = c;
+            best_cost = cost;
+        }
+    }
+    return best;
+}
+
+StageBooks train_stages(std::span<const TrainingBlock> blocks,
+                        const std::array<codec::RecordClass, codec::kBoardClasses>& classes, int block_stages,
+                        int quarter_stages, double lambda, double share) {
+    StageBooks books;
+    const int stages = block_stages + quarter_stages;
+    std::vector<int> used(blocks.size(), stages);  // stages of each block
+    for (int round = 0; round <= kTrainingRounds; ++round) {
+        if (round > 0) {
+            tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+                const StagedBlock staged = walk_stages(books, blocks[b].residual);
+                const int c = cheapest_class(staged, classes, blocks[b].may, lambda);
+                used[b] = stages_of(classes[static_cast<std::size_t>(c)]);
+            });
+        }
+        std::vector<BlockResidual> residuals;
+        residuals.reserve(blocks.size());
+        for (const TrainingBlock& block : blocks) residuals.push_back(block.residual);
+        for (int stage = 0; stage < stages; ++stage) {
+            const bool quarters = stage >= block_stages;
+            std::vector<bool> wanted(blocks.size());
+            for (std::size_t b = 0; b < blocks.size(); ++b) wanted[b] = used[b] > stage;
+            const WeightedVectors vectors = vectors_of(residuals, wanted, quarters);
+            std::vector<TrainedBook>& group = quarters ? books.quarter : books.block;
+            const auto at = static_cast<std::size_t>(quarters ? stage - block_stages : stage);
+            if (round == 0) {
+                group.push_back(train_book(vectors, codec::kBookEntries));
+            } else {
+                refine_book(group[at], vectors, kRoundsPerStage);
+            }
+            if (round == kTrainingRounds) {
+                prune_book(group[at], vectors, share * lambda * kPackedByte * vectors.dimensions);
+            }
+            const TrainedBook& book = group[at];
+            tbb::parallel_for(std::size_t{0}, residuals.size(), [&](std::size_t b) {
+                if (used[b] <= stage) return;
+                if (!quarters) {
+                    code_block(book, residuals[b]);
+                } else {
+                    for (int q = 0; q < 4; ++q) code_quarter(book, q, residuals[b]);
+                }
+            });
+        }
+    }
+    return books;
+}
+
+codec::Books stored_books(const StageBooks& books) {
+    codec::Books all;
+    for (std::size_t s = 0; s < books.block.size(); ++s) all.block[s] = stored(books.block[s]);
+    for (std::size_t s = 0; s < books.quarter.size(); ++s) all.quarter[s] = stored(books.quarter[s]);
+    return all;
+}
+
+}  // namespace rs::encode

@@ -1,0 +1,254 @@
+#include "encode/set/capture_set.hpp"
+
+#include "encode/set/upright_resampling.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/parallel.hpp"
+#include "rayspace/geometry/ray_space.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rs::encode {
+namespace {
+
+constexpr double kSteepestPitch_rad = radians(60);
+
+Result<Image<Rgba8>> read_captured_picture(const CaptureSet& set, int view) {
+    const RigView& captured = set.captured.views[static_cast<std::size_t>(view)];
+    const std::filesystem::path path = picture_path(set.folder, captured);
+    Result<Image<Rgba8>> picture = read_picture(path);
+    if (!picture) return picture;
+    if (picture->width() != captured.camera.width || picture->height() != captured.camera.height) {
+        return Error{path.string() + ": is " + std::to_string(picture->width()) + "x" +
+                     std::to_string(picture->height()) + " pixels, but its frame in " + kRigFileName + " says " +
+                     std::to_string(captured.camera.width) + "x" + std::to_string(captured.camera.height) +
+                     "; make them agree"};
+    }
+    return picture;
+}
+
+// The names of lens distortion in rigs of NeRF tools; an object's pictures must be free of it.
+std::string distortion_in(const nlohmann::json& extras) {
+    for (const char* key : {"k1", "k2", "k3", "k4", "p1", "p2"}) {
+        const auto found = extras.find(key);
+        if (found != extras.end() && found->is_number() && found->get<double>() != 0) return key;
+    }
+    return "";
+}
+
+Status check_views(const CaptureSet& set) {
+    const std::string where = (set.folder / kRigFileName).string();
+    if (set.captured.views.empty()) return Error{where + ": holds no frames; a capture set needs at least one picture"};
+    const Camera& first = set.captured.views.front().camera;
+    for (std::size_t i = 0; i < set.captured.views.size(); ++i) {
+        const RigView& view = set.captured.views[i];
+        const std::filesystem::path path = picture_path(set.folder, view);
+        if (view.camera.width != first.width || view.camera.height != first.height) {
+            return Error{path.string() + ": is " + std::to_string(view.camera.width) + "x" +
+                         std::to_string(view.camera.height) + " pixels, but the first picture is " +
+                         std::to_string(first.width) + "x" + std::to_string(first.height) +
+                         "; all pictures of an object must have one size"};
+        }
+        std::string distortion = distortion_in(set.captured.extras);
+        if (distortion.empty()) distortion = distortion_in(view.extras);
+        if (!distortion.empty()) {
+            return Error{where + ": frame " + std::to_string(i) + " has lens distortion (" + distortion +
+                         " is not 0); undistort the pictures first"};
+        }
+        if (std::abs(std::asin(std::clamp(view.camera.forward().y, -1.0, 1.0))) > kSteepestPitch_rad) {
+            return Error{
+                where + ": the camera of frame " + std::to_string(i) +
+                " looks up or down by more than 60 degrees; such a picture cannot be made upright, leave it out"};
+        }
+    }
+    return {};
+}
+
+// Upright cameras with one focal length; their principal points are set by frame_upright_cameras.
+void turn_upright(Rig& rig) {
+    const double fl_px = rig.views.front().camera.fl_x;
+    for (RigView& view : rig.views) {
+        view.camera = upright_camera(view.camera);
+        view.camera.fl_x = view.camera.fl_y = fl_px;
+        view.camera.cx = view.camera.cy = 0;
+    }
+}
+
+// Where each picture shows something, in pixels of its upright camera.
+Result<std::vector<PixelBox>> measure_pictures(const CaptureSet& set, Progress* progress) {
+    std::vector<PixelBox> occupied(set.captured.views.size());
+    const int count = static_cast<int>(occupied.size());
+    const Status measured = for_each_in_parallel(count, "measuring", progress, [&](int i) -> Status {
+        const auto n = static_cast<std::size_t>(i);
+        const Result<Image<Rgba8>> picture = read_captured_picture(set, i);
+        if (!picture) return picture.error();
+        const Camera& captured = set.captured.views[n].camera;
+        const auto box = set.resampled ? occupied_box_seen_by(set.upright.views[n].camera, captured, *picture)
+                                       : occupied_box(*picture);
+        if (!box) {
+            return Error{
+                picture_path(set.folder, set.captured.views[n]).string() +
+                ": shows something beyond straight up or down, which no upright picture can hold; leave it out"};
+        }
+        occupied[n] = *box;
+        return {};
+    });
+    if (!measured) return measured.error();
+    return occupied;
+}
+
+// Gives all upright cameras one frame, as large as it takes to show what any picture shows; `occupied` moves along.
+Status frame_upright_cameras(CaptureSet& set, std::vector<PixelBox>& occupied) {
+    PixelBox all{0, 0, 1, 1};  // something to hold where every picture is empty
+    bool first = true;
+    for (const PixelBox& box : occupied) {
+        if (box.empty()) continue;
+        if (std::exchange(first, false)) all = box;
+        all.include(box.x0, box.y0);
+        all.include(box.x1, box.y1);
+    }
+    constexpr double kMargin_px = 2;
+    const double left = std::floor(all.x0 - kMargin_px);
+    const double top = std::floor(all.y0 - kMargin_px);
+    const double width = all.x1 + kMargin_px - left;
+    const double height = all.y1 + kMargin_px - top;
+    if (width > kMaxPictureSide_px - 1 || height > kMaxPictureSide_px - 1) {
+        return Error{(set.folder / kRigFileName).string() +
+                     ": made upright, the pictures would be wider or higher than " +
+                     std::to_string(kMaxPictureSide_px) + " pixels; crop the pictures or photograph from less above"};
+    }
+    // Even sizes: chroma is stored at half of them.
+    const auto even = [](double size) { return 2 * static_cast<int>(std::ceil(size / 2)); };
+    set.width = even(width);
+    set.height = even(height);
+    for (std::size_t i = 0; i < occupied.size(); ++i) {
+        Camera& camera = set.upright.views[i].camera;
+        camera.width = set.width;
+        camera.height = set.height;
+        camera.cx = -left;
+        camera.cy = -top;
+        if (!occupied[i].empty()) occupied[i] = occupied[i].moved(-left, -top);
+    }
+    return {};
+}
+
+// The largest distance from Y of the vertical planes that bound the silhouettes: the radius of a cylinder that holds
+// the visual hull.
+double radius_from_silhouettes(const Rig& upright, const std::vector<PixelBox>& occupied) {
+    double radius = 0;
+    for (std::size_t i = 0; i < upright.views.size(); ++i) {
+        if (occupied[i].empty()) continue;
+        const Camera& camera = upright.views[i].camera;
+        for (const double x : {occupied[i].x0, occupied[i].x1}) {
+            const glm::dvec3 ray = camera.ray(x, camera.cy);
+            const double across = ray.x * camera.centre().z - ray.z * camera.centre().x;
+            radius = std::max(radius, std::abs(across) / std::hypot(ray.x, ray.z));
+        }
+    }
+    return radius;
+}
+
+Status check_distances(const CaptureSet& set) {
+    for (std::size_t i = 0; i < set.upright.views.size(); ++i) {
+        const glm::dvec3 centre = set.upright.views[i].camera.centre();
+        const double distance = std::hypot(centre.x, centre.z);
+        if (distance < 1.2 * set.upright.object_radius || glm::length(centre) > 200 * set.upright.object_radius) {
+            return Error{(set.folder / kRigFileName).string() + ": the camera of frame " + std::to_string(i) + " is " +
+                         std::to_string(distance / set.upright.object_radius) + " object radii from the Y axis and " +
+                         std::to_string(glm::length(centre) / set.upright.object_radius) +
+                         " from the origin, outside of 1.2..200; check object_radius (" +
+                         std::to_string(set.upright.object_radius) +
+                         ") and that the turntable's axis is the Y axis of the rig"};
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress* progress) {
+    CaptureSet set;
+    set.folder = std::filesystem::is_directory(path) ? path : path.parent_path();
+    Result<Rig> rig = read_rig(path);
+    if (!rig) return rig.error();
+    set.captured = std::move(*rig);
+    set.upright = set.captured;
+    if (const Status status = check_views(set); !status) return status.error();
+    set.width = set.captured.views.front().camera.width;
+    set.height = set.captured.views.front().camera.height;
+    set.resampled = !std::all_of(set.captured.views.begin(), set.captured.views.end(),
+                                 [](const RigView& view) { return is_upright(view.camera); });
+
+    if (set.resampled) turn_upright(set.upright);
+    if (set.resampled || set.captured.object_radius <= 0) {
+        Result<std::vector<PixelBox>> occupied = measure_pictures(set, progress);
+        if (!occupied) return occupied.error();
+        if (set.resampled) {
+            if (const Status framed = frame_upright_cameras(set, *occupied); !framed) return framed.error();
+        }
+        if (set.upright.object_radius <= 0) {
+            set.upright.object_radius = radius_from_silhouettes(set.upright, *occupied);
+            if (set.upright.object_radius <= 0) {
+                return Error{path.string() +
+                             ": every picture is transparent; is the backdrop setting of the import right?"};
+            }
+        }
+    }
+    if (const Status status = check_distances(set); !status) return status.error();
+    const auto memory_bytes =
+        static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::int64_t>(::sysconf(_SC_PAGE_SIZE));
+    if (const Status status = check_memory(set, memory_bytes); !status) return status.error();
+    return set;
+}
+
+Status check_memory(const CaptureSet& set, std::int64_t memory_bytes) {
+    const std::int64_t needed_bytes =
+        kEncodingBytesPerPixel * set.width * set.height * static_cast<std::int64_t>(set.upright.views.size());
+    if (needed_bytes <= memory_bytes) return {};
+    const auto gigabytes = [](std::int64_t bytes) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.1f", static_cast<double>(bytes) / 1e9);
+        return std::string(text);
+    };
+    const Camera& captured = set.captured.views.front().camera;
+    std::string why;
+    if (set.resampled) {
+        why = " (made upright, those of " + std::to_string(captured.width) + "x" + std::to_string(captured.height) +
+              " become so large)";
+    }
+    return Error{(set.folder / kRigFileName).string() + ": " + std::to_string(set.upright.views.size()) +
+                 " pictures of " + std::to_string(set.width) + "x" + std::to_string(set.height) + why + " take about " +
+                 gigabytes(needed_bytes) + " GB of memory, and this machine has " + gigabytes(memory_bytes) +
+                 "; leave out the steepest views, or make the pictures smaller"};
+}
+
+Result<Image<Rgba8>> read_upright_picture(const CaptureSet& set, int view) {
+    Result<Image<Rgba8>> picture = read_captured_picture(set, view);
+    if (!picture || !set.resampled) return picture;
+    const auto i = static_cast<std::size_t>(view);
+    return resampled_picture(set.upright.views[i].camera, set.captured.views[i].camera, *picture);
+}
+
+CaptureSet with_views(const CaptureSet& set, std::span<const int> views) {
+    RS_CHECK(!views.empty());
+    CaptureSet chosen = set;
+    const auto choose = [&](const Rig& from, Rig& to) {
+        to.views.clear();
+        for (const int view : views) {
+            RS_CHECK(view >= 0 && static_cast<std::size_t>(view) < from.views.size());
+            to.views.push_back(from.views[static_cast<std::size_t>(view)]);
+        }
+    };
+    choose(set.captured, chosen.captured);
+    choose(set.upright, chosen.upright);
+    return chosen;
+}
+
+}  // namespace rs::encode

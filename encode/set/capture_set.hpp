@@ -1,0 +1,49 @@
+#pragma once
+// A capture set as the encoder takes it: cameras checked, made upright where they are not, pictures read on demand.
+//
+// The engine walks pictures down their columns, so every stored picture must be that of an upright camera: each column
+// a vertical plane of rays. Pictures of a rig whose cameras are upright already are used as they are, untouched.
+// Otherwise every picture is resampled once, in linear light, to an upright camera at the same place (a rotation about
+// the camera's own centre, so no ray is lost but those outside of the frame).
+
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace rs::encode {
+
+struct CaptureSet {
+    std::filesystem::path folder;
+    Rig captured;  // as read
+    Rig upright;   // the cameras of the pictures that read_upright_picture returns; object_radius is set
+    bool resampled = false;
+    int width = 0;  // px, of the upright pictures
+    int height = 0;
+};
+
+// Reads transforms.json, plans the upright cameras, and measures the object radius from the silhouettes where the rig
+// does not give it. Cameras may be pitched up to 60 degrees. Pictures are read only where that needs them; those that
+// are missing show at the latest in read_upright_picture. Errors: no views, missing or unreadable pictures, differing
+// sizes, lens distortion, a camera within the object radius, more pictures than the machine has memory for.
+Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress* progress = nullptr);
+
+// What encoding a set takes at most for every pixel of its upright pictures, as it was measured.
+inline constexpr std::int64_t kEncodingBytesPerPixel = 16;
+
+// An error where encoding the set takes more than `memory_bytes`: cameras on a hemisphere have upright pictures many
+// times as high as those that were taken. open_capture_set() asks for the machine's memory.
+Status check_memory(const CaptureSet& set, std::int64_t memory_bytes);
+
+// Picture `view` of the set, seen by upright.views[view].camera. Thread-safe.
+Result<Image<Rgba8>> read_upright_picture(const CaptureSet& set, int view);
+
+// The same set with only the views `views` (indices into the rig, each once, at least one), in that order. Radius,
+// picture size and framing stay those of the whole set, so its views remain comparable; no picture is read.
+CaptureSet with_views(const CaptureSet& set, std::span<const int> views);
+
+}  // namespace rs::encode

@@ -1,0 +1,86 @@
+#pragma once
+// Section 6 of engine/RECONSTRUCTION.md: which surfaces of a shape map a view ray meets.
+
+#include "engine/core/definition/fixed_point.hpp"
+#include "engine/core/definition/shape_cells.hpp"
+#include "engine/core/definition/shape_setup.hpp"
+#include "rayspace/object/shape_map.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+namespace rs::engine {
+
+// A ray with the slope of the reference viewpoint's stays in one band. Any other passes from band to band, linearly in
+// depth: band = zero + d * per_depth. It is followed away from the viewer in steps of half a band, and gives the
+// surfaces whose object, between surface and back, it meets, one after the other; at the end the one that a ray of
+// reference slope would meet.
+class CellMarch {
+public:
+    static constexpr int kMostSteps = 64;
+    static constexpr std::int32_t kMostPerDepth_q20 = 1 << 22;
+
+    CellMarch(const ShapeMap& shape, const ShapeSetup& setup, std::int32_t b_q20, std::int32_t rise_q24)
+        : cells_(setup.cells), bands_(shape.bands), jump_(shape.jump) {
+        const std::int32_t h_q16 = (b_q20 >> 4) + multiply_shift(setup.lambda_foot_q20, rise_q24, 28);
+        const std::int32_t slope_q20 = multiply_shift(rise_q24, setup.inverse_r_q20, 24);
+        const std::int32_t reference_q20 =
+            multiply_shift(h_q16 - (shape.reference_height_q20 >> 4), setup.inverse_rho_q20, 16);
+        const std::int32_t per_radius_q20 = multiply_shift(slope_q20 - reference_q20, shape.bands_per_unit_q12, 12);
+        foot_q12_ = multiply_shift(h_q16 - (shape.h_low_q20 >> 4), shape.bands_per_unit_q12, 16);
+        zero_q12_ = foot_q12_ + multiply_shift(per_radius_q20, shape.depth_low_q20, 28);
+        per_depth_q20_ =
+            std::clamp(multiply_shift(per_radius_q20, shape.depth_step_q24, 24), -kMostPerDepth_q20, kMostPerDepth_q20);
+        const int steps = std::min((std::abs(per_depth_q20_) >> 11) + 1, kMostSteps);
+        step_ = 256 / steps;
+        if (steps == 1) begin_ = 256;
+    }
+
+    // The next surface; none at the end.
+    SurfaceCell next() {
+        while (begin_ < 256) {
+            const int begin = begin_;
+            begin_ += step_;
+            SurfaceCell cell = surface_at(band_q12(begin + step_ / 2));
+            if (!cell.exists() || cell.depth_q3 > 8 * begin_ || cell.back < begin) continue;
+            cell.depth_q3 = std::max(cell.depth_q3, 8 * begin);
+            return cell;
+        }
+        if (ended_) return {};
+        ended_ = true;
+        const SurfaceCell cell = surface_at(foot_q12_);
+        if (!cell.exists()) return cell;
+        const SurfaceCell there = surface_at(band_q12(cell.depth_q3 >> 3));
+        return there.exists() ? there : cell;
+    }
+
+private:
+    // Cells are samples at the middles of their bands.
+    [[nodiscard]] SurfaceCell surface_at(std::int32_t at_q12) const {
+        const std::int32_t from_middle_q12 = at_q12 - (1 << 11);
+        const std::int32_t band = from_middle_q12 >> 12;
+        SurfaceCell around[2][2];
+        for (int p = 0; p < 2; ++p) {
+            for (int h = 0; h < 2; ++h) {
+                if (band + h < 0 || band + h >= bands_) continue;
+                around[p][h] =
+                    between_lines(cells_.at[p][0][band + h], cells_.at[p][1][band + h], cells_.line_part, jump_);
+            }
+        }
+        return between_cells(around, cells_.p_part, (from_middle_q12 >> 9) & 7, jump_);
+    }
+    [[nodiscard]] std::int32_t band_q12(int d) const { return zero_q12_ + ((d * per_depth_q20_) >> 8); }
+
+    const CellColumns& cells_;
+    int bands_;
+    int jump_;
+    std::int32_t foot_q12_ = 0;
+    std::int32_t zero_q12_ = 0;
+    std::int32_t per_depth_q20_ = 0;
+    int step_ = 256;
+    int begin_ = 0;
+    bool ended_ = false;
+};
+
+}  // namespace rs::engine

@@ -1,0 +1,50 @@
+#include "engine/core/definition/ray_setup.hpp"
+
+#include "engine/core/definition/fixed_point.hpp"
+#include "engine/core/definition/plane_point.hpp"
+
+namespace rs::engine {
+namespace {
+
+constexpr std::int64_t kOne_q20 = std::int64_t{1} << 20;
+constexpr std::int64_t kNearestDepth_q20 = std::int64_t{1} << 17;
+constexpr std::int64_t kLargestRowScale_q16 = std::int64_t{1} << 30;
+constexpr std::int64_t kLargestRise_q24 = std::int64_t{1} << 28;
+
+}  // namespace
+
+RaySetup set_up_ray(const RaySpaceObject& object, const ViewRegisters& registers, int i, int j) {
+    constexpr RaySetup kNoRay;
+    const Ring& ring = object.rings[static_cast<std::size_t>(registers.ring)];
+
+    const PlanePoint point = plane_point(ring, registers, i, j);
+    if (!point.exists) return kNoRay;
+    const std::uint16_t picture = map_answer(ring, point);
+    if (picture == kNoPicture) return kNoRay;
+
+    // Section 3: the picture's column, and the rows along it.
+    const CapturedView& view = object.views[picture];
+    const CapturedLine& line = view.lines[static_cast<std::size_t>(point.plane)];
+    const std::int64_t l_q20 = line.l0_q20 + ((point.x_q20 * line.l1_q30) >> 30);
+    if (l_q20 < kNearestDepth_q20) return kNoRay;
+    const std::int64_t lateral_q16 = line.q0_q16 + ((point.x_q20 * line.q1_q16) >> 20);
+    const std::int64_t column = (view.cx_q16 + floor_divide(lateral_q16 * kOne_q20, l_q20)) >> 16;
+    if (column < 0 || column >= object.width) return kNoRay;
+    const std::int64_t m_q16 = (std::int64_t{view.fl_y_q16} << 20) / l_q20;
+    if (m_q16 >= kLargestRowScale_q16) return kNoRay;
+
+    const std::int64_t rise_q28 = (registers.rise.at_origin + i * registers.rise.per_column) >> 4;
+    const std::int64_t height_q20 = registers.b_q20 + ((point.lambda_q20 * rise_q28) >> 28);
+    const std::int64_t rise_per_row_q24 = (point.lambda_q20 * registers.rise.per_row) >> 28;
+    if (rise_per_row_q24 < -kLargestRise_q24 || rise_per_row_q24 > kLargestRise_q24) return kNoRay;
+
+    RaySetup setup;
+    setup.picture = picture;
+    setup.column = static_cast<int>(column);
+    setup.lambda_q20 = static_cast<std::int32_t>(point.lambda_q20);
+    setup.row_0_q16 = view.cy_q16 - ((m_q16 * (height_q20 - view.height_q20)) >> 20);
+    setup.row_step_q16 = -((m_q16 * rise_per_row_q24) >> 24);
+    return setup;
+}
+
+}  // namespace rs::engine

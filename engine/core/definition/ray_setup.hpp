@@ -1,0 +1,27 @@
+#pragma once
+// Sections 2 and 3 of engine/RECONSTRUCTION.md: from a pixel of the view to a column of a captured picture and the walk
+// of rows along it. There is one piece of code for it, shared by the scalar definition and the fast core.
+
+#include "engine/core/definition/view_registers.hpp"
+#include "rayspace/object/ray_space_object.hpp"
+
+#include <cstdint>
+
+namespace rs::engine {
+
+struct RaySetup {
+    int picture = -1;  // -1: there is no ray
+    int column = 0;
+    std::int64_t row_0_q16 = 0;
+    std::int64_t row_step_q16 = 0;
+    std::int32_t lambda_q20 = 0;  // axial depth of the reference plane
+
+    // Row of the picture for view row j; may lie outside of the picture.
+    [[nodiscard]] std::int64_t row(int j) const { return (row_0_q16 + j * row_step_q16) >> 16; }
+};
+
+// `registers` was prepared for `object`; 0 <= i < width, 0 <= j < height. In an upright view the result is the same for
+// every j.
+RaySetup set_up_ray(const RaySpaceObject& object, const ViewRegisters& registers, int i, int j);
+
+}  // namespace rs::engine

@@ -1,0 +1,73 @@
+#pragma once
+// Section 6 of engine/RECONSTRUCTION.md, "The surface between cells": cells of a shape map are samples, and the surface
+// between them is continuous where they lie on one, and steps where they do not. First between the two lines beside a
+// ray, which serves a whole column of an upright view; then between two cells along p and two along height.
+
+#include "rayspace/object/shape_map.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace rs::engine {
+
+// A surface beside or between cells. `back` 0: there is none.
+struct SurfaceCell {
+    std::int32_t depth_q3 = 0;  // eighths of a depth step
+    std::int32_t back = 0;
+
+    [[nodiscard]] bool exists() const { return back != 0; }
+    bool operator==(const SurfaceCell&) const = default;
+};
+
+// The columns of cells around a ray and its place between them.
+struct CellColumns {
+    const ShapeCell* at[2][2] = {};  // [p][line], each `bands` long; null: there is no shape
+    std::int32_t p_part = 0;         // of the second in p, eighths: 0..7
+    std::int32_t line_part = 0;      // of the second line, likewise
+};
+
+// `part` of the second line, in eighths.
+inline SurfaceCell between_lines(ShapeCell first, ShapeCell second, int part, int jump) {
+    const bool has_second = second.has_surface() && part > 0;
+    if (!first.has_surface() && !has_second) return {};
+    if (!has_second) return {8 * first.depth, first.back};
+    if (!first.has_surface()) return {8 * second.depth, second.back};
+    const int back = std::max(first.back, second.back);
+    const int apart = second.depth - first.depth;
+    if (apart > jump || -apart > jump) return {8 * (part < 4 ? first.depth : second.depth), back};
+    return {8 * first.depth + part * apart, back};
+}
+
+// cells[p][h] around a point at p_part and h_part eighths between them. Where they lie on one surface, its mean;
+// elsewhere that of the nearer ones or of the farther ones, whichever have more weight.
+inline SurfaceCell between_cells(const SurfaceCell (&cells)[2][2], int p_part, int h_part, int jump) {
+    int nearest = 1 << 12;
+    int farthest = -1;
+    int back = 0;
+    for (const auto& column : cells) {
+        for (const SurfaceCell& cell : column) {
+            if (!cell.exists()) continue;
+            nearest = std::min(nearest, cell.depth_q3);
+            farthest = std::max(farthest, cell.depth_q3);
+            back = std::max(back, cell.back);
+        }
+    }
+    const bool steps = farthest - nearest > 8 * jump;
+    int weight[2] = {};  // of the nearer group, of the farther one
+    int sum[2] = {};
+    for (int p = 0; p < 2; ++p) {
+        for (int h = 0; h < 2; ++h) {
+            const SurfaceCell& cell = cells[p][h];
+            if (!cell.exists()) continue;
+            const int group = steps && 2 * cell.depth_q3 > nearest + farthest ? 1 : 0;
+            const int part = (p == 0 ? 8 - p_part : p_part) * (h == 0 ? 8 - h_part : h_part);
+            weight[group] += part;
+            sum[group] += part * cell.depth_q3;
+        }
+    }
+    const int group = weight[0] >= weight[1] ? 0 : 1;
+    if (weight[group] == 0) return {};
+    return {(sum[group] + weight[group] / 2) / weight[group], back};
+}
+
+}  // namespace rs::engine

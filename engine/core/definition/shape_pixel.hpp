@@ -1,0 +1,125 @@
+#pragma once
+// Sections 6 to 8 of engine/RECONSTRUCTION.md: one pixel of a view ray that set_up_shape() has set up. The readable
+// definition; shape_walk.hpp is its fast twin.
+
+#include "engine/core/definition/cell_march.hpp"
+#include "engine/core/definition/fixed_point.hpp"
+#include "engine/core/definition/shape_setup.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/object/ray_space_object.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace rs::engine {
+
+struct ShapePixel {
+    Rgba8 colour;
+    std::int32_t lambda_q20 = 0;  // axial depth in the view, object radii; only where colour.a > 0
+};
+
+inline constexpr std::int32_t kNearest_q20 = 1 << 17;  // axial depth in a captured picture
+
+// A bilinear sample: sums over four texels of weight * alpha (the weights add up to 64) and of weight * alpha * colour.
+struct SampleSum {
+    bool exists = false;  // the point lies in the picture's frame
+    std::int32_t a = 0, r = 0, g = 0, b = 0;
+};
+
+inline SampleSum mix(const SampleSum& first, const SampleSum& second, int weight) {
+    const auto of = [&](int a, int b) { return a * (256 - weight) + b * weight; };
+    return {true, of(first.a, second.a), of(first.r, second.r), of(first.g, second.g), of(first.b, second.b)};
+}
+
+inline Rgba8 resolve(const SampleSum& sum) {
+    const int alpha = (sum.a + (1 << 13)) >> 14;
+    if (alpha == 0) return {};
+    const auto channel = [&](int c) { return static_cast<std::uint8_t>((c + sum.a / 2) / sum.a); };
+    return {channel(sum.r), channel(sum.g), channel(sum.b), static_cast<std::uint8_t>(alpha)};
+}
+
+// Section 7. `texel(view, column, row)` gives a stored pixel as Rgba8.
+template <class Texel>
+SampleSum sample_picture(const RaySpaceObject& object, const ShapePicture& picture, int d_q3, std::int32_t y_q16,
+                         const Texel& texel) {
+    const CapturedView& view = object.views[static_cast<std::size_t>(picture.view)];
+    const std::int32_t l_q20 = picture.l0_q20 + ((d_q3 * picture.l1_q24) >> 7);
+    if (l_q20 < kNearest_q20) return {};
+    const auto inverse_q20 = static_cast<std::int32_t>((std::int64_t{1} << 40) / l_q20);
+    const std::int32_t n_q12 = picture.n0_q12 + ((d_q3 * picture.n1_q12) >> 3);
+    const std::int32_t column_q8 = (view.cx_q16 >> 8) + multiply_shift(n_q12, inverse_q20, 24);
+    const std::int32_t m_q12 = multiply_shift(view.fl_y_q16 >> 8, inverse_q20, 16);
+    const std::int32_t row_q8 = (view.cy_q16 >> 8) - multiply_shift(m_q12, y_q16 - (view.height_q20 >> 4), 20);
+    if (column_q8 < 0 || column_q8 >= object.width << 8 || row_q8 < 0 || row_q8 >= object.height << 8) return {};
+
+    // From the upper left of four texels, in eighths of a pixel.
+    const int x_q3 = (column_q8 - 128 + 16) >> 5;
+    const int y_q3 = (row_q8 - 128 + 16) >> 5;
+    const int left = std::max(x_q3 >> 3, 0);
+    const int right = std::min((x_q3 >> 3) + 1, object.width - 1);
+    const int top = std::max(y_q3 >> 3, 0);
+    const int bottom = std::min((y_q3 >> 3) + 1, object.height - 1);
+    SampleSum sum{true};
+    const auto add = [&](int column, int row, int weight) {
+        const Rgba8 t = texel(picture.view, column, row);
+        sum.a += weight * t.a;
+        sum.r += weight * t.a * t.r;
+        sum.g += weight * t.a * t.g;
+        sum.b += weight * t.a * t.b;
+    };
+    const int fx = x_q3 & 7;
+    const int fy = y_q3 & 7;
+    add(left, top, (8 - fx) * (8 - fy));
+    add(left, bottom, (8 - fx) * fy);
+    add(right, top, fx * (8 - fy));
+    add(right, bottom, fx * fy);
+    return sum;
+}
+
+// Section 8: what both pictures show of a surface at depth d_q3. `rise_q24`: the view's rise form at the pixel, q32,
+// shifted right by 8.
+struct ShownSurface {
+    SampleSum sum;  // does not exist, or has a = 0, where neither shows it; the weights add up to 64 * 256
+    std::int32_t lambda_q20 = 0;
+};
+
+template <class Texel>
+ShownSurface shown_surface(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
+                           std::int32_t d_q3, std::int32_t rise_q24, const Texel& texel) {
+    ShownSurface shown;
+    shown.lambda_q20 = setup.lambda0_q20 + ((d_q3 * setup.lambda1_q21) >> 4);
+    if (shown.lambda_q20 <= 0) return {};
+    const std::int32_t y_q16 = (registers.b_q20 >> 4) + multiply_shift(shown.lambda_q20, rise_q24, 28);
+    const SampleSum first = setup.weight < 256 ? sample_picture(object, setup.first, d_q3, y_q16, texel) : SampleSum{};
+    const SampleSum second = setup.weight > 0 ? sample_picture(object, setup.second, d_q3, y_q16, texel) : SampleSum{};
+    // Every point of the object lies within every silhouette.
+    if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) return {};
+    if (first.exists && second.exists) shown.sum = mix(first, second, setup.weight);
+    if (first.exists != second.exists) shown.sum = first.exists ? mix(first, first, 0) : mix(second, second, 0);
+    return shown;
+}
+
+template <class Texel>
+ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
+                       std::int32_t rise_q24, const Texel& texel) {
+    const auto shown_at = [&](std::int32_t d_q3) {
+        return shown_surface(object, registers, setup, d_q3, rise_q24, texel);
+    };
+    const auto pixel = [](const ShownSurface& shown) { return ShapePixel{resolve(shown.sum), shown.lambda_q20}; };
+    if (!setup.has_shape()) return pixel(shown_at(0));
+
+    const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
+    CellMarch march(shape, setup, registers.b_q20, rise_q24);
+    SurfaceCell cell = march.next();
+    if (setup.weight == 0 || setup.weight == 256) {
+        // On a captured line that picture answers alone, whatever the depth.
+        return pixel(shown_at(cell.exists() ? cell.depth_q3 : setup.foot_depth_q3));
+    }
+    for (; cell.exists(); cell = march.next()) {
+        const ShownSurface shown = shown_at(cell.depth_q3);
+        if (shown.sum.a > 0) return pixel(shown);
+    }
+    return {};
+}
+
+}  // namespace rs::engine

@@ -1,0 +1,177 @@
+#include "engine/core/definition/view_registers.hpp"
+
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/ray_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+namespace rs::engine {
+namespace {
+
+constexpr double kFarthest = 200;  // object radii; farther viewpoints are brought here
+// Bound of N, T, S: so far below 8 that rounding over a whole view does not reach it, and N^2 + T^2 stays within 63
+// bits.
+constexpr double kLargestDirection = 8 - 1.0 / 1024;
+constexpr double kLargestRowStep = 2;  // bound of sy
+
+std::int64_t fixed(double value, int fractional_bits) {
+    return std::llround(std::ldexp(value, fractional_bits));
+}
+
+Error view_error(const std::string& what) {
+    return Error{"view: " + what};
+}
+
+// Brings a distant camera to kFarthest on the line to the origin. A point near the origin keeps its pixel: the focal
+// length shrinks with the distance, and the principal point moves so that the origin stays where it was.
+Camera brought_near(Camera camera) {
+    const glm::dvec3 centre = camera.centre();
+    const double distance = glm::length(centre);
+    if (distance <= kFarthest) return camera;
+    const double scale = kFarthest / distance;
+    const double depth = -glm::dot(centre, camera.forward());
+    if (depth > 0) {
+        camera.cx += camera.fl_x * (1 - scale) * -glm::dot(centre, camera.right()) / depth;
+        camera.cy -= camera.fl_y * (1 - scale) * -glm::dot(centre, camera.up()) / depth;
+    }
+    camera.fl_x *= scale;
+    camera.fl_y *= scale;
+    camera.world_from_camera[3] = glm::dvec4(centre * scale, 1);
+    return camera;
+}
+
+// direction . axis over the pixels of the camera, as a linear form. Empty where it leaves the range at a corner.
+std::optional<LinearForm> form_along(const Camera& camera, const glm::dvec3& axis) {
+    const glm::dvec3 origin = camera.ray(0.5, 0.5);
+    const glm::dvec3 per_column = camera.right() / camera.fl_x;
+    const glm::dvec3 per_row = -camera.up() / camera.fl_y;
+    for (const int i : {0, camera.width - 1}) {
+        for (const int j : {0, camera.height - 1}) {
+            const double value = glm::dot(origin + double(i) * per_column + double(j) * per_row, axis);
+            if (!(std::abs(value) < kLargestDirection)) return std::nullopt;
+        }
+    }
+    if (!(std::abs(glm::dot(per_column, axis)) < kLargestDirection) ||
+        !(std::abs(glm::dot(per_row, axis)) < kLargestDirection)) {
+        return std::nullopt;
+    }
+    return LinearForm{fixed(glm::dot(origin, axis), 32), fixed(glm::dot(per_column, axis), 32),
+                      fixed(glm::dot(per_row, axis), 32)};
+}
+
+// The same bounds for numbers that are there already.
+bool in_range(const LinearForm& form, int width, int height) {
+    const auto largest = static_cast<std::int64_t>(std::ldexp(kLargestDirection, 32)) + (std::int64_t{1} << 14);
+    const auto fits = [&](std::int64_t value) { return value > -largest && value < largest; };
+    if (!fits(form.at_origin) || !fits(form.per_column) || !fits(form.per_row)) return false;
+    for (const int i : {0, width - 1}) {
+        for (const int j : {0, height - 1}) {
+            if (!fits(form.at(i, j))) return false;
+        }
+    }
+    return true;
+}
+
+int nearest_ring(const RaySpaceObject& object, const glm::dvec3& viewpoint) {
+    const double elevation_udeg = degrees(std::atan2(viewpoint.y, std::hypot(viewpoint.x, viewpoint.z))) * 1e6;
+    const auto distance = [&](const Ring& ring) { return std::abs(ring.elevation_udeg - elevation_udeg); };
+    const auto best = std::min_element(object.rings.begin(), object.rings.end(),
+                                       [&](const Ring& a, const Ring& b) { return distance(a) < distance(b); });
+    return static_cast<int>(best - object.rings.begin());
+}
+
+}  // namespace
+
+bool ViewRegisters::upright() const {
+    return rise.per_column == 0 && std::all_of(planes.begin(), planes.end(), [](const PlaneRegisters& plane) {
+               return plane.along_normal.per_row == 0 && plane.along_tangent.per_row == 0;
+           });
+}
+
+glm::dvec3 prepared_viewpoint(const RaySpaceObject& object, const Camera& camera) {
+    const glm::dvec3 centre = camera.centre() / object.units_per_radius;
+    return centre * std::min(1.0, kFarthest / glm::length(centre));
+}
+
+Status check_registers(const RaySpaceObject& object, const ViewRegisters& r) {
+    if (r.width < 1 || r.height < 1 || r.width > kMaxPictureSide_px || r.height > kMaxPictureSide_px) {
+        return view_error("its size of " + std::to_string(r.width) + "x" + std::to_string(r.height) +
+                          " is outside 1.." + std::to_string(kMaxPictureSide_px) + " pixels");
+    }
+    if (r.ring < 0 || static_cast<std::size_t>(r.ring) >= object.rings.size()) {
+        return view_error("it is of ring " + std::to_string(r.ring) + ", and the object has " +
+                          std::to_string(object.rings.size()));
+    }
+    const auto planes = static_cast<std::size_t>(object.rings[static_cast<std::size_t>(r.ring)].planes);
+    if (r.planes.size() != planes) {
+        return view_error("it has registers for " + std::to_string(r.planes.size()) + " planes, and the ring has " +
+                          std::to_string(planes));
+    }
+    const auto place_fits = [](std::int32_t q20) { return q20 > -(1 << 28) && q20 < (1 << 28); };
+    if (!place_fits(r.b_q20)) return view_error("register b is out of range");
+    if (!in_range(r.rise, r.width, r.height) ||
+        std::abs(r.rise.per_row) >= static_cast<std::int64_t>(std::ldexp(kLargestRowStep, 32))) {
+        return view_error("registers s0, sx, sy are out of range");
+    }
+    for (std::size_t k = 0; k < planes; ++k) {
+        const PlaneRegisters& plane = r.planes[k];
+        if (!place_fits(plane.a_q20) || !place_fits(plane.c_q20) || !in_range(plane.along_normal, r.width, r.height) ||
+            !in_range(plane.along_tangent, r.width, r.height)) {
+            return view_error("a register of plane " + std::to_string(k) + " is out of range");
+        }
+    }
+    return {};
+}
+
+Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera_in_rig) {
+    if (object.rings.empty()) return view_error("the object holds no ring of views");
+    if (camera_in_rig.width < 1 || camera_in_rig.height < 1 || camera_in_rig.width > kMaxPictureSide_px ||
+        camera_in_rig.height > kMaxPictureSide_px) {
+        return view_error("its size of " + std::to_string(camera_in_rig.width) + "x" +
+                          std::to_string(camera_in_rig.height) + " is outside 1.." +
+                          std::to_string(kMaxPictureSide_px) + " pixels");
+    }
+    if (!(camera_in_rig.fl_x > 0) || !(camera_in_rig.fl_y > 0)) return view_error("its focal length is not above 0");
+    if (!(rotation_error(camera_in_rig) < 1e-3))
+        return view_error("its camera matrix is not a rotation and a position");
+
+    Camera camera = camera_in_rig;
+    camera.world_from_camera[3] = glm::dvec4(camera.centre() / object.units_per_radius, 1);
+    if (!std::isfinite(glm::length(camera.centre())) || !std::isfinite(camera.cx) || !std::isfinite(camera.cy)) {
+        return view_error("its camera has numbers that are not finite");
+    }
+    camera = brought_near(camera);
+
+    ViewRegisters registers;
+    registers.width = camera.width;
+    registers.height = camera.height;
+    registers.ring = nearest_ring(object, camera.centre());
+    registers.b_q20 = static_cast<std::int32_t>(fixed(camera.centre().y, 20));
+
+    const std::string too_wide =
+        camera.fl_x < camera_in_rig.fl_x
+            ? "it is so far from the object that the object is but a few pixels of so wide a picture; narrow the field "
+              "of view"
+            : "its field of view is too wide (a ray is more than 8 times as far from the viewing axis as it is deep); "
+              "use a "
+              "longer focal length";
+    const auto rise = form_along(camera, {0, 1, 0});
+    if (!rise || std::abs(camera.up().y / camera.fl_y) >= kLargestRowStep) return view_error(too_wide);
+    registers.rise = *rise;
+    const int planes = object.rings[static_cast<std::size_t>(registers.ring)].planes;
+    for (int k = 0; k < planes; ++k) {
+        const ReferencePlane plane = reference_plane(k, planes);
+        const ViewpointLine line = viewpoint_line(camera.centre(), plane);
+        const auto along_normal = form_along(camera, plane.normal);
+        const auto along_tangent = form_along(camera, plane.tangent);
+        if (!along_normal || !along_tangent) return view_error(too_wide);
+        registers.planes.push_back({static_cast<std::int32_t>(fixed(line.a, 20)),
+                                    static_cast<std::int32_t>(fixed(line.c, 20)), *along_normal, *along_tangent});
+    }
+    return registers;
+}
+
+}  // namespace rs::engine

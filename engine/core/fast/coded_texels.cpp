@@ -1,0 +1,173 @@
+#include "engine/core/fast/coded_texels.hpp"
+
+#include "rayspace/object/yuv.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace rs::engine {
+namespace {
+
+// Texels that the pictures are apart.
+std::size_t texels_per_picture(const codec::CodedPictures& coded) {
+    const std::size_t texels =
+        (static_cast<std::size_t>(coded.width) + 2) * (static_cast<std::size_t>(coded.height) + 2);
+    return ReservedMemory::whole_pages(texels * sizeof(Rgba8)) / sizeof(Rgba8);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<CodedTexels>> CodedTexels::create(std::shared_ptr<const codec::CodedPictures> coded,
+                                                         const std::string& name, std::int64_t budget_bytes) {
+    // Lanes without a ray read texel 0 and the ones to the right of it and below, which must be nobody's.
+    TexelLayout layout{coded->width, coded->height, {}};
+    const std::size_t per_picture = texels_per_picture(*coded);
+    std::size_t size =
+        ReservedMemory::whole_pages((static_cast<std::size_t>(layout.column_stride()) + 2) * sizeof(Rgba8)) /
+        sizeof(Rgba8);
+    for (const codec::CodedPicture& picture : coded->pictures) {
+        layout.picture_start.push_back(static_cast<std::int32_t>(size));
+        if (picture.loaded()) size += per_picture;
+        if (size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) return too_many_texels(name);
+    }
+    Result<ReservedMemory> memory = ReservedMemory::create(size * sizeof(Rgba8), name);
+    if (!memory) return memory.error();
+    Result<std::unique_ptr<SampleStore>> samples = SampleStore::create(std::move(coded), name);
+    if (!samples) return samples.error();
+    return std::unique_ptr<CodedTexels>(
+        new CodedTexels(std::move(*samples), std::move(layout), std::move(*memory), budget_bytes));
+}
+
+CodedTexels::CodedTexels(std::unique_ptr<SampleStore> samples, TexelLayout layout, ReservedMemory memory,
+                         std::int64_t budget_bytes)
+    : samples_(std::move(samples)),
+      layout_(std::move(layout)),
+      memory_(std::move(memory)),
+      budget_bytes_(budget_bytes),
+      spans_(layout_.picture_start.size() * static_cast<std::size_t>(layout_.width)),
+      tile_columns_(layout_.picture_start.size() * static_cast<std::size_t>(samples_->coded().tile_columns())),
+      texel_bytes_(layout_.picture_start.size()) {}
+
+void CodedTexels::ensure(int picture, int first, int last) {
+    const codec::CodedPictures& coded = samples_->coded();
+    samples_->mark_used(picture);
+    for (int column = first >> coded.tile_width_log2; column <= last >> coded.tile_width_log2; ++column) {
+        DoneFlag& flag = tile_columns_[static_cast<std::size_t>(picture * coded.tile_columns() + column)];
+        if (!flag.done()) flag.ensure([&] { fill_tile_column(picture, column); });
+    }
+}
+
+// Tiles that are not present are left as they are: no texel of theirs was ever written, so they are transparent.
+void CodedTexels::fill_tile_column(int picture, int tile_column) {
+    const codec::CodedPictures& coded = samples_->coded();
+    const codec::CodedPicture& from = coded.pictures[static_cast<std::size_t>(picture)];
+    const int first = tile_column << coded.tile_width_log2;
+    const int last = std::min(first + coded.tile_width(), layout_.width) - 1;
+    int top = layout_.height;
+    int bottom = 0;
+    for (int row = 0; row < coded.tile_rows(); ++row) {
+        const int tile = row * coded.tile_columns() + tile_column;
+        if (!from.tiles[static_cast<std::size_t>(tile)].present) continue;
+        samples_->need_tile(picture, tile);
+        codec::TilePlace place = codec::place_of_tile(coded, static_cast<std::size_t>(tile));
+        place.width = std::min(place.width, layout_.width - place.left);
+        place.height = std::min(place.height, layout_.height - place.top);
+        convert_tile(picture, place);
+        top = std::min(top, place.top);
+        bottom = place.top + place.height;
+    }
+    for (int column = first; column <= last; ++column) {
+        Rgba8* const texels = texel(layout_.column_start(picture, column));
+        RowSpan span{top, std::max(top, bottom)};
+        while (span.begin < span.end && texels[span.begin].a == 0) ++span.begin;
+        while (span.begin < span.end && texels[span.end - 1].a == 0) --span.end;
+        spans_[layout_.span_index(picture, column)] = span.begin < span.end ? span : RowSpan{};
+    }
+    texel_bytes_[static_cast<std::size_t>(picture)].fetch_add(
+        static_cast<std::int64_t>(sizeof(Rgba8)) * (last - first + 1) * layout_.column_stride(),
+        std::memory_order_relaxed);
+}
+
+void CodedTexels::convert_tile(int picture, const codec::TilePlace& place) {
+    const codec::ConstPlaneViews planes = samples_->planes(picture);
+    // Row by row into a buffer, so that samples are read as they lie, and from there column by column.
+    constexpr int kMostSide = 1 << codec::kMaxTileLog2;
+    Rgba8 tile[kMostSide * kMostSide];
+    for (int y = 0; y < place.height; ++y) {
+        const auto row = [&](std::size_t plane) { return planes[plane].row(place.top + y) + place.left; };
+        const std::uint8_t* const luma = row(0);
+        const std::uint8_t* const u = row(1);
+        const std::uint8_t* const v = row(2);
+        const std::uint8_t* const alpha = row(3);
+        for (int x = 0; x < place.width; ++x) {
+            tile[y * kMostSide + x] = rgba_from_yuva(luma[x], u[x], v[x], alpha[x]);
+        }
+    }
+    const int bottom = place.top + place.height;
+    for (int x = 0; x < place.width; ++x) {
+        Rgba8* const texels = texel(layout_.column_start(picture, place.left + x));
+        for (int y = 0; y < place.height; ++y) texels[place.top + y] = tile[y * kMostSide + x];
+        if (place.top == 0) texels[-1] = texels[0];
+        if (bottom == layout_.height) texels[bottom] = texels[bottom - 1];
+    }
+    const int rim_top = place.top - (place.top == 0 ? 1 : 0);
+    const int rim_bottom = bottom + (bottom == layout_.height ? 1 : 0);
+    const auto repeat = [&](int from, int to) {
+        std::copy(texel(layout_.column_start(picture, from)) + rim_top,
+                  texel(layout_.column_start(picture, from)) + rim_bottom,
+                  texel(layout_.column_start(picture, to)) + rim_top);
+    };
+    if (place.left == 0) repeat(0, -1);
+    if (place.left + place.width == layout_.width) repeat(layout_.width - 1, layout_.width);
+}
+
+void CodedTexels::begin_view() {
+    const std::lock_guard lock(mutex_);
+    samples_->advance_clock();
+    if (views_under_way_ == 0) forget_over_budget();
+    ++views_under_way_;
+}
+
+void CodedTexels::end_view() {
+    const std::lock_guard lock(mutex_);
+    --views_under_way_;
+}
+
+std::int64_t CodedTexels::decoded_bytes_of(int picture) const {
+    return samples_->decoded_bytes(picture) +
+           texel_bytes_[static_cast<std::size_t>(picture)].load(std::memory_order_relaxed);
+}
+
+std::int64_t CodedTexels::decoded_bytes() const {
+    std::int64_t bytes = 0;
+    for (int p = 0; p < static_cast<int>(texel_bytes_.size()); ++p) bytes += decoded_bytes_of(p);
+    return bytes;
+}
+
+void CodedTexels::forget_over_budget() {
+    std::int64_t bytes = decoded_bytes();
+    if (bytes <= budget_bytes_) return;
+    std::vector<std::pair<std::int64_t, int>> pictures;  // last used, number
+    for (int p = 0; p < static_cast<int>(texel_bytes_.size()); ++p) {
+        if (decoded_bytes_of(p) > 0) pictures.emplace_back(samples_->last_used(p), p);
+    }
+    std::sort(pictures.begin(), pictures.end());
+    for (const auto& [used, picture] : pictures) {
+        if (bytes <= budget_bytes_) return;
+        bytes -= decoded_bytes_of(picture);
+        forget(picture);
+    }
+}
+
+void CodedTexels::forget(int picture) {
+    samples_->forget(picture);
+    const std::size_t bytes = texels_per_picture(samples_->coded()) * sizeof(Rgba8);
+    const auto start = static_cast<std::size_t>(layout_.picture_start[static_cast<std::size_t>(picture)]);
+    memory_.release(start * sizeof(Rgba8), bytes);
+    texel_bytes_[static_cast<std::size_t>(picture)].store(0, std::memory_order_relaxed);
+    const int columns = samples_->coded().tile_columns();
+    for (int c = 0; c < columns; ++c) tile_columns_[static_cast<std::size_t>(picture * columns + c)].reset();
+}
+
+}  // namespace rs::engine

@@ -1,0 +1,66 @@
+#pragma once
+// Fills a texel store from coded pictures: a column of tiles when one of its columns is first asked for. Between views
+// it gives back the pictures that were not used for the longest time, so that the decoded ones keep to a budget.
+
+#include "engine/core/fast/done_flag.hpp"
+#include "engine/core/fast/reserved_memory.hpp"
+#include "engine/core/fast/sample_store.hpp"
+#include "engine/core/fast/texel_layout.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace rs::engine {
+
+class CodedTexels {
+public:
+    // `budget_bytes`: of samples and texels together. What the views under way need is kept whatever it says.
+    static Result<std::unique_ptr<CodedTexels>> create(std::shared_ptr<const codec::CodedPictures> coded,
+                                                       const std::string& name, std::int64_t budget_bytes);
+
+    // Every picture in pages of its own, apart from what texel 0 needs (texel_store.hpp).
+    [[nodiscard]] const TexelLayout& layout() const { return layout_; }
+    [[nodiscard]] const Rgba8* texels() const { return texel(0); }
+    [[nodiscard]] RowSpan occupied(int picture, int column) const {
+        return spans_[layout_.span_index(picture, column)];
+    }
+
+    // Around every rendered view. ensure() and the reading of texels stand between them.
+    void begin_view();
+    void end_view();
+
+    // Makes the texels of columns [first, last] of a loaded picture valid, with their rims, and their spans;
+    // 0 <= first <= last < width. May be called from several threads at once.
+    void ensure(int picture, int first, int last);
+
+    // Of all pictures.
+    [[nodiscard]] std::int64_t decoded_bytes() const;
+
+private:
+    CodedTexels(std::unique_ptr<SampleStore> samples, TexelLayout layout, ReservedMemory memory,
+                std::int64_t budget_bytes);
+    [[nodiscard]] Rgba8* texel(std::ptrdiff_t index) const { return reinterpret_cast<Rgba8*>(memory_.data()) + index; }
+    [[nodiscard]] std::int64_t decoded_bytes_of(int picture) const;
+    void fill_tile_column(int picture, int tile_column);
+    void convert_tile(int picture, const codec::TilePlace& place);
+    void forget_over_budget();
+    void forget(int picture);
+
+    std::unique_ptr<SampleStore> samples_;
+    TexelLayout layout_;
+    ReservedMemory memory_;
+    std::int64_t budget_bytes_;
+    std::vector<RowSpan> spans_;
+    std::vector<DoneFlag> tile_columns_;                  // [picture][tile column]
+    std::vector<std::atomic<std::int64_t>> texel_bytes_;  // [picture]: that are valid
+    std::mutex mutex_;
+    int views_under_way_ = 0;
+};
+
+}  // namespace rs::engine

@@ -1,0 +1,244 @@
+#include "engine/core/fast/renderer.hpp"
+
+#include "engine/core/definition/ray_setup.hpp"
+#include "engine/core/definition/shape_pixel.hpp"
+#include "engine/core/fast/column_walk.hpp"
+#include "engine/core/fast/shape_walk.hpp"
+#include "rayspace/format/object_memory.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+namespace rs::engine {
+namespace {
+
+constexpr int kRowsPerTile = 128;
+
+struct ViewRows {
+    std::int32_t begin = 0;
+    std::int32_t end = 0;
+};
+
+// ceil(dividend / divisor), divisor > 0.
+constexpr std::int64_t ceil_divide(std::int64_t dividend, std::int64_t divisor) {
+    const std::int64_t quotient = dividend / divisor;
+    return quotient * divisor < dividend ? quotient + 1 : quotient;
+}
+
+// The view rows j of [0, height) for which ray.row(j) lies in [span.begin, span.end): one interval, since rows are
+// linear.
+ViewRows rows_within(const RaySetup& ray, RowSpan span, int height) {
+    const std::int64_t low = std::int64_t{span.begin} << 16;  // first row value inside
+    const std::int64_t high = std::int64_t{span.end} << 16;   // first row value beyond
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+    if (ray.row_step_q16 > 0) {
+        begin = ceil_divide(low - ray.row_0_q16, ray.row_step_q16);
+        end = ceil_divide(high - ray.row_0_q16, ray.row_step_q16);
+    } else if (ray.row_step_q16 < 0) {
+        // Upside down: row(j) >= low while j <= (row_0 - low) / |step|, and row(j) < high once j > (row_0 - high) /
+        // |step|.
+        begin = ceil_divide(ray.row_0_q16 - high + 1, -ray.row_step_q16);
+        end = ceil_divide(ray.row_0_q16 - low + 1, -ray.row_step_q16);
+    } else if (ray.row_0_q16 >= low && ray.row_0_q16 < high) {
+        end = height;
+    }
+    begin = std::clamp<std::int64_t>(begin, 0, height);
+    end = std::clamp<std::int64_t>(end, begin, height);
+    return {static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)};
+}
+
+ColumnStrip set_up_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
+                         int first_column) {
+    ColumnStrip strip{};
+    const int columns = std::min(kStripColumns, registers.width - first_column);
+    strip.first_used = registers.height;
+    strip.last_full = registers.height;
+    for (int lane = 0; lane < columns; ++lane) {
+        const RaySetup ray = set_up_ray(object, registers, first_column + lane, 0);
+        ViewRows rows;
+        if (ray.picture >= 0) {
+            texels.ensure(ray.picture, ray.column, ray.column);
+            rows = rows_within(ray, texels.occupied(ray.picture, ray.column), registers.height);
+            strip.start[lane] = texels.column_start(ray.picture, ray.column);
+            // Modulo 2^32, see ColumnStrip.
+            strip.row_0_q16[lane] = static_cast<std::int32_t>(ray.row_0_q16);
+            strip.row_step_q16[lane] = static_cast<std::int32_t>(ray.row_step_q16);
+        }
+        strip.begin[lane] = rows.begin;
+        strip.end[lane] = rows.end;
+        strip.first_full = std::max(strip.first_full, rows.begin);
+        strip.last_full = std::min(strip.last_full, rows.end);
+        if (rows.begin == rows.end) continue;
+        strip.first_used = std::min(strip.first_used, rows.begin);
+        strip.last_used = std::max(strip.last_used, rows.end);
+    }
+    if (columns < kStripColumns) strip.last_full = 0;  // the lanes that are missing show nothing
+    return strip;
+}
+
+int strips_of(const ViewRegisters& registers) {
+    return (registers.width + kStripColumns - 1) / kStripColumns;
+}
+
+// pixel(i, j) of every pixel of the view, row by row.
+template <class Pixel>
+void render_pixels(const Pixel& pixel, ImageView<Rgba8> out, ImageView<std::int32_t> lambda) {
+    tbb::parallel_for(0, out.height(), [&](int j) {
+        for (int i = 0; i < out.width(); ++i) {
+            const ShapePixel found = pixel(i, j);
+            out(i, j) = found.colour;
+            if (!lambda.empty()) lambda(i, j) = found.colour.a > 0 ? found.lambda_q20 : 0;
+        }
+    });
+}
+
+}  // namespace
+
+Status substitute_missing_pictures(RaySpaceObject& object) {
+    const bool coded = shows_coded_pictures(object);
+    const auto is_loaded = [&](std::uint16_t view) {
+        return coded ? object.coded->pictures[view].loaded() : !object.pictures[view].empty();
+    };
+    for (Ring& ring : object.rings) {
+        const int count = static_cast<int>(ring.views.size());
+        const auto loaded = [&](int n) { return is_loaded(ring.views[static_cast<std::size_t>(n)]); };
+        std::vector<std::uint16_t> stand_in(object.views.size(), kNoPicture);
+        for (int n = 0; n < count; ++n) {
+            for (int away = 0; away <= count / 2 && stand_in[ring.views[static_cast<std::size_t>(n)]] == kNoPicture;
+                 ++away) {
+                for (const int candidate : {(n - away + count) % count, (n + away) % count}) {
+                    if (!loaded(candidate)) continue;
+                    stand_in[ring.views[static_cast<std::size_t>(n)]] = ring.views[static_cast<std::size_t>(candidate)];
+                    break;
+                }
+            }
+            if (stand_in[ring.views[static_cast<std::size_t>(n)]] == kNoPicture) {
+                return Error{object.name + ": a ring has no picture loaded; read the object at a higher level"};
+            }
+        }
+        if (!std::all_of(ring.views.begin(), ring.views.end(), is_loaded)) ring.shape = {};
+        for (std::uint16_t& cell : ring.cells) {
+            if (cell != kNoPicture) cell = stand_in[cell];
+        }
+    }
+    return {};
+}
+
+Renderer::Renderer(RaySpaceObject object, TexelStore texels) : object_(std::move(object)), texels_(std::move(texels)) {}
+
+Result<Renderer> Renderer::create(RaySpaceObject object, const RendererOptions& options) {
+    if (const Status status = substitute_missing_pictures(object); !status) return status.error();
+    Result<TexelStore> texels = TexelStore::create(object, options.decoded_budget_bytes);
+    if (!texels) return texels.error();
+    object.pictures.clear();
+    object.pictures.shrink_to_fit();
+    return Renderer(std::move(object), std::move(*texels));
+}
+
+std::int64_t Renderer::memory_bytes() const {
+    return memory_of(object_) + texels_.memory_bytes();
+}
+
+void Renderer::render(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20) const {
+    RS_CHECK(out.width() == registers.width && out.height() == registers.height);
+    RS_CHECK(lambda_q20.empty() || (lambda_q20.width() == registers.width && lambda_q20.height() == registers.height));
+    const TexelStore::Reading reading = texels_.read();
+    const bool has_shape = !object_.rings[static_cast<std::size_t>(registers.ring)].shape.empty();
+    if (has_shape && registers.upright() && can_walk_shape()) {
+        render_shape_upright(registers, out, lambda_q20);
+    } else if (has_shape) {
+        render_shape_pixels(registers, out, lambda_q20);
+    } else if (registers.upright()) {
+        render_upright(registers, out, lambda_q20);
+    } else {
+        render_tilted(registers, out, lambda_q20);
+    }
+}
+
+void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> out,
+                              ImageView<std::int32_t> lambda) const {
+    const int strips = strips_of(registers);
+    std::vector<ColumnStrip> strip(static_cast<std::size_t>(strips));
+    const std::size_t grain = texels_.is_coded() ? 1 : 8;  // decoding is worth a task of its own
+    tbb::parallel_for(tbb::blocked_range<int>(0, strips, grain), [&](const tbb::blocked_range<int>& range) {
+        for (int s = range.begin(); s < range.end(); ++s) {
+            strip[static_cast<std::size_t>(s)] = set_up_strip(object_, texels_, registers, s * kStripColumns);
+        }
+    });
+    const int tiles = (registers.height + kRowsPerTile - 1) / kRowsPerTile;
+    tbb::parallel_for(0, tiles, [&](int tile) {
+        const int row_begin = tile * kRowsPerTile;
+        const int row_end = std::min(row_begin + kRowsPerTile, registers.height);
+        for (int s = 0; s < strips; ++s) {
+            const int first = s * kStripColumns;
+            walk_columns(strip[static_cast<std::size_t>(s)], texels_.texels(), row_begin, row_end,
+                         std::min(kStripColumns, registers.width - first), out.row(row_begin) + first, out.stride());
+        }
+    });
+    if (lambda.empty()) return;
+    std::vector<std::int32_t> of_column;
+    for (int i = 0; i < registers.width; ++i) of_column.push_back(set_up_ray(object_, registers, i, 0).lambda_q20);
+    tbb::parallel_for(0, registers.height, [&](int j) {
+        for (int i = 0; i < registers.width; ++i) {
+            lambda(i, j) = out(i, j).a > 0 ? of_column[static_cast<std::size_t>(i)] : 0;
+        }
+    });
+}
+
+void Renderer::render_tilted(const ViewRegisters& registers, ImageView<Rgba8> out,
+                             ImageView<std::int32_t> lambda) const {
+    const auto pixel = [&](int i, int j) -> ShapePixel {
+        const RaySetup ray = set_up_ray(object_, registers, i, j);
+        if (ray.picture < 0) return {};
+        const std::int64_t row = ray.row(j);
+        if (row < 0 || row >= object_.height) return {};
+        texels_.ensure(ray.picture, ray.column, ray.column);
+        return {texels_.texels()[texels_.column_start(ray.picture, ray.column) + row], ray.lambda_q20};
+    };
+    render_pixels(pixel, out, lambda);
+}
+
+void Renderer::render_shape_upright(const ViewRegisters& registers, ImageView<Rgba8> out,
+                                    ImageView<std::int32_t> lambda) const {
+    const ShapeWalk walk = set_up_walk(object_, texels_, registers);
+    std::vector<std::int32_t> rise_q24;
+    for (int j = 0; j < registers.height; ++j) {
+        rise_q24.push_back(registers.rise_q24(0, j));
+    }
+    tbb::parallel_for(tbb::blocked_range<int>(0, strips_of(registers)), [&](const tbb::blocked_range<int>& range) {
+        ShapeStrip strip;
+        for (int s = range.begin(); s < range.end(); ++s) {
+            const int first = s * kStripColumns;
+            set_up_shape_strip(object_, texels_, registers, walk, first, strip);
+            ShapeWalkOutput to{out.row(0) + first, out.stride(), nullptr, 0};
+            if (!lambda.empty()) {
+                to.lambda_q20 = lambda.row(0) + first;
+                to.lambda_stride = lambda.stride();
+            }
+            walk_shape(walk, strip, rise_q24.data(), registers.height, std::min(kStripColumns, registers.width - first),
+                       to);
+        }
+    });
+}
+
+void Renderer::render_shape_pixels(const ViewRegisters& registers, ImageView<Rgba8> out,
+                                   ImageView<std::int32_t> lambda) const {
+    const auto texel = [&](int view, int column, int row) {
+        texels_.ensure(view, column, column);
+        return texels_.texels()[texels_.column_start(view, column) + row];
+    };
+    const auto pixel = [&](int i, int j) -> ShapePixel {
+        const ShapeSetup setup = set_up_shape(object_, registers, i, j);
+        if (!setup.has_ray) return {};
+        return shape_pixel(object_, registers, setup, registers.rise_q24(i, j), texel);
+    };
+    render_pixels(pixel, out, lambda);
+}
+
+}  // namespace rs::engine

@@ -1,0 +1,62 @@
+#pragma once
+// The fast software renderer: the paper's "Core Module" (section 6). Its pictures equal reconstruct_scalar's bit for
+// bit.
+//
+// Upright views go column by column: one set-up for each view column, then strips of columns walk down the captured
+// pictures together (column_walk.hpp; shape_walk.hpp for objects with a shape map). Views from tilted cameras are set
+// up pixel by pixel (some thirty times slower).
+
+#include "engine/core/definition/view_registers.hpp"
+#include "engine/core/fast/texel_store.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/object/ray_space_object.hpp"
+
+#include <cstdint>
+
+namespace rs::engine {
+
+// Lets the loaded pictures of each ring stand in for those that are not: every map cell of a missing picture gets the
+// loaded picture nearest to it in turning order, and a ring's shape map, which needs all of its pictures, is dropped.
+// Does nothing where all are loaded. Fails where a ring has no picture.
+Status substitute_missing_pictures(RaySpaceObject& object);
+
+struct RendererOptions {
+    // Of an object whose pictures are coded: how much of them stays decoded between views, 8 bytes a pixel. A view
+    // keeps what it needs, also beyond.
+    std::int64_t decoded_budget_bytes = std::int64_t{256} << 20;
+};
+
+class Renderer {
+public:
+    // Takes the object, which must have passed validate_object (as read_object's have). Missing pictures are
+    // substituted. Where all of its pictures are only coded, they are decoded tile by tile as views need them; else
+    // they are converted now, and Y, U, V and alpha released.
+    static Result<Renderer> create(RaySpaceObject object, const RendererOptions& options = {});
+
+    // The object without its unpacked pictures.
+    [[nodiscard]] const RaySpaceObject& object() const { return object_; }
+
+    // What it takes in memory, the object included; grows and shrinks with what is decoded of coded pictures.
+    [[nodiscard]] std::int64_t memory_bytes() const;
+
+    // `out` has the view's size; straight RGBA, every pixel is written. `lambda_q20`, where not empty, has that size
+    // too and receives the axial depth of what is shown, 0 where alpha is 0 (as reconstruct_scalar says). `registers`
+    // come from prepare_view on object(). Uses the threads of the calling tbb arena; may be called from several threads
+    // at once.
+    void render(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20 = {}) const;
+
+private:
+    Renderer(RaySpaceObject object, TexelStore texels);
+    void render_upright(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda) const;
+    void render_tilted(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda) const;
+    void render_shape_upright(const ViewRegisters& registers, ImageView<Rgba8> out,
+                              ImageView<std::int32_t> lambda) const;
+    void render_shape_pixels(const ViewRegisters& registers, ImageView<Rgba8> out,
+                             ImageView<std::int32_t> lambda) const;
+
+    RaySpaceObject object_;
+    TexelStore texels_;
+};
+
+}  // namespace rs::engine

@@ -1,0 +1,46 @@
+#include "engine/core/fast/shape_columns.hpp"
+
+#include "engine/core/definition/fixed_point.hpp"
+#include "engine/core/definition/shape_pixel.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace rs::engine {
+namespace {
+
+// Depths at which section 7's integers are within half a column of the quotient that they stand for: nearer ones are
+// not shown, from farther ones the reciprocal has too few bits.
+constexpr std::int64_t kFarthestBracket_q20 = std::int64_t{1} << 26;
+constexpr std::int64_t kMostLateral_q12 = std::int64_t{1} << 30;
+
+// Bilinear reads take one column to either side; another is for rounding.
+constexpr int kMargin = 2;
+
+}  // namespace
+
+ColumnRange columns_read(const RaySpaceObject& object, const ShapePicture& picture) {
+    const ColumnRange whole{0, object.width - 1};
+    const std::int32_t cx_q8 = object.views[static_cast<std::size_t>(picture.view)].cx_q16 >> 8;
+    // The column is a quotient of linear functions of depth, and so between its values at the ends where the divisor
+    // is above zero at both.
+    std::int64_t least_q8 = 0;
+    std::int64_t most_q8 = 0;
+    for (const int d_q3 : {0, 255 * 8}) {
+        const std::int64_t l_q20 = picture.l0_q20 + ((std::int64_t{d_q3} * picture.l1_q24) >> 7);
+        const std::int64_t n_q12 = picture.n0_q12 + ((std::int64_t{d_q3} * picture.n1_q12) >> 3);
+        if (l_q20 < kNearest_q20 || l_q20 > kFarthestBracket_q20) return whole;
+        if (n_q12 < -kMostLateral_q12 || n_q12 > kMostLateral_q12) return whole;
+        const auto inverse_q20 = static_cast<std::int32_t>((std::int64_t{1} << 40) / l_q20);
+        const std::int64_t column_q8 =
+            std::int64_t{cx_q8} + multiply_shift(static_cast<std::int32_t>(n_q12), inverse_q20, 24);
+        least_q8 = d_q3 == 0 ? column_q8 : std::min(least_q8, column_q8);
+        most_q8 = d_q3 == 0 ? column_q8 : std::max(most_q8, column_q8);
+    }
+    const std::int64_t first = std::max<std::int64_t>((least_q8 >> 8) - kMargin, 0);
+    const std::int64_t last = std::min<std::int64_t>((most_q8 >> 8) + kMargin, object.width - 1);
+    if (first > last) return {};
+    return {static_cast<int>(first), static_cast<int>(last)};
+}
+
+}  // namespace rs::engine

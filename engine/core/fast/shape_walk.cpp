@@ -1,0 +1,216 @@
+#include "engine/core/fast/shape_walk.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/core/fast/shape_walk.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "engine/core/definition/shape_pixel.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#if HWY_TARGET == HWY_SCALAR
+
+HWY_BEFORE_NAMESPACE();
+namespace rs::engine::HWY_NAMESPACE {
+
+bool can_walk() {
+    return false;
+}
+
+void walk_shape_rows(const ShapeWalk&, const ShapeStrip&, const std::int32_t*, int, std::int32_t*, std::ptrdiff_t,
+                     std::int32_t*, std::ptrdiff_t) {}
+
+}  // namespace rs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#else
+
+#include "engine/core/fast/cell_march_lanes.inl"
+
+HWY_BEFORE_NAMESPACE();
+namespace rs::engine::HWY_NAMESPACE {
+
+// Where a sample of each lane falls, and the texels there.
+struct SamplePlace {
+    LaneMask exists;
+    TexelWeights weights;
+    TexelQuads texels;
+};
+
+// sample_picture() of the lanes `wanted`, as far as the texels.
+HWY_INLINE SamplePlace sample_place(const ShapeWalk& walk, const ShapePictureLanes& picture, int lane, Vector d,
+                                    Vector y_q16, LaneMask wanted) {
+    const auto load = [&](const std::int32_t* lanes) { return hn::Load(Lanes(), lanes + lane); };
+    const Vector l = hn::Add(load(picture.l0_q20), hn::ShiftRight<7>(hn::Mul(d, load(picture.l1_q24))));
+    const Vector inverse_l = inverse(l);
+    const Vector n = hn::Add(load(picture.n0_q12), hn::ShiftRight<3>(hn::Mul(d, load(picture.n1_q12))));
+    const Vector column = hn::Add(load(picture.cx_q8), multiply_shift_within<24>(n, inverse_l));
+    const Vector m = multiply_shift_within<16>(load(picture.fl_y_q8), inverse_l);
+    const Vector row = hn::Sub(load(picture.cy_q8), multiply_shift<20>(m, hn::Sub(y_q16, load(picture.height_q16))));
+    SamplePlace place;
+    place.exists = hn::And(hn::And(wanted, at_least(l, number(kNearest_q20))),
+                           hn::And(within(column, number(walk.width_q8)), within(row, number(walk.height_q8))));
+
+    // The texels' border stands in for the clamps.
+    const Vector x = hn::ShiftRight<5>(hn::Sub(column, number(128 - 16)));
+    const Vector y = hn::ShiftRight<5>(hn::Sub(row, number(128 - 16)));
+    const Vector index =
+        hn::IfThenElseZero(place.exists, hn::Add(hn::Add(load(picture.start), hn::ShiftRight<3>(y)),
+                                                 hn::Mul(hn::ShiftRight<3>(x), number(walk.column_stride))));
+    alignas(64) std::int32_t indices[kStripColumns];
+    hn::Store(index, Lanes(), indices);
+    place.weights = texel_weights(hn::And(x, number(7)), hn::And(y, number(7)));
+    place.texels = fetch(reinterpret_cast<const std::int32_t*>(walk.texels), walk.column_stride, indices);
+    return place;
+}
+
+struct ShownLanes {
+    LaneMask shown;
+    Vector colour;
+    Vector lambda_q20;
+};
+
+// Inside of the object: where every texel of both pictures is opaque, resolve(mix()) is a mean of eight texels whose
+// weights are 64 * 256 together.
+HWY_INLINE Vector opaque_colour(const ShapeStrip& strip, int lane, const SamplePlace& first,
+                                const SamplePlace& second) {
+    Channels sum;
+    for (Vector& channel : sum.of) channel = number(1 << 13);
+    const auto add = [&](const SamplePlace& place, const ShapePictureLanes& picture) {
+        const Vector share = hn::Load(Lanes(), picture.share + lane);
+        add_texels(place.texels,
+                   {multiply_halves(place.weights.upper, share), multiply_halves(place.weights.lower, share)}, sum);
+    };
+    add(first, strip.first);
+    add(second, strip.second);
+    for (Vector& channel : sum.of) channel = hn::ShiftRight<14>(channel);
+    return packed(sum);
+}
+
+// shown_surface() of the lanes `wanted`, at depth `d`.
+HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int lane, Vector rise, Vector d,
+                                  LaneMask wanted) {
+    const auto load = [&](const std::int32_t* lanes) { return hn::Load(Lanes(), lanes + lane); };
+    const auto used = [&](const ShapePictureLanes& picture) { return hn::MaskFromVec(load(picture.used)); };
+    const Vector zero = hn::Zero(Lanes());
+    ShownLanes surface;
+    surface.lambda_q20 = hn::Add(load(strip.lambda0_q20), hn::ShiftRight<4>(hn::Mul(d, load(strip.lambda1_q21))));
+    const LaneMask looked_at = hn::And(wanted, hn::Gt(surface.lambda_q20, zero));
+    const Vector y_q16 = hn::Add(number(walk.b_q16), multiply_shift_within<28>(surface.lambda_q20, rise));
+    const SamplePlace first = sample_place(walk, strip.first, lane, d, y_q16, hn::And(looked_at, used(strip.first)));
+    const SamplePlace second = sample_place(walk, strip.second, lane, d, y_q16, hn::And(looked_at, used(strip.second)));
+    const LaneMask both = hn::And(first.exists, second.exists);
+    const Vector alphas = hn::Or(hn::And(all_bits(first.texels), all_bits(second.texels)), number(0x00FFFFFF));
+    if (HWY_LIKELY(hn::AllTrue(Lanes(), hn::And(both, hn::Eq(alphas, number(-1)))))) {
+        surface.shown = both;
+        surface.colour = opaque_colour(strip, lane, first, second);
+        return surface;
+    }
+
+    const Channels first_sum = premultiplied(first.texels, first.weights);
+    const Channels second_sum = premultiplied(second.texels, second.weights);
+    const Vector first_a = fourth(first_sum);
+    const Vector second_a = fourth(second_sum);
+    const LaneMask transparent =
+        hn::Or(hn::And(first.exists, hn::Eq(first_a, zero)), hn::And(second.exists, hn::Eq(second_a, zero)));
+    surface.shown = hn::AndNot(transparent, hn::Or(first.exists, second.exists));
+    const Vector weight = hn::IfThenElse(both, load(strip.weight), hn::IfThenZeroElse(first.exists, number(256)));
+    const auto mixed = [](Vector f, Vector s, Vector w) {
+        return hn::Add(hn::ShiftLeft<8>(f), hn::Mul(hn::Sub(s, f), w));
+    };
+    const Channels sum =
+        for_channels(weight, [&](int n, Vector w) { return mixed(first_sum.of[n], second_sum.of[n], w); });
+    surface.colour = resolve_lanes(sum, mixed(first_a, second_a, weight));
+    return surface;
+}
+
+// shape_pixel() of as many lanes as a vector has, from `lane` on.
+HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int lane, std::int32_t rise_q24,
+                           std::int32_t* colour, std::int32_t* lambda) {
+    const Vector zero = hn::Zero(Lanes());
+    const Vector rise = number(rise_q24);
+    const LaneMask alone = hn::MaskFromVec(hn::Load(Lanes(), strip.alone + lane));
+    MarchLanes march(walk, strip, lane, rise);
+    Vector shown_colour = zero;
+    Vector shown_lambda = zero;
+    LaneMask looking = hn::MaskFromVec(
+        hn::Or(hn::Load(Lanes(), strip.first.used + lane), hn::Load(Lanes(), strip.second.used + lane)));
+    while (!hn::AllFalse(Lanes(), looking)) {
+        Vector depth = march.next(looking);
+        const LaneMask at_foot = hn::AndNot(is_surface(depth), alone);
+        depth = hn::IfThenElse(at_foot, hn::Load(Lanes(), strip.foot_depth_q3 + lane), depth);
+        looking = hn::And(looking, is_surface(depth));
+        if (hn::AllFalse(Lanes(), looking)) break;
+        const ShownLanes surface = shown_lanes(walk, strip, lane, rise, depth, looking);
+        shown_colour = hn::IfThenElse(surface.shown, surface.colour, shown_colour);
+        shown_lambda = hn::IfThenElse(surface.shown, surface.lambda_q20, shown_lambda);
+        looking = hn::AndNot(hn::Or(hn::Or(surface.shown, alone), march.ended()), looking);
+    }
+    hn::StoreU(shown_colour, Lanes(), colour);
+    if (lambda != nullptr) hn::StoreU(hn::IfThenZeroElse(hn::Eq(shown_colour, zero), shown_lambda), Lanes(), lambda);
+}
+
+bool can_walk() {
+    return true;
+}
+
+void walk_shape_rows(const ShapeWalk& walk, const ShapeStrip& strip, const std::int32_t* rise_q24, int rows,
+                     std::int32_t* colour, std::ptrdiff_t colour_stride, std::int32_t* lambda,
+                     std::ptrdiff_t lambda_stride) {
+    const int lanes = static_cast<int>(hn::Lanes(Lanes()));
+    for (int j = 0; j < rows; ++j) {
+        std::int32_t* const lambdas = lambda == nullptr ? nullptr : lambda + j * lambda_stride;
+        for (int lane = 0; lane < kStripColumns; lane += lanes) {
+            walk_lanes(walk, strip, lane, rise_q24[j], colour + j * colour_stride + lane,
+                       lambdas == nullptr ? nullptr : lambdas + lane);
+        }
+    }
+}
+
+}  // namespace rs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
+
+#if HWY_ONCE
+namespace rs::engine {
+
+HWY_EXPORT(can_walk);
+HWY_EXPORT(walk_shape_rows);
+
+bool can_walk_shape() {
+    return HWY_DYNAMIC_DISPATCH(can_walk)();
+}
+
+void walk_shape(const ShapeWalk& walk, const ShapeStrip& strip, const std::int32_t* rise_q24, int rows, int columns,
+                const ShapeWalkOutput& out) {
+    static_assert(sizeof(Rgba8) == sizeof(std::int32_t));
+    const auto width = static_cast<std::size_t>(columns);
+    if (strip.empty) {
+        for (int j = 0; j < rows; ++j) {
+            std::fill_n(out.colour + j * out.colour_stride, width, Rgba8{});
+            if (out.lambda_q20 != nullptr) std::fill_n(out.lambda_q20 + j * out.lambda_stride, width, 0);
+        }
+        return;
+    }
+    if (columns == kStripColumns) {
+        HWY_DYNAMIC_DISPATCH(walk_shape_rows)
+        (walk, strip, rise_q24, rows, reinterpret_cast<std::int32_t*>(out.colour), out.colour_stride, out.lambda_q20,
+         out.lambda_stride);
+        return;
+    }
+    // The view's right edge: row by row through a buffer.
+    for (int j = 0; j < rows; ++j) {
+        alignas(64) std::int32_t colour[kStripColumns];
+        alignas(64) std::int32_t lambda[kStripColumns];
+        HWY_DYNAMIC_DISPATCH(walk_shape_rows)
+        (walk, strip, rise_q24 + j, 1, colour, 0, lambda, 0);
+        std::memcpy(static_cast<void*>(out.colour + j * out.colour_stride), colour, width * sizeof(Rgba8));
+        if (out.lambda_q20 != nullptr) std::copy_n(lambda, width, out.lambda_q20 + j * out.lambda_stride);
+    }
+}
+
+}  // namespace rs::engine
+#endif  // HWY_ONCE

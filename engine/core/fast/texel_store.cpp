@@ -1,0 +1,79 @@
+#include "engine/core/fast/texel_store.hpp"
+
+#include "rayspace/object/yuv.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace rs::engine {
+
+bool shows_coded_pictures(const RaySpaceObject& object) {
+    return object.coded != nullptr && std::all_of(object.pictures.begin(), object.pictures.end(),
+                                                  [](const PlanarPicture& picture) { return picture.empty(); });
+}
+
+Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes) {
+    TexelStore store;
+    if (shows_coded_pictures(object)) {
+        Result<std::unique_ptr<CodedTexels>> coded =
+            CodedTexels::create(object.coded, object.name, decoded_budget_bytes);
+        if (!coded) return coded.error();
+        store.coded_ = std::move(*coded);
+        store.layout_ = store.coded_->layout();
+        return store;
+    }
+    store.layout_ = {object.width, object.height, {}};
+    const std::int64_t picture_size = (std::int64_t{object.width} + 2) * (std::int64_t{object.height} + 2);
+    std::int64_t size = 1;
+    for (const PlanarPicture& picture : object.pictures) {
+        store.layout_.picture_start.push_back(static_cast<std::int32_t>(size));
+        if (!picture.empty()) size += picture_size;
+        if (size > std::numeric_limits<std::int32_t>::max()) return too_many_texels(object.name);
+    }
+    store.texels_.resize(static_cast<std::size_t>(size));
+    store.spans_.resize(object.pictures.size() * static_cast<std::size_t>(object.width));
+
+    tbb::parallel_for(std::size_t{0}, object.pictures.size(), [&](std::size_t p) {
+        const PlanarPicture& picture = object.pictures[p];
+        if (picture.empty()) return;
+        for (int column = 0; column < object.width; ++column) {
+            Rgba8* texel = store.texels_.data() + store.column_start(static_cast<int>(p), column);
+            RowSpan span;
+            for (int row = 0; row < object.height; ++row) {
+                texel[row] = rgba_at(picture, column, row);
+                if (texel[row].a == 0) continue;
+                if (span.end == 0) span.begin = row;
+                span.end = row + 1;
+            }
+            texel[-1] = texel[0];
+            texel[object.height] = texel[object.height - 1];
+            store.spans_[store.layout_.span_index(static_cast<int>(p), column)] = span;
+        }
+        const auto repeat = [&](int from, int to) {
+            const Rgba8* source = store.texels_.data() + store.column_start(static_cast<int>(p), from) - 1;
+            std::copy_n(source, store.column_stride(),
+                        store.texels_.data() + store.column_start(static_cast<int>(p), to) - 1);
+        };
+        repeat(0, -1);
+        repeat(object.width - 1, object.width);
+    });
+    return store;
+}
+
+std::int64_t TexelStore::bytes_of_pictures(int width, int height, std::int64_t count) {
+    const std::int64_t texels = (std::int64_t{width} + 2) * (std::int64_t{height} + 2);
+    const std::int64_t per_picture = texels * std::int64_t{sizeof(Rgba8)} + width * std::int64_t{sizeof(RowSpan)} +
+                                     std::int64_t{sizeof(std::int32_t)};
+    return count * per_picture;
+}
+
+std::int64_t TexelStore::memory_bytes() const {
+    const std::size_t fixed = texels_.capacity() * sizeof(Rgba8) + spans_.capacity() * sizeof(RowSpan) +
+                              layout_.picture_start.capacity() * sizeof(std::int32_t);
+    return static_cast<std::int64_t>(fixed) + (coded_ != nullptr ? coded_->decoded_bytes() : 0);
+}
+
+}  // namespace rs::engine

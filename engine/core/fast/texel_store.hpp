@@ -1,0 +1,82 @@
+#pragma once
+// The captured pictures as the fast core reads them: RGBA, column by column.
+//
+// Converting YUV to RGB is done once per stored pixel instead of once per rendered one. Fetching is nearest, so the two
+// commute and the bits stay the same. Columns are contiguous because the engine walks pictures downwards.
+//
+// Layout: texel (column, row) of picture p stands at texels()[column_start(p, column) + row], and column_start(p,
+// column
+// + 1) = column_start(p, column) + column_stride(). Every picture has a border one texel wide that repeats its rim
+// (column -1 and `width`, row -1 and `height`), so that bilinear reads need no clamps. texels()[0] is transparent and
+// belongs to no picture: the place that lanes without a ray read; the texels a bilinear read from there takes exist.
+//
+// Pictures that the object holds only coded are decoded as far as they are asked for, and given back when there are too
+// many (coded_texels.hpp).
+
+#include "engine/core/fast/coded_texels.hpp"
+#include "engine/core/fast/texel_layout.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/object/ray_space_object.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace rs::engine {
+
+// True where the object's pictures are to be taken from object.coded: no picture is unpacked.
+bool shows_coded_pictures(const RaySpaceObject& object);
+
+class TexelStore {
+public:
+    // Fails where the pictures and their borders have 2^31 pixels or more (the fast core's indices are 32 bits wide),
+    // or coded pictures cannot be decoded. Pictures that are not loaded take no room and must not be asked for.
+    static Result<TexelStore> create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes);
+
+    // What unpacked pictures of a size take.
+    static std::int64_t bytes_of_pictures(int width, int height, std::int64_t count);
+    // What this store takes now.
+    [[nodiscard]] std::int64_t memory_bytes() const;
+
+    // Texels are read while a Reading lives; several may, in any threads.
+    class Reading {
+    public:
+        explicit Reading(CodedTexels* coded) : coded_(coded) {
+            if (coded_ != nullptr) coded_->begin_view();
+        }
+        Reading(const Reading&) = delete;
+        Reading& operator=(const Reading&) = delete;
+        ~Reading() {
+            if (coded_ != nullptr) coded_->end_view();
+        }
+
+    private:
+        CodedTexels* coded_;
+    };
+    [[nodiscard]] Reading read() const { return Reading(coded_.get()); }
+
+    // Before columns [first, last] of a picture are read, or their spans.
+    void ensure(int picture, int first, int last) const {
+        if (coded_ != nullptr) coded_->ensure(picture, first, last);
+    }
+    // True where ensure() may have to decode.
+    [[nodiscard]] bool is_coded() const { return coded_ != nullptr; }
+
+    [[nodiscard]] const Rgba8* texels() const { return coded_ != nullptr ? coded_->texels() : texels_.data(); }
+    [[nodiscard]] std::int32_t column_start(int picture, int column) const {
+        return layout_.column_start(picture, column);
+    }
+    [[nodiscard]] std::int32_t column_stride() const { return layout_.column_stride(); }
+    [[nodiscard]] RowSpan occupied(int picture, int column) const {
+        return coded_ != nullptr ? coded_->occupied(picture, column) : spans_[layout_.span_index(picture, column)];
+    }
+
+private:
+    TexelLayout layout_;
+    std::vector<RowSpan> spans_;
+    std::vector<Rgba8> texels_;
+    std::unique_ptr<CodedTexels> coded_;
+};
+
+}  // namespace rs::engine

@@ -1,0 +1,135 @@
+#include "engine/model/blocks/decompression/book_lookup.hpp"
+
+#include <algorithm>
+
+namespace rs::engine::model {
+namespace {
+
+std::array<int, 3> sum_of_entries(const BookBanks& banks, const HopLookup& hop) {
+    const std::size_t set = hop.predicted ? 1 : 0;
+    const auto x = static_cast<std::size_t>(hop.x);
+    const auto y = static_cast<std::size_t>(hop.y);
+    std::array<int, 3> sum{};
+    for (std::size_t s = 0; s < static_cast<std::size_t>(hop.block_stages); ++s) {
+        const std::int8_t* const entry =
+            banks.block[set][s].data() + std::size_t{hop.block[s]} * codec::kBlockDimensions;
+        const std::size_t pair = y / 2 * 4 + x / 2;
+        sum[0] += entry[8 * y + x];
+        sum[1] += entry[64 + pair];
+        sum[2] += entry[80 + pair];
+    }
+    for (std::size_t s = 0; s < static_cast<std::size_t>(hop.quarter_stages); ++s) {
+        const std::int8_t* const entry =
+            banks.quarter[set][s].data() + std::size_t{hop.quarter[s]} * codec::kQuarterDimensions;
+        const std::size_t place = y % 4 * 4 + x % 4;
+        for (std::size_t plane = 0; plane < 3; ++plane) sum[plane] += entry[16 * plane + place];
+    }
+    return sum;
+}
+
+}  // namespace
+
+void BookBanks::set_byte(const BookCounts& counts, std::size_t place, std::uint8_t value) {
+    for (std::size_t set = 0; set < 2; ++set) {
+        for (std::size_t s = 0; s < static_cast<std::size_t>(counts.block[set]); ++s) {
+            if (place < kBlockBytes) {
+                block[set][s][place] = static_cast<std::int8_t>(value);
+                return;
+            }
+            place -= kBlockBytes;
+        }
+        for (std::size_t s = 0; s < static_cast<std::size_t>(counts.quarter[set]); ++s) {
+            if (place < kQuarterBytes) {
+                quarter[set][s][place] = static_cast<std::int8_t>(value);
+                return;
+            }
+            place -= kQuarterBytes;
+        }
+    }
+    if (place < kAlphaBytes) alpha[place] = value;
+}
+
+YuvaPixel looked_up(const BookBanks& banks, const CodedPixel& pixel) {
+    YuvaPixel out;
+    out.view = pixel.view;
+    if (!pixel.shows || pixel.alpha == CodedPixel::Alpha::none) return out;
+    std::array<int, 3> samples = {pixel.flat[0], pixel.flat[1], pixel.flat[2]};
+    for (int h = pixel.hops - 1; h >= 0; --h) {
+        const std::array<int, 3> sum = sum_of_entries(banks, pixel.hop[static_cast<std::size_t>(h)]);
+        for (std::size_t plane = 0; plane < 3; ++plane) {
+            samples[plane] = std::clamp(samples[plane] + sum[plane], 0, 255);
+        }
+    }
+    out.y = samples[0];
+    out.u = samples[1];
+    out.v = samples[2];
+    const HopLookup& first = pixel.hop[0];
+    const auto place = static_cast<std::size_t>(first.y % 4 * 4 + first.x % 4);
+    out.alpha = pixel.alpha == CodedPixel::Alpha::full ? 255 : banks.alpha[std::size_t{16} * pixel.alpha_entry + place];
+    return out;
+}
+
+BookLookup::BookLookup(const RegisterFile& registers, Fifo<CodedPixel>& in, Fifo<MemoryRead>& requests,
+                       Fifo<MemoryWord>& words, Fifo<YuvaPixel>& out)
+    : Block("book_lookup", "latency " + std::to_string(kStages + 1) +
+                               ", a pixel per cycle, one more for each prediction but the first; a word of new books "
+                               "per cycle"),
+      registers_(registers),
+      in_(reads(in)),
+      requests_(writes(requests)),
+      words_(reads(words)),
+      out_(writes(out)) {}
+
+Activity BookLookup::load() {
+    const ObjectRegisters& object = registers_.object_of(in_.front().view);
+    Activity activity = asked_ < object.book_words ? Activity::memory_port : Activity::memory_data;
+    if (asked_ < object.book_words && requests_.can_push()) {
+        requests_.push({object.books + asked_++, false});
+        activity = Activity::busy;
+    }
+    if (words_.can_pop()) {
+        const std::uint64_t word = words_.pop().data;
+        for (std::size_t n = 0; n < 8; ++n) {
+            banks_.set_byte(object.book_counts, 8 * std::size_t{written_} + n,
+                            static_cast<std::uint8_t>(word >> (8 * n)));
+        }
+        ++written_;
+        activity = Activity::busy;
+    }
+    if (written_ == object.book_words) {
+        resident_ = object.serial;
+        loading_ = false;
+    }
+    return activity;
+}
+
+Activity BookLookup::tick(std::uint64_t) {
+    if (loading_) return load();
+    if (stages_.back().full && !out_.can_push()) return Activity::output_full;  // the whole pipe stands
+    bool full = false;
+    for (const Stage& stage : stages_) full |= stage.full;
+    if (!full && !in_.can_pop()) return Activity::idle;
+    const bool other = in_.can_pop() && in_.front().shows && registers_.object_of(in_.front().view).serial != resident_;
+    if (other && !full) {
+        loading_ = true;
+        asked_ = written_ = 0;
+        ++book_loads_;
+        return load();
+    }
+    if (stages_.back().full) out_.push(stages_.back().pixel);
+    for (std::size_t n = stages_.size() - 1; n > 0; --n) stages_[n] = stages_[n - 1];
+    stages_[0].full = false;
+    if (!in_.can_pop()) return Activity::idle;  // pixels leave, none comes
+    if (other) return Activity::busy;
+    // Flat and predicted banks serve one hop each in a cycle; the last of the predictions takes the pixel along.
+    if (turns_ < in_.front().hops - 2) {
+        ++turns_;
+        return Activity::busy;
+    }
+    stages_[0] = {true, looked_up(banks_, in_.front())};
+    in_.pop();
+    turns_ = 0;
+    return Activity::busy;
+}
+
+}  // namespace rs::engine::model

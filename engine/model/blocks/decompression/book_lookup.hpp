@@ -1,0 +1,73 @@
+#pragma once
+// Codebook look-up: the last step of block decompression. A bank of block RAM for each stage of flat and of predicted
+// records gives the Y, U and V of a pixel's entry in one cycle; their sums are added to the flat colour and clamped,
+// then the predicted ones to that:
+//
+//     1 addresses | 2 banks | 3, 4 two trees of adders | 5 + flat colour, clamp | 6 + prediction, clamp
+//
+// A pixel per cycle; a second and a third prediction use the predicted banks again and cost a cycle each.
+//
+// The banks hold the books of one object. A pixel of another one waits until those before it have left, then its books
+// are read, a word per cycle through the memory port of this block.
+
+#include "engine/model/clock/block.hpp"
+#include "engine/model/signals/coded_messages.hpp"
+#include "engine/model/signals/registers.hpp"
+
+#include <array>
+
+namespace rs::engine::model {
+
+// The banks. [flat, predicted][stage]: block RAM of 256 entries.
+struct BookBanks {
+    static constexpr std::size_t kBlockBytes = std::size_t{codec::kBookEntries} * codec::kBlockDimensions;
+    static constexpr std::size_t kQuarterBytes = std::size_t{codec::kBookEntries} * codec::kQuarterDimensions;
+    static constexpr std::size_t kAlphaBytes = std::size_t{codec::kBookEntries} * 16;
+    static constexpr std::size_t kBits =
+        8 * (2 * (codec::kMaxBlockStages * kBlockBytes + codec::kMaxQuarterStages * kQuarterBytes) + kAlphaBytes);
+    std::array<std::array<std::array<std::int8_t, kBlockBytes>, codec::kMaxBlockStages>, 2> block;
+    std::array<std::array<std::array<std::int8_t, kQuarterBytes>, codec::kMaxQuarterStages>, 2> quarter;
+    std::array<std::uint8_t, kAlphaBytes> alpha;
+
+    // Byte `place` of the books as memory holds them, of an object with so many of each.
+    void set_byte(const BookCounts& counts, std::size_t place, std::uint8_t value);
+};
+
+// The arithmetic without the clock.
+YuvaPixel looked_up(const BookBanks& banks, const CodedPixel& pixel);
+
+class BookLookup final : public Block {
+public:
+    static constexpr int kStages = 6;
+    BookLookup(const RegisterFile& registers, Fifo<CodedPixel>& in, Fifo<MemoryRead>& requests, Fifo<MemoryWord>& words,
+               Fifo<YuvaPixel>& out);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override {
+        return loading_ ? "book words written " + std::to_string(written_)
+                        : "books of load " + std::to_string(resident_);
+    }
+    [[nodiscard]] std::uint64_t book_loads() const { return book_loads_; }
+
+private:
+    Activity load();
+
+    const RegisterFile& registers_;
+    Fifo<CodedPixel>& in_;
+    Fifo<MemoryRead>& requests_;
+    Fifo<MemoryWord>& words_;
+    Fifo<YuvaPixel>& out_;
+    struct Stage {
+        bool full = false;
+        YuvaPixel pixel;
+    };
+    std::array<Stage, kStages> stages_;
+    int turns_ = 0;  // for which the first pixel has had the banks
+    BookBanks banks_{};
+    std::uint32_t resident_ = 0;  // serial number of the object's load; 0: none
+    bool loading_ = false;
+    std::uint32_t asked_ = 0;
+    std::uint32_t written_ = 0;
+    std::uint64_t book_loads_ = 0;
+};
+
+}  // namespace rs::engine::model

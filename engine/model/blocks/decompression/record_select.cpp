@@ -1,0 +1,69 @@
+#include "engine/model/blocks/decompression/record_select.hpp"
+
+#include "engine/model/blocks/decompression/block_motion.hpp"
+#include "rayspace/codec/dense_tile.hpp"
+
+namespace rs::engine::model {
+
+CodedPixel behind_hop(const CodedPixel& pixel, const BlockRecord& record, bool took, int coded_height) {
+    CodedPixel out = pixel;
+    const int y = pixel.row & 7;
+    const auto quarter = static_cast<std::size_t>(y / 4 * 2 + pixel.column / 4);
+    HopLookup& hop = out.hop[static_cast<std::size_t>(out.hops++)];
+    hop = {};
+    hop.x = pixel.column;
+    hop.y = y;
+    out.pending = out.begins = false;
+    if (record.empty) {
+        out.flat = {codec::kEmptySample, codec::kEmptySample, codec::kEmptySample};
+    } else {
+        hop.predicted = record.of.predicted;
+        hop.block_stages = record.of.block_stages;
+        hop.quarter_stages = record.of.quarter_stages;
+        hop.block = record.block;
+        for (std::size_t s = 0; s < hop.quarter.size(); ++s) hop.quarter[s] = record.quarter[s][quarter];
+        if (record.of.predicted) {
+            out.pending = true;
+            out.begins = took;
+            out.row = moved(pixel.row, record.motion_y, coded_height);
+            out.column = record.reference_column;
+        } else {
+            out.flat = record.flat;
+        }
+        if (pixel.hops == 0) {  // alpha is the first hop's
+            out.alpha = record.of.alpha ? CodedPixel::Alpha::book : CodedPixel::Alpha::full;
+            out.alpha_entry = record.alpha[quarter];
+        }
+    }
+    return out;
+}
+
+RecordSelect::RecordSelect(int hop, const RegisterFile& registers, Fifo<CodedPixel>& in, Fifo<BlockRecord>& records,
+                           Fifo<CodedPixel>& out)
+    : Block("record_select_" + std::to_string(hop), "a pixel per cycle"),
+      registers_(registers),
+      in_(reads(in)),
+      records_(reads(records)),
+      out_(writes(out)) {}
+
+Activity RecordSelect::tick(std::uint64_t) {
+    if (!in_.can_pop()) return Activity::idle;
+    if (!out_.can_push()) return Activity::output_full;
+    const CodedPixel& pixel = in_.front();
+    if (!pixel.pending) {
+        out_.push(pixel);
+        in_.pop();
+        return Activity::busy;
+    }
+    const bool takes = pixel.begins || pixel.row >> 3 != record_.block_row;
+    if (takes) {
+        if (!records_.can_pop()) return Activity::memory_data;
+        record_ = records_.pop();
+        RS_CHECK(record_.block_row == pixel.row >> 3);
+    }
+    out_.push(behind_hop(pixel, record_, takes, registers_.object_of(pixel.view).coded_height));
+    in_.pop();
+    return Activity::busy;
+}
+
+}  // namespace rs::engine::model

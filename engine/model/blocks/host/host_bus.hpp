@@ -1,0 +1,66 @@
+#pragma once
+// Host bus: 32-bit PCI at 33 MHz, and what the board does on it. Two masters: the host, which writes the registers of a
+// rendering cycle and starts it, and the board, which writes pictures into the host's memory in bursts.
+//
+// A burst of W words of 64 bits takes, clock by clock:
+//
+//     grant_clocks | address | target_clocks | 2 W times (wait_per_transfer | transfer) | turnaround
+//
+// and is asked for when the words have crossed to the bus's clock (or are the rest of a picture). A target that is busy
+// answers with a retry: the master lets go for two clocks and asks again for the same words; none is lost or doubled.
+// The host's register writes alternate with bursts, so neither shuts out the other.
+
+#include "engine/model/blocks/host/host_program.hpp"
+#include "engine/model/clock/block.hpp"
+#include "engine/model/signals/messages.hpp"
+
+#include <deque>
+
+namespace rs::engine::model {
+
+class HostBus final : public Block {
+public:
+    HostBus(const PciSettings& settings, const HostPrograms& programs, CrossingFifo<ImageWord>& words,
+            CrossingFifo<StartCommand>& commands, CrossingFifo<Done>& transferred);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override;
+
+    [[nodiscard]] const std::deque<HostPicture>& pictures() const { return pictures_; }
+    std::deque<HostPicture>& pictures() { return pictures_; }
+    struct Counters {
+        std::uint64_t bursts = 0;
+        std::uint64_t retries = 0;
+        std::uint64_t register_writes = 0;
+        std::uint64_t image_bytes = 0;
+    };
+    [[nodiscard]] const Counters& counters() const { return counters_; }
+    // Bus clocks of a whole burst.
+    static int burst_clocks(const PciSettings& settings, int words);
+
+private:
+    enum class State { idle, grant, address, target, data, turnaround, register_write, interrupt };
+    Activity decide(std::uint64_t now);
+    Activity transfer(std::uint64_t now);
+    Activity after_burst();
+    void enter(State state, int clocks);
+    [[nodiscard]] bool burst_is_ready() const;
+
+    PciSettings settings_;
+    const HostPrograms& programs_;
+    CrossingFifo<ImageWord>& words_;
+    CrossingFifo<StartCommand>& commands_;
+    CrossingFifo<Done>& transferred_;
+
+    State state_ = State::idle;
+    int left_ = 0;  // clocks of the state
+    bool host_was_last_ = false;
+    std::uint64_t next_program_ = 0;
+    int registers_left_ = -1;  // of the next program; -1: not begun
+    int words_left_ = 0;       // of the picture
+    int burst_left_ = 0;       // transfers of 32 bits
+    bool retry_ = false;
+    Counters counters_;
+    std::deque<HostPicture> pictures_;
+};
+
+}  // namespace rs::engine::model

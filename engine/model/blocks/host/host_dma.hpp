@@ -1,0 +1,55 @@
+#pragma once
+// Host DMA, the board's half: reads a finished image buffer word by word and sends it across to the bus, each picture
+// behind a head that says its size; frees the buffer when the bus has carried the last word. Where the columns of a
+// view lie in several channels (stripes.hpp) it asks one for the words of a stripe, and the next when they have come.
+
+#include "engine/model/clock/block.hpp"
+#include "engine/model/signals/messages.hpp"
+#include "engine/model/signals/registers.hpp"
+#include "engine/model/signals/stripes.hpp"
+
+#include <vector>
+
+namespace rs::engine::model {
+
+// A memory channel, as the DMA reads it.
+struct DmaPort {
+    Fifo<MemoryRead>* requests = nullptr;
+    Fifo<MemoryWord>* answers = nullptr;
+};
+
+class HostDma final : public Block {
+public:
+    HostDma(const RegisterFile& registers, Fifo<Done>& images_ready, std::vector<DmaPort> channels,
+            CrossingFifo<ImageWord>& words, CrossingFifo<Done>& transferred, Fifo<Done>& buffer_free);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override;
+
+private:
+    std::vector<DmaPort> declared(std::vector<DmaPort> channels);
+    void begin_view();
+    bool ask();
+    [[nodiscard]] const std::vector<int>& sizes_words() const {
+        return registers_.buffer_words[static_cast<std::size_t>(buffer_)];
+    }
+
+    const RegisterFile& registers_;
+    Fifo<Done>& images_ready_;
+    std::vector<DmaPort> channels_;
+    CrossingFifo<ImageWord>& words_;
+    CrossingFifo<Done>& transferred_;
+    Fifo<Done>& buffer_free_;
+
+    bool active_ = false;
+    int buffer_ = 0;
+    int view_ = 0;
+    bool head_sent_ = false;
+    WordAddress address_ = 0;
+    int to_ask_ = 0;
+    int to_send_ = 0;
+    int column_ = 0;  // of the next request
+    int in_column_ = 0;
+    std::size_t channel_ = 0;  // whose answers are awaited
+};
+
+}  // namespace rs::engine::model

@@ -1,0 +1,94 @@
+#pragma once
+// Memory controller: one 64-bit port to one channel of SDRAM, one command per cycle.
+//
+// Who is served, first to last: the maintenance window; a batch of image writes that has begun, or for which
+// `write_batch` words wait; the read ports in their order; image words, where nobody reads. A read is taken only where
+// its answer will have room. Who was chosen keeps the port until its word has moved: a row that is not open costs a
+// precharge and an activate.
+//
+// The maintenance window comes every `maintenance_interval` cycles: all banks are closed and refreshed, then the words
+// of the private bus are written, as many as fit; it takes the same time whether or not there are any. So loading an
+// object cannot disturb rendering, not by a cycle:
+//
+//     precharge all | tRP | refresh | tRFC | activate | tRCD | load words | tWR | precharge | tRP
+
+#include "engine/model/clock/block.hpp"
+#include "engine/model/signals/messages.hpp"
+
+#include <vector>
+
+namespace rs::engine::model {
+
+struct ReadPort {
+    std::string client;
+    Fifo<MemoryRead>* requests = nullptr;
+    Fifo<MemoryWord>* answers = nullptr;
+};
+
+class MemoryController final : public Block {
+public:
+    struct Counters {
+        std::vector<std::uint64_t> words_read;  // per read port
+        std::vector<std::uint64_t> nulls;       // per read port
+        std::uint64_t image_words = 0;
+        std::uint64_t load_words = 0;
+        std::uint64_t row_misses = 0;
+        std::uint64_t write_batches = 0;
+        std::uint64_t windows = 0;
+    };
+
+    MemoryController(std::string name, const MemorySettings& settings, Sdram& sdram, std::vector<ReadPort> ports,
+                     Fifo<MemoryWrite>& image_writes, Fifo<Done>& view_written, Fifo<MemoryWrite>& loads,
+                     Fifo<Done>& object_loaded);
+    Activity tick(std::uint64_t now) override;
+
+    [[nodiscard]] const Counters& counters() const { return counters_; }
+    [[nodiscard]] const std::vector<ReadPort>& read_ports() const { return ports_; }
+    [[nodiscard]] std::string state_text() const override;
+
+    // Cycles of the window behind its refresh command, which is where its time becomes fixed.
+    static int window_cycles(const MemorySettings& settings);
+    // From a read's command to its word being visible to the client.
+    static int read_cycles(const MemorySettings& settings);
+
+private:
+    static constexpr int kNobody = -1;
+    static constexpr int kImageWrite = -2;
+    enum class Window { none, closing, refreshing, loading };
+
+    void deliver(std::uint64_t now);
+    Activity maintain(std::uint64_t now);
+    void load_word(std::uint64_t now);
+    void choose();
+    Activity serve(std::uint64_t now);
+    Activity open_row(WordAddress address, std::uint64_t now);
+    Activity serve_read(std::uint64_t now);
+    Activity serve_write(std::uint64_t now);
+
+    struct InFlight {
+        int port = kNobody;
+        std::uint64_t data = 0;
+    };
+
+    MemorySettings settings_;
+    Sdram& sdram_;
+    std::vector<ReadPort> ports_;
+    Fifo<MemoryWrite>& image_writes_;
+    Fifo<Done>& view_written_;
+    Fifo<MemoryWrite>& loads_;
+    Fifo<Done>& object_loaded_;
+    Counters counters_;
+
+    std::vector<InFlight> in_flight_;  // ring: what arrives in cycle now
+    std::vector<int> promised_;        // per port: answers on their way
+    int returned_ = kNobody;           // whose answer went into its FIFO in the cycle before
+    int chosen_ = kNobody;
+    int batch_left_ = 0;
+    bool starved_ = false;  // somebody asks, but has no room for an answer
+    Window window_ = Window::none;
+    std::uint64_t next_window_ = 0;
+    std::uint64_t refreshed_ = 0;  // cycle of the window's refresh
+    bool load_row_open_ = false;
+};
+
+}  // namespace rs::engine::model

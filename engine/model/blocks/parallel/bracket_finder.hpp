@@ -1,0 +1,53 @@
+#pragma once
+// Bracket finder (RECONSTRUCTION.md, section 5): between which two captured rays a view ray lies. From the picture that
+// the RS map names it steps along the ring, at most N looks. It reads, one after the other, the words of picture
+// records that a look needs and does not have yet: S and first_line of a gap, and the viewpoint of a picture, whose
+// parallel ray's crossing X takes a product of 9 cycles. With one ray at a time, rays of objects without a shape map
+// pass.
+
+#include "engine/model/clock/block.hpp"
+#include "engine/model/signals/arithmetic.hpp"
+#include "engine/model/signals/parallel_messages.hpp"
+#include "engine/model/signals/registers.hpp"
+
+namespace rs::engine::model {
+
+class BracketFinder final : public Block {
+public:
+    BracketFinder(const RegisterFile& registers, Fifo<MappedRay>& in, Fifo<MemoryRead>& requests,
+                  Fifo<MemoryWord>& answers, Fifo<BracketedRay>& out);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override {
+        return "gap " + std::to_string(gap_) + ", looks " + std::to_string(looks_);
+    }
+
+private:
+    enum class Step { idle, near, gap_word, first, second, decide };
+    struct Crossing {
+        bool known = false;
+        std::int64_t x_q20 = 0;
+    };
+    Activity crossing(int picture, Crossing& into);
+    Activity read(int picture, int word);
+    void next_step();
+    Activity decide();
+    Activity hand_over(const BracketedRay& ray);
+
+    const RegisterFile& registers_;
+    Fifo<MappedRay>& in_;
+    Fifo<MemoryRead>& requests_;
+    Fifo<MemoryWord>& answers_;
+    Fifo<BracketedRay>& out_;
+    Step step_ = Step::idle;
+    int gap_ = 0;
+    int looks_ = 0;
+    bool gap_known_ = false;
+    std::uint64_t gap_word_ = 0;
+    Crossing first_, second_;
+    bool asked_ = false;
+    bool answered_ = false;
+    std::uint64_t word_ = 0;
+    int multiplying_ = 0;
+};
+
+}  // namespace rs::engine::model

@@ -1,0 +1,91 @@
+#pragma once
+// Cell march: follows a pixel's ray through the surface between the cells beside it (RECONSTRUCTION.md, section 6), two
+// looks in a cycle, and hands on the first place where it meets one. Where that shows nothing, surface_blend sends the
+// pixel back, and the march goes on behind it; such pixels come before new ones. So a ray never marches farther than it
+// must, and others pass it.
+//
+// A pipe whose end is joined to its beginning: what a *turn* of two looks gives is known kStages cycles later, and only
+// then the ray takes its next turn, before any other; up to kStages rays are marching. Stages of a look: bands from
+// zero and per_d (a product, kProductCycles), read, nearest and farthest, groups and weights, products and sums, mean
+// (a table of reciprocals and a product, divide_by_weight()), meet or not.
+//
+// It keeps the cells of two stripes, between their lines already (SurfaceCell, 19 bits), in four memories: even and odd
+// bands of both places in p, four bands to two words of 38 bits. A look reads each of the four at one place; they have
+// two ports, and cells that come in take one. It also keeps of each pixel under way where its ray passes the bands.
+
+#include "engine/core/definition/shape_cells.hpp"
+#include "engine/model/blocks/parallel/column_table.hpp"
+#include "engine/model/blocks/shared/delay_line.hpp"
+#include "engine/model/clock/block.hpp"
+#include "engine/model/limits/parallel_layout.hpp"
+#include "engine/model/signals/arithmetic.hpp"
+#include "engine/model/signals/parallel_messages.hpp"
+#include "engine/model/signals/registers.hpp"
+
+#include <array>
+
+namespace rs::engine::model {
+
+// The arithmetic without the clock: how a ray is divided into steps.
+struct MarchSteps {
+    int steps = 1;
+    int size = 256;
+};
+MarchSteps march_steps(std::int32_t per_d_q20);
+
+class CellMarch final : public Block {
+public:
+    static constexpr int kStages = kProductCycles + 6;
+    static constexpr int kSurfaceBits = 11 + 8;
+    static constexpr std::size_t kCellBits =
+        std::size_t{kStripeSlots} * kStripeColumns * 2 * kMostBands * static_cast<std::size_t>(kSurfaceBits);
+    static constexpr std::size_t kHeldBits = std::size_t{4} * kMostBands / kCellsPerWord * 64;
+    static constexpr std::size_t kPixelBits = std::size_t{kPatchIds} * RisenPixel::kBits;
+
+    CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MemoryWord>& words, Fifo<RisenPixel>& in,
+              Fifo<MarchAgain>& again, Fifo<MetSurface>& met, Fifo<FinishedPixel>& empty);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override { return "words to come " + std::to_string(words_left_); }
+    [[nodiscard]] std::uint64_t looks() const { return looks_; }  // that a ray needed
+
+private:
+    // A ray, and what is known of it behind its turn.
+    struct Turn {
+        enum class Outcome { goes_on, met, empty };
+        RisenPixel ray;
+        MarchState state;
+        SurfaceCell foot;  // that of the foot, behind the last look but one
+        Outcome outcome = Outcome::goes_on;
+        MetSurface met;
+    };
+    bool load(bool& writes_cells);
+    void keep_cells(std::uint64_t first_line, std::uint64_t second_line);
+    bool next_ray(Turn& turn);
+    void take_turn(Turn& turn, int looks);
+    void look(Turn& turn, const ColumnSetup& column);
+    void look_at_foot(Turn& turn, const ColumnSetup& column);
+    [[nodiscard]] SurfaceCell surface_at(const ColumnSetup& column, std::int32_t at_q12);
+
+    const RegisterFile& registers_;
+    Fifo<ColumnSetup>& columns_;
+    Fifo<MemoryWord>& words_;
+    Fifo<RisenPixel>& in_;
+    Fifo<MarchAgain>& again_;
+    Fifo<MetSurface>& met_;
+    Fifo<FinishedPixel>& empty_;
+
+    ColumnTable table_;
+    using Cells = std::array<std::array<SurfaceCell, kMostBands>, 2>;  // [p]
+    std::array<Cells, std::size_t{kStripeSlots} * kStripeColumns> cells_{};
+    int words_left_ = 0;  // of the column that is loaded
+    int words_of_column_ = 0;
+    std::uint64_t first_line_word_ = 0;
+    std::array<std::uint64_t, std::size_t{4} * kMostBands / kCellsPerWord> held_{};  // words of the last column
+    ColumnSetup loading_;
+
+    std::array<RisenPixel, kPatchIds> pixels_;
+    DelayLine<Turn> line_{kStages};
+    std::uint64_t looks_ = 0;
+};
+
+}  // namespace rs::engine::model

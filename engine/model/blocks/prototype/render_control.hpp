@@ -1,0 +1,82 @@
+#pragma once
+// Render control: the queue of rendering cycles, the register banks and the two image buffers.
+//
+// A start command is taken when a bank is free and every view's registers pass the check; the cycle then waits for the
+// one before it and for its image buffer. Otherwise nothing of it happens, and an error says why: a queue overrun or
+// bad registers. Bank and image buffer of a cycle have the same number, its own modulo 2.
+
+#include "engine/model/blocks/host/host_program.hpp"
+#include "engine/model/clock/block.hpp"
+#include "engine/model/signals/messages.hpp"
+#include "engine/model/signals/registers.hpp"
+
+#include <deque>
+
+namespace rs::engine::model {
+
+class RenderControl final : public Block {
+public:
+    RenderControl(const BoardConfig& config, RegisterFile& registers, const HostPrograms& programs,
+                  CrossingFifo<StartCommand>& commands, Fifo<ViewJob>& jobs, Fifo<Done>& view_written,
+                  Fifo<Done>& images_ready, Fifo<Done>& buffer_free, Fifo<Done>& object_ready);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override;
+
+    // Drawn, delivered and waiting cycles are four at most.
+    static constexpr std::size_t kKeptCycles = 8;
+
+    // The status registers.
+    struct Cycle {
+        std::uint64_t program = 0;
+        std::uint64_t started = 0;   // board cycles
+        std::uint64_t rendered = 0;  // the last word is in the image buffer
+    };
+    struct Refusal {
+        std::uint64_t program = 0;
+        std::string reason;
+    };
+    // The last cycles that have begun, up to kKeptCycles; the last of them is number cycles_begun() - 1.
+    [[nodiscard]] const std::deque<Cycle>& cycles() const { return cycles_; }
+    [[nodiscard]] std::uint64_t cycles_begun() const { return cycles_begun_; }
+    [[nodiscard]] const Cycle& cycle(std::uint64_t number) const {
+        const std::uint64_t from_end = cycles_begun_ - number;
+        RS_CHECK(from_end >= 1 && from_end <= cycles_.size());
+        return cycles_[cycles_.size() - static_cast<std::size_t>(from_end)];
+    }
+    [[nodiscard]] const std::vector<Refusal>& refusals() const { return refusals_; }
+    [[nodiscard]] bool uses_object(int slot) const;                                 // in a cycle that waits or is drawn
+    [[nodiscard]] std::uint64_t commands_taken() const { return commands_taken_; }  // or refused
+
+private:
+    [[nodiscard]] bool is_free(int bank) const;
+    bool take_command();
+    bool finish_views(std::uint64_t now);
+    bool start_views(std::uint64_t now);
+
+    const BoardConfig& config_;
+    RegisterFile& registers_;
+    const HostPrograms& programs_;
+    CrossingFifo<StartCommand>& commands_;
+    Fifo<ViewJob>& jobs_;
+    Fifo<Done>& view_written_;
+    Fifo<Done>& images_ready_;
+    Fifo<Done>& buffer_free_;
+    Fifo<Done>& object_ready_;
+
+    struct Queued {
+        std::uint64_t program = 0;
+        int bank = 0;
+    };
+    std::deque<Queued> queue_;  // the first of them is rendered where `rendering_`
+    bool rendering_ = false;
+    int next_view_ = 0;
+    int written_views_ = 0;
+    int next_bank_ = 0;
+    std::uint64_t commands_taken_ = 0;
+    bool buffer_busy_[2] = {false, false};
+    std::deque<Cycle> cycles_;
+    std::uint64_t cycles_begun_ = 0;
+    std::vector<Refusal> refusals_;
+};
+
+}  // namespace rs::engine::model

@@ -1,0 +1,26 @@
+#pragma once
+// RS map reader: one byte of the map says which captured picture answers the column, or that none does (255).
+// One column at a time: ask, wait, choose the byte.
+
+#include "engine/model/clock/block.hpp"
+#include "engine/model/signals/messages.hpp"
+
+namespace rs::engine::model {
+
+inline constexpr int kNoPictureByte = 255;
+
+class MapReader final : public Block {
+public:
+    MapReader(Fifo<RayPoint>& in, Fifo<MemoryRead>& requests, Fifo<MemoryWord>& answers, Fifo<MappedRay>& out);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override { return asked_ ? "asked" : "not asked"; }
+
+private:
+    Fifo<RayPoint>& in_;
+    Fifo<MemoryRead>& requests_;
+    Fifo<MemoryWord>& answers_;
+    Fifo<MappedRay>& out_;
+    bool asked_ = false;
+};
+
+}  // namespace rs::engine::model

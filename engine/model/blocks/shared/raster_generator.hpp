@@ -1,0 +1,40 @@
+#pragma once
+// Raster generator, horizontal: the columns of a view, and the reference plane of each (RECONSTRUCTION.md, section 2,
+// to k, n and T).
+//
+// Two accumulators per plane (36 bits, in embedded RAM) hold N and T of the column. Each cycle one plane is read,
+// compared with the smallest N so far, advanced by its change per column and written back: one 36-bit adder for each of
+// N and T, one comparator. K cycles for K planes, and one that hands the column on.
+
+#include "engine/model/clock/block.hpp"
+#include "engine/model/signals/messages.hpp"
+#include "engine/model/signals/registers.hpp"
+#include "engine/model/signals/stripes.hpp"
+
+#include <array>
+
+namespace rs::engine::model {
+
+class RasterGenerator final : public Block {
+public:
+    // Hands on the columns of `share`, and steps over the others: its accumulators need every column's addition.
+    RasterGenerator(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<ColumnRay>& columns,
+                    const StripeShare& share = {});
+    Activity tick(std::uint64_t now) override;
+
+private:
+    const RegisterFile& registers_;
+    StripeShare share_;
+    Fifo<ViewJob>& jobs_;
+    Fifo<ColumnRay>& columns_;
+    bool active_ = false;
+    int view_ = 0;
+    int column_ = 0;
+    int plane_ = 0;  // K: hand over
+    std::array<std::int64_t, kMostPlanes> n_q32_{};
+    std::array<std::int64_t, kMostPlanes> t_q32_{};
+    ColumnRay best_;
+    std::int64_t smallest_q28_ = 0;
+};
+
+}  // namespace rs::engine::model

@@ -1,0 +1,106 @@
+#include "engine/model/blocks/texels/sample_place.hpp"
+
+#include "engine/core/definition/fixed_point.hpp"
+
+#include <algorithm>
+
+namespace rs::engine::model {
+namespace {
+
+constexpr std::int32_t narrow(std::int64_t value) {
+    return static_cast<std::int32_t>(value);
+}
+
+void place_texels(PlacedSample& out, std::int32_t column_q8, std::int32_t row_q8, const ObjectRegisters& object) {
+    const int x_q3 = (column_q8 - 112) >> 5;
+    const int y_q3 = (row_q8 - 112) >> 5;
+    out.inside = true;
+    out.left = std::max(x_q3 >> 3, 0);
+    out.top = std::max(y_q3 >> 3, 0);
+    out.right_is_left = std::min((x_q3 >> 3) + 1, object.width - 1) == out.left;
+    out.bottom_is_top = std::min((y_q3 >> 3) + 1, object.height - 1) == out.top;
+    out.fx = x_q3 & 7;
+    out.fy = y_q3 & 7;
+}
+
+void place_in_picture(PlacedSample& out, const PictureSetup& picture, int d_q3, std::int32_t y_q16,
+                      const ObjectRegisters& object) {
+    constexpr std::int64_t kNearest_q20 = std::int64_t{1} << 17;
+    out.picture = picture.picture;
+    const std::int64_t l_q20 = picture.l0_q20 + ((d_q3 * picture.l1_q24) >> 7);
+    if (l_q20 < kNearest_q20) return;
+    const auto inverse_q20 = narrow(divide(std::int64_t{1} << 40, l_q20).value);
+    const std::int32_t q_q12 = narrow(picture.q0_q12 + ((d_q3 * picture.q1_q12) >> 3));
+    const std::int32_t column_q8 = (picture.cx_q16 >> 8) + multiply_shift(q_q12, inverse_q20, 24);
+    const std::int32_t m_q12 = multiply_shift(picture.fl_y_q16 >> 8, inverse_q20, 16);
+    const std::int32_t row_q8 = (picture.cy_q16 >> 8) - multiply_shift(m_q12, y_q16 - (picture.height_q20 >> 4), 20);
+    if (column_q8 < 0 || column_q8 >= object.width << 8 || row_q8 < 0 || row_q8 >= object.height << 8) return;
+    place_texels(out, column_q8, row_q8, object);
+}
+
+}  // namespace
+
+SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, const ObjectRegisters& object,
+                              std::int32_t b_q20) {
+    SurfaceSamples samples;
+    PlacedSample blank;
+    blank.view = met.pixel.view;
+    blank.head.id = met.pixel.id;
+    blank.head.final = met.final;
+    blank.head.next = met.next;
+    if (column.kind == RayKind::plane) {  // one texel, as it is
+        PlacedSample& out = samples.sample[static_cast<std::size_t>(samples.count++)] = blank;
+        const std::int64_t row = (column.row_0_q16 + met.pixel.row * column.row_step_q16) >> 16;
+        out.head.is_there = true;
+        out.picture = column.picture;
+        out.inside = row >= 0 && row < object.height;
+        out.left = column.picture_column;
+        out.top = static_cast<int>(out.inside ? row : 0);
+    } else {
+        blank.head.weight = column.weight;
+        const std::int64_t lambda_q20 = column.lambda0_q20 + ((met.depth_q3 * column.lambda1_q21) >> 4);
+        const std::int32_t y_q16 = (b_q20 >> 4) + multiply_shift(narrow(lambda_q20), met.pixel.rise_q24, 28);
+        for (int second = 0; second < 2; ++second) {
+            if (lambda_q20 <= 0 || column.weight == (second == 0 ? 256 : 0)) continue;
+            PlacedSample& out = samples.sample[static_cast<std::size_t>(samples.count++)] = blank;
+            out.head.is_there = true;
+            out.head.second = second == 1;
+            place_in_picture(out, column.pictures[static_cast<std::size_t>(second)], met.depth_q3, y_q16, object);
+        }
+    }
+    if (samples.count == 0) samples.sample[static_cast<std::size_t>(samples.count++)] = blank;
+    samples.sample[static_cast<std::size_t>(samples.count) - 1].head.last = true;
+    return samples;
+}
+
+SamplePlace::SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MetSurface>& in,
+                         Fifo<PlacedSample>& out)
+    : Block("sample_place", "latency " + std::to_string(kStages + 1) + ", a sample per cycle"),
+      registers_(registers),
+      columns_(reads(columns)),
+      in_(reads(in)),
+      out_(writes(out)) {}
+
+Activity SamplePlace::tick(std::uint64_t) {
+    if (columns_.can_pop()) table_.put(columns_.pop());
+    if (line_.leaves() && !out_.can_push()) return Activity::output_full;  // the whole pipe stands
+    if (line_.leaves()) out_.push(line_.leaving());
+    if (!in_.can_pop()) {
+        line_.advance();
+        return Activity::idle;
+    }
+    if (taken_ == 0) {
+        const MetSurface& met = in_.front();
+        RS_CHECK(table_.holds(met.pixel));
+        surface_ = placed_samples(met, table_.of(met.pixel), registers_.object_of(met.pixel.view),
+                                  registers_.view(met.pixel.view).b_q20);
+    }
+    line_.advance(surface_.sample[static_cast<std::size_t>(taken_)]);
+    if (++taken_ == surface_.count) {
+        in_.pop();
+        taken_ = 0;
+    }
+    return Activity::busy;
+}
+
+}  // namespace rs::engine::model

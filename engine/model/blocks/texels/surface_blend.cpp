@@ -1,0 +1,67 @@
+#include "engine/model/blocks/texels/surface_blend.hpp"
+
+namespace rs::engine::model {
+namespace {
+
+// What both samples show: nothing where one says that the point is not the object's.
+SampleSum blended(const std::array<SampleSum, 2>& samples, int weight) {
+    const auto& [first, second] = samples;
+    if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) return {};
+    if (first.exists && second.exists) return mix(first, second, weight);
+    if (!first.exists && !second.exists) return {};
+    const SampleSum& one = first.exists ? first : second;
+    return mix(one, one, 0);
+}
+
+// R in the low byte.
+std::uint32_t packed(const Rgba8& c) {
+    return std::uint32_t{c.r} | std::uint32_t{c.g} << 8U | std::uint32_t{c.b} << 16U | std::uint32_t{c.a} << 24U;
+}
+
+}  // namespace
+
+SurfaceBlend::SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, Fifo<MarchAgain>& again)
+    : Block("surface_blend",
+            "latency " + std::to_string(kStages + 1) + " behind a surface's last sample, a sample per cycle"),
+      in_(reads(in)),
+      out_(writes(out)),
+      again_(writes(again)) {}
+
+SurfaceBlend::Outcome SurfaceBlend::decided(const SampleHead& last) const {
+    const SampleSum sum = blended(samples_, last.weight);
+    Outcome out;
+    out.sends_back = sum.a == 0 && !last.final;
+    out.again = {last.id, last.next};
+    out.pixel = {last.id, packed(resolve(sum))};
+    return out;
+}
+
+Activity SurfaceBlend::tick(std::uint64_t) {
+    if (line_.leaves()) {
+        const Outcome& outcome = line_.leaving();
+        if (outcome.sends_back ? !again_.can_push() : !out_.can_push()) return Activity::output_full;
+        if (outcome.sends_back) {
+            again_.push(outcome.again);
+            ++sent_back_;
+        } else {
+            out_.push(outcome.pixel);
+        }
+    }
+    if (!in_.can_pop()) {
+        line_.advance();
+        return Activity::idle;
+    }
+    const FilteredSample sample = in_.pop();
+    if (sample.head.is_there) {
+        samples_[sample.head.second ? 1 : 0] = {sample.inside, sample.a, sample.r, sample.g, sample.b};
+    }
+    if (!sample.head.last) {
+        line_.advance();
+        return Activity::busy;
+    }
+    line_.advance(decided(sample.head));
+    samples_ = {};
+    return Activity::busy;
+}
+
+}  // namespace rs::engine::model

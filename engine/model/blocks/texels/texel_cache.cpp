@@ -1,0 +1,48 @@
+#include "engine/model/blocks/texels/texel_cache.hpp"
+
+namespace rs::engine::model {
+
+TexelCache::TexelCache(Fifo<WaitingSample>& in, Fifo<FillTarget>& targets, Fifo<RgbaPixel>& texels,
+                       Fifo<TexelQuad>& out)
+    : Block("texel_cache", "a sample per cycle, beside it a texel written"),
+      in_(reads(in)),
+      targets_(reads(targets)),
+      texels_(reads(texels)),
+      out_(writes(out)) {}
+
+bool TexelCache::read() {
+    if (!in_.can_pop() || !out_.can_push() || in_.front().fills > fills_) return false;
+    const WaitingSample sample = in_.pop();
+    fills_ -= sample.fills;
+    TexelQuad quad{sample.head, sample.inside, sample.fx, sample.fy, {}};
+    for (std::size_t n = 0; n < 4; ++n) {
+        quad.rgba[n] = lines_[static_cast<std::size_t>(sample.line[n])][static_cast<std::size_t>(sample.texel[n])];
+    }
+    out_.push(quad);
+    ++samples_;
+    return true;
+}
+
+bool TexelCache::write(std::uint64_t samples_read) {
+    if (!texels_.can_pop() || !targets_.can_pop() || samples_read < targets_.front().guard) return false;
+    lines_[static_cast<std::size_t>(targets_.front().line)][static_cast<std::size_t>(written_)] = texels_.pop().rgba;
+    if (++written_ < kLineTexels) return true;
+    targets_.pop();
+    written_ = 0;
+    ++fills_;
+    return true;
+}
+
+Activity TexelCache::tick(std::uint64_t) {
+    const std::uint64_t samples_read = samples_;  // before this cycle
+    const bool had_sample = in_.can_pop();
+    const bool blocked = had_sample && !out_.can_push();
+    const bool reads_one = read();
+    const bool writes_one = write(samples_read);
+    if (reads_one) return Activity::busy;
+    if (blocked) return Activity::output_full;
+    if (had_sample) return Activity::memory_data;
+    return writes_one ? Activity::busy : Activity::idle;
+}
+
+}  // namespace rs::engine::model

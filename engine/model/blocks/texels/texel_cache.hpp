@@ -1,0 +1,39 @@
+#pragma once
+// Texel cache: 128 lines of 8x8 texels, R, G, B and alpha, in four banks by the lowest bits of column and row, so that
+// the four texels of any sample come in one cycle; another texel is written in the same cycle. A sample waits until the
+// blocks that were asked for it have been written.
+
+#include "engine/model/blocks/texels/texel_tags.hpp"
+#include "engine/model/clock/block.hpp"
+#include "engine/model/signals/parallel_messages.hpp"
+
+#include <array>
+
+namespace rs::engine::model {
+
+class TexelCache final : public Block {
+public:
+    static constexpr int kLineTexels = 64;
+    static constexpr int kBits = kCacheLines * kLineTexels * 32;
+    TexelCache(Fifo<WaitingSample>& in, Fifo<FillTarget>& targets, Fifo<RgbaPixel>& texels, Fifo<TexelQuad>& out);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override {
+        return "blocks written and not waited for " + std::to_string(fills_) + ", samples read " +
+               std::to_string(samples_);
+    }
+
+private:
+    bool read();
+    bool write(std::uint64_t samples_read);
+
+    Fifo<WaitingSample>& in_;
+    Fifo<FillTarget>& targets_;
+    Fifo<RgbaPixel>& texels_;
+    Fifo<TexelQuad>& out_;
+    std::array<std::array<std::uint32_t, kLineTexels>, kCacheLines> lines_{};
+    int written_ = 0;  // texels of the block
+    int fills_ = 0;    // blocks written, less those that samples have waited for
+    std::uint64_t samples_ = 0;
+};
+
+}  // namespace rs::engine::model

@@ -1,0 +1,99 @@
+#include "engine/model/blocks/texels/texel_tags.hpp"
+
+namespace rs::engine::model {
+
+TexelTags::TexelTags(const RegisterFile& registers, Fifo<PlacedSample>& in, Fifo<TexelFill>& fills,
+                     Fifo<WaitingSample>& out)
+    : Block("texel_tags", "a sample per cycle, one more for each block that is not there"),
+      registers_(registers),
+      in_(reads(in)),
+      fills_(writes(fills)),
+      out_(writes(out)) {}
+
+int TexelTags::find(int picture, int block_column, int block_row) const {
+    const int set = set_of(picture, block_column, block_row);
+    for (int way = 0; way < 2; ++way) {
+        const Line& line = lines_[static_cast<std::size_t>(2 * set + way)];
+        if (line.valid && line.picture == picture && line.block_column == block_column && line.block_row == block_row) {
+            return 2 * set + way;
+        }
+    }
+    return -1;
+}
+
+// Fills in where the sample's texels stand; true, with the first block that is missing, where one is.
+bool TexelTags::needs_fill(const PlacedSample& sample, WaitingSample& waiting, TexelFill& fill) {
+    for (int n = 0; n < 4; ++n) {
+        const bool right = n >= 2;
+        const bool bottom = n % 2 == 1;
+        if ((right && sample.fx == 0) || (bottom && sample.fy == 0)) continue;  // of weight 0
+        const int x = sample.left + (right && !sample.right_is_left ? 1 : 0);
+        const int y = sample.top + (bottom && !sample.bottom_is_top ? 1 : 0);
+        const int line = find(sample.picture, x >> 3, y >> 3);
+        if (line < 0) {
+            fill = {sample.view, sample.picture, x >> 3, y >> 3, 0, 0};
+            return true;
+        }
+        waiting.line[static_cast<std::size_t>(n)] = line;
+        waiting.texel[static_cast<std::size_t>(n)] = (x & 7) * 8 + (y & 7);
+    }
+    return false;
+}
+
+// The older line of the block's set; not one that the sample in front needs, for a sample needs one block of a set.
+int TexelTags::replace(const TexelFill& fill) {
+    const int set = set_of(fill.picture, fill.block_column, fill.block_row);
+    int& older = older_[static_cast<std::size_t>(set)];
+    const int line = 2 * set + older;
+    older ^= 1;
+    Line& replaced = lines_[static_cast<std::size_t>(line)];
+    replaced.valid = true;
+    replaced.picture = fill.picture;
+    replaced.block_column = fill.block_column;
+    replaced.block_row = fill.block_row;
+    return line;
+}
+
+Activity TexelTags::tick(std::uint64_t) {
+    if (!in_.can_pop()) return Activity::idle;
+    const PlacedSample& sample = in_.front();
+    WaitingSample waiting;
+    waiting.head = sample.head;
+    waiting.inside = sample.inside;
+    waiting.fx = sample.fx;
+    waiting.fy = sample.fy;
+    if (sample.inside) {
+        const std::uint32_t serial = registers_.object_of(sample.view).serial;
+        if (serial != serial_) {
+            for (Line& line : lines_) line.valid = false;
+            serial_ = serial;
+        }
+        TexelFill fill;
+        if (needs_fill(sample, waiting, fill)) {
+            if (!fills_.can_push()) return Activity::output_full;
+            fill.line = replace(fill);
+            fill.guard = lines_[static_cast<std::size_t>(fill.line)].last_use;
+            fills_.push(fill);
+            ++new_fills_;
+            ++fills_asked_;
+            return Activity::busy;
+        }
+    }
+    if (!out_.can_push()) return Activity::output_full;
+    waiting.fills = new_fills_;
+    new_fills_ = 0;
+    ++samples_;
+    if (sample.inside) {
+        for (int n = 0; n < 4; ++n) {
+            if ((n >= 2 && sample.fx == 0) || (n % 2 == 1 && sample.fy == 0)) continue;
+            const auto line = static_cast<std::size_t>(waiting.line[static_cast<std::size_t>(n)]);
+            lines_[line].last_use = samples_;
+            older_[line / 2] = static_cast<int>(line % 2) ^ 1;
+        }
+    }
+    out_.push(waiting);
+    in_.pop();
+    return Activity::busy;
+}
+
+}  // namespace rs::engine::model

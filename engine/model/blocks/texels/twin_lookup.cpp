@@ -1,0 +1,100 @@
+#include "engine/model/blocks/texels/twin_lookup.hpp"
+
+namespace rs::engine::model {
+
+TwinLookup::TwinLookup(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<Done>& view_done, Fifo<CodedPixel>& in,
+                       Fifo<MemoryRead>& requests, Fifo<MemoryWord>& words, Fifo<YuvaPixel>& out)
+    : Block("twin_lookup", "latency " + std::to_string(kStages + 1) +
+                               ", a pixel per cycle, one more for each prediction but the first; beside it a word of "
+                               "the next books per cycle"),
+      registers_(registers),
+      jobs_(reads(jobs)),
+      view_done_(reads(view_done)),
+      in_(reads(in)),
+      requests_(writes(requests)),
+      words_(reads(words)),
+      out_(writes(out)) {}
+
+// Sees to it that the next view's books are there, or come.
+bool TwinLookup::next_view() {
+    if (!jobs_.can_pop()) return false;
+    const ObjectRegisters& object = registers_.object_of(jobs_.front().view);
+    if (object.coded) {
+        const bool in_first = sets_[0].serial == object.serial;
+        std::size_t set = in_first ? 0 : 1;
+        if (sets_[set].serial != object.serial) {
+            set = sets_[0].last_view <= sets_[1].last_view ? 0 : 1;
+            if (sets_[set].last_view > views_done_) return false;
+            loading_ = static_cast<int>(set);
+            sets_[set].serial = 0;
+            object_ = object;
+            asked_ = written_ = 0;
+            ++book_loads_;
+        }
+        sets_[set].last_view = views_ + 1;
+    }
+    ++views_;
+    jobs_.pop();
+    return true;
+}
+
+bool TwinLookup::load() {
+    bool moved = false;
+    if (asked_ < object_.book_words && requests_.can_push()) {
+        requests_.push({object_.books + asked_++, false});
+        moved = true;
+    }
+    Set& set = sets_[static_cast<std::size_t>(loading_)];
+    if (words_.can_pop()) {
+        const std::uint64_t word = words_.pop().data;
+        for (std::size_t n = 0; n < 8; ++n) {
+            set.banks->set_byte(object_.book_counts, 8 * std::size_t{written_} + n,
+                                static_cast<std::uint8_t>(word >> (8 * n)));
+        }
+        ++written_;
+        moved = true;
+    }
+    if (written_ == object_.book_words) {
+        set.serial = object_.serial;
+        loading_ = -1;
+    }
+    return moved;
+}
+
+Activity TwinLookup::look_up() {
+    if (line_.leaves() && !out_.can_push()) return Activity::output_full;  // the whole pipe stands
+    if (line_.leaves()) out_.push(line_.leaving());
+    if (!in_.can_pop()) {
+        line_.advance();
+        return Activity::idle;
+    }
+    const CodedPixel& pixel = in_.front();
+    const std::uint32_t serial = registers_.object_of(pixel.view).serial;
+    const Set* const set = sets_[0].serial == serial ? &sets_[0] : sets_[1].serial == serial ? &sets_[1] : nullptr;
+    if (set == nullptr) {
+        line_.advance();
+        return Activity::memory_data;
+    }
+    // Flat and predicted banks serve one hop each in a cycle; the last of the predictions takes the pixel along.
+    if (turns_ < pixel.hops - 2) {
+        ++turns_;
+        line_.advance();
+        return Activity::busy;
+    }
+    line_.advance(looked_up(*set->banks, pixel));
+    in_.pop();
+    turns_ = 0;
+    return Activity::busy;
+}
+
+Activity TwinLookup::tick(std::uint64_t) {
+    if (view_done_.can_pop()) {
+        view_done_.pop();
+        ++views_done_;
+    }
+    const Activity activity = look_up();  // with what was there before this cycle
+    const bool loads = loading_ >= 0 ? load() : next_view();
+    return loads ? Activity::busy : activity;
+}
+
+}  // namespace rs::engine::model

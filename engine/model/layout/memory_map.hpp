@@ -1,0 +1,50 @@
+#pragma once
+// Who has which words of object memory. Each kind of data has its banks (MemoryRegions); an object takes a run of words
+// in each of four, first fit.
+
+#include "engine/model/signals/board_config.hpp"
+#include "engine/model/signals/registers.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace rs::engine::model {
+
+enum class Region { luma, chroma, alpha, tables, flat_tiles = luma, predicted_tiles = chroma, tile_table = alpha };
+inline constexpr std::size_t kObjectRegions = 4;
+
+struct Placement {
+    std::array<WordAddress, kObjectRegions> first{};
+    std::array<std::uint64_t, kObjectRegions> words{};
+};
+
+class MemoryMap {
+public:
+    explicit MemoryMap(const MemorySettings& settings, bool coded_pictures = false);
+
+    // Finds a place for so many words per region. Fails, and takes nothing, where a region has none; `name` is the
+    // object's, for the error.
+    Result<Placement> take(const std::array<std::uint64_t, kObjectRegions>& words, const std::string& name);
+    void give_back(const Placement& placement);
+
+    // How many objects of so many words per region it holds when it holds nothing else.
+    [[nodiscard]] std::uint64_t copies(const std::array<std::uint64_t, kObjectRegions>& words) const;
+
+    [[nodiscard]] std::uint64_t capacity_words(Region region) const;
+    [[nodiscard]] std::uint64_t free_words(Region region) const;
+
+private:
+    struct Run {
+        std::uint64_t first = 0;
+        std::uint64_t words = 0;
+    };
+    struct Space {
+        Run all;
+        std::vector<Run> taken;  // in order
+    };
+    const std::array<const char*, kObjectRegions>& names_;
+    std::array<Space, kObjectRegions> spaces_;
+};
+
+}  // namespace rs::engine::model

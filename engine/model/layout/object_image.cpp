@@ -1,0 +1,179 @@
+#include "engine/model/layout/object_image.hpp"
+
+#include "engine/model/blocks/shared/map_reader.hpp"
+#include "engine/model/layout/coded_object_image.hpp"
+#include "engine/model/layout/parallel_object_image.hpp"
+#include "engine/model/signals/word_pair.hpp"
+#include "rayspace/codec/part_syntax.hpp"
+
+#include <algorithm>
+
+namespace rs::engine::model {
+namespace {
+
+constexpr int words_of(int items, int items_per_word) {
+    return (items + items_per_word - 1) / items_per_word;
+}
+
+// Columns of a plane, `bits` to a sample; sample (x, y) is value(picture, x, y).
+template <class Value>
+MemorySegment columns(WordAddress address, const RaySpaceObject& object, int width, int height, int bits,
+                      Value&& value) {
+    const int per_word = 64 / bits;
+    const auto pitch = static_cast<std::size_t>(words_of(height, per_word));
+    MemorySegment segment{address, {}};
+    segment.words.resize(object.pictures.size() * static_cast<std::size_t>(width) * pitch);
+    std::uint64_t* column = segment.words.data();
+    for (const PlanarPicture& picture : object.pictures) {
+        for (int x = 0; x < width; ++x, column += pitch) {
+            for (int y = 0; y < height; ++y) {
+                column[y / per_word] |= static_cast<std::uint64_t>(value(picture, x, y)) << (bits * (y % per_word));
+            }
+        }
+    }
+    return segment;
+}
+
+MemorySegment map_and_lines(WordAddress address, const RaySpaceObject& object) {
+    const Ring& ring = object.rings.front();
+    MemorySegment segment{address, {}};
+    segment.words.resize((ring.cells.size() + 7) / 8);
+    for (std::size_t n = 0; n < ring.cells.size(); ++n) {
+        const std::uint64_t cell = ring.cells[n] == kNoPicture ? kNoPictureByte : ring.cells[n];
+        segment.words[n / 8] |= cell << (8 * (n % 8));
+    }
+    for (const CapturedView& view : object.views) {
+        segment.words.push_back(word_pair(view.cx_q16, view.cy_q16));
+        segment.words.push_back(word_pair(view.fl_y_q16, view.height_q20));
+        for (const CapturedLine& line : view.lines) {
+            segment.words.push_back(word_pair(line.l0_q20, line.l1_q30));
+            segment.words.push_back(word_pair(line.q0_q16, line.q1_q16));
+        }
+    }
+    return segment;
+}
+
+void add_raw_pictures(const RaySpaceObject& object, const Placement& placement, ObjectRegisters& r,
+                      std::vector<MemorySegment>& segments) {
+    const auto at = [&](Region region) { return placement.first[static_cast<std::size_t>(region)]; };
+    r.luma_pitch = words_of(object.height, 8);
+    r.chroma_pitch = words_of(half_size(object.height), 4);
+    r.alpha_pitch = words_of(object.height, 32);
+    r.luma = at(Region::luma);
+    r.chroma = at(Region::chroma);
+    r.alpha = at(Region::alpha);
+    segments.push_back(
+        columns(r.alpha, object, object.width, object.height, 2,
+                [](const PlanarPicture& p, int x, int y) { return codec::level_of_alpha(p.a(x, y), kAlphaBits); }));
+    segments.push_back(columns(r.chroma, object, half_size(object.width), half_size(object.height), 16,
+                               [](const PlanarPicture& p, int x, int y) { return p.u(x, y) | p.v(x, y) << 8; }));
+    segments.push_back(columns(r.luma, object, object.width, object.height, 8,
+                               [](const PlanarPicture& p, int x, int y) { return p.y(x, y); }));
+}
+
+}  // namespace
+
+Status has_raw_pictures(const RaySpaceObject& object) {
+    if (object.coded != nullptr) {
+        return Error{object.name + ": its pictures are of profile " + codec::name_of(object.coded->profile) +
+                     ", and this board holds raw ones (U and V at half size); encode it with --profile raw" +
+                     (object.coded->profile == codec::Profile::kBoard
+                          ? ", or use compressed-2000"
+                          : ", or with --profile board for compressed-2000")};
+    }
+    if (object.pictures.size() != object.views.size() ||
+        std::any_of(object.pictures.begin(), object.pictures.end(), [](const PlanarPicture& p) { return p.empty(); })) {
+        return Error{object.name + ": not all of its pictures are loaded; read it at its full level, unpacked"};
+    }
+    for (const PlanarPicture& picture : object.pictures) {
+        if (picture.chroma_shift != 1) {
+            return Error{object.name +
+                         ": stores colour at full size, and the board has U and V at half size; encode it "
+                         "with colour at half size"};
+        }
+    }
+    return {};
+}
+
+Status drawable(const RaySpaceObject& object, const BoardLimits& limits) {
+    if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
+    if (limits.any_object && object.coded != nullptr && object.coded->profile != codec::Profile::kBoard) {
+        return Error{object.name + ": its pictures are of profile " + codec::name_of(object.coded->profile) +
+                     ", and the board unpacks those of profile board; encode it with --profile board or --profile raw"};
+    }
+    const bool coded = limits.any_object ? object.coded != nullptr : limits.coded_pictures;
+    if (Status status = coded ? has_board_pictures(object) : has_raw_pictures(object); !status) return status;
+    if (Status status = fits_board(object, limits); !status) return status;
+    if (!limits.any_object && !object.rings.front().shape.empty()) {
+        return Error{object.name +
+                     ": has a shape map, which the published board does not know (it takes objects to lie on "
+                     "their reference planes); encode it with --raymap plane, or use parallel"};
+    }
+    return {};
+}
+
+RaySpaceObject with_board_alpha(RaySpaceObject object) {
+    for (PlanarPicture& picture : object.pictures) {
+        for (std::uint8_t& a : picture.a.pixels()) {
+            a = static_cast<std::uint8_t>(codec::alpha_of_level(codec::level_of_alpha(a, kAlphaBits), kAlphaBits));
+        }
+    }
+    return object;
+}
+
+RaySpaceObject as_drawn_by_board(RaySpaceObject object, const BoardLimits& limits) {
+    return limits.coded_pictures ? object : with_board_alpha(std::move(object));
+}
+
+std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object, const BoardLimits& limits) {
+    if (limits.any_object) return parallel_object_words(object);
+    const std::uint64_t pictures = object.views.size();
+    const Ring& ring = object.rings.front();
+    const std::uint64_t tables =
+        (ring.cells.size() + 7) / 8 + 2 * pictures * static_cast<std::uint64_t>(1 + ring.planes);
+    if (limits.coded_pictures) {
+        std::array<std::uint64_t, kObjectRegions> words = coded_words(*object.coded);
+        words[static_cast<std::size_t>(Region::tables)] += tables;
+        return words;
+    }
+    const auto columns_of = [&](int width, int words) {
+        return pictures * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(words);
+    };
+    return {columns_of(object.width, words_of(object.height, 8)),
+            columns_of(half_size(object.width), words_of(half_size(object.height), 4)),
+            columns_of(object.width, words_of(object.height, 32)), tables};
+}
+
+void set_map_registers(const RaySpaceObject& object, ObjectRegisters& r) {
+    const Ring& ring = object.rings.front();
+    r.width = object.width;
+    r.height = object.height;
+    r.pictures = static_cast<int>(object.views.size());
+    r.planes = ring.planes;
+    r.x_cells = ring.x_cells;
+    r.u_cells = ring.u_cells;
+    r.x_half_q20 = ring.x_half_q20;
+    r.x_cells_per_unit_q12 = ring.x_cells_per_unit_q12;
+    r.u_half_q28 = ring.u_half_q28;
+    r.u_cells_per_unit_q12 = ring.u_cells_per_unit_q12;
+}
+
+ObjectImage object_image(const RaySpaceObject& object, const Placement& placement, const BoardLimits& limits) {
+    if (limits.any_object) return parallel_object_image(object, placement);
+    const Ring& ring = object.rings.front();
+    ObjectImage image;
+    ObjectRegisters& r = image.registers;
+    set_map_registers(object, r);
+    r.map = placement.first[static_cast<std::size_t>(Region::tables)];
+    r.lines = r.map + static_cast<WordAddress>((ring.cells.size() + 7) / 8);
+    image.segments.push_back(map_and_lines(r.map, object));
+    if (limits.coded_pictures) {
+        const auto books = r.map + static_cast<WordAddress>(image.segments.back().words.size());
+        add_coded_pictures(*object.coded, placement, books, r, image.segments);
+    } else {
+        add_raw_pictures(object, placement, r, image.segments);
+    }
+    return image;
+}
+
+}  // namespace rs::engine::model

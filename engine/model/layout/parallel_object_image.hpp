@@ -1,0 +1,16 @@
+#pragma once
+// An object as every memory channel of a parallel board holds it: parallel_layout.hpp.
+
+#include "engine/model/layout/object_image.hpp"
+
+#include <array>
+
+namespace rs::engine::model {
+
+// Words per region. Region::flat_tiles also holds raw pictures.
+std::array<std::uint64_t, kObjectRegions> parallel_object_words(const RaySpaceObject& object);
+
+// `object` is drawable with limits.any_object.
+ObjectImage parallel_object_image(const RaySpaceObject& object, const Placement& placement);
+
+}  // namespace rs::engine::model

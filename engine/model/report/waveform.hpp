@@ -1,0 +1,49 @@
+#pragma once
+// A waveform of a run as VCD (IEEE 1364), which GTKWave and others open: the board's clock, per FIFO how many items it
+// holds, per block what it did (the numbers of Activity) and whether it was busy.
+
+#include "engine/model/board_top.hpp"
+#include "rayspace/file/file_output.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rs::engine::model {
+
+class Waveform {
+public:
+    // Observes `board` from now on, for at most `most_cycles` board cycles. The board must live until finish().
+    static Result<std::unique_ptr<Waveform>> open(const std::filesystem::path& path, BoardTop& board,
+                                                  std::uint64_t most_cycles);
+    // Ends observing; the file appears. Fails with the first error of writing.
+    Status finish();
+
+private:
+    Waveform(StagedFile file, BoardTop& board, std::uint64_t most_cycles);
+    void declare();
+    void sample(std::uint64_t cycle);
+    void put(const std::string& text);
+
+    struct Signal {
+        std::string id;
+        int bits = 1;
+        std::uint64_t value = ~std::uint64_t{0};
+        const FifoState* fifo = nullptr;
+        const CrossingState* crossing = nullptr;
+        const Block* block = nullptr;
+        bool only_busy = false;
+    };
+    void add(const std::string& name, Signal signal, std::string& header);
+
+    StagedFile file_;
+    BoardTop& board_;
+    std::uint64_t most_cycles_;
+    std::uint64_t seen_ = 0;
+    std::vector<Signal> signals_;
+    std::string buffer_;
+    Status status_;
+};
+
+}  // namespace rs::engine::model

@@ -1,0 +1,267 @@
+#include "engine/model/signals/board_config.hpp"
+
+#include "rayspace/file/file_output.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <optional>
+
+namespace rs::engine::model {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kPublishedObjects = 20;
+// Registers for as many objects as memory is meant to hold, eight times the published ones. 512 bits each: 5 block
+// RAMs.
+constexpr int kCodedObjects = 160;
+constexpr int kMostPipes = 32;
+
+// Calls visit(path, reference, least, most) for every number of a configuration: one list serves reading, writing and
+// checking.
+template <class Config, class Visit>
+void for_each_number(Config& c, Visit&& visit) {
+    visit("clock_mhz", c.clock_mhz, 1, 1000);
+    visit("clock_period", c.clock_period, 1, 100);
+    visit("queue_cycles", c.queue_cycles, 1, 2);
+    visit("no_progress_cycles", c.no_progress_cycles, 1000, 1'000'000'000);
+    if (c.pipes > 0) visit("pipes", c.pipes, 1, kMostPipes);
+    visit("limits/objects", c.limits.objects, 1, c.limits.coded_pictures ? kCodedObjects : kPublishedObjects);
+    visit("limits/views_per_cycle", c.limits.views_per_cycle, 1, 15);
+    visit("limits/pictures_per_object", c.limits.pictures_per_object, 1, 120);
+    visit("limits/picture_side_px", c.limits.picture_side_px, 1, 512);
+    visit("limits/planes", c.limits.planes, 1, 12);
+    visit("limits/map_side", c.limits.map_side, 1, 1024);
+    if (c.limits.any_object) visit("limits/shape_bands", c.limits.shape_bands, 1, 256);
+    visit("limits/image_buffer_side_px", c.limits.image_buffer_side_px, 1, 512);
+    visit("memory/bank_bits", c.memory.shape.bank_bits, 1, 4);
+    visit("memory/row_bits", c.memory.shape.row_bits, 1, 14);
+    visit("memory/column_bits", c.memory.shape.column_bits, 5, 12);
+    visit("memory/activate_to_column", c.memory.timing.activate_to_column, 1, 15);
+    visit("memory/precharge_to_activate", c.memory.timing.precharge_to_activate, 1, 15);
+    visit("memory/activate_to_precharge", c.memory.timing.activate_to_precharge, 1, 15);
+    visit("memory/activate_to_activate", c.memory.timing.activate_to_activate, 1, 31);
+    visit("memory/write_to_precharge", c.memory.timing.write_to_precharge, 1, 15);
+    visit("memory/refresh_to_any", c.memory.timing.refresh_to_any, 1, 31);
+    visit("memory/read_latency", c.memory.timing.read_latency, 1, 4);
+    visit("memory/interface_latency", c.memory.timing.interface_latency, 0, 4);
+    const auto visit_banks = [&](const char* first, const char* count, auto& banks) {
+        visit(first, banks.first, 0, 15);
+        visit(count, banks.count, 1, 16);
+    };
+    if (c.limits.coded_pictures) {
+        visit_banks("memory/flat_tiles/first", "memory/flat_tiles/count", c.memory.regions.flat_tiles);
+        visit_banks("memory/predicted_tiles/first", "memory/predicted_tiles/count", c.memory.regions.predicted_tiles);
+        visit_banks("memory/tile_table/first", "memory/tile_table/count", c.memory.regions.tile_table);
+    } else {
+        visit_banks("memory/luma/first", "memory/luma/count", c.memory.regions.luma);
+        visit_banks("memory/chroma/first", "memory/chroma/count", c.memory.regions.chroma);
+        visit_banks("memory/alpha/first", "memory/alpha/count", c.memory.regions.alpha);
+    }
+    visit_banks("memory/tables/first", "memory/tables/count", c.memory.regions.tables);
+    visit_banks("memory/images/first", "memory/images/count", c.memory.regions.images);
+    visit("memory/maintenance_interval", c.memory.maintenance_interval, 64, 100'000);
+    visit("memory/load_words_per_window", c.memory.load_words_per_window, 1, 1024);
+    visit("memory/write_batch", c.memory.write_batch, 1, 15);
+    visit("pci/period", c.pci.period, 1, 100);
+    visit("pci/burst_words", c.pci.burst_words, 1, 16);
+    visit("pci/grant_clocks", c.pci.grant_clocks, 1, 1000);
+    visit("pci/target_clocks", c.pci.target_clocks, 1, 1000);
+    visit("pci/wait_per_transfer", c.pci.wait_per_transfer, 0, 100);
+    visit("pci/register_clocks", c.pci.register_clocks, 1, 1000);
+    visit("pci/interrupt_clocks", c.pci.interrupt_clocks, 0, 1'000'000);
+    visit("pci/retry_every", c.pci.retry_every, 0, 1'000'000);
+    visit("disk/cycles_per_transfer", c.disk.cycles_per_transfer, 1, 1000);
+    visit("disk/start_cycles", c.disk.start_cycles, 0, 1'000'000'000);
+    visit("disk/media_cycles_per_sector", c.disk.media_cycles_per_sector, 1, 1'000'000);
+    visit("disk/buffer_sectors", c.disk.buffer_sectors, 1, 4096);
+    visit("disk/stall_after_bytes", c.disk.stall_after_bytes, 0, 2'000'000'000);
+    visit("disk/stall_cycles", c.disk.stall_cycles, 0, 2'000'000'000);
+    visit("disk/timeout_cycles", c.disk.timeout_cycles, 1, 2'000'000'000);
+}
+
+Json::json_pointer pointer(const char* path) {
+    return Json::json_pointer("/" + std::string(path));
+}
+
+// What is only wrong together.
+std::string contradiction(const BoardConfig& c) {
+    const MemoryRegions& r = c.memory.regions;
+    const int banks = 1 << c.memory.shape.bank_bits;
+    std::vector<int> owners(static_cast<std::size_t>(banks));
+    const auto of_objects = object_regions(r, c.limits.coded_pictures);
+    for (const RegionBanks& region : {of_objects[0], of_objects[1], of_objects[2], of_objects[3], r.images}) {
+        for (int b = region.first; b < region.first + region.count; ++b) {
+            if (b >= banks) return "a memory region lies beyond the last of " + std::to_string(banks) + " banks";
+            if (owners[static_cast<std::size_t>(b)]++ != 0) return "two memory regions share bank " + std::to_string(b);
+        }
+    }
+    const SdramTiming& t = c.memory.timing;
+    const int window = t.precharge_to_activate * 2 + t.refresh_to_any + t.activate_to_column +
+                       c.memory.load_words_per_window + t.write_to_precharge + 8;
+    if (window * 2 > c.memory.maintenance_interval) {
+        return "the maintenance window of about " + std::to_string(window) +
+               " cycles takes more than half of memory/maintenance_interval; lower memory/load_words_per_window";
+    }
+    const int load_row = t.activate_to_column + c.memory.load_words_per_window + t.write_to_precharge;
+    if (load_row < t.activate_to_precharge || load_row + t.precharge_to_activate < t.activate_to_activate) {
+        return "memory/load_words_per_window is too small: a row would be closed before it may be";
+    }
+    if (c.memory.load_words_per_window > 1 << c.memory.shape.column_bits) {
+        return "memory/load_words_per_window is larger than a row of the memory";
+    }
+    if (c.pci.period < c.clock_period)
+        return "pci/period is below clock_period: the bus may not be faster than the board";
+    const auto side = static_cast<std::uint64_t>(c.limits.image_buffer_side_px);
+    const std::uint64_t image_words =
+        2 * static_cast<std::uint64_t>(c.limits.views_per_cycle) * side * ((side + 1) / 2);
+    if (c.pipes > 0 && r.images.count % 2 == 1)
+        return "memory/images/count is odd: each image buffer has banks of its own";
+    if (image_words > c.memory.shape.words_per_bank() * static_cast<std::uint64_t>(r.images.count)) {
+        return "the two image buffers do not fit the banks of memory/images";
+    }
+    return {};
+}
+
+Result<BoardConfig> checked(BoardConfig config, const std::string& where) {
+    std::string bad;
+    for_each_number(config, [&](const char* path, const auto& value, std::int64_t least, std::int64_t most) {
+        const auto number = static_cast<std::int64_t>(value);
+        if (bad.empty() && (number < least || number > most)) {
+            bad = std::string(path) + " is " + std::to_string(number) + ", outside " + std::to_string(least) + ".." +
+                  std::to_string(most);
+        }
+    });
+    if (bad.empty()) bad = contradiction(config);
+    if (!bad.empty()) return Error{where + ": " + bad};
+    config.limits.memory_bytes = config.memory.shape.words() * 8;
+    return config;
+}
+
+// Keys of `json` that the list does not know, "" where there are none.
+std::string unknown_key(const Json& json, const Json& known, const std::string& path) {
+    for (const auto& [key, value] : json.items()) {
+        std::string here = path.empty() ? key : path + "/" + key;
+        if (path.empty() && (key == "base" || key == "name")) continue;
+        if (!known.contains(key)) return here;
+        if (known[key].is_object() != value.is_object()) return here;
+        if (value.is_object()) {
+            if (std::string found = unknown_key(value, known[key], here); !found.empty()) return found;
+        }
+    }
+    return {};
+}
+
+Json to_json(const BoardConfig& config) {
+    Json json = Json::object();
+    for_each_number(
+        config, [&](const char* path, const auto& value, std::int64_t, std::int64_t) { json[pointer(path)] = value; });
+    return json;
+}
+
+BoardConfig prototype_2000() {
+    BoardConfig config;  // its defaults are the published board
+    config.name = "prototype-2000";
+    return config;
+}
+
+BoardConfig compressed_2000() {
+    BoardConfig config = prototype_2000();
+    config.name = "compressed-2000";
+    config.limits.coded_pictures = true;
+    config.limits.objects = kCodedObjects;
+    config.memory.regions.tables = {7, 8};
+    return config;
+}
+
+BoardConfig parallel() {
+    BoardConfig config = compressed_2000();
+    config.name = "parallel";
+    config.pipes = 16;
+    config.limits.any_object = true;
+    config.memory.regions.flat_tiles = {0, 4};
+    config.memory.regions.predicted_tiles = {4, 4};
+    config.memory.regions.tile_table = {8, 1};
+    config.memory.regions.tables = {9, 5};
+    config.memory.regions.images = {14, 2};
+    config.pci.burst_words = 16;
+    config.pci.wait_per_transfer = 0;
+    return config;
+}
+
+std::optional<BoardConfig> built_in(const std::string& name) {
+    if (name == "prototype-2000") return prototype_2000();
+    if (name == "compressed-2000") return compressed_2000();
+    if (name == "parallel") return parallel();
+    return std::nullopt;
+}
+
+std::string listed_built_ins() {
+    std::string list;
+    for (const std::string& name : built_in_configs()) list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
+}  // namespace
+
+std::vector<std::string> built_in_configs() {
+    return {"prototype-2000", "compressed-2000", "parallel"};
+}
+
+Result<BoardConfig> parse_board_config(const std::string& text, const std::string& where) {
+    const Json json = Json::parse(text, nullptr, false);
+    if (json.is_discarded() || !json.is_object()) return Error{where + ": not a JSON object; see engine/README.md"};
+    const auto text_of = [&](const char* key, std::string otherwise) -> std::string {
+        if (!json.contains(key) || !json[key].is_string()) return otherwise;
+        return json[key].get<std::string>();
+    };
+    const std::string base = text_of("base", "prototype-2000");
+    const std::optional<BoardConfig> known = built_in(base);
+    if (!known) {
+        return Error{where + ": base \"" + base + "\" is no built-in configuration; give one of " + listed_built_ins()};
+    }
+    BoardConfig config = *known;
+    config.name = text_of("name", where);
+    if (const std::string key = unknown_key(json, to_json(config), ""); !key.empty()) {
+        return Error{where + ": \"" + key +
+                     "\" is no setting, or not of its kind; settings are those of "
+                     "rs-engine simulate " +
+                     base + " --print-config"};
+    }
+    std::string bad;
+    for_each_number(config, [&](const char* path, auto& value, std::int64_t, std::int64_t) {
+        if (!bad.empty() || !json.contains(pointer(path))) return;
+        const Json& given = json[pointer(path)];
+        if (!given.is_number_integer() || std::abs(given.get<double>()) > 4e9) {
+            bad = path;
+            return;
+        }
+        const auto number = given.get<std::int64_t>();
+        using Value = std::remove_reference_t<decltype(value)>;
+        value = static_cast<Value>(std::clamp<std::int64_t>(number, std::is_signed_v<Value> ? -1 : 0, 2'100'000'000));
+        if (number < 0 && !std::is_signed_v<Value>) bad = path;
+    });
+    if (!bad.empty()) return Error{where + ": \"" + bad + "\" is not a whole number that fits"};
+    return checked(config, where);
+}
+
+Result<BoardConfig> read_board_config(const std::string& name_or_path) {
+    if (const std::optional<BoardConfig> known = built_in(name_or_path)) return checked(*known, name_or_path);
+    constexpr std::uint64_t kCap_bytes = 1 << 20;
+    if (!std::filesystem::exists(name_or_path)) {
+        return Error{name_or_path + ": neither a built-in configuration (" + listed_built_ins() + ") nor a file"};
+    }
+    const Result<std::vector<std::byte>> bytes = read_file(name_or_path, kCap_bytes);
+    if (!bytes) return bytes.error();
+    return parse_board_config(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()), name_or_path);
+}
+
+std::string board_config_json(const BoardConfig& config) {
+    Json json = to_json(config);
+    json["name"] = config.name;
+    json["base"] = config.pipes > 0 ? "parallel" : config.limits.coded_pictures ? "compressed-2000" : "prototype-2000";
+    return json.dump(2);
+}
+
+}  // namespace rs::engine::model

@@ -1,0 +1,118 @@
+#pragma once
+// A configuration of the board: clocks, memory chips, buses and limits, as built in or read from JSON. What is
+// published and what is this model's choice is said in DIAGRAM.md, section "Where the numbers come from".
+
+#include "engine/model/limits/board_limits.hpp"
+#include "rayspace/base/result.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rs::engine::model {
+
+// Times in cycles of the board's clock, from command to command.
+struct SdramTiming {
+    int activate_to_column = 1;     // tRCD
+    int precharge_to_activate = 1;  // tRP
+    int activate_to_precharge = 2;  // tRAS, least
+    int activate_to_activate = 3;   // tRC, same bank
+    int write_to_precharge = 1;     // tWR, after the cycle of the write
+    int refresh_to_any = 3;         // tRFC
+    int read_latency = 2;           // CAS latency
+    int interface_latency = 2;      // registers at the FPGA's pins, out and in, added to the read latency
+};
+
+// Word address (8 bytes): bank region | row | column; a region is one bank of one rank.
+struct SdramShape {
+    int bank_bits = 4;  // 4 ranks of 4 banks
+    int row_bits = 13;
+    int column_bits = 10;
+    [[nodiscard]] int address_bits() const { return bank_bits + row_bits + column_bits; }
+    [[nodiscard]] std::uint64_t words() const { return std::uint64_t{1} << address_bits(); }
+    [[nodiscard]] std::uint64_t words_per_bank() const { return std::uint64_t{1} << (row_bits + column_bits); }
+};
+
+// The banks of each kind of data; the four streams of a picture never meet in a bank.
+struct RegionBanks {
+    int first = 0;
+    int count = 0;
+};
+struct MemoryRegions {
+    RegionBanks luma{0, 8};
+    RegionBanks chroma{8, 4};
+    RegionBanks alpha{12, 2};
+    // Of coded pictures, instead of luma, chroma and alpha: so the hops of a prediction meet in no bank.
+    RegionBanks flat_tiles{0, 2};  // of pictures without references
+    RegionBanks predicted_tiles{2, 4};
+    RegionBanks tile_table{6, 1};
+    RegionBanks tables{14, 1};
+    RegionBanks images{15, 1};
+};
+
+// The four that objects are in: Region of memory_map.hpp.
+constexpr std::array<RegionBanks, 4> object_regions(const MemoryRegions& r, bool coded_pictures) {
+    if (coded_pictures) return {r.flat_tiles, r.predicted_tiles, r.tile_table, r.tables};
+    return {r.luma, r.chroma, r.alpha, r.tables};
+}
+
+struct MemorySettings {
+    SdramShape shape;
+    SdramTiming timing;
+    MemoryRegions regions;
+    int maintenance_interval = 312;  // cycles; 8192 rows in 64 ms
+    int load_words_per_window = 20;  // of the private bus, in the maintenance window
+    int write_batch = 8;             // image words written together
+};
+
+struct PciSettings {
+    int period = 6;              // against the board's `clock_period`, in common units
+    int burst_words = 4;         // 64-bit words to a burst: a cache line of 32 bytes
+    int grant_clocks = 3;        // from REQ# to the address: the arbiter's two, and one in which the bus is seen idle
+    int target_clocks = 8;       // from the address to the first data: the host bridge snoops the processor's cache
+    int wait_per_transfer = 1;   // the board's wait states to a 32-bit transfer
+    int register_clocks = 4;     // a register write of the host
+    int interrupt_clocks = 330;  // from the end of a picture's transfer to the next: the driver's 10 us
+    int retry_every = 0;         // fault injection: the target asks for every n-th burst to be tried again; 0 = never
+};
+
+struct DiskSettings {
+    int cycles_per_transfer = 4;               // of the private bus: 16 bits at 10 MHz
+    std::uint64_t start_cycles = 0;            // before the first byte: seek and rotation
+    int media_cycles_per_sector = 820;         // 512 bytes: 25 MByte/s off the platter
+    int buffer_sectors = 64;                   // the drive's own buffer
+    std::uint64_t stall_after_bytes = 0;       // fault injection: the drive stops delivering here; 0 = never
+    std::uint64_t stall_cycles = 0;            // and for so long
+    std::uint64_t timeout_cycles = 4'000'000;  // a load without a byte for so long has failed: 0.1 s
+};
+
+struct BoardConfig {
+    std::string name;
+    int clock_mhz = 40;
+    int clock_period = 5;
+    BoardLimits limits;
+    MemorySettings memory;
+    PciSettings pci;
+    DiskSettings disk;
+    int pipes = 0;         // of a parallel board, each with a memory channel; 0: one pipe and one channel, as in 2000
+    int queue_cycles = 2;  // rendering cycles whose registers the board holds
+    std::uint64_t no_progress_cycles = 20'000;
+
+    [[nodiscard]] double pci_mhz() const { return double(clock_mhz) * clock_period / pci.period; }
+};
+
+// "prototype-2000": the published board. "compressed-2000": the same with pictures that stay compressed in its memory.
+// "parallel": sixteen pipes, each with a memory channel, that draw objects with a shape map too.
+std::vector<std::string> built_in_configs();
+
+// Name of a built-in, or a JSON file: {"base": "prototype-2000", "memory": {...}, ...} changes what it names. Fails on
+// an unknown name or key, a wrong type, and numbers that no such board could have; says which.
+Result<BoardConfig> read_board_config(const std::string& name_or_path);
+Result<BoardConfig> parse_board_config(const std::string& json, const std::string& where);
+
+// All values of a configuration, as JSON that read_board_config takes.
+std::string board_config_json(const BoardConfig& config);
+
+}  // namespace rs::engine::model

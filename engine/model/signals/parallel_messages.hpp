@@ -1,0 +1,288 @@
+#pragma once
+// What travels in the FIFOs of a parallel board's pipe, from a column's ray to the pixels of a patch. In such a board a
+// picture's number is its view's place in the ring (parallel_layout.hpp).
+//
+// A *patch* is 16 columns and 8 rows of a view: pixel `id` is slot * 128 + row * 16 + column, where `slot` is one of
+// the four patches under way. A *stripe* is 16 columns over the whole height; `stripe` counts a pipe's stripes,
+// modulo 4.
+
+#include "engine/model/signals/messages.hpp"
+#include "engine/model/signals/stripes.hpp"
+
+#include <array>
+
+namespace rs::engine::model {
+
+inline constexpr int kPatchRows = 8;
+inline constexpr int kPatchPixels = kPatchRows * kStripeColumns;
+inline constexpr int kPatchSlots = 4;
+inline constexpr int kPatchIds = kPatchSlots * kPatchPixels;
+inline constexpr int kStripeNumbers = 4;  // two stripes are under way
+inline constexpr int kStripeSlots = 2;
+inline constexpr int kMostBands = 256;
+
+// What is known of a column's ray, and so what a pixel of it is.
+enum class RayKind {
+    none,   // no ray
+    plane,  // the object has no shape map: a walk down a picture column (section 3)
+    foot,   // it has one, but not for this ray: the object lies at the foot (section 5)
+    shape,  // a ray with bands
+};
+
+// Bracket finder: the two pictures beside the ray (section 5).
+struct BracketedRay {
+    static constexpr int kBits = 4 + 2 + 4 + 23 + 29 + 31 + 32 + 7 + 7 + 31 + 31 + 11 + 27 + 2;
+    int view = 0;
+    RayKind kind = RayKind::none;
+    int plane = 0;
+    std::int64_t x_q20 = 0, lambda_q20 = 0, n_q28 = 0, t_q28 = 0;
+    int first = 0;  // picture; the one that the RS map names, where the ray has no gap
+    int second = 0;
+    std::int64_t from_first_q20 = 0;  // f
+    std::int64_t width_q20 = 0;       // w
+    int lines = 0;                    // S
+    std::int64_t first_line = 0;
+    bool lines_before = false;  // the gap before this one has lines; the one behind it
+    bool lines_behind = false;
+};
+
+// A picture's camera, and its line of the plane with what belongs to it along the normal.
+struct PictureLine {
+    static constexpr int kBits = 10 * 32;
+    std::int32_t cx_q16 = 0, cy_q16 = 0, fl_y_q16 = 0, height_q20 = 0;
+    std::int32_t l0_q20 = 0, l1_q30 = 0, q0_q16 = 0, q1_q16 = 0;
+    std::int32_t l2_q30 = 0, q2_q16 = 0;
+};
+
+// Picture reader: the ray with the lines of its pictures.
+struct LinedRay {
+    static constexpr int kBits = BracketedRay::kBits + 2 * PictureLine::kBits;
+    BracketedRay ray;
+    std::array<PictureLine, 2> picture{};
+};
+
+// A captured picture along the ray: everything linear in the depth (section 5).
+struct PictureSetup {
+    static constexpr int kBits = 7 + 30 + 20 + 31 + 22 + 3 * 31 + 29;
+    int picture = 0;
+    std::int64_t l0_q20 = 0, l1_q24 = 0, q0_q12 = 0, q1_q12 = 0;
+    std::int32_t cx_q16 = 0, cy_q16 = 0, fl_y_q16 = 0, height_q20 = 0;
+};
+
+// Column set-up: all that the pixels of a column share. Goes to three blocks, each of which keeps a part of it.
+struct ColumnSetup {
+    static constexpr int kHeadBits = 4 + 2 + 2 + 4;
+    static constexpr int kBits =
+        kHeadBits + 7 + 9 + 46 + 36 + 2 * PictureSetup::kBits + 9 + 3 * 30 + 25 + 22 + 2 * 27 + 2 * 13 + 2 * 3;
+    static constexpr int kRiseBits = kHeadBits + 30 + 25 + 22;
+    static constexpr int kMarchBits = kHeadBits + 9 + 3 + 3 + 1;
+    static constexpr int kPlaceBits = kHeadBits + 46 + 36 + 9 + 2 * PictureSetup::kBits + 9 + 30 + 23;
+    int view = 0;
+    RayKind kind = RayKind::none;
+    int stripe = 0;           // band reader
+    int column = 0;           // of the stripe; band reader
+    bool same_cells = false;  // as the column before it has; band reader
+    // plane
+    int picture = 0, picture_column = 0;
+    std::int64_t row_0_q16 = 0, row_step_q16 = 0;
+    // foot, shape
+    std::array<PictureSetup, 2> pictures{};
+    int weight = 0;
+    std::int64_t lambda_foot_q20 = 0, lambda0_q20 = 0, lambda1_q21 = 0;
+    std::int64_t inverse_r_q20 = 0, inverse_rho_q20 = 0;
+    std::array<std::int64_t, 2> map_line{};  // the two lines beside the ray
+    std::array<int, 2> map_place{};          // the two cells along p
+    int line_part = 0;                       // eighths of the second one
+    int p_part = 0;
+};
+
+// Pixel scan: a patch is begun.
+struct PatchJob {
+    static constexpr int kBits = 4 + 2 + 5 + 6 + 5 + 4 + 1 + 1;
+    int view = 0;
+    int slot = 0;
+    int first_column = 0;  // of the view
+    int first_row = 0;
+    int columns = 0;
+    int rows = 0;  // 1 .. 8
+    bool ends_stripe = false;
+    bool ends_view = false;
+};
+
+struct ScannedPixel {
+    static constexpr int kBits = 9 + 4 + 2 + 9 + 28;
+    int id = 0;
+    int view = 0;
+    int stripe = 0;
+    int row = 0;  // of the view
+    std::int32_t rise_q24 = 0;
+    [[nodiscard]] int column() const { return id % kStripeColumns; }
+};
+
+// Ray rise: the line along which the pixel's ray passes the bands (section 6).
+struct RisenPixel {
+    static constexpr int kBits = ScannedPixel::kBits + 30 + 31 + 23;
+    ScannedPixel pixel;
+    std::int32_t foot_q12 = 0;  // band at the foot
+    std::int32_t zero_q12 = 0;  // band at d = 0
+    std::int32_t per_d_q20 = 0;
+};
+
+// Where the march along a ray goes on.
+struct MarchState {
+    static constexpr int kBits = 9;
+    int begin = 0;  // depth; 256: at the foot
+};
+
+// Cell march: a surface that the pixel's ray meets.
+struct MetSurface {
+    static constexpr int kBits = ScannedPixel::kBits + 11 + 1 + MarchState::kBits;
+    ScannedPixel pixel;
+    int depth_q3 = 0;
+    bool final = false;  // no other surface is asked for when this one does not answer
+    MarchState next;
+};
+
+// A pixel of which nothing is seen, or whose colour is known.
+struct FinishedPixel {
+    static constexpr int kBitsOfEmpty = 9;
+    static constexpr int kBits = 9 + 32;
+    int id = 0;
+    std::uint32_t rgba = 0;
+};
+
+struct MarchAgain {
+    static constexpr int kBits = 9 + MarchState::kBits;
+    int id = 0;
+    MarchState state;
+};
+
+// What belongs to a sample behind its place: of which picture, and what follows when the surface is complete.
+struct SampleHead {
+    static constexpr int kBits = 9 + 1 + 1 + 9 + 1 + 1 + MarchState::kBits;
+    int id = 0;
+    bool is_there = false;  // else: a token that only ends its surface
+    bool second = false;    // picture
+    int weight = 0;         // of the second picture
+    bool last = false;      // of its surface
+    bool final = false;
+    MarchState next;
+};
+
+// Sample place: the four texels that a sample takes (section 7).
+struct PlacedSample {
+    static constexpr int kBits = SampleHead::kBits + 4 + 1 + 7 + 2 * 9 + 2 * 3 + 2;
+    SampleHead head;
+    int view = 0;
+    bool inside = false;
+    int picture = 0;
+    int left = 0, top = 0;
+    int fx = 0, fy = 0;                                 // eighths
+    bool right_is_left = false, bottom_is_top = false;  // at the picture's rim
+};
+
+// A block of 8x8 texels that is to come into a line of the cache.
+struct TexelFill {
+    static constexpr int kBits = 4 + 7 + 6 + 6 + 7 + 10;
+    int view = 0;
+    int picture = 0;
+    int block_column = 0;
+    int block_row = 0;
+    int line = 0;
+    std::uint64_t guard = 0;  // samples that must have been read before the line is written
+};
+
+struct FillTarget {
+    static constexpr int kBits = 7 + 10;
+    int line = 0;
+    std::uint64_t guard = 0;
+};
+
+struct FillKind {
+    static constexpr int kBits = 1;
+    bool coded = false;
+};
+
+// A sample whose texels' lines are known; texel n: (left, top), (left, bottom), (right, top), (right, bottom).
+struct WaitingSample {
+    static constexpr int kBits = SampleHead::kBits + 1 + 2 * 3 + 4 * (7 + 6) + 3;
+    SampleHead head;
+    bool inside = false;
+    int fx = 0, fy = 0;
+    std::array<int, 4> line{};
+    std::array<int, 4> texel{};  // 8 * column + row of the block
+    int fills = 0;               // that come for it
+};
+
+struct TexelQuad {
+    static constexpr int kBits = SampleHead::kBits + 1 + 2 * 3 + 4 * 32;
+    SampleHead head;
+    bool inside = false;
+    int fx = 0, fy = 0;
+    std::array<std::uint32_t, 4> rgba{};
+};
+
+struct FilteredSample {
+    static constexpr int kBits = SampleHead::kBits + 1 + 14 + 3 * 22;
+    SampleHead head;
+    bool inside = false;
+    std::int32_t a = 0, r = 0, g = 0, b = 0;
+};
+
+inline std::string id_text(int id) {
+    return "pixel " + std::to_string(id);
+}
+inline std::string text(const BracketedRay& m) {
+    return "view " + std::to_string(m.view) + " kind " + std::to_string(static_cast<int>(m.kind)) + " pictures " +
+           std::to_string(m.first) + "," + std::to_string(m.second);
+}
+inline std::string text(const LinedRay& m) {
+    return text(m.ray);
+}
+inline std::string text(const ColumnSetup& m) {
+    return "view " + std::to_string(m.view) + " stripe " + std::to_string(m.stripe) + " column " +
+           std::to_string(m.column);
+}
+inline std::string text(const PatchJob& m) {
+    return "view " + std::to_string(m.view) + " slot " + std::to_string(m.slot) + " at " +
+           std::to_string(m.first_column) + "," + std::to_string(m.first_row);
+}
+inline std::string text(const ScannedPixel& m) {
+    return id_text(m.id);
+}
+inline std::string text(const RisenPixel& m) {
+    return id_text(m.pixel.id);
+}
+inline std::string text(const MetSurface& m) {
+    return id_text(m.pixel.id) + (m.final ? " final" : "");
+}
+inline std::string text(const FinishedPixel& m) {
+    return id_text(m.id);
+}
+inline std::string text(const MarchAgain& m) {
+    return id_text(m.id) + " from " + std::to_string(m.state.begin);
+}
+inline std::string text(const PlacedSample& m) {
+    return id_text(m.head.id) + (m.inside ? " picture " + std::to_string(m.picture) : " outside");
+}
+inline std::string text(const TexelFill& m) {
+    return "picture " + std::to_string(m.picture) + " block " + std::to_string(m.block_column) + "," +
+           std::to_string(m.block_row) + " line " + std::to_string(m.line);
+}
+inline std::string text(const FillTarget& m) {
+    return "line " + std::to_string(m.line) + " behind sample " + std::to_string(m.guard);
+}
+inline std::string text(const FillKind& m) {
+    return m.coded ? "coded" : "raw";
+}
+inline std::string text(const WaitingSample& m) {
+    return id_text(m.head.id) + " fills " + std::to_string(m.fills);
+}
+inline std::string text(const TexelQuad& m) {
+    return id_text(m.head.id);
+}
+inline std::string text(const FilteredSample& m) {
+    return id_text(m.head.id) + " a " + std::to_string(m.a);
+}
+
+}  // namespace rs::engine::model

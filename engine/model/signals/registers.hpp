@@ -1,0 +1,147 @@
+#pragma once
+// The register file of the board: its objects, and two banks of 15 views, of which one is rendered while the host fills
+// the other. It is a memory (in the FPGA, embedded RAM, copied where two blocks read at once), not a block: the render
+// controller is the only one that writes it, and only while the blocks that read are empty.
+
+#include "engine/core/definition/view_registers.hpp"
+#include "engine/model/limits/board_limits.hpp"
+#include "engine/model/signals/sdram.hpp"
+#include "rayspace/codec/code/board_code.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rs::engine::model {
+
+inline constexpr int kMostPlanes = 12;
+
+// How many codebooks an object has, of flat and of predicted records.
+struct BookCounts {
+    std::array<int, 2> block{};
+    std::array<int, 2> quarter{};
+    bool alpha = false;
+};
+
+// Of an object with a shape map (RECONSTRUCTION.md, section 1), on a board that knows it.
+struct ShapeRegisters {
+    bool exists = false;
+    int p_cells = 0;  // 13 bits
+    int bands = 0;    // 9 bits
+    std::int32_t p_half_q20 = 0;
+    std::int32_t p_cells_per_unit_q12 = 0;
+    std::int32_t h_low_q20 = 0;
+    std::int32_t bands_per_unit_q12 = 0;
+    std::int32_t reference_distance_q20 = 0;
+    std::int32_t reference_height_q20 = 0;
+    std::int32_t depth_low_q20 = 0;
+    std::int32_t depth_step_q24 = 0;
+    int foot_d_q3 = 0;       // 11 bits
+    int jump = 0;            // 8 bits
+    std::int64_t lines = 0;  // of all gaps; 27 bits
+    WordAddress cells = 0;
+};
+
+// Where an object lies and what section 1 of RECONSTRUCTION.md says of it. Widths: sizes 10 bits, addresses 27 bits,
+// fixed point as in RECONSTRUCTION.md.
+struct ObjectRegisters {
+    bool valid = false;  // loaded as a whole
+    int width = 0;       // px, of every picture
+    int height = 0;
+    int pictures = 0;
+    int planes = 0;
+    int x_cells = 0;
+    int u_cells = 0;
+    std::int32_t x_half_q20 = 0;
+    std::int32_t x_cells_per_unit_q12 = 0;
+    std::int32_t u_half_q28 = 0;
+    std::int32_t u_cells_per_unit_q12 = 0;
+    int luma_pitch = 0;  // words per picture column
+    int chroma_pitch = 0;
+    int alpha_pitch = 0;
+    WordAddress luma = 0;
+    WordAddress chroma = 0;
+    WordAddress alpha = 0;
+    WordAddress map = 0;
+    WordAddress lines = 0;
+
+    // Of an object with pictures of profile `board` (coded_layout.hpp), instead of those of luma, chroma and alpha.
+    int coded_width = 0;  // px; 10 bits
+    int coded_height = 0;
+    int tile_columns = 0;  // 5 bits
+    int table_pitch = 0;   // entries of a column of tiles; 5 bits
+    WordAddress tile_table = 0;
+    WordAddress books = 0;
+    std::uint32_t book_words = 0;  // 15 bits
+    BookCounts book_counts;
+    std::array<std::array<codec::RecordClass, codec::kBoardClasses>, 2> classes{};  // a byte each
+    // On a parallel board (parallel_layout.hpp).
+    bool coded = false;          // its pictures are those of profile `board`
+    WordAddress raw_blocks = 0;  // else
+    int block_columns = 0;       // of a raw picture, 7 bits
+    int block_rows = 0;
+    ShapeRegisters shape;
+
+    std::uint32_t serial = 0;  // number of the load, from 1: tells apart the objects that a slot holds in turn
+};
+
+struct PlaneView {
+    std::int32_t a_q20 = 0;
+    std::int32_t c_q20 = 0;
+    std::int64_t n0_q32 = 0, nx_q32 = 0;
+    std::int64_t t0_q32 = 0, tx_q32 = 0;
+};
+
+struct BoardView {
+    int object = 0;
+    int width = 0;
+    int height = 0;
+    std::int32_t b_q20 = 0;
+    std::int64_t s0_q32 = 0;  // sx is 0: the view is upright
+    std::int64_t sy_q32 = 0;
+    std::array<PlaneView, kMostPlanes> planes{};
+
+    [[nodiscard]] int words_per_column() const { return (height + 1) / 2; }  // of the image buffer
+    [[nodiscard]] int words() const { return width * words_per_column(); }
+};
+
+struct ViewBank {
+    std::vector<BoardView> views;
+};
+
+struct RegisterFile {
+    std::vector<ObjectRegisters> objects;  // [slot]
+    std::vector<ObjectRegisters> loaded;   // written by the disk controller, taken over by the render controller
+    std::array<ViewBank, 2> banks{};
+    int active = 0;                                  // the bank that is rendered, and the image buffer that is written
+    std::array<std::vector<int>, 2> buffer_words{};  // [buffer][view]: kept until the host has the pictures
+    std::array<std::vector<int>, 2> buffer_pitches{};  // words per column, likewise
+    WordAddress images = 0;                            // the first image buffer
+    WordAddress words_per_buffer = 0;                  // from there to the second
+    int words_per_view = 0;                            // of the image buffer
+    int views_per_cycle = 15;
+
+    [[nodiscard]] const BoardView& view(int number) const {
+        return banks[static_cast<std::size_t>(active)].views[static_cast<std::size_t>(number)];
+    }
+    [[nodiscard]] const ObjectRegisters& object_of(int view_number) const {
+        return objects[static_cast<std::size_t>(view(view_number).object)];
+    }
+    [[nodiscard]] WordAddress image(int buffer, int view_number) const {
+        return images + static_cast<WordAddress>(buffer) * words_per_buffer +
+               static_cast<WordAddress>(view_number * words_per_view);
+    }
+};
+
+// The registers of a view of object slot `object`. Fails for a view that is not upright, with the remedy.
+Result<BoardView> board_view(const engine::ViewRegisters& registers, int object);
+
+// How many 32-bit registers the host writes for it.
+int register_writes(const BoardView& view, int planes);
+
+// What the board's own check of a view's registers finds wrong before a cycle is taken, "" where nothing: sizes outside
+// of the image buffer, an object slot that does not exist or holds nothing, numbers beyond their bit widths.
+std::string register_error(const BoardView& view, const RegisterFile& file, const BoardLimits& limits);
+
+}  // namespace rs::engine::model

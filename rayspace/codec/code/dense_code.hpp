@@ -1,0 +1,61 @@
+#pragma once
+// What all dense pictures of an object share (chunk CODE), and what each says of itself before its tiles (chunk PICT):
+// encode/FORMAT.md, sections "CODE" and "PICT".
+
+#include "rayspace/codec/code/contexts.hpp"
+#include "rayspace/codec/code/tile_grid.hpp"
+#include "rayspace/codec/kernels/prediction.hpp"
+#include "rayspace/codec/kernels/transform.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace rs::codec {
+
+enum class AlphaCoding : std::uint8_t {
+    kLevels = 0,  // every sample's level
+    kMask = 1,    // which samples are half covered at least, and of more than one bit, how much
+};
+
+// What alpha lies off 0 (255) beside a mask's edge: [mask][weight of the samples around that are unlike it, 1 .. 12].
+using EdgeAlpha = std::array<std::uint8_t, 24>;
+inline constexpr int kEdgeWeights = 12;
+inline constexpr int kMaxEdgeAlpha = 127;
+
+struct DenseCode {
+    AlphaCoding alpha_coding = AlphaCoding::kMask;
+    int alpha_bits = 2;                              // 1 .. kMaxAlphaBits
+    EdgeAlpha edge_alpha = {};                       // 0 .. kMaxEdgeAlpha; of masks of one bit only
+    bool edge_filter = true;                         // edge_filter.hpp
+    bool learning = true;                            // context_states.hpp
+    bool hidden_signs = true;                        // syntax.hpp
+    std::array<int, 2> chroma_step_offset = {0, 0};  // of U and V, added to the step index of Y; +-kMaxChromaOffset
+    std::array<std::uint16_t, context::kCount> probabilities = {};  // of 0, in 4096ths; 8 .. 4088
+
+    [[nodiscard]] bool has_edge_alpha() const { return alpha_coding == AlphaCoding::kMask && alpha_bits == 1; }
+    // How many contexts there are.
+    [[nodiscard]] int contexts() const {
+        return alpha_coding == AlphaCoding::kMask ? context::kMaskCount : context::kLevelsCount;
+    }
+    // Of plane 0 .. 2.
+    [[nodiscard]] int plane_step(int step, int plane) const {
+        if (plane == 0) return step;
+        return std::clamp(step + chroma_step_offset[static_cast<std::size_t>(plane - 1)], 0, kMaxStep);
+    }
+};
+inline constexpr int kMaxAlphaBits = 4;
+inline constexpr int kMaxChromaOffset = 31;
+
+inline constexpr std::uint16_t kNoReference = 0xFFFF;
+
+struct PictureHead {
+    int step = 0;                                                           // quantiser step of Y, 0 .. kMaxStep
+    std::array<std::uint16_t, 2> reference = {kNoReference, kNoReference};  // views; the second only with the first
+    std::array<MotionVector, 2> usual_motion;
+    [[nodiscard]] int references() const {
+        return (reference[0] != kNoReference ? 1 : 0) + (reference[1] != kNoReference ? 1 : 0);
+    }
+};
+
+}  // namespace rs::codec

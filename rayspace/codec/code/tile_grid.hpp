@@ -1,0 +1,74 @@
+#pragma once
+// What is known of the 8x8 blocks of a tile while it is read or written: the decisions that come after depend on it.
+
+#include "rayspace/codec/kernels/prediction.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace rs::codec {
+
+inline constexpr int kBlock = 8;
+inline constexpr int kMacroblock = 16;
+inline constexpr int kMinTileLog2 = 4;
+inline constexpr int kMaxTileLog2 = 6;
+
+enum class AlphaClass : std::uint8_t { kOutside, kEmpty, kOpaque, kMixed };  // kOutside: of the tile or the picture
+
+enum class Source : std::uint8_t { kNone, kNeighbours, kFirst, kSecond, kBoth };  // kNone: nothing is there
+constexpr bool is_inter(Source source) {
+    return source >= Source::kFirst;
+}
+constexpr bool uses(Source source, int reference) {
+    return source == Source::kBoth || source == (reference == 0 ? Source::kFirst : Source::kSecond);
+}
+
+struct BlockInfo {
+    AlphaClass alpha = AlphaClass::kOutside;
+    Source source = Source::kNone;
+    bool split = false;             // belongs to a macroblock in four parts
+    bool coded = false;             // its part has coefficients
+    bool small_transforms = false;  // its part is a macroblock with those of 8x8
+    std::array<MotionVector, 2> motion;
+};
+
+// Blocks (-1 .. n - 1, -1 .. n - 1) of a tile, counted from its first; those beside and above it are kOutside.
+class TileGrid {
+public:
+    BlockInfo& at(int bx, int by) { return blocks_[static_cast<std::size_t>((by + 1) * kSide + bx + 1)]; }
+    [[nodiscard]] const BlockInfo& at(int bx, int by) const {
+        return blocks_[static_cast<std::size_t>((by + 1) * kSide + bx + 1)];
+    }
+    void clear() { blocks_.fill(BlockInfo{}); }
+
+private:
+    static constexpr int kSide = (1 << kMaxTileLog2) / kBlock + 1;
+    std::array<BlockInfo, static_cast<std::size_t>(kSide* kSide)> blocks_;
+};
+
+// A part: a macroblock (size 16) or one of its four blocks (8). bx, by: its first block in the tile.
+struct Part {
+    int bx = 0;
+    int by = 0;
+    int size = kMacroblock;
+    [[nodiscard]] int blocks() const { return size / kBlock; }
+};
+
+// The median of what the blocks to the left and above use, and `usual`.
+inline MotionVector predicted_motion(const TileGrid& grid, const Part& part, int reference, MotionVector usual) {
+    const BlockInfo& left = grid.at(part.bx - 1, part.by);
+    const BlockInfo& above = grid.at(part.bx, part.by - 1);
+    const bool of_left = uses(left.source, reference);
+    const bool of_above = uses(above.source, reference);
+    const auto n = static_cast<std::size_t>(reference);
+    if (of_left && !of_above) return left.motion[n];
+    if (of_above && !of_left) return above.motion[n];
+    if (!of_left) return usual;
+    const auto median = [](std::int16_t a, std::int16_t b, std::int16_t c) {
+        return std::max(std::min(a, b), std::min(std::max(a, b), c));
+    };
+    return {median(left.motion[n].x, above.motion[n].x, usual.x), median(left.motion[n].y, above.motion[n].y, usual.y)};
+}
+
+}  // namespace rs::codec

@@ -1,0 +1,188 @@
+#include "rayspace/format/shape_chunk.hpp"
+
+#include "rayspace/base/byte_stream.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/zstd_frame.hpp"
+#include "rayspace/format/shape_coding.hpp"
+
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace rs::object_chunks {
+namespace {
+
+using shape_coding::kDepths;
+using Plane = std::vector<std::uint8_t>;
+
+constexpr std::uint8_t kZstdCoding = 0;
+constexpr std::size_t kReserved_bytes = 2;
+constexpr std::size_t kFixed_bytes = 56;
+constexpr std::size_t kNormalLine_bytes = 16;
+
+constexpr const char* kSurfacesName = "its surfaces";
+constexpr std::array<const char*, kDepths.size()> kDepthNames = {"its depths", "its backs"};
+
+void put_numbers(const ShapeMap& shape, ByteWriter& out) {
+    out.put(static_cast<std::uint16_t>(shape.p_cells));
+    out.put(static_cast<std::uint16_t>(shape.bands));
+    out.put(shape.p_half_q20);
+    out.put(shape.p_cells_per_unit_q12);
+    out.put(shape.h_low_q20);
+    out.put(shape.bands_per_unit_q12);
+    out.put(shape.reference_distance_q20);
+    out.put(shape.reference_height_q20);
+    out.put(shape.depth_low_q20);
+    out.put(shape.depth_step_q24);
+}
+
+void get_numbers(ByteReader& in, ShapeMap& shape) {
+    shape.p_cells = in.get<std::uint16_t>();
+    shape.bands = in.get<std::uint16_t>();
+    shape.p_half_q20 = in.get<std::int32_t>();
+    shape.p_cells_per_unit_q12 = in.get<std::int32_t>();
+    shape.h_low_q20 = in.get<std::int32_t>();
+    shape.bands_per_unit_q12 = in.get<std::int32_t>();
+    shape.reference_distance_q20 = in.get<std::int32_t>();
+    shape.reference_height_q20 = in.get<std::int32_t>();
+    shape.depth_low_q20 = in.get<std::int32_t>();
+    shape.depth_step_q24 = in.get<std::int32_t>();
+}
+
+// Gaps and how many lines they have together.
+Result<std::uint64_t> get_gaps(ByteReader& in, ShapeMap& shape) {
+    std::uint32_t lines = 0;  // at most kMaxViews * kMaxGapLines
+    for (ShapeGap& gap : shape.gaps) {
+        gap.lines = in.get<std::uint16_t>();
+        gap.first_line = lines;
+        if (gap.lines > kMaxGapLines) {
+            return Error{"a gap has " + std::to_string(gap.lines) + " lines; 0.." + std::to_string(kMaxGapLines) +
+                         " are possible"};
+        }
+        lines += gap.lines;
+    }
+    return std::uint64_t{lines};
+}
+
+Status check_counts(const CodedShapeCells& coded) {
+    if (coded.cells > kMaxShapeCells) {
+        return Error{"has " + std::to_string(coded.cells) + " cells; at most " + std::to_string(kMaxShapeCells) +
+                     " are possible"};
+    }
+    if (coded.surfaces > coded.cells) {
+        return Error{"claims " + std::to_string(coded.surfaces) + " cells with a surface among " +
+                     std::to_string(coded.cells)};
+    }
+    return {};
+}
+
+}  // namespace
+
+Payload shape_payload(const Ring& ring) {
+    const ShapeMap& shape = ring.shape;
+    RS_CHECK(!shape.empty());
+    const Payload surfaces = zstd_frame(shape_coding::surface_plane(shape));
+    std::array<Payload, kDepths.size()> depths;
+    for (std::size_t i = 0; i < kDepths.size(); ++i) {
+        depths[i] = zstd_frame(shape_coding::residual_plane(shape, kDepths[i]));
+    }
+    ByteWriter out;
+    out.put(kZstdCoding);
+    out.put(static_cast<std::uint8_t>(shape.jump));
+    out.put_zeros(kReserved_bytes);
+    put_numbers(shape, out);
+    out.put(static_cast<std::uint32_t>(shape_coding::surfaces_of(shape)));
+    out.put(static_cast<std::uint32_t>(surfaces.size()));
+    for (const Payload& frame : depths) out.put(static_cast<std::uint32_t>(frame.size()));
+    for (const ShapeGap& gap : shape.gaps) out.put(gap.lines);
+    for (const NormalLine& line : shape.normal_lines) {
+        out.put(line.l2_q30);
+        out.put(line.q2_q16);
+        out.put(line.a_q20);
+        out.put(line.c_q20);
+    }
+    out.put(std::span<const std::byte>(surfaces));
+    for (const Payload& frame : depths) out.put(std::span<const std::byte>(frame));
+    return out.bytes();
+}
+
+Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Ring& ring) {
+    ShapeMap& shape = ring.shape;
+    ByteReader in(payload);
+    const auto coding = in.get<std::uint8_t>();
+    if (!in.ok()) return Error{"is empty"};
+    if (coding != kZstdCoding) {
+        return Error{"has shape coding " + std::to_string(coding) + ", which is not known here; update these tools"};
+    }
+    shape.jump = in.get<std::uint8_t>();
+    const bool is_reserved_zero = in.take_zeros(kReserved_bytes);
+    get_numbers(in, shape);
+    CodedShapeCells coded;
+    coded.surfaces = in.get<std::uint32_t>();
+    const auto surface_bytes = in.get<std::uint32_t>();
+    std::array<std::uint32_t, kDepths.size()> depths_bytes{};
+    for (std::uint32_t& bytes : depths_bytes) bytes = in.get<std::uint32_t>();
+    if (!in.ok()) return Error{"is too short"};
+    if (!is_reserved_zero) return Error{"has reserved bytes that are not zero"};
+    const auto is_side = [](int side) { return side >= 1 && side <= kMaxMapSide; };
+    if (!is_side(shape.p_cells) || !is_side(shape.bands)) {
+        return Error{"has lines of " + std::to_string(shape.p_cells) + "x" + std::to_string(shape.bands) +
+                     " cells; each side must be 1.." + std::to_string(kMaxMapSide)};
+    }
+
+    const std::size_t normal_lines = ring.views.size() * static_cast<std::size_t>(ring.planes);
+    const std::uint64_t expected_bytes = kFixed_bytes + ring.views.size() * sizeof(std::uint16_t) +
+                                         normal_lines * kNormalLine_bytes + surface_bytes +
+                                         std::accumulate(depths_bytes.begin(), depths_bytes.end(), std::uint64_t{0});
+    if (payload.size() != expected_bytes) {
+        return Error{"is " + std::to_string(payload.size()) + " bytes long instead of " +
+                     std::to_string(expected_bytes)};
+    }
+    shape.gaps.resize(ring.views.size());
+    const auto lines = get_gaps(in, shape);
+    if (!lines) return lines.error();
+    shape.normal_lines.resize(normal_lines);
+    for (NormalLine& line : shape.normal_lines) {
+        line.l2_q30 = in.get<std::int32_t>();
+        line.q2_q16 = in.get<std::int32_t>();
+        line.a_q20 = in.get<std::int32_t>();
+        line.c_q20 = in.get<std::int32_t>();
+    }
+    coded.cells = *lines * static_cast<std::uint64_t>(shape.p_cells) * static_cast<std::uint64_t>(shape.bands);
+    if (Status status = check_counts(coded); !status) return status.error();
+    coded.surface_bits = in.take(surface_bytes);
+    const std::uint64_t plane_bytes = shape_coding::surface_plane_bytes(coded.cells);
+    if (Status status = check_zstd_frame(coded.surface_bits, plane_bytes, kSurfacesName); !status) {
+        return status.error();
+    }
+    for (std::size_t i = 0; i < kDepths.size(); ++i) {
+        coded.depths[i] = in.take(depths_bytes[i]);
+        const Status status = check_zstd_frame(coded.depths[i], coded.surfaces, kDepthNames[i]);
+        if (!status) return status.error();
+    }
+    return coded;
+}
+
+Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
+    shape.cells.assign(static_cast<std::size_t>(coded.cells), ShapeCell{});
+    Plane plane;  // one at a time
+    const std::uint64_t plane_bytes = shape_coding::surface_plane_bytes(shape.cells.size());
+    if (Status status = expand_zstd_frame(coded.surface_bits, plane_bytes, kSurfacesName, plane); !status) {
+        return status;
+    }
+    if (Status status = shape_coding::put_surfaces(plane, shape); !status) return status;
+    const std::uint64_t found = shape_coding::surfaces_of(shape);
+    if (found != coded.surfaces) {
+        return Error{"claims " + std::to_string(coded.surfaces) + " cells with a surface, but its bits show " +
+                     std::to_string(found)};
+    }
+    for (std::size_t i = 0; i < kDepths.size(); ++i) {
+        Status status = expand_zstd_frame(coded.depths[i], coded.surfaces, kDepthNames[i], plane);
+        if (!status) return status;
+        shape_coding::put_residuals(plane, kDepths[i], shape);
+    }
+    if (shape_coding::surfaces_of(shape) != coded.surfaces) return Error{"has a cell with a surface whose back is 0"};
+    return {};
+}
+
+}  // namespace rs::object_chunks

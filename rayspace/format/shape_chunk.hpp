@@ -1,0 +1,37 @@
+#pragma once
+// The payload of chunk `shap`, a ring's shape map: encode/FORMAT.md, section "shap". As in object_chunks.hpp, a parser
+// checks what it needs in order to read and to allocate safely; validate_object() checks the rest.
+
+#include "rayspace/base/result.hpp"
+#include "rayspace/format/object_chunks.hpp"
+#include "rayspace/format/shape_coding.hpp"
+#include "rayspace/object/ray_space_object.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace rs::object_chunks {
+
+inline constexpr std::uint64_t kMaxShapeCells = std::uint64_t{1} << 27;
+inline constexpr int kMaxGapLines = 1024;
+
+// The shape map must be there and valid. The same map gives the same bytes, with the same version of libzstd.
+Payload shape_payload(const Ring& ring);
+
+// What parse_shape_head() leaves for parse_shape_cells(): the sizes were compared with each other and with the payload,
+// which must live on.
+struct CodedShapeCells {
+    std::uint64_t cells = 0;                  // at most kMaxShapeCells
+    std::uint64_t surfaces = 0;               // cells that have one
+    std::span<const std::byte> surface_bits;  // compressed planes
+    std::array<std::span<const std::byte>, shape_coding::kDepths.size()> depths;
+};
+
+// In two steps, so that the caller can refuse the memory that the cells take (`cells` * sizeof(ShapeCell)) in between.
+// `ring` has its planes and views from RING. The first step reads all of ring.shape but the cells.
+Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Ring& ring);
+Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape);
+
+}  // namespace rs::object_chunks

@@ -1,0 +1,20 @@
+#pragma once
+// The parser behind read_rig() and rig_from_json(); private to rayspace.
+
+#include "rayspace/geometry/rig.hpp"
+
+#include <functional>
+
+namespace rs {
+
+struct PictureSize {
+    int width = 0;  // px
+    int height = 0;
+};
+
+// Asked once, for the first frame, when neither the file nor that frame says how large the pictures are.
+using FindPictureSize = std::function<Result<PictureSize>(const RigView& first)>;
+
+Result<Rig> parse_rig(const std::string& text, const std::string& where, const FindPictureSize& find_size);
+
+}  // namespace rs

@@ -1,0 +1,177 @@
+#include "rayspace/models/model_files.hpp"
+
+#include "rayspace/base/printable.hpp"
+#include "rayspace/file/file_output.hpp"
+
+#include <assimp/BaseImporter.h>
+#include <assimp/importerdesc.h>
+#include <assimp/IOStream.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace rs {
+
+namespace {
+
+class MemoryFile : public Assimp::IOStream {
+public:
+    explicit MemoryFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
+
+    std::size_t Read(void* to, std::size_t size, std::size_t count) override {
+        if (size == 0) return 0;
+        const std::size_t items = std::min(count, (bytes_.size() - at_) / size);
+        if (items > 0) std::memcpy(to, bytes_.data() + at_, items * size);
+        at_ += items * size;
+        return items;
+    }
+    std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+    aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+        const std::size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : bytes_.size();
+        if (offset > bytes_.size() || base > bytes_.size() - offset) return aiReturn_FAILURE;
+        at_ = base + offset;
+        return aiReturn_SUCCESS;
+    }
+    [[nodiscard]] std::size_t Tell() const override { return at_; }
+    [[nodiscard]] std::size_t FileSize() const override { return bytes_.size(); }
+    void Flush() override {}
+
+private:
+    std::vector<std::byte> bytes_;
+    std::size_t at_ = 0;
+};
+
+bool is_mtl(const char* path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".mtl";
+}
+
+// A .glb (glTF 2.0, 4.4; 1.0 has its JSON's length in the same place): Assimp allocates what a chunk's length says
+// before it looks whether the file has it.
+bool is_whole_glb(std::span<const std::byte> bytes) {
+    constexpr std::size_t kHeader_bytes = 12, kChunkHeader_bytes = 8;
+    std::size_t at = kHeader_bytes;
+    do {
+        std::uint32_t length = 0;
+        if (at > bytes.size() || bytes.size() - at < kChunkHeader_bytes) return false;
+        std::memcpy(&length, bytes.data() + at, sizeof length);
+        at += kChunkHeader_bytes;
+        if (length > bytes.size() - at) return false;
+        at += length;
+    } while (bytes[4] != std::byte{1} && at < bytes.size());
+    return true;
+}
+
+// From the first newmtl on; a comment alone where there is none, for fewer than 8 bytes are an error to Assimp.
+std::vector<std::byte> from_first_material(std::vector<std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::size_t line = 0;
+    while (line < text.size()) {
+        const std::size_t word = text.find_first_not_of(" \t", line);
+        if (word != std::string_view::npos && text.substr(word).starts_with("newmtl")) break;
+        const std::size_t end = text.find_first_of("\r\n", line);
+        line = end == std::string_view::npos ? text.size() : end + 1;
+    }
+    bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(line));
+    constexpr std::string_view kNothing = "# empty\n";
+    if (bytes.size() < kNothing.size()) {
+        bytes.assign(reinterpret_cast<const std::byte*>(kNothing.data()),
+                     reinterpret_cast<const std::byte*>(kNothing.data() + kNothing.size()));
+    }
+    return bytes;
+}
+
+bool finite(const aiVector3D& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+bool ModelFiles::Exists(const char* path) const {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+}
+
+Assimp::IOStream* ModelFiles::Open(const char* path, const char* mode) {
+    if (std::strchr(mode, 'w') != nullptr || std::strchr(mode, 'a') != nullptr || !Exists(path)) return nullptr;
+    Result<std::vector<std::byte>> bytes = read_file(path, cap_bytes_);
+    if (!bytes) {
+        refusal_ = bytes.error().message;
+        return nullptr;
+    }
+    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    if (text.starts_with("glTF") && !is_whole_glb(*bytes)) {
+        refusal_ = std::string(path) + ": is a damaged .glb file; export it again";
+        return nullptr;
+    }
+    return new MemoryFile(is_mtl(path) ? from_first_material(std::move(*bytes)) : std::move(*bytes));
+}
+
+void ModelFiles::Close(Assimp::IOStream* stream) {
+    delete stream;
+}
+
+ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes) {
+    constexpr std::array<const char*, 4> kWanted = {" obj ", " ply ", " gltf ", " glb "};
+    std::vector<Assimp::BaseImporter*> others;
+    for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) {
+        const std::string extensions = ' ' + std::string(importer.GetImporterInfo(i)->mFileExtensions) + ' ';
+        const bool wanted =
+            std::ranges::any_of(kWanted, [&](const char* name) { return extensions.find(name) != std::string::npos; });
+        if (!wanted) others.push_back(importer.GetImporter(i));
+    }
+    for (Assimp::BaseImporter* const other : others) {
+        importer.UnregisterLoader(other);
+        delete other;  // ours once it is not registered
+    }
+    auto* const files = new ModelFiles(cap_bytes);
+    importer.SetIOHandler(files);
+    return *files;
+}
+
+std::string shown_error(const char* words) {
+    std::string text = words;
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return printable(text);
+}
+
+void note_lines(const aiScene& model) {
+    constexpr unsigned kTypes[] = {0, aiPrimitiveType_POINT, aiPrimitiveType_LINE, aiPrimitiveType_TRIANGLE,
+                                   aiPrimitiveType_POLYGON};
+    for (unsigned m = 0; m < model.mNumMeshes; ++m) {
+        aiMesh& mesh = *model.mMeshes[m];
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+            const unsigned corners = std::min(mesh.mFaces[f].mNumIndices, 4U);
+            mesh.mPrimitiveTypes |= kTypes[corners];
+        }
+    }
+}
+
+Status check_finite(const aiScene& model, const std::string& file) {
+    for (unsigned m = 0; m < model.mNumMeshes; ++m) {
+        const aiMesh& mesh = *model.mMeshes[m];
+        const std::string of_mesh =
+            " of mesh \"" + std::string(mesh.mName.C_Str()) + "\" is not finite; repair the mesh";
+        for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+            if (!finite(mesh.mVertices[i])) return Error{file + ": vertex " + std::to_string(i) + of_mesh};
+            if (mesh.HasTextureCoords(0) && !finite(mesh.mTextureCoords[0][i])) {
+                return Error{file + ": the texture coordinate of vertex " + std::to_string(i) + of_mesh};
+            }
+        }
+    }
+    return {};
+}
+
+}  // namespace rs

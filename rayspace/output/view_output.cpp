@@ -1,0 +1,63 @@
+#include "rayspace/output/view_output.hpp"
+
+#include "rayspace/pictures/picture_io.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+
+namespace rs {
+
+Result<OutputKind> output_kind(const std::string& output) {
+    std::string extension = std::filesystem::path(output).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".png") return OutputKind::picture;
+    if (extension == ".mp4") return OutputKind::video;
+    for (const char* other :
+         {".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".exr", ".bmp", ".gif", ".avi", ".mov", ".mkv", ".webm"}) {
+        if (extension == other) {
+            return Error{output + ": views are written as .png or .mp4; give such a name, or a folder"};
+        }
+    }
+    return OutputKind::folder;
+}
+
+std::string numbered_picture_name(std::size_t number) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%04zu.png", number);
+    return name;
+}
+
+Rig rig_of_views(const std::vector<Camera>& cameras) {
+    Rig rig;
+    for (const Camera& camera : cameras) {
+        RigView view;
+        view.file_path = numbered_picture_name(rig.views.size());
+        view.camera = camera;
+        rig.views.push_back(view);
+    }
+    return rig;
+}
+
+Status write_view_video(const std::string& output, double frames_per_second, const std::vector<Camera>& cameras,
+                        const RenderView& render, Progress& progress) {
+    // H.264 at 4:2:0 wants even sizes: the last odd row or column is dropped.
+    const int width = cameras.front().width & ~1;
+    const int height = cameras.front().height & ~1;
+    Result<VideoWriter> video = VideoWriter::open(output, width, height, frames_per_second);
+    if (!video) return video.error();
+    for (const Camera& camera : cameras) {
+        const Result<Image<Rgba8>> frame = render(camera);
+        if (!frame) return frame.error();
+        if ((frame->width() & ~1) != width || (frame->height() & ~1) != height) {
+            return Error{output + ": a video needs views of one size; give --size"};
+        }
+        if (Status status = video->add(frame->view().crop(0, 0, width, height)); !status) return status;
+        progress.advance();
+    }
+    return video->finish();
+}
+
+}  // namespace rs

@@ -1,0 +1,308 @@
+// The pictures' half of librayspace_pictures.so: OpenImageIO. See picture_io.hpp for what the functions promise.
+#include "rayspace/pictures/picture_backend.hpp"
+
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/image/linear_light.hpp"
+#include "rayspace/pictures/backend/png_integrity.hpp"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <type_traits>
+
+namespace rs::pictures {
+namespace {
+
+// Libraries' messages run over several lines and repeat the file's name.
+std::string one_line(std::string message) {
+    while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) message.pop_back();
+    std::replace_if(
+        message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return message.empty() ? "no reason given" : message;
+}
+
+template <class Function>
+auto guarded(const std::string& shown, Function&& function) -> decltype(function()) {
+    try {
+        return function();
+    } catch (const std::bad_alloc&) {
+        return Error{shown + ": not enough memory for this picture"};
+    } catch (const std::exception& escaped) {
+        return Error{shown + ": " + one_line(escaped.what())};
+    }
+}
+
+struct OpenedPicture {
+    std::unique_ptr<OIIO::ImageInput> input;
+    int width = 0;  // of the display window: what the file wants to be seen
+    int height = 0;
+};
+
+enum class Need { kHeader, kWholeFile };
+
+Result<OpenedPicture> open_picture(const std::string& path, Need need) {
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) return Error{path + ": does not exist; check the name"};
+    if (std::filesystem::is_directory(path, error)) return Error{path + ": is a folder, not a picture"};
+    if (need == Need::kWholeFile) {
+        if (const Status status = check_png_integrity(path); !status) return status.error();
+    }
+    OIIO::ImageSpec hints;
+    hints.attribute("oiio:UnassociatedAlpha", 1);  // colours under alpha 0 must survive
+    auto input = OIIO::ImageInput::open(path, &hints);
+    if (!input) return Error{path + ": cannot be read as a picture: " + one_line(OIIO::geterror())};
+    const OIIO::ImageSpec& spec = input->spec();
+    const int width = spec.full_width > 0 ? spec.full_width : spec.width;
+    const int height = spec.full_height > 0 ? spec.full_height : spec.height;
+    const auto too_large = [](int side) { return side < 1 || side > kMaxPictureSide_px; };
+    if (too_large(spec.width) || too_large(spec.height) || too_large(width) || too_large(height)) {
+        return Error{path + ": claims " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+                     " pixels; each side must be 1.." + std::to_string(kMaxPictureSide_px)};
+    }
+    if (spec.deep || spec.depth > 1 || spec.nchannels < 1) {
+        return Error{path + ": holds deep or volume data; convert it to an ordinary picture"};
+    }
+    input->threads(1);  // callers read many pictures at a time
+    return OpenedPicture{std::move(input), width, height};
+}
+
+// Which of the file's channels make a colour picture.
+struct Channels {
+    int count = 0;       // the first `count` channels are read
+    int colours = 0;     // 1 or 3
+    bool alpha = false;  // right behind the colours
+    bool straight = true;
+};
+
+Channels choose_channels(const OIIO::ImageSpec& spec) {
+    Channels chosen;
+    chosen.colours = spec.nchannels >= 3 && spec.alpha_channel != 1 ? 3 : 1;
+    chosen.alpha = spec.alpha_channel == chosen.colours;
+    chosen.count = chosen.colours + (chosen.alpha ? 1 : 0);
+    chosen.straight = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
+    return chosen;
+}
+
+// The data window's first `channels` channels, interleaved.
+template <class T>
+Result<std::vector<T>> read_samples(OpenedPicture& picture, const std::string& path, int first, int channels) {
+    const OIIO::ImageSpec spec = picture.input->spec();
+    std::vector<T> samples(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                           static_cast<std::size_t>(channels));
+    const OIIO::TypeDesc type = OIIO::BaseTypeFromC<T>::value;
+    if (!picture.input->read_image(0, 0, first, first + channels, type, samples.data())) {
+        return Error{path + ": is damaged or cut short: " + one_line(picture.input->geterror())};
+    }
+    // Some readers go on after damage and only leave a note.
+    if (picture.input->has_error()) {
+        return Error{path + ": is damaged or cut short: " + one_line(picture.input->geterror())};
+    }
+    return samples;
+}
+
+// Calls set(x, y, sample pointer) for the part of the data window that lies inside the display window.
+template <class T, class Set>
+void for_each_visible(const OpenedPicture& picture, const std::vector<T>& samples, int channels, Set&& set) {
+    const OIIO::ImageSpec& spec = picture.input->spec();
+    for (int y = 0; y < spec.height; ++y) {
+        const std::int64_t shown_y = std::int64_t{y} + spec.y - spec.full_y;
+        if (shown_y < 0 || shown_y >= picture.height) continue;
+        const T* sample = samples.data() + static_cast<std::ptrdiff_t>(y) * spec.width * channels;
+        for (int x = 0; x < spec.width; ++x, sample += channels) {
+            const std::int64_t shown_x = std::int64_t{x} + spec.x - spec.full_x;
+            if (shown_x < 0 || shown_x >= picture.width) continue;
+            set(static_cast<int>(shown_x), static_cast<int>(shown_y), sample);
+        }
+    }
+}
+
+std::uint8_t byte_from_unit(float v) {
+    // The comparison's form sends NaN to 0.
+    return v > 0 ? static_cast<std::uint8_t>(std::lround(std::min(v, 1.0F) * 255.0F)) : std::uint8_t{0};
+}
+
+template <class T>
+RgbaF pixel_of(const T* sample, const Channels& channels) {
+    const float scale = std::is_floating_point_v<T> ? 1.0F : 1.0F / static_cast<float>(std::numeric_limits<T>::max());
+    const auto at = [&](int i) { return static_cast<float>(sample[i]) * scale; };
+    RgbaF pixel{at(0), at(channels.colours == 3 ? 1 : 0), at(channels.colours == 3 ? 2 : 0),
+                channels.alpha ? at(channels.colours) : 1.0F};
+    if (channels.alpha && !channels.straight && pixel.a > 0) {
+        pixel.r /= pixel.a;
+        pixel.g /= pixel.a;
+        pixel.b /= pixel.a;
+    }
+    return pixel;
+}
+
+Result<PictureInfo> read_info(const std::string& path) {
+    return guarded(path, [&]() -> Result<PictureInfo> {
+        const auto picture = open_picture(path, Need::kHeader);
+        if (!picture) return picture.error();
+        const OIIO::ImageSpec& spec = picture->input->spec();
+        const int orientation = spec.get_int_attribute("Orientation", 1);
+        return PictureInfo{picture->width, picture->height, spec.nchannels, choose_channels(spec).alpha,
+                           orientation >= 1 && orientation <= 8 ? orientation : 1};
+    });
+}
+
+// 8-bit files with straight alpha: nothing is computed, every value comes through as it is.
+Result<Image<Rgba8>> read_bytes(OpenedPicture& picture, const std::string& path, const Channels& channels) {
+    const auto samples = read_samples<std::uint8_t>(picture, path, 0, channels.count);
+    if (!samples) return samples.error();
+    Image<Rgba8> image(picture.width, picture.height);
+    const int green = channels.colours == 3 ? 1 : 0;
+    const int blue = channels.colours == 3 ? 2 : 0;
+    for_each_visible(picture, *samples, channels.count, [&](int x, int y, const std::uint8_t* s) {
+        const std::uint8_t alpha = channels.alpha ? s[channels.colours] : std::uint8_t{255};
+        image(x, y) = {s[0], s[green], s[blue], alpha};
+    });
+    return image;
+}
+
+Result<Image<Rgba8>> read_picture(const std::string& path) {
+    return guarded(path, [&]() -> Result<Image<Rgba8>> {
+        auto picture = open_picture(path, Need::kWholeFile);
+        if (!picture) return picture.error();
+        const Channels channels = choose_channels(picture->input->spec());
+        const bool is_float = picture->input->spec().format.is_floating_point();
+        if (picture->input->spec().format == OIIO::TypeUInt8 && (channels.straight || !channels.alpha)) {
+            return read_bytes(*picture, path, channels);
+        }
+        Image<Rgba8> image(picture->width, picture->height);
+        const auto store = [&](int x, int y, RgbaF p) {
+            if (is_float) p = {srgb_from_linear(p.r), srgb_from_linear(p.g), srgb_from_linear(p.b), p.a};
+            image(x, y) = {byte_from_unit(p.r), byte_from_unit(p.g), byte_from_unit(p.b), byte_from_unit(p.a)};
+        };
+        const auto samples = read_samples<float>(*picture, path, 0, channels.count);
+        if (!samples) return samples.error();
+        for_each_visible(*picture, *samples, channels.count,
+                         [&](int x, int y, const float* s) { store(x, y, pixel_of(s, channels)); });
+        return image;
+    });
+}
+
+Result<Image<RgbaF>> read_picture_linear(const std::string& path) {
+    return guarded(path, [&]() -> Result<Image<RgbaF>> {
+        auto picture = open_picture(path, Need::kWholeFile);
+        if (!picture) return picture.error();
+        const Channels channels = choose_channels(picture->input->spec());
+        const bool is_float = picture->input->spec().format.is_floating_point();
+        const auto samples = read_samples<float>(*picture, path, 0, channels.count);
+        if (!samples) return samples.error();
+        Image<RgbaF> image(picture->width, picture->height);
+        for_each_visible(*picture, *samples, channels.count, [&](int x, int y, const float* s) {
+            RgbaF p = pixel_of(s, channels);
+            if (!is_float) p = {linear_from_srgb(p.r), linear_from_srgb(p.g), linear_from_srgb(p.b), p.a};
+            image(x, y) = p;
+        });
+        return image;
+    });
+}
+
+Result<Image<float>> read_channel(const std::string& path) {
+    return guarded(path, [&]() -> Result<Image<float>> {
+        auto picture = open_picture(path, Need::kWholeFile);
+        if (!picture) return picture.error();
+        const std::vector<std::string>& names = picture->input->spec().channelnames;
+        const auto z = std::find(names.begin(), names.end(), "Z");
+        const int channel = z == names.end() ? 0 : static_cast<int>(z - names.begin());
+        const auto samples = read_samples<float>(*picture, path, channel, 1);
+        if (!samples) return samples.error();
+        Image<float> image(picture->width, picture->height);
+        for_each_visible(*picture, *samples, 1, [&](int x, int y, const float* s) { image(x, y) = *s; });
+        return image;
+    });
+}
+
+// Encodes rows of `spec` into memory.
+Result<std::vector<std::byte>> encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                                      const void* pixels, std::ptrdiff_t pixel_bytes, std::ptrdiff_t row_bytes,
+                                      const std::string& shown) {
+    return guarded(shown, [&]() -> Result<std::vector<std::byte>> {
+        auto output = OIIO::ImageOutput::create(format);
+        if (!output) return Error{shown + ": cannot be encoded: " + one_line(OIIO::geterror())};
+        OIIO::Filesystem::IOVecOutput memory;
+        output->threads(1);
+        // A format writes nothing to the disk when it is given a proxy; the name only serves its messages.
+        if (!output->set_ioproxy(&memory) || !output->open(shown, spec) ||
+            !output->write_image(type, pixels, pixel_bytes, row_bytes) || !output->close()) {
+            return Error{shown + ": cannot be encoded: " + one_line(output->geterror())};
+        }
+        const auto* const first = reinterpret_cast<const std::byte*>(memory.buffer().data());
+        return std::vector<std::byte>(first, first + memory.buffer().size());
+    });
+}
+
+Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> picture, const std::string& shown) {
+    OIIO::ImageSpec spec(picture.width(), picture.height(), 4, OIIO::TypeUInt8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("png:compressionLevel", 4);  // a third of the default level's time for a few per cent of size
+    return encode("png", spec, OIIO::TypeUInt8, picture.data(), sizeof(Rgba8),
+                  picture.stride() * static_cast<std::ptrdiff_t>(sizeof(Rgba8)), shown);
+}
+
+Result<std::vector<std::byte>> encode_jpeg(ConstImageView<Rgba8> picture, int quality, const std::string& shown) {
+    OIIO::ImageSpec spec(picture.width(), picture.height(), 3, OIIO::TypeUInt8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("compression", "jpeg:" + std::to_string(quality));
+    spec.attribute("jpeg:subsampling", "4:2:0");
+    return encode("jpeg", spec, OIIO::TypeUInt8, picture.data(), sizeof(Rgba8),
+                  picture.stride() * static_cast<std::ptrdiff_t>(sizeof(Rgba8)), shown);
+}
+
+Result<std::vector<std::byte>> encode_exr(ConstImageView<RgbaF> picture, const std::string& shown) {
+    std::vector<RgbaF> associated;
+    associated.reserve(static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height()));
+    for (int y = 0; y < picture.height(); ++y) {
+        for (const RgbaF& p : picture.row_span(y)) associated.push_back({p.r * p.a, p.g * p.a, p.b * p.a, p.a});
+    }
+    OIIO::ImageSpec spec(picture.width(), picture.height(), 4, OIIO::TypeFloat);
+    spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("compression", "zip");
+    return encode("openexr", spec, OIIO::TypeFloat, associated.data(), sizeof(RgbaF), OIIO::AutoStride, shown);
+}
+
+Result<std::vector<std::byte>> encode_exr_channel(ConstImageView<float> channel, const std::string& shown) {
+    OIIO::ImageSpec spec(channel.width(), channel.height(), 1, OIIO::TypeFloat);
+    spec.channelnames = {"Z"};
+    spec.z_channel = 0;
+    spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("compression", "zip");
+    return encode("openexr", spec, OIIO::TypeFloat, channel.data(), sizeof(float),
+                  channel.stride() * static_cast<std::ptrdiff_t>(sizeof(float)), shown);
+}
+
+const Backend& table() {
+    static const Backend backend = [] {
+        // Callers work on many pictures at a time; the libraries' own thread pools would only fight over the cores.
+        OIIO::attribute("threads", 1);
+        OIIO::attribute("exr_threads", -1);
+        Backend made;
+        made.version = kBackendVersion;
+        made.read_info = read_info;
+        made.read_picture = read_picture;
+        made.read_picture_linear = read_picture_linear;
+        made.read_channel = read_channel;
+        made.encode_png = encode_png;
+        made.encode_jpeg = encode_jpeg;
+        made.encode_exr = encode_exr;
+        made.encode_exr_channel = encode_exr_channel;
+        made.open_video = open_video;
+        return made;
+    }();
+    return backend;
+}
+
+}  // namespace
+}  // namespace rs::pictures
+
+extern "C" const rs::pictures::Backend* rayspace_pictures_backend() {
+    return &rs::pictures::table();
+}

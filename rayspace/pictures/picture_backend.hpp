@@ -1,0 +1,62 @@
+#pragma once
+// What librayspace_pictures.so offers to picture_io.cpp: a table of functions, found under one C name.
+//
+// The module is built with the tools and lies beside them, so C++ types may cross; it takes from this library only what
+// stands in headers, and so has no symbol to find in the program that opens it. `path` is the file that is read;
+// `shown` is its name in errors. Exceptions do not leave the module.
+
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rs::pictures {
+
+// Encodes into a file of its own; picture_io.cpp stages and renames it.
+class VideoEncoder {
+public:
+    virtual ~VideoEncoder() = default;
+    virtual Status add(ConstImageView<Rgba8> frame) = 0;
+    // Closes the file and checks that it reads back as long as it was written.
+    virtual Status finish() = 0;
+};
+
+struct VideoOptions {
+    int width = 0;
+    int height = 0;
+    double frames_per_second = 0;
+    Rgba8 backdrop;
+};
+
+struct Backend {
+    std::uint32_t version = 0;
+    Result<PictureInfo> (*read_info)(const std::string& path) = nullptr;
+    Result<Image<Rgba8>> (*read_picture)(const std::string& path) = nullptr;
+    Result<Image<RgbaF>> (*read_picture_linear)(const std::string& path) = nullptr;
+    Result<Image<float>> (*read_channel)(const std::string& path) = nullptr;
+    Result<std::vector<std::byte>> (*encode_png)(ConstImageView<Rgba8> picture, const std::string& shown) = nullptr;
+    Result<std::vector<std::byte>> (*encode_jpeg)(ConstImageView<Rgba8> picture, int quality,
+                                                  const std::string& shown) = nullptr;
+    Result<std::vector<std::byte>> (*encode_exr)(ConstImageView<RgbaF> picture, const std::string& shown) = nullptr;
+    Result<std::vector<std::byte>> (*encode_exr_channel)(ConstImageView<float> channel,
+                                                         const std::string& shown) = nullptr;
+    Result<std::unique_ptr<VideoEncoder>> (*open_video)(const std::string& path, const std::string& shown,
+                                                        const VideoOptions& options) = nullptr;
+};
+
+// Grows with every change of the declarations above.
+inline constexpr std::uint32_t kBackendVersion = 3;
+inline constexpr const char* kBackendFileName = "librayspace_pictures.so";
+inline constexpr const char* kBackendSymbol = "rayspace_pictures_backend";
+using BackendFunction = const Backend* (*)();
+
+// Module-internal: video_backend.cpp.
+Result<std::unique_ptr<VideoEncoder>> open_video(const std::string& path, const std::string& shown,
+                                                 const VideoOptions& options);
+
+}  // namespace rs::pictures

@@ -1,0 +1,190 @@
+#include "rayspace/pictures/picture_io.hpp"
+
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/file/input_file.hpp"
+#include "rayspace/pictures/picture_backend.hpp"
+
+#include <dlfcn.h>
+
+#include <cmath>
+#include <utility>
+
+namespace rs {
+namespace fs = std::filesystem;
+namespace {
+
+struct Door {
+    const pictures::Backend* backend = nullptr;
+    std::string error;
+};
+
+Door open_door() {
+    std::error_code ignored;
+    const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    const fs::path candidates[] = {
+        here / pictures::kBackendFileName,                              // a build folder
+        pictures::kBackendFileName,                                     // the run path and the system's folders
+        here / ".." / "lib" / "rayspace" / pictures::kBackendFileName,  // an installation
+    };
+    std::string why;
+    for (const fs::path& candidate : candidates) {
+        // RTLD_LOCAL keeps the symbols of some hundred libraries to themselves. The handle is never closed: those
+        // libraries run threads and exit handlers.
+        void* const module = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
+        if (module == nullptr) {
+            // A module that is there but lacks a library says more than two that are not there.
+            const char* const message = ::dlerror();
+            if (why.empty() || fs::exists(candidate, ignored)) why = message != nullptr ? message : "unknown reason";
+            continue;
+        }
+        const auto function = reinterpret_cast<pictures::BackendFunction>(::dlsym(module, pictures::kBackendSymbol));
+        const pictures::Backend* const backend = function != nullptr ? function() : nullptr;
+        if (backend != nullptr && backend->version == pictures::kBackendVersion) return {backend, {}};
+        why = candidate.string() + " belongs to another version of these tools";
+    }
+    // What the loader says where the address space or the memory of a process is limited.
+    if (why.find("failed to map segment") != std::string::npos || why.find("annot allocate") != std::string::npos) {
+        return {nullptr, "not enough memory to load what reads and writes pictures; raise the limit (ulimit -v)"};
+    }
+    return {nullptr, std::string(pictures::kBackendFileName) + " cannot be opened (" + why +
+                         "); put it beside the program or in ../lib/rayspace, with OpenImageIO and OpenCV installed"};
+}
+
+Result<const pictures::Backend*> backend_for(const fs::path& path) {
+    static const Door door = open_door();
+    if (door.backend == nullptr) return Error{path.string() + ": " + door.error};
+    return door.backend;
+}
+
+// All pictures are encoded in memory, so that the disk's troubles are reported by StagedFile alone.
+Status check_size(const std::string& shown, int width, int height) {
+    if (width >= 1 && height >= 1 && width <= kMaxPictureSide_px && height <= kMaxPictureSide_px) return {};
+    return Error{shown + ": a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                 " pixels cannot be written; each side must be 1.." + std::to_string(kMaxPictureSide_px)};
+}
+
+// `encode` makes the file's bytes with the backend.
+template <class Pixel, class Encode>
+Status write_encoded(const fs::path& path, ConstImageView<Pixel> picture, const Encode& encode) {
+    if (Status status = check_size(path.string(), picture.width(), picture.height()); !status) return status;
+    const auto backend = backend_for(path);
+    if (!backend) return backend.error();
+    // The place is tried before the work is done.
+    auto file = StagedFile::create(path);
+    if (!file) return file.error();
+    const Result<std::vector<std::byte>> bytes = encode(**backend);
+    if (!bytes) return bytes.error();
+    if (Status status = file->write(*bytes); !status) return status;
+    return file->commit();
+}
+
+}  // namespace
+
+Result<PictureInfo> read_picture_info(const fs::path& path) {
+    if (Status regular = check_input(path); !regular) return regular.error();
+    const auto backend = backend_for(path);
+    return backend ? (*backend)->read_info(path.string()) : backend.error();
+}
+
+Result<Image<Rgba8>> read_picture(const fs::path& path) {
+    if (Status regular = check_input(path); !regular) return regular.error();
+    const auto backend = backend_for(path);
+    return backend ? (*backend)->read_picture(path.string()) : backend.error();
+}
+
+Result<Image<RgbaF>> read_picture_linear(const fs::path& path) {
+    if (Status regular = check_input(path); !regular) return regular.error();
+    const auto backend = backend_for(path);
+    return backend ? (*backend)->read_picture_linear(path.string()) : backend.error();
+}
+
+Result<Image<float>> read_channel(const fs::path& path) {
+    if (Status regular = check_input(path); !regular) return regular.error();
+    const auto backend = backend_for(path);
+    return backend ? (*backend)->read_channel(path.string()) : backend.error();
+}
+
+Status write_png(const fs::path& path, ConstImageView<Rgba8> picture) {
+    return write_encoded(path, picture,
+                         [&](const pictures::Backend& backend) { return backend.encode_png(picture, path.string()); });
+}
+
+Status write_jpeg(const fs::path& path, ConstImageView<Rgba8> picture, int quality) {
+    RS_CHECK(quality >= 1 && quality <= 100);
+    return write_encoded(path, picture, [&](const pictures::Backend& backend) {
+        return backend.encode_jpeg(picture, quality, path.string());
+    });
+}
+
+Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> picture, const std::string& shown) {
+    if (const Status status = check_size(shown, picture.width(), picture.height()); !status) return status.error();
+    const auto backend = backend_for(shown);
+    return backend ? (*backend)->encode_png(picture, shown) : backend.error();
+}
+
+Status write_exr(const fs::path& path, ConstImageView<RgbaF> picture) {
+    return write_encoded(path, picture,
+                         [&](const pictures::Backend& backend) { return backend.encode_exr(picture, path.string()); });
+}
+
+Status write_exr_channel(const fs::path& path, ConstImageView<float> channel) {
+    return write_encoded(path, channel, [&](const pictures::Backend& backend) {
+        return backend.encode_exr_channel(channel, path.string());
+    });
+}
+
+struct VideoWriter::Backend {
+    // Members end in reverse order: the encoder closes the file before it is removed.
+    StagedFile file;
+    std::unique_ptr<pictures::VideoEncoder> encoder;
+    pictures::VideoOptions options;
+    std::string shown;
+};
+
+VideoWriter::VideoWriter(std::unique_ptr<Backend> backend) : backend_(std::move(backend)) {}
+VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
+VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
+VideoWriter::~VideoWriter() = default;
+
+Result<VideoWriter> VideoWriter::open(const fs::path& path, int width, int height, double frames_per_second,
+                                      Rgba8 backdrop) {
+    const std::string shown = path.string();
+    if (width < 2 || height < 2 || width % 2 != 0 || height % 2 != 0 || width > kMaxPictureSide_px ||
+        height > kMaxPictureSide_px) {
+        return Error{shown + ": a video of " + std::to_string(width) + "x" + std::to_string(height) +
+                     " pixels cannot be written; width and height must be even and 2.." +
+                     std::to_string(kMaxPictureSide_px)};
+    }
+    if (!(std::isfinite(frames_per_second) && frames_per_second > 0 && frames_per_second <= 1000)) {
+        return Error{shown + ": the frame rate must lie between 0 and 1000 frames per second"};
+    }
+    const auto backend = backend_for(path);
+    if (!backend) return backend.error();
+    auto file = StagedFile::create(path);
+    if (!file) return file.error();
+    const pictures::VideoOptions options{width, height, frames_per_second, backdrop};
+    auto encoder = (*backend)->open_video(file->temporary_path().string(), shown, options);
+    if (!encoder) return encoder.error();
+    return VideoWriter(
+        std::unique_ptr<Backend>(new Backend{std::move(file).value(), std::move(encoder).value(), options, shown}));
+}
+
+Status VideoWriter::add(ConstImageView<Rgba8> frame) {
+    RS_CHECK(backend_ != nullptr && backend_->encoder != nullptr);
+    if (frame.width() != backend_->options.width || frame.height() != backend_->options.height) {
+        return Error{backend_->shown + ": a frame of " + std::to_string(frame.width()) + "x" +
+                     std::to_string(frame.height()) + " pixels does not fit the video of " +
+                     std::to_string(backend_->options.width) + "x" + std::to_string(backend_->options.height)};
+    }
+    return backend_->encoder->add(frame);
+}
+
+Status VideoWriter::finish() {
+    RS_CHECK(backend_ != nullptr && backend_->encoder != nullptr);
+    if (Status status = backend_->encoder->finish(); !status) return status;
+    backend_->encoder.reset();
+    return backend_->file.commit();
+}
+
+}  // namespace rs

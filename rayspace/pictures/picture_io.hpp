@@ -1,0 +1,85 @@
+#pragma once
+// Pictures and video on disk, through OpenImageIO and OpenCV.
+//
+// Those libraries take a quarter of a second to load, so their code lives in a module (librayspace_pictures.so, beside
+// the tools) that is opened at the first call of a function of this header; a tool that only prints its help never
+// pays.
+//
+// Every reader checks the header's size against kMaxPictureSide_px before it allocates. Every writer writes to a
+// temporary name beside `path` and renames; on failure nothing is left. All functions may be called from any thread.
+// Errors name the file and what to do.
+
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rs {
+
+struct PictureInfo {
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    bool has_alpha = false;
+    // EXIF: how the stored pixels want to be shown. 1 as they are, 3 upside down, 6 and 8 on their side, 2, 4, 5 and 7
+    // mirrored too. 1 where the file says nothing, or nothing valid.
+    int orientation = 1;
+};
+
+// Only the header is read.
+Result<PictureInfo> read_picture_info(const std::filesystem::path& path);
+
+// Any picture format that OpenImageIO reads, as 8-bit sRGB with straight alpha (255 where the file has none). Grey is
+// spread to RGB; 16-bit and float files are converted (float as linear light). Associated alpha is undone. EXIF
+// orientation is not applied (PictureInfo has it): pixels stay where the camera model has them. A damaged or truncated
+// file is an error.
+Result<Image<Rgba8>> read_picture(const std::filesystem::path& path);
+
+// Linear-light float RGBA, alpha straight: EXR and HDR as they are, 8- and 16-bit files through the sRGB curve.
+Result<Image<RgbaF>> read_picture_linear(const std::filesystem::path& path);
+
+// One-channel float picture, such as a depth channel written by write_exr_channel; the channel "Z" or else the first.
+Result<Image<float>> read_channel(const std::filesystem::path& path);
+
+// PNG, 8 bit, straight alpha.
+Status write_png(const std::filesystem::path& path, ConstImageView<Rgba8> picture);
+
+// JPEG as cameras write it: 8-bit sRGB, alpha left out, colour differences at half the resolution. `quality` 1..100.
+Status write_jpeg(const std::filesystem::path& path, ConstImageView<Rgba8> picture, int quality);
+
+// The bytes that write_png would write, for pictures inside of other files; `shown` names the picture in errors.
+Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> picture, const std::string& shown);
+
+// OpenEXR, float, zip; linear light. The EXR convention is associated alpha: colours are multiplied on writing and
+// divided on reading.
+Status write_exr(const std::filesystem::path& path, ConstImageView<RgbaF> picture);
+
+// One float channel named "Z".
+Status write_exr_channel(const std::filesystem::path& path, ConstImageView<float> channel);
+
+// A video file (mp4: H.264) written frame by frame. Alpha is composited over `backdrop`. Frames must have the size
+// given at opening, which must be even. finish() renames the temporary file; a writer that is dropped before it leaves
+// nothing.
+class VideoWriter {
+public:
+    static Result<VideoWriter> open(const std::filesystem::path& path, int width, int height, double frames_per_second,
+                                    Rgba8 backdrop = {40, 42, 46, 255});
+    VideoWriter(VideoWriter&&) noexcept;
+    VideoWriter& operator=(VideoWriter&&) noexcept;
+    ~VideoWriter();
+
+    Status add(ConstImageView<Rgba8> frame);
+    Status finish();
+
+    struct Backend;  // in the module
+
+private:
+    explicit VideoWriter(std::unique_ptr<Backend> backend);
+    std::unique_ptr<Backend> backend_;
+};
+
+}  // namespace rs

@@ -1,0 +1,125 @@
+#include "rayspace/tool/tool_main.hpp"
+
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/file/input_file.hpp"
+#include "rayspace/tool/interruption.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <new>
+#include <system_error>
+
+namespace rs {
+namespace {
+
+// Messages may quote what a library said; whatever line breaks that holds, an error is one line.
+std::string folded(const std::string& message) {
+    std::string line;
+    for (const char c : message) {
+        const bool is_space = c == '\n' || c == '\r' || c == '\t' || c == ' ';
+        if (!is_space) {
+            line += c;
+        } else if (!line.empty() && line.back() != ' ') {
+            line += ' ';
+        }
+    }
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    return line;
+}
+
+int fail(const CLI::App& app, const std::string& message) {
+    std::fprintf(stderr, "%s: error: %s\n", app.get_name().c_str(), printable(folded(message)).c_str());
+    return kExitFailed;
+}
+
+// The subcommand that was being parsed, for "rs-xxx render --help".
+std::string help_command(const CLI::App& app) {
+    std::string command = app.get_name();
+    for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+        at = at->get_subcommands().front();
+        command += " " + at->get_name();
+    }
+    return command + " --help";
+}
+
+// Reads a number from the front of `text` and removes it; empty on anything that is no finite number.
+template <class T>
+bool take_number(std::string_view& text, T& number) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{}) return false;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    return std::isfinite(static_cast<double>(number));
+}
+
+bool take(std::string_view& text, char expected) {
+    if (text.empty() || text.front() != expected) return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+}  // namespace
+
+int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& wanted) {  // --help, --version
+        return app.exit(wanted);
+    } catch (const CLI::ParseError& wrong) {
+        std::fprintf(stderr, "%s: %s; see '%s'\n", app.get_name().c_str(), printable(folded(wrong.what())).c_str(),
+                     help_command(app).c_str());
+        return kExitUsage;
+    }
+    if (!run) {
+        std::fprintf(stderr, "%s: nothing to do; see '%s'\n", app.get_name().c_str(), help_command(app).c_str());
+        return kExitUsage;
+    }
+    const InterruptionGuard guard;
+    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit fails instead, and is reported with advice
+    keep_inputs();
+    try {
+        const Status status = run();
+        if (!status) return fail(app, status.error().message);
+    } catch (const std::bad_alloc&) {
+        return fail(app, "out of memory");
+    } catch (const std::system_error& refused) {
+        const bool is_short = refused.code() == std::errc::resource_unavailable_try_again ||
+                              refused.code() == std::errc::not_enough_memory;
+        return fail(
+            app, is_short ? "out of memory, or of threads that may be started (ulimit -v, ulimit -u)" : refused.what());
+    } catch (const std::exception& escaped) {
+        return fail(app, escaped.what());
+    }
+    // A full disk or a closed pipe behind `> file` shows only when the buffer is flushed.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        return fail(app, "standard output cannot be written; is the disk full?");
+    }
+    return kExitOk;
+}
+
+Result<PixelSize> parse_size(const std::string& text) {
+    PixelSize size;
+    std::string_view rest = text;
+    if (!take_number(rest, size.width) || !take(rest, 'x') || !take_number(rest, size.height) || !rest.empty()) {
+        return Error{"'" + text + "' is not a size; write WIDTHxHEIGHT, such as 640x480"};
+    }
+    if (size.width < 1 || size.height < 1 || size.width > kMaxPictureSide_px || size.height > kMaxPictureSide_px) {
+        return Error{"the size " + text + " is out of range; each side must be 1.." +
+                     std::to_string(kMaxPictureSide_px) + " pixels"};
+    }
+    return size;
+}
+
+Result<Triple> parse_triple(const std::string& text, const std::string& what) {
+    Triple triple;
+    std::string_view rest = text;
+    if (!take_number(rest, triple.x) || !take(rest, ',') || !take_number(rest, triple.y) || !take(rest, ',') ||
+        !take_number(rest, triple.z) || !rest.empty()) {
+        return Error{what + ": '" + text + "' is not three numbers; write X,Y,Z, such as 0.5,1,-2"};
+    }
+    return triple;
+}
+
+}  // namespace rs

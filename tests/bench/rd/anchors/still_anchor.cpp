@@ -1,0 +1,62 @@
+#include "tests/bench/rd/anchors/still_anchor.hpp"
+
+#include "rayspace/base/parallel.hpp"
+
+#include <opencv2/imgcodecs.hpp>
+
+namespace rs::bench {
+namespace {
+
+cv::Mat3b bgr_of(const Image<Rgba8>& picture) {
+    cv::Mat3b bgr(picture.height(), picture.width());
+    for (int y = 0; y < bgr.rows; ++y) {
+        for (int x = 0; x < bgr.cols; ++x) bgr(y, x) = {picture(x, y).b, picture(x, y).g, picture(x, y).r};
+    }
+    return bgr;
+}
+
+Image<Rgba8> rgba_of(const cv::Mat3b& bgr) {
+    Image<Rgba8> picture(bgr.cols, bgr.rows);
+    for (int y = 0; y < bgr.rows; ++y) {
+        for (int x = 0; x < bgr.cols; ++x) picture(x, y) = {bgr(y, x)[2], bgr(y, x)[1], bgr(y, x)[0], 255};
+    }
+    return picture;
+}
+
+}  // namespace
+
+Result<Coded> code_stills(const ReferencePictures& pictures, const std::vector<Image<Rgba8>>& shown, StillCodec codec,
+                          int quality) {
+    const bool jpeg = codec == StillCodec::kJpeg;
+    const std::vector<int> parameters =
+        jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, quality, cv::IMWRITE_JPEG_OPTIMIZE, 1}
+             : std::vector<int>{cv::IMWRITE_WEBP_QUALITY, quality};
+    std::vector<Coded> parts(shown.size());
+    const auto code = [&](int view) -> Status {
+        const auto n = static_cast<std::size_t>(view);
+        const Error failure{pictures.name + ": view " + std::to_string(view) + ": OpenCV cannot code " +
+                            (jpeg ? "JPEG" : "WebP") + "; is it built with that codec?"};
+        try {
+            std::vector<std::uint8_t> file;
+            if (!cv::imencode(jpeg ? ".jpg" : ".webp", bgr_of(shown[n]), file, parameters)) return failure;
+            const cv::Mat decoded = cv::imdecode(file, cv::IMREAD_COLOR);
+            if (decoded.rows != pictures.height || decoded.cols != pictures.width) return failure;
+            parts[n].bytes = file.size();
+            parts[n].error = object_error(pictures, n, rgba_of(decoded));
+        } catch (const cv::Exception& exception) {
+            return Error{failure.message + " " + exception.what()};
+        }
+        return {};
+    };
+    if (Status status = for_each_in_parallel(static_cast<int>(shown.size()), "", nullptr, code); !status) {
+        return status.error();
+    }
+    Coded all;
+    for (const Coded& part : parts) {
+        all.bytes += part.bytes;
+        all.error += part.error;
+    }
+    return all;
+}
+
+}  // namespace rs::bench

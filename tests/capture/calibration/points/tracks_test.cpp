@@ -1,0 +1,238 @@
+// Points followed over drawn pictures whose every number is known, and the calibration that stands on them.
+
+#include "capture/calibration/points/tracks.hpp"
+
+#include "capture/calibration/points/bundle.hpp"
+#include "capture/calibration/tracks/track_calibration.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "tests/capture/calibration/drawn_drum.hpp"
+#include "tests/capture/calibration/point_turns.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+TurnPictures pictures_of(const TurntableModel& model, const test::Drum& drum = {}) {
+    TurnPictures turn;
+    turn.width = model.lens.width;
+    turn.height = model.lens.height;
+    turn.names = test::photograph_names(model.angles_rad.size());
+    for (std::size_t i = 0; i < model.angles_rad.size(); ++i) {
+        turn.pictures.push_back(calibration_picture(test::drawn_drum(drum, model, i), 1));
+    }
+    return turn;
+}
+
+// What keeps the search for a start short where a test is not about it.
+KnownInputs lens_and_sense() {
+    KnownInputs known;
+    known.f_px = 620;
+    known.counter_clockwise = false;
+    return known;
+}
+
+TurntableModel truth() {
+    return test::drum_turn(24, -radians(15));
+}
+
+const TurnPictures& drum_pictures() {
+    static const TurnPictures kPictures = pictures_of(truth());
+    return kPictures;
+}
+
+// Median over tracks of how far the point that explains them best under the true model misses them.
+double median_miss_px(const std::vector<Track>& tracks) {
+    std::vector<double> misses;
+    for (const Track& track : tracks) {
+        const Bundle bundle = make_bundle(truth(), std::vector<Track>{track});
+        misses.push_back(bundle.tracks.empty() ? 1e9 : rms_px(bundle));
+    }
+    std::nth_element(misses.begin(), misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2), misses.end());
+    return misses[misses.size() / 2];
+}
+
+void expect_well_formed(const std::vector<Track>& tracks, int views) {
+    for (const Track& track : tracks) {
+        ASSERT_GE(track.seen.size(), 3U);
+        for (std::size_t i = 0; i < track.seen.size(); ++i) {
+            ASSERT_GE(track.seen[i].view, i == 0 ? 0 : track.seen[i - 1].view + 1);
+            ASSERT_LT(track.seen[i].view, views);
+        }
+    }
+}
+
+TEST(Tracks, FollowPointsOfADrum) {
+    const TurnPictures& turn = drum_pictures();
+    const auto follower = PointFollower::look_at(turn.pictures, 1, {}, nullptr);
+    ASSERT_TRUE(follower.ok()) << follower.error().message;
+    const auto found = follower->follow(nullptr);
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    ASSERT_GT(found->tracks.size(), 100U);
+    expect_well_formed(found->tracks, 24);
+    EXPECT_LT(median_miss_px(found->tracks), 0.6);
+    ASSERT_EQ(found->features.size(), 24U);
+    EXPECT_GT(*std::min_element(found->features.begin(), found->features.end()), 60);
+    bool closes = false;
+    for (const PairOfViews& pair : found->pairs) {
+        if (pair.matches == 0) continue;
+        EXPECT_GT(pair.spread_x_px, pair.spread_y_px) << pair.first << " " << pair.second;
+        const int apart = (pair.second - pair.first + 24) % 24;
+        if (apart <= 2) {  // clockwise: the front goes to the left
+            EXPECT_LT(pair.motion_x_px, 0) << pair.first << " " << pair.second;
+        }
+        closes = closes || (pair.first == 23 && pair.second == 0) || (pair.first == 0 && pair.second == 23);
+    }
+    EXPECT_TRUE(closes) << "the last view is next to the first";
+
+    const auto guided = follower->follow_guided(truth(), 0.15, 2);
+    ASSERT_TRUE(guided.ok()) << guided.error().message;
+    expect_well_formed(*guided, 24);
+    const auto right = [](const std::vector<Track>& tracks) {
+        return observation_count(make_agreeing_bundle(truth(), tracks, 1.5));
+    };
+    EXPECT_GT(right(*guided), right(found->tracks));
+}
+
+TEST(Tracks, PositionsAreInPixelsOfThePhotographs) {
+    const TurnPictures& turn = drum_pictures();
+    const std::vector<CalibrationPicture> few(turn.pictures.begin(), turn.pictures.begin() + 6);
+    const auto whole = PointFollower::look_at(few, 1, {}, nullptr);
+    const auto reduced = PointFollower::look_at(few, 3, {}, nullptr);
+    ASSERT_TRUE(whole.ok() && reduced.ok());
+    const auto a = whole->follow(nullptr), b = reduced->follow(nullptr);
+    ASSERT_TRUE(a.ok() && b.ok());
+    EXPECT_EQ(a->features, b->features);
+    ASSERT_FALSE(b->tracks.empty());
+    double farthest_right_px = 0;
+    for (const Track& track : b->tracks) {
+        for (const Observation& seen : track.seen) {
+            const glm::dvec2 p = seen.p / 3.0;
+            ASSERT_GT(few[static_cast<std::size_t>(seen.view)].alpha(static_cast<int>(p.x), static_cast<int>(p.y)),
+                      250);
+            farthest_right_px = std::max(farthest_right_px, seen.p.x);
+        }
+    }
+    EXPECT_GT(farthest_right_px, 320);
+}
+
+TEST(Tracks, DoNotDependOnTheNumberOfThreads) {
+    const TurnPictures& turn = drum_pictures();
+    const std::vector<CalibrationPicture> few(turn.pictures.begin(), turn.pictures.begin() + 8);
+    const auto follow = [&](int threads) {
+        tbb::task_arena arena(threads);
+        return arena.execute([&] { return PointFollower::look_at(few, 1, {}, nullptr)->follow(nullptr)->tracks; });
+    };
+    const auto one = follow(1), two = follow(2);
+    ASSERT_EQ(one.size(), two.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        ASSERT_EQ(one[i].seen.size(), two[i].seen.size());
+        for (std::size_t k = 0; k < one[i].seen.size(); ++k) {
+            EXPECT_EQ(one[i].seen[k].view, two[i].seen[k].view);
+            EXPECT_EQ(one[i].seen[k].p, two[i].seen[k].p);
+        }
+    }
+}
+
+TEST(Tracks, NothingIsLookedForOnTheBackdrop) {
+    TurnPictures turn = drum_pictures();
+    turn.pictures.resize(6);
+    for (CalibrationPicture& picture : turn.pictures) {  // a pattern beside the object
+        for (int y = 0; y < 256; ++y) {
+            for (int x = 0; x < 320; ++x) {
+                if (picture.alpha(x, y) == 0) picture.grey(x, y) = (x / 16 + y / 16) % 2 == 0 ? 110 : 140;
+            }
+        }
+    }
+    const auto found = PointFollower::look_at(turn.pictures, 1, {}, nullptr)->follow(nullptr);
+    ASSERT_TRUE(found.ok());
+    ASSERT_FALSE(found->tracks.empty());
+    for (const Track& track : found->tracks) {
+        for (const Observation& seen : track.seen) {
+            const CalibrationPicture& picture = turn.pictures[static_cast<std::size_t>(seen.view)];
+            EXPECT_GT(picture.alpha(static_cast<int>(seen.p.x), static_cast<int>(seen.p.y)), 250);
+        }
+    }
+}
+
+TEST(Tracks, CalibrationPicturesAreMeans) {
+    Image<Rgba8> picture(5, 4, {100, 100, 100, 255});
+    picture(0, 0) = {200, 200, 200, 255};
+    picture(2, 0).a = 1;
+    const CalibrationPicture half = calibration_picture(picture, 2);
+    EXPECT_EQ(half.grey.width(), 2);
+    EXPECT_EQ(half.grey.height(), 2);
+    EXPECT_EQ(half.grey(0, 0), 125);
+    EXPECT_EQ(half.grey(1, 1), 100);
+    EXPECT_EQ(half.alpha(0, 0), 255);
+    EXPECT_NEAR(half.alpha(1, 0), (3 * 255 + 1) / 4, 1);
+}
+
+TEST(TrackCalibration, FindsTheTurnOfADrum) {
+    KnownInputs sense;
+    sense.counter_clockwise = false;
+    const auto found = calibrate_with_tracks(drum_pictures(), sense, nullptr);
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    const Calibration& calibration = found->calibration;
+    const TurntableModel expected = truth();
+    EXPECT_EQ(calibration.method, CalibrationMethod::kTracks);
+    EXPECT_NEAR(calibration.model.lens.f_px, expected.lens.f_px, 0.03 * expected.lens.f_px);
+    EXPECT_NEAR(degrees(calibration.model.pose.tilt_rad), 20, 0.5);
+    EXPECT_NEAR(degrees(calibration.model.pose.roll_rad), degrees(expected.pose.roll_rad), 0.1);
+    const auto axis = axis_column(calibration.model.lens, calibration.model.pose, 128);
+    ASSERT_TRUE(axis.has_value());
+    EXPECT_NEAR(*axis, *axis_column(expected.lens, expected.pose, 128), 0.3);
+    for (std::size_t i = 0; i < 24; ++i) {
+        EXPECT_NEAR(degrees(calibration.model.angles_rad[i]), degrees(expected.angles_rad[i]), 0.2) << i;
+    }
+    EXPECT_LT(calibration.rms_px, 0.3);
+    EXPECT_LT(calibration.held_out_rms_px, 0.5);
+    EXPECT_GT(calibration.held_out_rms_px, 0);
+    EXPECT_TRUE(calibration.warnings.empty()) << calibration.warnings[0];
+    // The deviations own up to the errors.
+    EXPECT_LT(std::abs(calibration.model.lens.f_px - expected.lens.f_px), 4 * calibration.deviations.f_px);
+    EXPECT_LT(calibration.deviations.f_px, 0.05 * expected.lens.f_px);
+}
+
+TEST(TrackCalibration, NamesTheViewsThatStandWrongOrAreBlurred) {
+    TurntableModel model = truth();
+    model.angles_rad[9] += radians(1.8);
+    TurnPictures turn = pictures_of(model);
+    Image<std::uint8_t>& grey = turn.pictures[17].grey;
+    cv::Mat wrapped(grey.height(), grey.width(), CV_8U, &grey(0, 0), static_cast<std::size_t>(grey.view().stride()));
+    cv::GaussianBlur(wrapped, wrapped, {}, 7);
+    const auto found = calibrate_with_tracks(turn, lens_and_sense(), nullptr);
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    const auto& warnings = found->calibration.warnings;
+    EXPECT_THAT(warnings, Contains(HasSubstr("009.jpg is 1.8 degrees off (not far enough)")));
+    EXPECT_THAT(warnings, Contains(AllOf(HasSubstr("017.jpg"), HasSubstr("is it blurred?"))));
+}
+
+TEST(TrackCalibration, SaysWhatIsWrongWithPicturesThatMakeNoTurn) {
+    const auto message = [](const TurnPictures& turn) {
+        const auto found = calibrate_with_tracks(turn, lens_and_sense(), nullptr);
+        EXPECT_FALSE(found.ok());
+        return found.ok() ? "" : found.error().message;
+    };
+    TurnPictures few = drum_pictures();
+    few.pictures.resize(3);
+    few.names.resize(3);
+    EXPECT_THAT(message(few), HasSubstr("take at least 5"));
+
+    test::Drum plain;
+    plain.is_spotted = false;
+    EXPECT_THAT(message(pictures_of(truth(), plain)), HasSubstr("needs a board under it (rs-capture board)"));
+}
+
+}  // namespace
+}  // namespace rs::capture

@@ -1,0 +1,138 @@
+#include "capture/photos/background/backdrop.hpp"
+
+#include "capture/photos/background/plate.hpp"
+#include "tests/capture/photos/turn_of_pictures.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace rs::capture {
+namespace {
+
+Survey survey_of(std::vector<Image<Rgba8>> samples) {
+    Survey survey;
+    survey.samples = std::move(samples);
+    return survey;
+}
+
+Survey drawn_on(Rgba8 backdrop) {
+    test::DrawnTurn turn;
+    turn.backdrop = backdrop;
+    return survey_of(test::draw_photos(turn));
+}
+
+int distance(const Rgba8& a, const Rgba8& b) {
+    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+TEST(Backdrop, ParsesWhatTheHelpSays) {
+    EXPECT_FALSE(parse_backdrop("auto")->kind.has_value());
+    EXPECT_EQ(parse_backdrop("white")->kind, BackdropKind::kWhite);
+    EXPECT_EQ(parse_backdrop("black")->kind, BackdropKind::kBlack);
+    EXPECT_EQ(parse_backdrop("alpha")->kind, BackdropKind::kAlpha);
+    EXPECT_EQ(parse_backdrop("0,128,255")->colour, (Rgba8{0, 128, 255, 255}));
+    for (const char* wrong : {"", "grey", "1,2", "1,2,3,4", "1,2,256", "-1,2,3", "1,2,3 ", "1,,3"}) {
+        EXPECT_FALSE(parse_backdrop(wrong).ok()) << wrong;
+    }
+}
+
+TEST(Backdrop, FindsEachKind) {
+    EXPECT_EQ(find_backdrop(drawn_on({250, 251, 249, 255}), {}, "x")->kind, BackdropKind::kWhite);
+    EXPECT_EQ(find_backdrop(drawn_on({12, 12, 14, 255}), {}, "x")->kind, BackdropKind::kBlack);
+    const Rgba8 blue{60, 70, 180, 255};
+    const Result<Backdrop> found = find_backdrop(drawn_on(blue), {}, "x");
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    EXPECT_EQ(found->kind, BackdropKind::kColour);
+    EXPECT_LE(distance(found->colour, blue), 2);
+}
+
+// No value is seen in most of the pictures, so nothing along the border is still.
+TEST(Backdrop, WhiteAndBlackNeedNoStillBorder) {
+    for (const auto& [codes, kind, colour] :
+         {std::tuple{std::array{225, 240, 255}, BackdropKind::kWhite, Rgba8{255, 255, 255, 255}},
+          std::tuple{std::array{0, 16, 36}, BackdropKind::kBlack, Rgba8{0, 0, 0, 255}}}) {
+        std::vector<Image<Rgba8>> photos;
+        for (int i = 0; i < 6; ++i) {
+            test::DrawnTurn turn;
+            const auto code = static_cast<std::uint8_t>(codes[static_cast<std::size_t>(i % 3)]);
+            turn.backdrop = {code, code, code, 255};
+            photos.push_back(test::draw_view(turn, 2 * i).photo);
+        }
+        const Result<Backdrop> found = find_backdrop(survey_of(photos), {}, "x");
+        ASSERT_TRUE(found.ok()) << found.error().message;
+        EXPECT_EQ(found->kind, kind);
+        EXPECT_EQ(found->colour, colour);
+        EXPECT_FALSE(found->plate.empty());
+    }
+}
+
+TEST(Backdrop, SaysSoWhereNoColourIsStill) {
+    std::vector<Image<Rgba8>> photos;
+    for (int i = 0; i < 6; ++i) {
+        test::DrawnTurn turn;
+        const auto code = static_cast<std::uint8_t>(60 + 25 * i);
+        turn.backdrop = {code, code, code, 255};
+        photos.push_back(test::draw_view(turn, 2 * i).photo);
+    }
+    for (const BackdropRequest& request : {BackdropRequest{}, BackdropRequest{BackdropKind::kColour, std::nullopt}}) {
+        const Result<Backdrop> found = find_backdrop(survey_of(photos), request, "folder");
+        ASSERT_FALSE(found.ok());
+        EXPECT_THAT(found.error().message, testing::HasSubstr("folder"));
+    }
+}
+
+TEST(Backdrop, PrefersThePicturesOwnAlpha) {
+    std::vector<Image<Rgba8>> photos = test::draw_photos({});
+    for (Image<Rgba8>& photo : photos) {
+        for (int x = 0; x < 40; ++x) photo(x, 0).a = 0;
+    }
+    EXPECT_NE(find_backdrop(survey_of(photos), {}, "x")->kind, BackdropKind::kAlpha) << "40 clear pixels are no matte";
+    for (Image<Rgba8>& photo : photos) {
+        for (int y = 0; y < 30; ++y) {
+            for (int x = 0; x < 40; ++x) photo(x, y).a = 0;
+        }
+    }
+    EXPECT_EQ(find_backdrop(survey_of(photos), {}, "x")->kind, BackdropKind::kAlpha);
+}
+
+TEST(Backdrop, RefusesAlphaWhereThereIsNone) {
+    const Result<Backdrop> found =
+        find_backdrop(drawn_on({255, 255, 255, 255}), {BackdropKind::kAlpha, std::nullopt}, "folder");
+    ASSERT_FALSE(found.ok());
+    EXPECT_THAT(found.error().message, testing::HasSubstr("folder"));
+}
+
+TEST(Backdrop, PlateIsTheBackdropAlsoWhereTheObjectAlwaysIs) {
+    test::DrawnTurn turn;
+    turn.backdrop = {60, 70, 180, 255};
+    turn.orbit_px = 6;  // the axis' column is hidden in every view
+    const Result<Backdrop> found = find_backdrop(survey_of(test::draw_photos(turn)), {}, "x");
+    ASSERT_TRUE(found.ok());
+    for (int y = 0; y < turn.height; ++y) {
+        for (int x = 0; x < turn.width; ++x) ASSERT_LE(distance(found->plate(x, y), turn.backdrop), 6) << x << "," << y;
+    }
+}
+
+TEST(Plate, FillsFromAroundAndKeepsWhatIsKnown) {
+    Image<Rgba8> picture(37, 23, Rgba8{100, 120, 140, 255});
+    Image<std::uint8_t> known(37, 23, 1);
+    for (int y = 5; y < 18; ++y) {
+        for (int x = 8; x < 30; ++x) {
+            picture(x, y) = {255, 0, 0, 255};
+            known(x, y) = 0;
+        }
+    }
+    picture(0, 0) = {7, 8, 9, 255};
+    fill_unknown(picture, known);
+    EXPECT_EQ(picture(0, 0), (Rgba8{7, 8, 9, 255}));
+    for (int y = 5; y < 18; ++y) {
+        for (int x = 8; x < 30; ++x) ASSERT_LE(distance(picture(x, y), {100, 120, 140, 255}), 3);
+    }
+}
+
+}  // namespace
+}  // namespace rs::capture

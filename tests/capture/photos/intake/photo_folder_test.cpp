@@ -1,0 +1,109 @@
+#include "capture/photos/intake/photo_folder.hpp"
+
+#include "rayspace/pictures/picture_io.hpp"
+#include "tests/support/oriented_jpeg.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace rs::capture {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+void write_picture(const std::filesystem::path& path, int width, int height) {
+    const Status status = write_png(path, Image<Rgba8>(width, height, Rgba8{1, 2, 3, 255}));
+    ASSERT_TRUE(status.ok()) << status.error().message;
+}
+
+std::vector<std::string> sorted(std::vector<std::string> names) {
+    std::sort(names.begin(), names.end(), [](const auto& a, const auto& b) { return natural_less(a, b); });
+    return names;
+}
+
+TEST(NaturalOrder, CountsAsPeopleDo) {
+    EXPECT_THAT(sorted({"10.png", "2.png", "1.png"}), ElementsAre("1.png", "2.png", "10.png"));
+    EXPECT_THAT(sorted({"v010.png", "v002.png", "v001.png"}), ElementsAre("v001.png", "v002.png", "v010.png"));
+    EXPECT_THAT(sorted({"a2b10.jpg", "A2b9.jpg", "a10b1.jpg"}), ElementsAre("A2b9.jpg", "a2b10.jpg", "a10b1.jpg"));
+    EXPECT_TRUE(natural_less("x99999999999999999999998", "x99999999999999999999999"));  // beyond 64 bits
+}
+
+TEST(NaturalOrder, IsTotal) {
+    const std::vector<std::string> names = {"", "1", "01", "001", "1a", "a", "A", "a1", "a01", "b", "10", "0", "00"};
+    for (const std::string& a : names) {
+        EXPECT_FALSE(natural_less(a, a)) << a;
+        for (const std::string& b : names) {
+            if (a == b) continue;
+            EXPECT_NE(natural_less(a, b), natural_less(b, a)) << a << " " << b;
+            for (const std::string& c : names) {
+                if (natural_less(a, b) && natural_less(b, c)) {
+                    EXPECT_TRUE(natural_less(a, c)) << a << " " << b << " " << c;
+                }
+            }
+        }
+    }
+}
+
+TEST(PhotoFolder, ListsPicturesOnlyInOrder) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"10.png", "9.png", "2.PNG"}) {
+        // The writer chooses the format by itself; the name's case is what is tested.
+        write_picture(folder / "x.png", 4, 3);
+        std::filesystem::rename(folder / "x.png", folder / name);
+    }
+    std::ofstream(folder / "notes.txt") << "not a picture";
+    std::ofstream(folder / ".hidden.png") << "not one either";
+    const Result<PhotoFolder> found = open_photo_folder(folder.path());
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    std::vector<std::string> names;
+    for (const auto& photo : found->photos) names.push_back(photo.filename().string());
+    EXPECT_THAT(names, ElementsAre("2.PNG", "9.png", "10.png"));
+    EXPECT_THAT(found->ignored, ElementsAre("notes.txt"));
+    EXPECT_EQ(found->width, 4);
+    EXPECT_EQ(found->height, 3);
+}
+
+TEST(PhotoFolder, RefusesWhatHoldsNoPictures) {
+    const test::TemporaryFolder folder;
+    const Result<PhotoFolder> empty = open_photo_folder(folder.path());
+    ASSERT_FALSE(empty.ok());
+    EXPECT_THAT(empty.error().message, HasSubstr(folder.path().string() + ": holds no pictures"));
+    EXPECT_FALSE(open_photo_folder(folder / "absent").ok());
+}
+
+TEST(PhotoFolder, NamesTwoPicturesOfDifferentSize) {
+    const test::TemporaryFolder folder;
+    write_picture(folder / "1.png", 6, 4);
+    write_picture(folder / "2.png", 6, 4);
+    write_picture(folder / "3.png", 6, 5);
+    const Result<PhotoFolder> found = open_photo_folder(folder.path());
+    ASSERT_FALSE(found.ok());
+    for (const char* part : {"3.png", "6x5", "1.png", "6x4"}) EXPECT_THAT(found.error().message, HasSubstr(part));
+}
+
+TEST(PhotoFolder, RefusesAPictureThatWantsToBeTurned) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"1.jpg", "2.jpg", "3.jpg"}) test::write_oriented_jpeg(folder / name, 1);
+    EXPECT_TRUE(open_photo_folder(folder.path()).ok());
+    test::write_oriented_jpeg(folder / "2.jpg", 6);
+    const Result<PhotoFolder> found = open_photo_folder(folder.path());
+    ASSERT_FALSE(found.ok());
+    for (const char* part : {"2.jpg", "orientation 6", "exiftran"}) EXPECT_THAT(found.error().message, HasSubstr(part));
+}
+
+TEST(PhotoFolder, NamesAPictureThatIsNone) {
+    const test::TemporaryFolder folder;
+    write_picture(folder / "1.png", 6, 4);
+    std::ofstream(folder / "2.png") << "no PNG at all";
+    const Result<PhotoFolder> found = open_photo_folder(folder.path());
+    ASSERT_FALSE(found.ok());
+    EXPECT_THAT(found.error().message, HasSubstr("2.png"));
+}
+
+}  // namespace
+}  // namespace rs::capture

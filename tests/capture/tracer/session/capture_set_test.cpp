@@ -1,0 +1,150 @@
+// Capture sets as folders.
+
+#include "capture/tracer/session/capture_set.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+#include "tests/capture/tracer/test_shapes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <fstream>
+
+namespace rs::capture::test {
+namespace {
+
+class CountingProgress final : public Progress {
+public:
+    void start(const std::string&, std::int64_t total) override { total_ = total; }
+    void advance(std::int64_t steps) override { done_ += steps; }
+    void finish() override { finished_ = true; }
+    std::int64_t total_ = 0;
+    std::atomic<std::int64_t> done_ = 0;
+    bool finished_ = false;
+};
+
+Rig small_ring(double first_deg = 0) {
+    RingOptions ring;
+    ring.count = 3;
+    ring.width = 40;
+    ring.height = 36;
+    ring.fl_px = 1.4 * 36;
+    ring.first_rad = radians(first_deg);
+    Rig rig = make_ring(ring);
+    rig.object_radius = 1.0;
+    return rig;
+}
+
+Result<Tracer> ball() {
+    Scene scene = scene_of(make_sphere(4), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
+    scene.environment = constant_environment(1.0F);
+    return Tracer::create(std::move(scene));
+}
+
+CaptureSetOptions options_of(PictureFormat format, bool depth) {
+    CaptureSetOptions options;
+    options.format = format;
+    options.render.samples_per_pixel = 16;
+    options.render.depth = depth;
+    return options;
+}
+
+TEST(CaptureSet, WritesPicturesDepthAndRig) {
+    const rs::test::TemporaryFolder folder;
+    const Result<Tracer> tracer = ball();
+    ASSERT_TRUE(tracer);
+    CountingProgress progress;
+    const auto summary =
+        write_capture_set(*tracer, small_ring(), options_of(PictureFormat::png, true), folder / "set", &progress);
+    ASSERT_TRUE(summary) << summary.error().message;
+    EXPECT_EQ(summary->views, 3);
+    EXPECT_EQ(summary->clipped_views, 0);
+    EXPECT_GT(summary->mean_coverage, 0.3);
+    EXPECT_EQ(progress.done_, progress.total_);
+    EXPECT_TRUE(progress.finished_);
+
+    const Result<Rig> rig = read_rig(folder / "set");
+    ASSERT_TRUE(rig) << rig.error().message;
+    ASSERT_EQ(rig->views.size(), 3U);
+    EXPECT_EQ(rig->object_radius, 1.0);
+    for (const RigView& view : rig->views) {
+        const Result<Image<Rgba8>> picture = read_picture(picture_path(folder / "set", view));
+        ASSERT_TRUE(picture) << picture.error().message;
+        EXPECT_EQ(picture->width(), 40);
+        EXPECT_EQ(picture->height(), 36);
+        double sum = 0;
+        for (int x = 12; x < 28; ++x) {
+            EXPECT_EQ((*picture)(x, 18).a, 255);
+            sum += (*picture)(x, 18).g;
+        }
+        EXPECT_NEAR(sum / 16, 188, 2.5);  // half the light of the furnace, in sRGB
+        EXPECT_EQ((*picture)(0, 0), (Rgba8{0, 0, 0, 0}));
+        const Result<Image<float>> depth = read_channel(folder / "set" / view.depth_file_path);
+        ASSERT_TRUE(depth) << depth.error().message;
+        EXPECT_NEAR((*depth)(20, 18), 2.5F, 0.01F);
+        EXPECT_EQ((*depth)(0, 0), 0.0F);
+    }
+}
+
+TEST(CaptureSet, ExrKeepsLinearLight) {
+    const rs::test::TemporaryFolder folder;
+    const Result<Tracer> tracer = ball();
+    ASSERT_TRUE(tracer);
+    const auto summary =
+        write_capture_set(*tracer, small_ring(), options_of(PictureFormat::exr, false), folder / "set");
+    ASSERT_TRUE(summary) << summary.error().message;
+    const Result<Rig> rig = read_rig(folder / "set");
+    ASSERT_TRUE(rig) << rig.error().message;
+    EXPECT_EQ(rig->views[2].file_path, "002.exr");
+    EXPECT_EQ(rig->views[2].depth_file_path, "");
+    const Result<Image<RgbaF>> picture = read_picture_linear(folder / "set" / rig->views[2].file_path);
+    ASSERT_TRUE(picture) << picture.error().message;
+    EXPECT_NEAR(mean_radiance(*picture).g, 0.5, 0.005);
+}
+
+TEST(CaptureSet, ReplacesOnlyCaptureSets) {
+    const rs::test::TemporaryFolder folder;
+    const Result<Tracer> tracer = ball();
+    ASSERT_TRUE(tracer);
+    const CaptureSetOptions options = options_of(PictureFormat::png, false);
+    ASSERT_TRUE(write_capture_set(*tracer, small_ring(), options, folder / "set"));
+    ASSERT_TRUE(write_capture_set(*tracer, small_ring(), options, folder / "set"));
+    std::filesystem::create_directories(folder / "holiday");
+    std::ofstream(folder / "holiday" / "beach.txt") << "precious";
+    const auto refused = write_capture_set(*tracer, small_ring(), options, folder / "holiday");
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("holiday"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder / "holiday" / "beach.txt"));
+}
+
+TEST(CaptureSet, IsRefusedWhereNoViewShowsAnything) {
+    const rs::test::TemporaryFolder folder;
+    const Result<Tracer> tracer = ball();
+    ASSERT_TRUE(tracer);
+    Rig rig = small_ring();
+    for (RigView& view : rig.views) {
+        for (int axis : {0, 2}) view.camera.world_from_camera[axis] *= -1.0;  // about-turn
+    }
+    const auto refused = write_capture_set(*tracer, rig, options_of(PictureFormat::png, false), folder / "set");
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("set: no view shows the object; check the poses or the mesh"),
+              std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder / "set"));
+    // One view is enough.
+    rig.views[1] = small_ring().views[1];
+    EXPECT_TRUE(write_capture_set(*tracer, rig, options_of(PictureFormat::png, false), folder / "set"));
+}
+
+TEST(CaptureSet, SaysWhenTheObjectIsCutOff) {
+    const rs::test::TemporaryFolder folder;
+    const Result<Tracer> tracer = ball();
+    ASSERT_TRUE(tracer);
+    Rig rig = small_ring();
+    for (RigView& view : rig.views) view.camera.fl_x = view.camera.fl_y = 200;
+    const auto summary = write_capture_set(*tracer, rig, options_of(PictureFormat::png, false), folder / "set");
+    ASSERT_TRUE(summary) << summary.error().message;
+    EXPECT_EQ(summary->clipped_views, 3);
+}
+
+}  // namespace
+}  // namespace rs::capture::test

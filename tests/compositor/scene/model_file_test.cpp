@@ -1,0 +1,199 @@
+#include "compositor/scene/model_file.hpp"
+
+#include "rayspace/pictures/picture_io.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <set>
+
+namespace rs::compositor {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// Positions and texture coordinates of a triangle.
+constexpr float kData[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 1, 1, 0, 0};
+// That triangle, in a data URI or, `binary`, left to the chunk of a .glb; `nodes`, materials and the rest are put in.
+std::string gltf(const std::string& nodes, const std::string& more = "", bool binary = false) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(kData);
+    static const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string base64;
+    for (std::size_t i = 0; i < sizeof kData; i += 3) {
+        const unsigned word = bytes[i] << 16U | bytes[i + 1] << 8U | bytes[i + 2];
+        for (int shift = 18; shift >= 0; shift -= 6) base64 += kDigits[word >> shift & 63U];
+    }
+    return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [)" + nodes +
+           R"(], "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+        "buffers": [{"byteLength": 60)" +
+           (binary ? "" : R"(, "uri": "data:application/octet-stream;base64,)" + base64 + '"') + R"(}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                      {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}])" +
+           more + "}";
+}
+constexpr const char* kMaterial =
+    R"(, "materials": [{"doubleSided": true, "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 0}}])";
+
+class ModelFile : public ::testing::Test {
+protected:
+    Result<Scene> read(const std::string& text, const std::string& name = "hall.gltf") const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return read_model(folder_ / name);
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(ModelFile, MeshesMaterialsAndTransformsAreRead) {
+    const auto scene =
+        read(gltf(R"({"children": [1], "translation": [1, 0, 0]}, {"mesh": 0, "scale": [2, 3, 4]})", kMaterial));
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->geometry.size(), 1U);
+    const GeometryNode& node = scene->geometry[0];
+    EXPECT_EQ(node.mesh->indices.size(), 3U);
+    EXPECT_TRUE(node.mesh->two_sided);
+    EXPECT_LT(glm::distance(node.material.diffuse, glm::vec3(0.5F, 0.25F, 1)), 1e-5F);
+    EXPECT_LT(glm::distance(glm::dvec3(node.world_from_node * glm::dvec4(1, 1, 1, 1)), glm::dvec3(3, 3, 4)), 1e-5);
+    for (const MeshVertex& vertex : node.mesh->vertices) {
+        EXPECT_LT(glm::distance(vertex.normal, glm::vec3(0, 0, 1)), 1e-5F);
+        // t grows upwards.
+        EXPECT_LT(glm::distance(vertex.texture, glm::vec2(vertex.position)), 1e-5F);
+    }
+    EXPECT_TRUE(scene->navigation.headlight);
+    EXPECT_THAT(scene->warnings, IsEmpty());
+}
+
+TEST_F(ModelFile, ExtrasStandForObjects) {
+    const auto scene = read(gltf(
+        R"({"children": [1], "translation": [1, 0, 0], "rotation": [0, 0.70710678, 0, 0.70710678]},
+           {"mesh": 0, "name": "Vase", "scale": [2, 2, 2], "translation": [0, 0, 1],
+            "extras": {"RaySpace": {"url": "objects/vase.rso", "size": 0.5, "standing": false}, "other": 1}})",
+        kMaterial));
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->objects.size(), 1U);
+    const RaySpaceNode& object = scene->objects[0];
+    EXPECT_EQ(object.file, folder_ / "objects/vase.rso");
+    EXPECT_EQ(object.description, "Vase");
+    EXPECT_FALSE(object.standing);
+    // (0, 1, 2) halved and doubled, moved to (0, 1, 3), turned to (3, 1, 0), moved.
+    EXPECT_LT(glm::distance(world_from_node(object.chain).point({0, 1, 2}), glm::dvec3(4, 1, 0)), 1e-6);
+}
+
+TEST_F(ModelFile, ExtrasStandForRooms) {
+    const auto scene = read(gltf(
+        R"({"children": [1], "translation": [1, 0, 0],
+            "extras": {"RaySpaceRoom": {"centre": [0, 1, 0], "size": [4, 2, 4], "description": "hall"}}},
+           {"mesh": 0, "extras": {"RaySpace": {"url": "vase.rso"}}})",
+        kMaterial));
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->rooms.size(), 1U);
+    EXPECT_EQ(scene->rooms[0].description, "hall");
+    EXPECT_EQ(scene->rooms[0].box.lowest, glm::dvec3(-1, 0, -2));
+    ASSERT_EQ(scene->objects.size(), 1U);
+    EXPECT_EQ(scene->objects[0].room, 0U);
+}
+
+TEST_F(ModelFile, AFaultInExtrasIsAnErrorThatNamesItsPlace) {
+    for (const auto& [extras, expected] :
+         {std::pair{R"({"RaySpace": {"size": 1}})", "nodes[0].extras.RaySpace: url is missing"},
+          std::pair{R"({"RaySpace": {"url": "a.rso", "size": 0}})", "nodes[0].extras.RaySpace.size: must be a number"},
+          std::pair{R"({"RaySpace": {"url": "a.rso", "hue": 0}})", "has a key 'hue'"},
+          std::pair{R"({"RaySpace": {"url": "http://a/b.rso"}})", "no file on this machine"}}) {
+        const auto scene = read(gltf(R"({"mesh": 0, "extras": )" + std::string(extras) + "}", kMaterial));
+        ASSERT_FALSE(scene) << extras;
+        EXPECT_THAT(scene.error().message, ::testing::AllOf(HasSubstr("hall.gltf: "), HasSubstr(expected)));
+    }
+}
+
+TEST_F(ModelFile, CamerasAndLightsAreRead) {
+    const auto scene = read(gltf(
+        R"({"mesh": 0, "children": [1, 2]}, {"camera": 0, "translation": [0, 2, 5]},
+           {"translation": [0, 3, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}})",
+        std::string(kMaterial) +
+            R"(, "cameras": [{"type": "perspective", "name": "door", "perspective": {"yfov": 0.7, "znear": 0.1, "aspectRatio": 1.5}}],
+               "extensionsUsed": ["KHR_lights_punctual"],
+               "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 10, "color": [1, 0.5, 0]}]}})"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->viewpoints.size(), 1U);
+    EXPECT_EQ(scene->viewpoints[0].description, "door");
+    EXPECT_DOUBLE_EQ(scene->viewpoints[0].field_of_view_rad, 0.7);
+    EXPECT_EQ(glm::dvec3(scene->viewpoints[0].world_from_camera[3]), glm::dvec3(0, 2, 5));
+    ASSERT_EQ(scene->lights.size(), 1U);
+    EXPECT_EQ(scene->lights[0].kind, LightKind::kPoint);
+    EXPECT_EQ(scene->lights[0].location, glm::dvec3(0, 3, 0));
+    EXPECT_NEAR(scene->lights[0].colour.g, 5 / kPi, 1e-5);
+    EXPECT_FALSE(scene->navigation.headlight);
+}
+
+TEST_F(ModelFile, PicturesBesideTheFileModulate) {
+    ASSERT_TRUE(write_png(folder_ / "grain.png", Image<Rgba8>(4, 4, Rgba8{255, 0, 0, 0})).ok());
+    const auto scene = read(gltf(R"({"mesh": 0})",
+                                 R"(, "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+        "textures": [{"source": 0}], "images": [{"uri": "grain.png"}])"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene->geometry.at(0).material.texture);
+    EXPECT_TRUE(scene->geometry[0].material.texture->modulates);
+    EXPECT_FALSE(scene->geometry[0].material.texture->has_alpha) << "an opaque material ignores alpha";
+    EXPECT_FALSE(scene->geometry[0].mesh->two_sided);
+}
+
+TEST_F(ModelFile, ABinaryFileIsRead) {
+    std::string json = gltf(R"({"mesh": 0, "extras": {"RaySpace": {"url": "a.rso"}}})", kMaterial, true);
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const auto word = [](std::size_t value) {
+        const auto narrow = static_cast<std::uint32_t>(value);
+        std::string bytes(4, '\0');
+        std::memcpy(bytes.data(), &narrow, 4);
+        return bytes;
+    };
+    const std::string data(reinterpret_cast<const char*>(kData), sizeof kData);
+    const std::string glb = "glTF" + word(2) + word(28 + json.size() + data.size()) + word(json.size()) + "JSON" +
+                            json + word(data.size()) + std::string("BIN\0", 4) + data;
+    const auto scene = read(glb, "hall.glb");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->geometry.size(), 1U);
+    EXPECT_EQ(scene->objects.size(), 1U);
+    const auto cut = read(glb.substr(0, 40), "cut.glb");
+    ASSERT_FALSE(cut);
+    EXPECT_THAT(cut.error().message, HasSubstr("cut.glb: is a damaged .glb file"));
+}
+
+TEST_F(ModelFile, ObjectsAloneMakeAScene) {
+    const auto scene = read(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"extras": {"RaySpace": {"url": "a.rso"}}}]})");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->objects.size(), 1U);
+}
+
+TEST_F(ModelFile, FaultyFilesAreRefused) {
+    EXPECT_FALSE(read("", "empty.gltf"));
+    EXPECT_FALSE(read("{\"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"children\": [0]}]}", "ring.gltf"));
+    EXPECT_FALSE(read("{\"scenes\": [{\"nodes\": [7]}]}", "gone.gltf"));
+    EXPECT_FALSE(read("not a model", "hall.obj"));
+    EXPECT_FALSE(read_model(folder_ / "nowhere.gltf"));
+}
+
+TEST_F(ModelFile, FacesOfTwoCornersAreLines) {
+    const auto scene = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\n", "a.obj");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->geometry.size(), 2U);
+    const std::set<Topology> kinds = {scene->geometry[0].mesh->topology, scene->geometry[1].mesh->topology};
+    EXPECT_EQ(kinds, (std::set<Topology>{Topology::kLines, Topology::kTriangles}));
+}
+
+TEST_F(ModelFile, AnObjIsRead) {
+    std::ofstream(folder_ / "hall.mtl") << "newmtl red\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 64\nillum 2\n";
+    const auto scene = read("mtllib hall.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n", "hall.obj");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->geometry.size(), 1U);
+    EXPECT_EQ(scene->geometry[0].material.diffuse, glm::vec3(1, 0, 0));
+    EXPECT_FLOAT_EQ(scene->geometry[0].material.shininess, 0.5F);
+}
+
+}  // namespace
+}  // namespace rs::compositor

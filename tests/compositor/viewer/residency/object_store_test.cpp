@@ -1,0 +1,268 @@
+// Which objects are in memory: budget, order, hysteresis, failures.
+
+#include "compositor/viewer/residency/object_store.hpp"
+
+#include "tests/compositor/slow_source.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+namespace rs::compositor {
+namespace {
+
+using test::SlowSource;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<std::filesystem::path> files(int count) {
+    std::vector<std::filesystem::path> names;
+    for (int i = 0; i < count; ++i) names.emplace_back(std::string(1, static_cast<char>('a' + i)));
+    return names;
+}
+
+// Objects that fit beside the one that is being read.
+std::int64_t room_for(int objects) {
+    return objects * SlowSource::object_bytes() + SlowSource::reading_bytes();
+}
+
+// A store with somebody who uses its objects.
+class StoreVisitor {
+public:
+    StoreVisitor(int count, std::int64_t budget_bytes, test::SlowSourceOptions options = {})
+        : log(std::make_shared<test::SourceLog>()),
+          budget_(budget_bytes),
+          store(files(count), std::make_unique<SlowSource>(log, std::move(options)), budget_bytes) {}
+
+    void listen() {
+        for (StoreEvent& event : store.events()) {
+            if (event.kind == StoreEvent::Kind::kArrived) {
+                EXPECT_FALSE(here.contains(event.file)) << "arrived twice";
+                here[event.file] = event.object;
+            } else if (event.kind == StoreEvent::Kind::kLeaves) {
+                EXPECT_TRUE(here.contains(event.file)) << "leaves without having come";
+                here.erase(event.file);
+                ++left;
+                store.give_back(std::move(event.object));
+            } else {
+                failures.push_back(event.why);
+            }
+        }
+        check_budget();
+    }
+
+    void settle() {
+        while (!store.settled()) {
+            store.wait_for_events();
+            listen();
+        }
+    }
+
+    void check_budget() const {
+        const StoreStatistics statistics = store.statistics();
+        EXPECT_LE(statistics.used_bytes, budget_);
+        EXPECT_LE(statistics.peak_bytes, budget_);
+        const std::lock_guard lock(log->mutex);
+        EXPECT_LE(log->most_alive_bytes, budget_);
+    }
+
+    [[nodiscard]] std::vector<std::size_t> held() const {
+        std::vector<std::size_t> numbers;
+        for (const auto& [number, object] : here) numbers.push_back(number);
+        return numbers;
+    }
+
+    std::shared_ptr<test::SourceLog> log;
+
+private:
+    std::int64_t budget_;
+
+public:
+    std::map<std::size_t, std::shared_ptr<const ViewableObject>> here;
+    std::vector<std::string> failures;
+    int left = 0;
+    ObjectStore store;
+};
+
+std::vector<Wish> distances(const std::vector<double>& rooms) {
+    std::vector<Wish> wishes;
+    for (const double room : rooms) wishes.push_back({room, 1, 0.5});
+    return wishes;
+}
+
+TEST(ObjectStore, ReadsTheMostWantedFirstAndEachOnce) {
+    StoreVisitor visitor(5, room_for(5));
+    visitor.store.want({{4, 1}, {Wish::kHere, 7}, {2, 9}, {Wish::kHere, 3}, {Wish::kAlways, 50}});
+    visitor.settle();
+    EXPECT_THAT(visitor.log->names(), ElementsAre("e", "d", "b", "c", "a"));
+    EXPECT_EQ(visitor.store.statistics().loads, 5);
+    EXPECT_GT(visitor.store.load_seconds(0), 0);
+    visitor.store.want({{4, 2}, {Wish::kHere, 7}, {2, 9}, {Wish::kHere, 3}, {Wish::kAlways, 50}});
+    visitor.settle();
+    EXPECT_EQ(visitor.store.statistics().loads, 5);
+}
+
+TEST(ObjectStore, NothingIsReadBeforeItIsWanted) {
+    // One thread reads, in the order in which it begins: what was read too early would stand first.
+    for (int trial = 0; trial < 50; ++trial) {
+        StoreVisitor visitor(3, room_for(1));
+        visitor.store.want(distances({9, 8, 0}));
+        visitor.settle();
+        ASSERT_FALSE(visitor.log->names().empty());
+        ASSERT_EQ(visitor.log->names().front(), "c");
+    }
+}
+
+TEST(ObjectStore, TheFarthestMakesRoom) {
+    StoreVisitor visitor(4, room_for(2));
+    visitor.store.want(distances({0, 4, 8, 12}));
+    visitor.settle();
+    EXPECT_THAT(visitor.held(), ElementsAre(0, 1, 2)) << "the third fits once reading is over";
+    visitor.store.want(distances({12, 8, 4, 0}));
+    visitor.settle();
+    EXPECT_THAT(visitor.held(), ElementsAre(1, 2, 3));
+    EXPECT_EQ(visitor.store.statistics().evictions, 1);
+}
+
+TEST(ObjectStore, NearlyAsFarMakesNoRoom) {
+    StoreVisitor visitor(3, room_for(0));  // one
+    visitor.store.want(distances({5, 5.2, 5.1}));
+    visitor.settle();
+    EXPECT_THAT(visitor.held(), ElementsAre(0));
+    for (int n = 0; n < 20; ++n) {
+        const double aside = n % 2 == 0 ? 0.4 : -0.4;
+        visitor.store.want(distances({5 + aside, 5 - aside, 5.1}));
+        visitor.settle();
+    }
+    EXPECT_EQ(visitor.store.statistics().evictions, 0);
+    visitor.store.want(distances({7, 5, 5.1}));
+    visitor.settle();
+    EXPECT_THAT(visitor.held(), ElementsAre(1));
+}
+
+TEST(ObjectStore, TheBudgetHoldsWhateverIsWanted) {
+    constexpr int kFiles = 14;
+    test::SlowSourceOptions options;
+    options.reading = std::chrono::microseconds(200);
+    options.times_larger = {{"c", 2}, {"f", 3}, {"g", 2}};
+    StoreVisitor visitor(kFiles, room_for(5), options);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> distance(0, 20);
+    for (int n = 0; n < 120; ++n) {
+        std::vector<Wish> wishes;
+        for (int i = 0; i < kFiles; ++i) {
+            const double room = std::floor(distance(random));
+            wishes.push_back({room < 2 ? Wish::kHere : room, distance(random), 0.5});
+        }
+        visitor.store.want(std::move(wishes));
+        for (int m = 0; m < n % 7; ++m) {
+            std::this_thread::sleep_for(std::chrono::microseconds(300));
+            visitor.listen();
+        }
+        if (n % 10 == 9) visitor.settle();
+    }
+    visitor.settle();
+    visitor.check_budget();
+    EXPECT_GT(visitor.left, 20);
+    EXPECT_GE(visitor.store.statistics().evictions, visitor.left) << "some leave before they are seen";
+    EXPECT_GE(visitor.held().size(), 4U);
+    const std::lock_guard lock(visitor.log->mutex);
+    EXPECT_GT(visitor.log->most_alive_bytes, 5 * SlowSource::object_bytes()) << "it is used, too";
+}
+
+TEST(ObjectStore, MemoryIsFreeOnlyWhenNobodyUsesTheObject) {
+    StoreVisitor visitor(2, room_for(0));
+    visitor.store.want(distances({1, 20}));
+    visitor.settle();
+    const std::shared_ptr<const ViewableObject> still_used = visitor.here.at(0);
+    visitor.store.want(distances({20, 1}));
+    for (int n = 0; n < 10; ++n) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        visitor.listen();
+    }
+    EXPECT_THAT(visitor.held(), IsEmpty());
+    EXPECT_EQ(visitor.store.statistics().used_bytes, still_used->memory_bytes());
+}
+
+TEST(ObjectStore, FailuresAreToldOnceAndTheRestGoesOn) {
+    test::SlowSourceOptions options;
+    options.broken = {"b"};
+    options.gone = {"a"};
+    options.times_larger = {{"d", 50}};
+    StoreVisitor visitor(5, room_for(5), options);
+    visitor.store.want(distances({1, 2, 3, 4, 5}));
+    visitor.settle();
+    EXPECT_THAT(visitor.held(), ElementsAre(2, 4));
+    EXPECT_THAT(visitor.failures, ElementsAre(HasSubstr("a: is not there"), HasSubstr("more than the budget"),
+                                              HasSubstr("b: is broken")));
+    visitor.store.want(distances({5, 4, 3, 2, 1}));
+    visitor.settle();
+    EXPECT_EQ(visitor.failures.size(), 3U);
+    EXPECT_EQ(visitor.store.statistics().failures, 3);
+}
+
+TEST(ObjectStore, MayBeDestroyedWhileItReads) {
+    for (int n = 0; n < 20; ++n) {
+        test::SlowSourceOptions options;
+        options.reading = std::chrono::milliseconds(3);
+        StoreVisitor visitor(4, room_for(1), options);
+        visitor.store.want(distances({1, 2, 3, 4}));
+        std::this_thread::sleep_for(std::chrono::milliseconds(n));
+        if (n % 2 == 0) visitor.listen();
+    }
+}
+
+TEST(ObjectStore, ObjectsOutliveIt) {
+    std::shared_ptr<const ViewableObject> kept;
+    auto log = std::make_shared<test::SourceLog>();
+    {
+        StoreVisitor visitor(1, room_for(1));
+        visitor.store.want(distances({1}));
+        visitor.settle();
+        kept = visitor.here.at(0);
+        log = visitor.log;
+    }
+    EXPECT_EQ(log->alive_bytes, SlowSource::object_bytes());
+    EXPECT_FALSE(kept->bounds.empty());
+    kept.reset();
+    EXPECT_EQ(log->alive_bytes, 0);
+}
+
+TEST(MemoryLedger, GivesNoMoreThanItHas) {
+    MemoryLedger ledger(100);
+    auto first = ledger.reserve(60);
+    ASSERT_TRUE(first);
+    EXPECT_FALSE(ledger.reserve(41));
+    auto second = ledger.reserve(40);
+    ASSERT_TRUE(second);
+    first->shrink(10);
+    EXPECT_EQ(ledger.used_bytes(), 50);
+    second.reset();
+    EXPECT_EQ(ledger.used_bytes(), 10);
+    EXPECT_EQ(ledger.peak_bytes(), 100);
+    MemoryLease moved = std::move(*first);
+    first.reset();
+    EXPECT_EQ(ledger.used_bytes(), 10);
+    moved = MemoryLease();
+    EXPECT_EQ(ledger.used_bytes(), 0);
+}
+
+TEST(Wish, GivesWayOnlyWhereItIsClearlyLessWanted) {
+    const Wish here{Wish::kHere, 2, 0.3};
+    EXPECT_FALSE(gives_way(here, {Wish::kHere, 2.3, 0.3}));
+    EXPECT_FALSE(gives_way({0.2, 1, 0.3}, here)) << "at the door of the next room";
+    EXPECT_TRUE(gives_way({0.4, 1, 0.3}, here));
+    EXPECT_FALSE(gives_way({5, 1, 0.3}, {4, 1, 0.3}));
+    EXPECT_TRUE(gives_way({6, 1, 0.3}, {4, 1, 0.3}));
+    EXPECT_FALSE(gives_way({4, 1, 0.3}, {6, 1, 0.3}));
+    EXPECT_TRUE(gives_way({Wish::kHere, 9, 0.3}, {Wish::kHere, 2, 0.3}));
+    EXPECT_FALSE(gives_way({Wish::kAlways, 90, 0.3}, here));
+    EXPECT_FALSE(gives_way({6, 1, 0.3, 0.2}, here)) << "just left, in a hurry";
+}
+
+}  // namespace
+}  // namespace rs::compositor

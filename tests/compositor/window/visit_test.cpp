@@ -1,0 +1,175 @@
+// A visit in a window on a virtual display: open, walk, look, pick, turn, take a picture, resize, leave. Skipped where
+// there is no Xvfb.
+
+#include "compositor/window/visit.hpp"
+
+#include "rayspace/pictures/picture_io.hpp"
+#include "tests/compositor/objects.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/virtual_display.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace rs::compositor {
+namespace {
+
+constexpr Rgba8 kObjectRed{220, 40, 40, 255};
+
+class VisitInWindow : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() { display_ = std::make_unique<test::VirtualDisplay>(); }
+    static void TearDownTestSuite() { display_.reset(); }
+
+    void SetUp() override {
+        if (!display_->ready()) GTEST_SKIP() << "Xvfb cannot be started (Debian: xvfb)";
+        Scene scene;
+        GeometryNode wall;
+        wall.mesh = std::make_shared<const Mesh>(box_mesh({4, 4, 0.1}));
+        wall.world_from_node[3] = glm::dvec4(0, 0, -4, 1);
+        scene.geometry.push_back(wall);
+        RaySpaceNode drum;
+        drum.file = "drum.rso";
+        drum.standing = false;
+        drum.description = "a red drum";
+        scene.objects.push_back(drum);
+        VisitOptions options;
+        Viewpoint front;
+        front.world_from_camera[3] = glm::dvec4(0, 0, 6, 1);
+        Viewpoint side = front;
+        side.world_from_camera[3] = glm::dvec4(3, 1, 6, 1);
+        side.description = "from the side";
+        options.viewpoints = {front, side};
+        options.pictures = work_.path();
+        options.samples = 1;
+        auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true}, nullptr,
+                                                   std::make_unique<test::ObjectsInMemory>(kObjectRed));
+        WindowOptions small{.title = "test", .width = 320, .height = 240, .wait_for_screen = false};
+        small.context = {.debug = true, .at_end = [this](const std::vector<std::string>& left) { left_ = left; }};
+        auto window = Window::create(small);
+        ASSERT_TRUE(window.ok()) << window.error().message;
+        auto visit = Visit::create(std::move(*window), scene, std::move(showroom), options);
+        ASSERT_TRUE(visit.ok()) << visit.error().message;
+        visit_ = std::move(*visit);
+        ASSERT_TRUE(step());
+    }
+    void TearDown() override {
+        if (!visit_) return;
+        EXPECT_FALSE(visit_->window().context().names_alive().empty());
+        visit_.reset();
+        ASSERT_TRUE(left_.has_value());
+        EXPECT_THAT(*left_, ::testing::IsEmpty());
+    }
+
+    bool step(double seconds = 0.1) {
+        const auto goes_on = visit_->step(seconds);
+        EXPECT_TRUE(goes_on.ok()) << goes_on.error().message;
+        return goes_on.ok() && *goes_on;
+    }
+    void press(Key key) {
+        visit_->window().inject(KeyEvent{key, true});
+        visit_->window().inject(KeyEvent{key, false});
+    }
+    [[nodiscard]] int red_pixels() const {
+        const Image<Rgba8> picture = visit_->picture();
+        int count = 0;
+        for (const Rgba8 p : picture.pixels()) count += p.r > 150 && p.g < 90;
+        return count;
+    }
+
+    static inline std::unique_ptr<test::VirtualDisplay> display_;
+    test::TemporaryFolder work_;
+    std::optional<std::vector<std::string>> left_;  // of OpenGL, when the window was gone
+    std::unique_ptr<Visit> visit_;
+};
+
+TEST_F(VisitInWindow, WalkingMovesWhatIsSeen) {
+    const int before = red_pixels();
+    EXPECT_GT(before, 500);
+    visit_->window().inject(KeyEvent{Key::kForward, true});
+    for (int n = 0; n < 10; ++n) ASSERT_TRUE(step());
+    visit_->window().inject(KeyEvent{Key::kForward, false});
+    ASSERT_TRUE(step());
+    EXPECT_NEAR(visit_->visitor().eye.z, 5, 1e-9);
+    EXPECT_GT(red_pixels(), before * 5 / 4);
+    EXPECT_TRUE(visit_->panel().objects[0].in_view);
+    EXPECT_GT(visit_->panel().objects[0].width, 10);
+    // Turned around, nothing of it is left.
+    visit_->window().inject(KeyEvent{Key::kTurnLeft, true});
+    for (int n = 0; n < 22; ++n) ASSERT_TRUE(step());
+    EXPECT_EQ(red_pixels(), 0);
+    EXPECT_FALSE(visit_->panel().objects[0].in_view);
+}
+
+TEST_F(VisitInWindow, AClickPicksAndTheWheelZooms) {
+    visit_->window().inject(ButtonEvent{Button::kLeft, true, {160, 130}});
+    visit_->window().inject(ButtonEvent{Button::kLeft, false, {160, 130}});
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->panel().picked, 0);
+    EXPECT_EQ(visit_->panel().news, "a red drum");
+    visit_->window().inject(ButtonEvent{Button::kLeft, true, {316, 236}});
+    visit_->window().inject(ButtonEvent{Button::kLeft, false, {316, 236}});
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->panel().picked, -1);
+    press(Key::kExamine);
+    ASSERT_TRUE(step());
+    const double before = visit_->visitor().pivot_distance;
+    visit_->window().inject(WheelEvent{2});
+    ASSERT_TRUE(step());
+    EXPECT_LT(visit_->visitor().pivot_distance, before);
+}
+
+TEST_F(VisitInWindow, ViewpointsAreTravelledTo) {
+    press(Key::kNextViewpoint);
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->panel().news, "from the side");
+    for (int n = 0; n < 12; ++n) ASSERT_TRUE(step());
+    EXPECT_NEAR(visit_->visitor().eye.x, 3, 1e-9);
+    press(Key::kHome);
+    for (int n = 0; n < 12; ++n) ASSERT_TRUE(step());
+    EXPECT_NEAR(visit_->visitor().eye.x, 0, 1e-9);
+}
+
+TEST_F(VisitInWindow, PicturesAreTakenHome) {
+    press(Key::kScreenshot);
+    ASSERT_TRUE(step());
+    const Result<Image<Rgba8>> shot = read_picture(work_ / "screenshot-1.png");
+    ASSERT_TRUE(shot.ok()) << shot.error().message;
+    EXPECT_EQ(*shot, visit_->picture());
+    press(Key::kScreenshot);
+    ASSERT_TRUE(step());
+    EXPECT_TRUE(std::filesystem::exists(work_ / "screenshot-2.png"));
+    press(Key::kRecord);
+    for (int n = 0; n < 5; ++n) ASSERT_TRUE(step());
+    EXPECT_TRUE(visit_->panel().recording);
+    press(Key::kRecord);
+    ASSERT_TRUE(step());
+    EXPECT_TRUE(std::filesystem::exists(work_ / "recording-1.mp4"));
+}
+
+TEST_F(VisitInWindow, SwitchesSwitchAndEscapeLeaves) {
+    const bool panel = visit_->panel().show_panel;
+    for (const Key key : {Key::kHelp, Key::kPanel, Key::kWireFrame, Key::kFly}) press(key);
+    ASSERT_TRUE(step());
+    EXPECT_TRUE(visit_->panel().show_help);
+    EXPECT_NE(visit_->panel().show_panel, panel);
+    EXPECT_TRUE(visit_->panel().wire_frame);
+    EXPECT_EQ(visit_->panel().mode, NavigationMode::kFly);
+    press(Key::kQuit);
+    EXPECT_FALSE(step());
+}
+
+TEST(WindowWithoutDisplay, SaysWhatToDo) {
+    const char* const display = std::getenv("DISPLAY");
+    const std::string before = display != nullptr ? display : "";
+    unsetenv("DISPLAY");
+    const auto window = Window::create({});
+    if (!before.empty()) setenv("DISPLAY", before.c_str(), 1);
+    ASSERT_FALSE(window.ok());
+    EXPECT_NE(window.error().message.find("--headless"), std::string::npos) << window.error().message;
+}
+
+}  // namespace
+}  // namespace rs::compositor

@@ -1,0 +1,177 @@
+// Which surfaces a ray meets (engine/RECONSTRUCTION.md, section 6), on rays made by hand: the viewpoint stands over the
+// axis at height b, so that the foot is at height b too and the reference slope is 0 where b is the reference height.
+// The ray passes right through the middle of one column of cells; shape_cells_test.cpp looks between columns.
+#include "engine/core/definition/cell_march.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace rs::engine {
+namespace {
+
+constexpr std::int32_t kOne_q20 = 1 << 20;
+constexpr std::int32_t kStep_q24 = 1 << 18;  // so per_depth_q20 = slope_q20 * bands per unit / 64
+
+struct Column {
+    ShapeMap shape;
+    ShapeSetup setup;
+    std::vector<ShapeCell> cells;
+
+    // Bands of one radius each; the foot of a ray at height 0 stands at the lower end of band bands / 2. Depth 128 is
+    // the foot's.
+    Column(int bands, ShapeCell cell) : cells(static_cast<std::size_t>(bands), cell) {
+        shape.bands = bands;
+        shape.bands_per_unit_q12 = 1 << 12;
+        shape.h_low_q20 = -bands / 2 * kOne_q20;
+        shape.reference_distance_q20 = 3 * kOne_q20;
+        shape.depth_low_q20 = -2 * kOne_q20;
+        shape.depth_step_q24 = kStep_q24;
+        setup.inverse_r_q20 = kOne_q20;
+        setup.inverse_rho_q20 = kOne_q20 / 3;
+        shape.jump = 20;
+        for (auto& of_p : setup.cells.at) of_p[0] = of_p[1] = cells.data();
+    }
+    Column(const Column&) = delete;
+    Column& operator=(const Column&) = delete;
+
+    [[nodiscard]] std::vector<SurfaceCell> met(std::int32_t slope_q20, std::int32_t b_q20 = 0) const {
+        CellMarch march(shape, setup, b_q20, slope_q20 * 16);
+        std::vector<SurfaceCell> result;
+        for (SurfaceCell cell = march.next(); cell.exists(); cell = march.next()) result.push_back(cell);
+        EXPECT_FALSE(march.next().exists());
+        return result;
+    }
+};
+
+TEST(CellMarch, ARayOfReferenceSlopeMeetsTheSurfaceOfItsFootAlone) {
+    Column column(8, {});
+    for (int band = 0; band < 8; ++band) column.cells[static_cast<std::size_t>(band)] = {std::uint8_t(band * 10), 255};
+    const auto at = [&](std::int32_t b_q20) {
+        column.shape.reference_height_q20 = b_q20;
+        return column.met(0, b_q20);
+    };
+    // On the border of bands 3 and 4, and an eighth of a band below and above it.
+    EXPECT_EQ(at(0), (std::vector<SurfaceCell>{{35 * 8, 255}}));
+    EXPECT_EQ(at(-kOne_q20 / 8), (std::vector<SurfaceCell>{{35 * 8 - 10, 255}}));
+    EXPECT_EQ(at(kOne_q20 / 8), (std::vector<SurfaceCell>{{35 * 8 + 10, 255}}));
+    EXPECT_EQ(at(kOne_q20 / 8 - 256), (std::vector<SurfaceCell>{{35 * 8, 255}}));
+    // The first and the last cell reach half a band beyond their middles and half a band more: as far as they are
+    // given weight.
+    EXPECT_EQ(at(-9 * kOne_q20 / 2 + kOne_q20 / 8), (std::vector<SurfaceCell>{{0, 255}}));
+    EXPECT_TRUE(at(-9 * kOne_q20 / 2 + kOne_q20 / 8 - 256).empty());
+    EXPECT_EQ(at(9 * kOne_q20 / 2 - 256), (std::vector<SurfaceCell>{{70 * 8, 255}}));
+    EXPECT_TRUE(at(9 * kOne_q20 / 2).empty());
+}
+
+// A ray that rises as the one from the reference viewpoint through the same foot stays in its band.
+TEST(CellMarch, TheReferenceViewpointSeesEveryBandAlongItself) {
+    Column column(8, {100, 110});
+    column.setup.lambda_foot_q20 = 3 * kOne_q20;
+    EXPECT_EQ(column.met(kOne_q20 / 2).size(), 1U);
+    column.setup.lambda_foot_q20 = kOne_q20;
+    EXPECT_GT(column.met(kOne_q20 / 2).size(), 1U);
+}
+
+// Surfaces that are met wherever they are looked at: their number is that of the steps, and one at the end.
+TEST(CellMarch, CountsItsSteps) {
+    const Column column(4096, {0, 255});
+    const auto steps = [&](std::int32_t per_depth_q20) {
+        const std::vector<SurfaceCell> met = column.met(per_depth_q20 * 64);
+        if (met.size() < 2) return static_cast<int>(met.size()) - 1;
+        const int size_q3 = met[1].depth_q3;
+        for (std::size_t i = 0; i + 1 < met.size(); ++i) EXPECT_EQ(met[i].depth_q3, static_cast<int>(i) * size_q3);
+        EXPECT_EQ(met.back().depth_q3, 0);
+        return static_cast<int>(met.size()) - 1;
+    };
+    for (const int sign : {1, -1}) {
+        EXPECT_EQ(steps(0), 0);
+        EXPECT_EQ(steps(sign * 2047), 0);  // half a band over all depths
+        EXPECT_EQ(steps(sign * 2048), 2);
+        EXPECT_EQ(steps(sign * (2 * 2048 - 1)), 2);
+        EXPECT_EQ(steps(sign * 2 * 2048), 4);  // three of 85, and one that begins at 255
+        EXPECT_EQ(steps(sign * 3 * 2048), 4);
+        EXPECT_EQ(steps(sign * 31 * 2048), 32);
+        EXPECT_EQ(steps(sign * 62 * 2048), 64);
+        EXPECT_EQ(steps(sign * 63 * 2048), 64);
+        EXPECT_EQ(steps(sign * 200 * 2048), 64);
+    }
+}
+
+TEST(CellMarch, NeverTakesMoreThanItsMostSteps) {
+    Column column(4096, {0, 255});
+    column.shape.bands_per_unit_q12 = 1 << 26;
+    column.shape.h_low_q20 = -kOne_q20 / 8;
+    for (const std::int32_t slope_q20 : {kOne_q20, -kOne_q20, 127 * kOne_q20, -127 * kOne_q20}) {
+        EXPECT_LE(column.met(slope_q20 >> 4).size(), CellMarch::kMostSteps + 1U);
+    }
+    // 4 bands per depth at most: from 1024 bands below the foot up to it, all of them in the map.
+    EXPECT_EQ(column.met(7 * kOne_q20).size(), CellMarch::kMostSteps + 1U);
+}
+
+// Half a band per step, bands -4 .. 4 of the foot, of which the map has the upper or lower half; its last cell reaches
+// half a band, one step, farther.
+TEST(CellMarch, LeavesTheBandsAndEntersThem) {
+    Column column(8, {0, 255});
+    const auto begins = [&](std::int32_t slope_q20, std::int32_t h_low_q20) {
+        column.shape.h_low_q20 = h_low_q20;
+        std::vector<int> depths;
+        for (const SurfaceCell& cell : column.met(slope_q20)) depths.push_back(cell.depth_q3 / 8);
+        return depths;
+    };
+    const std::int32_t slope_q20 = 16 * 2048 * 64 - 64;  // sixteen steps of 16
+    std::vector<int> all;
+    for (int begin = 0; begin < 256; begin += 16) all.push_back(begin);
+    std::vector<int> nearer(all.begin(), all.begin() + 9);
+    std::vector<int> farther(all.begin() + 7, all.end());
+    nearer.push_back(0);  // the foot itself is met last, wherever
+    farther.push_back(0);
+    // Behind the foot (depth 128) the rising ray is above 0, a sinking one below.
+    EXPECT_EQ(begins(-slope_q20, -8 * kOne_q20), farther);
+    EXPECT_EQ(begins(slope_q20, -8 * kOne_q20), nearer);
+    EXPECT_EQ(begins(slope_q20, 0), farther);
+    EXPECT_EQ(begins(-slope_q20, 0), nearer);
+    EXPECT_TRUE(begins(slope_q20, 5 * kOne_q20).empty());
+    EXPECT_TRUE(begins(slope_q20, -13 * kOne_q20).empty());
+}
+
+TEST(CellMarch, MeetsASurfaceBetweenItsDepthAndItsBack) {
+    const std::int32_t four_steps_q20 = 3 * 2048 * 64;
+    const auto met = [&](int depth, int back) {
+        auto found =
+            Column(64, {static_cast<std::uint8_t>(depth), static_cast<std::uint8_t>(back)}).met(four_steps_q20);
+        EXPECT_EQ(found.back(), (SurfaceCell{8 * depth, back}));  // the one at the end is as the map has it
+        found.pop_back();
+        return found;
+    };
+    EXPECT_EQ(met(200, 210), (std::vector<SurfaceCell>{{8 * 200, 210}}));
+    EXPECT_EQ(met(193, 193).size(), 1U);
+    EXPECT_EQ(met(192, 192).size(), 2U);  // on the border of two steps
+    EXPECT_EQ(met(20, 63).size(), 1U);
+    EXPECT_EQ(met(20, 64), (std::vector<SurfaceCell>{{8 * 20, 64}, {8 * 64, 64}}));
+}
+
+// At the end: the foot's surface says at what depth a reference ray would meet the object; that of the place answers.
+TEST(CellMarch, EndsWithTheSurfaceThatAReferenceRayWouldMeet) {
+    Column column(8, {});
+    column.shape.h_low_q20 -= kOne_q20 / 2;       // the foot is in the middle of band 4
+    const std::int32_t one_step_q20 = 2047 * 64;  // an eighth of a band per radius: a quarter down at depth 0
+    const auto end = [&](ShapeCell band3, ShapeCell band4) {
+        column.cells[3] = band3;
+        column.cells[4] = band4;
+        return column.met(one_step_q20);
+    };
+    // Depth 0 lies 2 eighths below the middle, and a quarter of the weight says there is band 3.
+    EXPECT_EQ(end({16, 16}, {0, 1}), (std::vector<SurfaceCell>{{2 * 16, 16}}));
+    EXPECT_EQ(end({77, 77}, {0, 1}), (std::vector<SurfaceCell>{{0, 77}}));  // beyond a jump: the one with more weight
+    EXPECT_EQ(end({}, {0, 1}), (std::vector<SurfaceCell>{{0, 1}}));
+    EXPECT_TRUE(end({77, 77}, {}).empty());
+    // Where the second look finds nothing, the first one answers.
+    column.setup.cells.p_part = 0;
+    column.cells[4] = {};
+    const std::vector<ShapeCell> nothing(8);
+    EXPECT_TRUE(column.met(one_step_q20).empty());
+}
+
+}  // namespace
+}  // namespace rs::engine

@@ -1,0 +1,216 @@
+// The surface between cells (engine/RECONSTRUCTION.md, section 6), and its preparation for a whole column, which must
+// say the same on every SIMD target.
+#include "engine/core/definition/shape_cells.hpp"
+#include "engine/core/fast/surface_column.hpp"
+#include "tests/support/random.hpp"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <vector>
+
+namespace rs::engine {
+namespace {
+
+constexpr ShapeCell kNone{};
+
+TEST(BetweenLines, InterpolatesInEighthsUpToTheJump) {
+    for (int part = 0; part < 8; ++part) {
+        EXPECT_EQ(between_lines({100, 110}, {120, 115}, part, 20),
+                  (SurfaceCell{800 + 20 * part, part > 0 ? 115 : 110}));
+        EXPECT_EQ(between_lines({120, 130}, {100, 125}, part, 20), (SurfaceCell{960 - 20 * part, 130}));
+    }
+}
+
+TEST(BetweenLines, TakesTheNearerLineAcrossAJump) {
+    for (int part = 1; part < 8; ++part) {
+        const SurfaceCell expected{part < 4 ? 800 : 968, 121};
+        EXPECT_EQ(between_lines({100, 110}, {121, 121}, part, 20), expected) << part;
+    }
+    EXPECT_EQ(between_lines({100, 110}, {121, 121}, 0, 20), (SurfaceCell{800, 110}));
+}
+
+TEST(BetweenLines, OneAloneAnswersAndTheSecondOnlyWhereItHasWeight) {
+    EXPECT_EQ(between_lines({100, 110}, kNone, 7, 20), (SurfaceCell{800, 110}));
+    EXPECT_EQ(between_lines(kNone, {100, 110}, 1, 20), (SurfaceCell{800, 110}));
+    EXPECT_FALSE(between_lines(kNone, {100, 110}, 0, 20).exists());
+    EXPECT_FALSE(between_lines(kNone, kNone, 4, 20).exists());
+    EXPECT_EQ(between_lines({0, 1}, kNone, 4, 20), (SurfaceCell{0, 1}));  // depth 0 is a surface, too
+}
+
+TEST(BetweenCells, IsBilinearOnOneSurface) {
+    const SurfaceCell cells[2][2] = {{{80, 20}, {160, 30}}, {{240, 25}, {240, 10}}};
+    for (int p = 0; p < 8; ++p) {
+        for (int h = 0; h < 8; ++h) {
+            const int sum = 80 * (8 - p) * (8 - h) + 160 * (8 - p) * h + 240 * p * 8;
+            EXPECT_EQ(between_cells(cells, p, h, 20), (SurfaceCell{(sum + 32) / 64, 30})) << p << " " << h;
+        }
+    }
+}
+
+TEST(BetweenCells, StepsWhereTheGreaterWeightSays) {
+    const SurfaceCell cells[2][2] = {{{80, 20}, {80, 20}}, {{248, 40}, {248, 40}}};  // 21 depths apart
+    for (int p = 0; p < 8; ++p) {
+        EXPECT_EQ(between_cells(cells, p, 3, 20), (SurfaceCell{p <= 4 ? 80 : 248, 40})) << p;
+        EXPECT_EQ(between_cells(cells, p, 3, 21).depth_q3, 80 + 21 * p) << p;
+    }
+    // What lies between near and far belongs to the nearer half: 164 is in their middle, 165 is not.
+    const SurfaceCell three[2][2] = {{{80, 20}, {164, 30}}, {{248, 40}, {}}};
+    EXPECT_EQ(between_cells(three, 3, 4, 20).depth_q3, (80 * 20 + 164 * 20 + 20) / 40);
+    const SurfaceCell other[2][2] = {{{80, 20}, {165, 30}}, {{248, 40}, {}}};
+    EXPECT_EQ(between_cells(other, 3, 4, 20).depth_q3, (165 * 20 + 248 * 12 + 16) / 32);
+}
+
+TEST(BetweenCells, IsNothingWhereAllWeightIsOnNothing) {
+    SurfaceCell cells[2][2] = {};
+    cells[1][1] = {80, 20};
+    EXPECT_FALSE(between_cells(cells, 0, 5, 20).exists());
+    EXPECT_FALSE(between_cells(cells, 5, 0, 20).exists());
+    EXPECT_EQ(between_cells(cells, 1, 1, 20), (SurfaceCell{80, 20}));
+}
+
+// Of weight 0 but there: it makes a step of what would be one surface, and its back counts.
+TEST(BetweenCells, HeedsCellsWithoutWeight) {
+    const SurfaceCell cells[2][2] = {{{80, 20}, {160, 30}}, {{400, 90}, {400, 90}}};
+    EXPECT_EQ(between_cells(cells, 0, 4, 20), (SurfaceCell{120, 90}));
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+struct Columns {
+    std::vector<ShapeCell> cells[2][2];  // [p][line]
+    CellColumns around;
+    int bands = 0;
+    int jump = 0;
+};
+
+Columns random_columns(test::Random& random) {
+    Columns columns;
+    columns.bands = random.whole(1, 100);
+    columns.jump = random.whole(1, 60);
+    columns.around.p_part = random.whole(0, 7);
+    columns.around.line_part = random.whole(0, 7);
+    const int roughness = random.whole(0, 2) == 0 ? 100 : random.whole(0, 12);
+    const double empty = random.whole(0, 1) == 0 ? 0 : random.real(0, 1);
+    const int low = random.whole(0, columns.bands);  // nothing below, nor from `high` on
+    const int high = random.whole(low, columns.bands);
+    const int middle = random.whole(0, 255);
+    for (int p = 0; p < 2; ++p) {
+        for (int line = 0; line < 2; ++line) {
+            std::vector<ShapeCell>& cells = columns.cells[p][line];
+            cells.resize(static_cast<std::size_t>(columns.bands));
+            for (int band = low; band < high; ++band) {
+                if (random.real(0, 1) < empty) continue;
+                const int depth = std::clamp(middle + random.whole(-roughness, roughness), 0, 255);
+                const int back = std::clamp(depth + random.whole(0, 90), 1, 255);
+                cells[static_cast<std::size_t>(band)] = {static_cast<std::uint8_t>(depth),
+                                                         static_cast<std::uint8_t>(back)};
+            }
+            columns.around.at[p][line] = cells.data();
+        }
+    }
+    return columns;
+}
+
+SurfaceCell defined(const Columns& columns, int band, int h_part) {
+    SurfaceCell around[2][2];
+    for (int p = 0; p < 2; ++p) {
+        for (int h = 0; h < 2; ++h) {
+            if (band + h < 0 || band + h >= columns.bands) continue;
+            const auto at = static_cast<std::size_t>(band + h);
+            around[p][h] =
+                between_lines(columns.cells[p][0][at], columns.cells[p][1][at], columns.around.line_part, columns.jump);
+        }
+    }
+    return between_cells(around, columns.around.p_part, h_part, columns.jump);
+}
+
+// What an entry says where it does not send its reader to `pairs`.
+int smooth_depth_q3(std::int32_t entry, int h_part) {
+    return (8 * (entry & ((1 << kLowBits) - 1)) + h_part * (entry >> 16) + 32) >> 6;
+}
+
+void expect_column(const Columns& columns) {
+    constexpr std::size_t kStart = 5;
+    const std::size_t most = surface_entries(columns.bands);
+    SurfaceEntries entries;
+    entries.hold(kStart + most + 1);
+    constexpr std::int32_t kUntouched = -12345;
+    for (auto* const numbers : {&entries.smooth, &entries.pairs, &entries.backs}) {
+        std::fill(numbers->begin(), numbers->end(), kUntouched);
+    }
+    const SurfaceColumn column = lay_surfaces(columns.around, columns.bands, columns.jump, kStart, entries);
+    for (const auto* const numbers : {&entries.smooth, &entries.pairs, &entries.backs}) {
+        EXPECT_EQ((*numbers)[kStart - 1], kUntouched);
+        EXPECT_EQ((*numbers)[kStart + most], kUntouched);
+    }
+    EXPECT_EQ(entries.smooth[kStart], kSurfaceNothing);
+    EXPECT_EQ(entries.smooth[kStart + static_cast<std::size_t>(column.last)], kSurfaceNothing);
+    int nearest = 256 * 8;
+    int beyond = 0;
+    for (int band = -1; band < columns.bands; ++band) {
+        for (int h_part = 0; h_part < 8; ++h_part) {
+            const SurfaceCell expected = defined(columns, band, h_part);
+            const int n = std::clamp(band - column.first_band, 0, column.last);
+            const std::size_t at = kStart + static_cast<std::size_t>(n);
+            const std::int32_t smooth = entries.smooth[at];
+            if ((smooth & kSurfaceNothing) != 0) {
+                ASSERT_FALSE(expected.exists()) << band << " " << h_part;
+                continue;
+            }
+            if (expected.exists()) {
+                ASSERT_EQ(entries.backs[at], expected.back) << band << " " << h_part;
+                nearest = std::min(nearest, expected.depth_q3);
+                beyond = std::max(beyond, expected.back + 1);
+            }
+            if ((smooth & kSurfaceSteps) == 0) {
+                ASSERT_EQ(smooth_depth_q3(smooth, h_part), expected.depth_q3) << band << " " << h_part;
+                continue;
+            }
+            SurfaceCell around[2][2];
+            for (std::size_t h = 0; h < 2; ++h) {
+                const std::int32_t pair = entries.pairs[at + h];
+                const std::int16_t depths[] = {static_cast<std::int16_t>(pair & 0xFFFF),
+                                               static_cast<std::int16_t>(pair >> 16)};
+                for (int p = 0; p < 2; ++p) {
+                    if (depths[p] >= 0) around[p][h] = {depths[p], entries.backs[at]};
+                }
+            }
+            ASSERT_EQ(between_cells(around, columns.around.p_part, h_part, columns.jump), expected) << band;
+        }
+    }
+    EXPECT_LE(column.nearest, nearest / 8);
+    EXPECT_GE(column.beyond, beyond);
+}
+
+TEST(SurfaceColumn, SaysWhatTheDefinitionSaysOnEverySimdTarget) {
+    std::int64_t targets = hwy::SupportedTargets();
+    while (targets != 0) {
+        const std::int64_t target = targets & -targets;
+        targets &= targets - 1;
+        SCOPED_TRACE(hwy::TargetName(target));
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        for (std::uint64_t seed = 0; seed < 400; ++seed) {
+            SCOPED_TRACE(seed);
+            test::Random random(seed);
+            expect_column(random_columns(random));
+            if (testing::Test::HasFatalFailure()) break;
+        }
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+TEST(SurfaceColumn, OfARayWithoutAShapeSaysNothing) {
+    SurfaceEntries entries;
+    entries.hold(1);
+    const SurfaceColumn column = lay_nothing(0, entries);
+    EXPECT_EQ(column.last, 0);
+    EXPECT_EQ(entries.smooth[0], kSurfaceNothing);
+    EXPECT_EQ(column.nearest, 256);
+    EXPECT_EQ(column.beyond, 0);
+}
+
+}  // namespace
+}  // namespace rs::engine

@@ -1,0 +1,8 @@
+#pragma once
+// What a field of 32 bits can hold.
+
+#include <cstdint>
+#include <limits>
+
+inline constexpr std::int32_t kLowest = std::numeric_limits<std::int32_t>::min();
+inline constexpr std::int32_t kHighest = std::numeric_limits<std::int32_t>::max();

@@ -1,0 +1,14 @@
+#pragma once
+// Numbers over what stands in bytes, little-endian, to see what a reader says of it.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rs::test {
+
+inline void put_number(std::vector<std::byte>& bytes, std::size_t offset, std::uint64_t number, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) bytes.at(offset + i) = static_cast<std::byte>(number >> (8 * i));
+}
+
+}  // namespace rs::test
