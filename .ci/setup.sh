@@ -8,7 +8,8 @@ BUILD_PACKAGES=(
   libxxhash-dev libzstd-dev libcoin-dev zlib1g-dev libglfw3-dev libimgui-dev
 )
 # shellcheck disable=SC2034  # used by the scripts that source this file
-TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-14 shellcheck xvfb)
+TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-14 shellcheck xvfb
+  dpkg-dev pybind11-dev python3-dev python3-numpy)
 # shellcheck disable=SC2034
 FUZZ_PACKAGES=(clang-14 libclang-rt-14-dev)
 

@@ -22,10 +22,19 @@ struct Door {
 Door open_door() {
     std::error_code ignored;
     const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    // Of this code: the program, or librayspace.so.
+    Dl_info info{};
+    const bool found = ::dladdr(reinterpret_cast<const void*>(&open_door), &info) != 0 && info.dli_fname != nullptr;
+    const fs::path library = found ? fs::path(info.dli_fname).parent_path() : here;
     const fs::path candidates[] = {
         here / pictures::kBackendFileName,                              // a build folder
         pictures::kBackendFileName,                                     // the run path and the system's folders
-        here / ".." / "lib" / "rayspace" / pictures::kBackendFileName,  // an installation
+        here / ".." / "lib" / "rayspace" / pictures::kBackendFileName,  // an installation of tools
+        library / pictures::kBackendFileName,                           // a build folder's Python module
+        // An installation of librayspace.so in lib or lib/MACHINE, of the Python module in lib/python3/dist-packages.
+        library / "rayspace" / pictures::kBackendFileName,
+        library / ".." / "rayspace" / pictures::kBackendFileName,
+        library / ".." / ".." / "rayspace" / pictures::kBackendFileName,
     };
     std::string why;
     for (const fs::path& candidate : candidates) {

@@ -95,6 +95,7 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
      {"rayspace/*", "engine/driver", "engine/model/clock", "engine/model/signals", "engine/model/limits",
       "engine/model/layout", "engine/model/blocks/*"}},
     {"engine/model/report", {"rayspace/*", "engine/model"}},
+    {"engine/python", {"rayspace/*", "engine/core/definition", "engine/core/fast", "engine/core/views"}},
     {"engine/tools", {"rayspace/*", "engine/*"}},
 
     {"compositor/gl", {"rayspace/*"}},

@@ -1,5 +1,8 @@
 #include "rayspace/format/object_file.hpp"
+
 #include "rayspace/base/zstd_frame.hpp"
+#include "rayspace/format/map_coding.hpp"
+#include "rayspace/format/object_chunks.hpp"
 #include "tests/support/put_number.hpp"
 #include "tests/support/small_object.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,0 +1,29 @@
+// Opens an object, renders one view of it and saves that: a program of somebody else's.
+//     consumer vase.rso view.png
+#include <engine/core/fast/renderer.hpp>
+#include <engine/core/views/orbit.hpp>
+#include <rayspace/format/object_file.hpp>
+#include <rayspace/pictures/picture_io.hpp>
+
+#include <cstdio>
+
+static rs::Status draw(const char* object_file, const char* picture_file) {
+    rs::Result<rs::RaySpaceObject> object = rs::read_object(object_file);
+    if (!object) return object.error();
+    const auto cameras = rs::engine::orbit_cameras(*object, 1, {});
+    if (!cameras) return cameras.error();
+    const auto view = rs::engine::prepare_view(*object, cameras->front());
+    if (!view) return view.error();
+    const auto renderer = rs::engine::Renderer::create(std::move(*object));
+    if (!renderer) return renderer.error();
+    rs::Image<rs::Rgba8> picture(cameras->front().width, cameras->front().height);
+    renderer->render(*view, picture);
+    return rs::write_png(picture_file, picture);
+}
+
+int main(int argc, char** argv) {
+    if (argc != 3) return std::fprintf(stderr, "usage: consumer OBJECT.rso PICTURE.png\n"), 2;
+    const rs::Status done = draw(argv[1], argv[2]);
+    if (!done) std::fprintf(stderr, "consumer: %s\n", done.error().message.c_str());
+    return done ? 0 : 1;
+}
