@@ -112,7 +112,7 @@ Status Showroom::wait_for_all(const glm::dvec3& eye) {
 // What a visitor at `eye` wants most, as many as boards hold.
 void Showroom::load_on_board(const glm::dvec3& eye) {
     if (!engine_->has_board()) return;
-    const std::vector<Wish> wishes = plan_.wishes({eye, eye});
+    const std::vector<LoadPriority> wishes = plan_.wishes({eye, eye});
     std::vector<std::size_t> files;
     for (std::size_t file = 0; file < handles_.size(); ++file) {
         if (handles_[file].number != 0) files.push_back(file);

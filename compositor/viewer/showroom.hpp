@@ -1,12 +1,12 @@
 #pragma once
 // A scene's objects for a visitor who walks through it: room by room into memory before they are seen, out of it behind
-// the visitor, within a budget (object_store.hpp, room_plan.hpp); and what each node shows meanwhile (shown_node.hpp).
+// the visitor, within a budget (object_cache.hpp, room_plan.hpp); and what each node shows meanwhile (shown_node.hpp).
 //
 // No OpenGL here. One thread; it never waits for a file unless the options say so.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/shown_node.hpp"
-#include "compositor/viewer/residency/object_store.hpp"
+#include "compositor/viewer/residency/object_cache.hpp"
 #include "compositor/viewer/residency/room_plan.hpp"
 #include "engine/driver/data_module.hpp"
 #include "rayspace/base/result.hpp"
@@ -85,7 +85,7 @@ private:
     std::optional<glm::dvec3> eye_;  // in the last frame
     glm::dvec3 velocity_{0};         // scene units a second
     bool wishes_heard_ = false;      // by the store, those of the last frame
-    ObjectStore store_;
+    ObjectCache store_;
 };
 
 }  // namespace rs::compositor

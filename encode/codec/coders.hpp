@@ -51,9 +51,9 @@ private:
 // One decision: context * 2 + bit; the context kCount stands for one of even chances.
 using Decision = std::uint16_t;
 
-class Recorder {
+class SymbolBuffer {
 public:
-    explicit Recorder(std::vector<Decision>& decisions) : decisions_(decisions) {}
+    explicit SymbolBuffer(std::vector<Decision>& decisions) : decisions_(decisions) {}
     int bit(int context, int value) {
         decisions_.push_back(static_cast<Decision>(2 * context + value));
         return value;

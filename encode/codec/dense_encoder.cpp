@@ -65,7 +65,7 @@ public:
             train();
             // The usual vectors go with the pass that they were used in: after the last one they must stay.
             if (pass + 1 == settings_.passes) break;
-            for (std::size_t v = 0; v < work_.size(); ++v) set_usual_motion(v);
+            for (std::size_t v = 0; v < work_.size(); ++v) set_global_motion(v);
         }
         write_tiles();
         if (progress_ != nullptr) progress_->finish();
@@ -170,7 +170,7 @@ private:
         });
     }
 
-    void set_usual_motion(std::size_t v) {
+    void set_global_motion(std::size_t v) {
         for (std::size_t r = 0; r < 2; ++r) {
             std::vector<std::int16_t> x;
             std::vector<std::int16_t> y;
@@ -180,7 +180,7 @@ private:
                     y.push_back(m.y);
                 }
             }
-            coded_.pictures[v].head.usual_motion[r] = {median(std::move(x)), median(std::move(y))};
+            coded_.pictures[v].head.global_motion[r] = {median(std::move(x)), median(std::move(y))};
         }
     }
 

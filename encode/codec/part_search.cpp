@@ -101,11 +101,11 @@ void PartSearch::code_alpha(Coder& coder, const Part& part, const PartChoice& ch
     }
 }
 
-void PartSearch::write(const Part& part, PartChoice& choice, Recorder& recorder) const {
-    const codec::PartSurroundings around{task_.head.references(), task_.head.usual_motion};
+void PartSearch::write(const Part& part, PartChoice& choice, SymbolBuffer& recorder) const {
+    const codec::PartSurroundings around{task_.head.references(), task_.head.global_motion};
     codec::code_prediction(recorder, state_.grid, part, around, choice);
     code_alpha(recorder, part, choice);
-    codec::code_coefficients(recorder, state_.grid, part, task_.code->hidden_signs, choice);
+    codec::code_coefficients(recorder, state_.grid, part, task_.code->sign_data_hiding, choice);
 }
 
 void PartSearch::commit(const Part& part, const PartChoice& choice) const {
@@ -116,7 +116,7 @@ void PartSearch::commit(const Part& part, const PartChoice& choice) const {
 // `choice` has its prediction; finds coefficients. kNever as soon as it cannot be below `best`.
 float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) const {
     const PartPlace place = place_of(part);
-    const codec::PartSurroundings around{task_.head.references(), task_.head.usual_motion};
+    const codec::PartSurroundings around{task_.head.references(), task_.head.global_motion};
     Estimator head_bits(costs_);
     codec::code_prediction(head_bits, state_.grid, part, around, choice);
     code_alpha(head_bits, part, choice);
@@ -154,7 +154,7 @@ float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) con
     choice.coded = false;
     choice.small_transforms = false;
     Estimator none_bits(costs_);
-    codec::code_coefficients(none_bits, state_.grid, part, task_.code->hidden_signs, choice);
+    codec::code_coefficients(none_bits, state_.grid, part, task_.code->sign_data_hiding, choice);
     float cost = plain_error + task_.lambda * none_bits.bits();
 
     // Coefficients, in large and in small transforms.
@@ -173,7 +173,7 @@ float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) con
                                              task_.code->plane_step(task_.head.step, plane),
                                              kPlaneWeights[p],
                                              task_.lambda,
-                                             task_.code->hidden_signs};
+                                             task_.code->sign_data_hiding};
             for (std::size_t t = 0; t < static_cast<std::size_t>(trial.transforms(part.size)); ++t) {
                 TransformTarget target = targets[plane];
                 const std::ptrdiff_t down = static_cast<std::ptrdiff_t>(t >> 1) * kBlock;
@@ -191,7 +191,7 @@ float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) con
         }
         if (!trial.coded) continue;
         Estimator bits(costs_);
-        codec::code_coefficients(bits, state_.grid, part, task_.code->hidden_signs, trial);
+        codec::code_coefficients(bits, state_.grid, part, task_.code->sign_data_hiding, trial);
         const float total = error + task_.lambda * bits.bits();
         if (total < cost) {
             cost = total;
@@ -203,7 +203,7 @@ float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) con
 
 void PartSearch::find_intra(const Part& part, PartChoice& trial, PartChoice& choice, float& best) const {
     const PartPlace place = place_of(part);
-    trial.source = Source::kNeighbours;
+    trial.source = Source::kIntra;
     std::array<std::pair<int, int>, codec::kIntraModes> ranked;
     for (int mode = 0; mode < codec::kIntraModes; ++mode) {
         trial.intra_mode = mode;
@@ -251,7 +251,7 @@ void PartSearch::find_inter(const Part& part, const PartChoice* around, PartChoi
     };
     for (int r = 0; r < references; ++r) {
         const auto n = static_cast<std::size_t>(r);
-        from[n] = codec::predicted_motion(state_.grid, part, r, task_.head.usual_motion[n]);
+        from[n] = codec::predicted_motion(state_.grid, part, r, task_.head.global_motion[n]);
         search.reference = task_.references[n][0];
         if (around != nullptr && is_inter(around->source)) {
             const std::array<MotionVector, 2> starts = {around->motion[n], from[n]};

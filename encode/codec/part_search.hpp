@@ -26,7 +26,7 @@ public:
     float choose(const codec::Part& part, codec::PartChoice& choice, const codec::PartChoice* around = nullptr) const;
 
     // Writes the part's decisions.
-    void write(const codec::Part& part, codec::PartChoice& choice, Recorder& recorder) const;
+    void write(const codec::Part& part, codec::PartChoice& choice, SymbolBuffer& recorder) const;
 
     // Reconstructs the part in task.out and enters it into the grid.
     void commit(const codec::Part& part, const codec::PartChoice& choice) const;

@@ -224,7 +224,7 @@ bool quantise(const std::int32_t* coefficients, const QuantiserSettings& setting
     for (int i = last + 1; i <= start; ++i) {
         levels.at[(scan[i] / size) * codec::Levels::kStride + (scan[i] & (size - 1))] = 0;
     }
-    if (settings.hidden_signs && last >= 0) SignHider(quantiser, levels, last).hide();
+    if (settings.sign_data_hiding && last >= 0) SignHider(quantiser, levels, last).hide();
     levels.used = 0;
     for (int i = 0; i <= last; ++i) {
         const int u = scan[i] & (size - 1);

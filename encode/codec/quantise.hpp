@@ -18,7 +18,7 @@ struct QuantiserSettings {
     int step = 0;      // index
     float weight = 1;  // of a squared error of the plane
     float lambda = 0;  // weighted squared error that a bit is worth
-    bool hidden_signs = false;
+    bool sign_data_hiding = false;
 };
 
 // Levels of the least weight * squared error + lambda * bits (greedily, from the highest coefficient down, and then

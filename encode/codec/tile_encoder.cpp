@@ -2,7 +2,7 @@
 
 #include "encode/codec/part_search.hpp"
 #include "rayspace/codec/alpha_mask.hpp"
-#include "rayspace/codec/edge_filter.hpp"
+#include "rayspace/codec/deblocking.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 #include "rayspace/codec/reconstruct_part.hpp"
 
@@ -133,7 +133,7 @@ private:
     codec::TilePlace place_;
     int left_;
     int top_;
-    Recorder recorder_;
+    SymbolBuffer recorder_;
     std::array<std::vector<codec::MotionVector>, 2>& motions_;
     TileState state_;
     std::array<std::array<AlphaClass, 8>, 8> classes_{};

@@ -26,33 +26,17 @@ DrawnView drawn_by_core(const PreparedView& view) {
 
 }  // namespace
 
-void Pace::saw(std::int64_t pixels, double seconds) {
-    if (pixels <= 0) return;
-    const double now = seconds / static_cast<double>(pixels);
-    per_pixel_ = per_pixel_ == 0 ? now : 0.8 * per_pixel_ + 0.2 * now;
-}
-
-CycleExecutor::CycleExecutor(std::unique_ptr<BoardDevice> board, Sharing sharing) : sharing_(sharing) {
+CycleExecutor::CycleExecutor(std::unique_ptr<BoardDevice> board) {
     if (board) board_ = std::make_unique<BoardThread>(std::move(board));
 }
 
 // The views, by their places in the cycle, that the board is to draw. The board is reserved.
 std::vector<std::size_t> CycleExecutor::share_of_board(const std::vector<PreparedView>& views) const {
     std::vector<std::size_t> share;
-    std::int64_t by_board = 0;
-    std::int64_t by_core = 0;
-    for (const PreparedView& view : views) by_core += view.pixels();
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (!views[v].board_draws || !board_->holds(views[v].object)) continue;
         if (share.size() == static_cast<std::size_t>(board_->device().views_per_cycle())) break;
-        const std::int64_t pixels = views[v].pixels();
-        if (sharing_ == Sharing::kBalanced && !share.empty() &&
-            board_pace_.of(by_board + pixels) > core_pace_.of(by_core - pixels)) {
-            continue;
-        }
         share.push_back(v);
-        by_board += pixels;
-        by_core -= pixels;
     }
     return share;
 }
@@ -88,17 +72,14 @@ Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedVie
     const std::vector<std::size_t> share = reserved ? share_of_board(views) : std::vector<std::size_t>();
     std::vector<bool> of_board(views.size());
     std::vector<BoardThread::Asked> asked;
-    std::int64_t board_pixels = 0;
     for (const std::size_t v : share) {
         of_board[v] = true;
         asked.push_back({views[v].object, views[v].registers});
-        board_pixels += views[v].pixels();
     }
     const auto begin = std::chrono::steady_clock::now();
     if (reserved) board_->draw(std::move(asked));
     if (board_) want_objects(views);
     std::vector<DrawnView> drawn(views.size());
-    std::int64_t core_pixels = 0;
     std::optional<Error> failure;
     const auto draw_by_core = [&](std::size_t v) {
         try {
@@ -108,15 +89,11 @@ Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedVie
         }
     };
     for (std::size_t v = 0; v < views.size(); ++v) {
-        if (of_board[v]) continue;
-        draw_by_core(v);
-        core_pixels += views[v].pixels();
+        if (!of_board[v]) draw_by_core(v);
     }
-    core_pace_.saw(core_pixels, seconds_since(begin));
     if (!share.empty()) {
         Result<std::vector<Image<Rgba8>>> pictures = board_->wait();
         const double seconds = seconds_since(begin);
-        board_pace_.saw(board_pixels, seconds);
         if (!take_from_board(views, share, seconds, drawn, std::move(pictures))) {
             for (const std::size_t v : share) draw_by_core(v);  // stands in
         }

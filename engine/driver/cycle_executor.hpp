@@ -13,11 +13,6 @@
 
 namespace rs::engine {
 
-enum class Sharing : std::uint8_t {
-    kBoardFirst,  // the board draws all that it can
-    kBalanced,    // as many views as let both be done at the same time, by the speeds seen so far
-};
-
 // A view as an executor has drawn it.
 struct DrawnView {
     Image<Rgba8> picture;
@@ -36,19 +31,9 @@ struct PreparedView {
     [[nodiscard]] std::int64_t pixels() const { return std::int64_t{registers.width} * registers.height; }
 };
 
-// Seconds per pixel of an executor, as seen lately.
-class Pace {
-public:
-    void saw(std::int64_t pixels, double seconds);
-    [[nodiscard]] double of(std::int64_t pixels) const { return per_pixel_ * static_cast<double>(pixels); }
-
-private:
-    double per_pixel_ = 0;
-};
-
 class CycleExecutor {
 public:
-    CycleExecutor(std::unique_ptr<BoardDevice> board, Sharing sharing);
+    explicit CycleExecutor(std::unique_ptr<BoardDevice> board);
 
     // Null where the core draws everything. May be used from any thread.
     [[nodiscard]] BoardThread* board() const { return board_.get(); }
@@ -64,9 +49,6 @@ private:
                          std::vector<DrawnView>& drawn, Result<std::vector<Image<Rgba8>>> pictures);
 
     std::unique_ptr<BoardThread> board_;
-    Sharing sharing_;
-    Pace board_pace_;
-    Pace core_pace_;
 };
 
 }  // namespace rs::engine

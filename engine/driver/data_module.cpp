@@ -32,8 +32,8 @@ Error not_loaded(ObjectHandle object) {
 }  // namespace
 
 struct DataModule::State {
-    State(const DataModuleLimits& its_limits, std::unique_ptr<BoardDevice> device, Sharing sharing)
-        : limits(its_limits), executor(std::move(device), sharing) {}
+    State(const DataModuleLimits& its_limits, std::unique_ptr<BoardDevice> device)
+        : limits(its_limits), executor(std::move(device)) {}
 
     DataModuleLimits limits;
     CycleExecutor executor;
@@ -75,8 +75,8 @@ struct DataModule::State {
     }
 };
 
-DataModule::DataModule(const DataModuleLimits& limits, std::unique_ptr<BoardDevice> board, Sharing sharing)
-    : state_(std::make_unique<State>(limits, std::move(board), sharing)) {
+DataModule::DataModule(const DataModuleLimits& limits, std::unique_ptr<BoardDevice> board)
+    : state_(std::make_unique<State>(limits, std::move(board))) {
     state_->worker = std::thread([state = state_.get()] { state->work(); });
 }
 

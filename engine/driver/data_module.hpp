@@ -6,8 +6,8 @@
 // on threads of the module, so submit() does not block while a picture is drawn.
 //
 // Two executors: the software core, which draws everything, and, if the module is given one, a board. The board's
-// memory holds the objects that were asked for last; the core draws what the board does not hold or cannot draw, shares
-// the load as `Sharing` says, and stands in for the board when it fails. Either gives the same bits: with a board,
+// memory holds the objects that were asked for last; the core draws what the board does not hold or cannot draw, at the
+// same time, and stands in for the board when it fails. Either gives the same bits: with a board,
 // objects that it takes are drawn as it holds them (BoardDevice::as_drawn).
 //
 // Thread-safety: every member function may be called from any thread.
@@ -63,8 +63,7 @@ struct DataModuleStatistics {
 
 class DataModule {
 public:
-    explicit DataModule(const DataModuleLimits& limits = {}, std::unique_ptr<BoardDevice> board = nullptr,
-                        Sharing sharing = Sharing::kBoardFirst);
+    explicit DataModule(const DataModuleLimits& limits = {}, std::unique_ptr<BoardDevice> board = nullptr);
     ~DataModule();  // waits for the cycle being rendered; drops queued ones
     DataModule(const DataModule&) = delete;
     DataModule& operator=(const DataModule&) = delete;

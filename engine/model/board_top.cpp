@@ -140,8 +140,8 @@ SingleBoard::SingleBoard(const BoardConfig& config, const RegisterFile& register
 ParallelBoard::ParallelBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
                              Fifo<Done>& object_loaded)
     : pipes(all_pipes(config, registers)),
-      view_fan(registers, jobs, fan_ports(pipes), view_written),
-      load_fan(load_words, load_ports(pipes), object_loaded) {}
+      view_dispatcher(registers, jobs, fan_ports(pipes), view_written),
+      load_broadcast(load_words, load_ports(pipes), object_loaded) {}
 
 BoardTop::BoardTop(const BoardConfig& board_config, std::uint64_t shuffle_seed)
     : config(board_config),
@@ -162,11 +162,11 @@ BoardTop::BoardTop(const BoardConfig& board_config, std::uint64_t shuffle_seed)
         add_pipe(simulator, single->pipe);
         simulator.add(Domain::board, single->memory);
     } else {
-        simulator.add(Domain::board, parallel->view_fan);
+        simulator.add(Domain::board, parallel->view_dispatcher);
         for (const auto& pipe : parallel->pipes) pipe->add_to(simulator);
     }
     simulator.add(Domain::board, host_dma);
-    if (parallel) simulator.add(Domain::board, parallel->load_fan);
+    if (parallel) simulator.add(Domain::board, parallel->load_broadcast);
     simulator.add(Domain::board, disk_controller);
     std::vector<FifoState*> fifos = {&images_ready, &buffer_free};
     if (single) {

@@ -7,8 +7,8 @@
 #include "engine/model/blocks/memory/disk_controller.hpp"
 #include "engine/model/blocks/memory/image_writer.hpp"
 #include "engine/model/blocks/memory/memory_controller.hpp"
-#include "engine/model/blocks/parallel/load_fan.hpp"
-#include "engine/model/blocks/parallel/view_fan.hpp"
+#include "engine/model/blocks/parallel/load_broadcast.hpp"
+#include "engine/model/blocks/parallel/view_dispatcher.hpp"
 #include "engine/model/blocks/prototype/column_address.hpp"
 #include "engine/model/blocks/prototype/line_reader.hpp"
 #include "engine/model/blocks/prototype/render_control.hpp"
@@ -99,8 +99,8 @@ struct ParallelBoard {
     Fifo<ViewJob> jobs{"jobs", 2, ViewJob::kBits};
     Fifo<Done> view_written{"view_written", 2, Done::kBits};
     std::vector<std::unique_ptr<ParallelPipe>> pipes;
-    ViewFan view_fan;
-    LoadFan load_fan;
+    ViewDispatcher view_dispatcher;
+    LoadBroadcast load_broadcast;
 };
 
 struct BoardTop {

@@ -14,7 +14,7 @@ std::vector<ReadPort> read_ports(ParallelPipe& pipe) {
                                    {"band_reader", &f.band_reads, &f.band_words}};
     pipe.chains.add_chain_ports(ports);
     ports.push_back({"fill_fetch", &f.raw_reads, &f.raw_words});
-    ports.push_back({"twin_lookup", &f.book_reads, &f.book_words});
+    ports.push_back({"double_buffered_codebook", &f.book_reads, &f.book_words});
     return ports;
 }
 
@@ -109,8 +109,8 @@ ParallelPipe::ParallelPipe(const BoardConfig& config, const RegisterFile& regist
       texel_tags(registers, fifos.placed, fifos.fills, fifos.waiting),
       fill_fetch(registers, fifos.fills, chains.fifos[0]->asks, chains.fifos[0]->pixels, fifos.raw_reads, fifos.kinds,
                  fifos.targets),
-      twin_lookup(registers, fifos.book_jobs, fifos.view_done_books, chains.complete, fifos.book_reads,
-                  fifos.book_words, fifos.samples),
+      double_buffered_codebook(registers, fifos.book_jobs, fifos.view_done_books, chains.complete, fifos.book_reads,
+                               fifos.book_words, fifos.samples),
       texel_merge(fifos.kinds, fifos.samples, fifos.raw_words, fifos.merged),
       colour_conversion(fifos.merged, fifos.texels),
       texel_cache(fifos.waiting, fifos.targets, fifos.texels, fifos.quads),
@@ -124,10 +124,27 @@ ParallelPipe::ParallelPipe(const BoardConfig& config, const RegisterFile& regist
 }
 
 std::vector<Block*> ParallelPipe::blocks() {
-    return {&raster_generator, &ray_position, &map_reader,  &bracket_finder,    &picture_reader, &column_setup,
-            &band_reader,      &pixel_scan,   &ray_rise,    &cell_march,        &sample_place,   &texel_tags,
-            &fill_fetch,       &twin_lookup,  &texel_merge, &colour_conversion, &texel_cache,    &texel_filter,
-            &surface_blend,    &patch_store,  &memory};
+    return {&raster_generator,
+            &ray_position,
+            &map_reader,
+            &bracket_finder,
+            &picture_reader,
+            &column_setup,
+            &band_reader,
+            &pixel_scan,
+            &ray_rise,
+            &cell_march,
+            &sample_place,
+            &texel_tags,
+            &fill_fetch,
+            &double_buffered_codebook,
+            &texel_merge,
+            &colour_conversion,
+            &texel_cache,
+            &texel_filter,
+            &surface_blend,
+            &patch_store,
+            &memory};
 }
 
 void ParallelPipe::add_to(Simulator& simulator) {
@@ -140,7 +157,7 @@ void ParallelPipe::add_to(Simulator& simulator) {
 PipeMemoryBits pipe_memory_bits(ParallelPipe& pipe) {
     constexpr int kShortest = 64;  // FIFOs below are of logic cells
     PipeMemoryBits bits;
-    bits.books = TwinLookup::kBits;
+    bits.books = DoubleBufferedCodebook::kBits;
     bits.cells = CellMarch::kCellBits;
     bits.held_words = CellMarch::kHeldBits;
     bits.march_pixels = CellMarch::kPixelBits;

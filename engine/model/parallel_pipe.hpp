@@ -7,7 +7,8 @@
 //     pixel_scan -> ray_rise -> cell_march -> sample_place -> texel_tags ----> texel_cache -> texel_filter -+
 //                                  ^                               | fills         ^ texels                |
 //                                  |              fill_fetch <-----+               |                       |
-//                                  | again        [record chains] -> twin_lookup -> texel_merge -> colour  |
+//                                  | again        [record chains] -> double_buffered_codebook -> texel_merge -> colour
+//                                  |
 //                                  +------------------------------------------------------------ surface_blend
 //                                  empty -> patch_store -> memory                       | resolved
 //                                           ^-------------------------------------------+
@@ -26,6 +27,7 @@
 #include "engine/model/blocks/shared/map_reader.hpp"
 #include "engine/model/blocks/shared/raster_generator.hpp"
 #include "engine/model/blocks/shared/ray_position.hpp"
+#include "engine/model/blocks/texels/double_buffered_codebook.hpp"
 #include "engine/model/blocks/texels/fill_fetch.hpp"
 #include "engine/model/blocks/texels/sample_place.hpp"
 #include "engine/model/blocks/texels/surface_blend.hpp"
@@ -33,7 +35,6 @@
 #include "engine/model/blocks/texels/texel_filter.hpp"
 #include "engine/model/blocks/texels/texel_merge.hpp"
 #include "engine/model/blocks/texels/texel_tags.hpp"
-#include "engine/model/blocks/texels/twin_lookup.hpp"
 
 #include <string>
 #include <vector>
@@ -121,7 +122,7 @@ struct ParallelPipe {
     SamplePlace sample_place;
     TexelTags texel_tags;
     FillFetch fill_fetch;
-    TwinLookup twin_lookup;
+    DoubleBufferedCodebook double_buffered_codebook;
     TexelMerge texel_merge;
     ColourConversion colour_conversion;
     TexelCache texel_cache;

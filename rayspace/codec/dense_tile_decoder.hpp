@@ -3,8 +3,8 @@
 // looks at what is read.
 
 #include "rayspace/codec/alpha_mask.hpp"
+#include "rayspace/codec/deblocking.hpp"
 #include "rayspace/codec/dense_tile.hpp"
-#include "rayspace/codec/edge_filter.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 #include "rayspace/codec/reconstruct_part.hpp"
 
@@ -29,7 +29,7 @@ public:
           references_(references),
           listener_(listener),
           out_(out),
-          around_{head.references(), head.usual_motion} {}
+          around_{head.references(), head.global_motion} {}
 
     void decode() {
         for (int y = 0; y < place_.height; y += kMacroblock) {
@@ -72,7 +72,7 @@ private:
         } else {
             alpha(part, choice);
         }
-        code_coefficients(reader_, grid_, part, code_.hidden_signs, choice);
+        code_coefficients(reader_, grid_, part, code_.sign_data_hiding, choice);
         const PartPlace place = place_of_part(grid_, part, left_, top_);
         reconstruct_part(choice, place, head_.step, code_, references_, out_);
         enter_part(grid_, part, choice);

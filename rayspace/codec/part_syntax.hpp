@@ -38,7 +38,7 @@ inline constexpr int kPlanes = 3;  // Y, U, V
 
 // Everything a part says, but for its alpha.
 struct PartChoice {
-    Source source = Source::kNeighbours;
+    Source source = Source::kIntra;
     int intra_mode = 0;
     std::array<MotionVector, 2> motion;
     bool coded = false;
@@ -111,7 +111,7 @@ bool code_macroblock_alpha(Coder& coder, TileGrid& grid, int bx, int by) {
 
 struct PartSurroundings {
     int references = 0;
-    std::array<MotionVector, 2> usual_motion;
+    std::array<MotionVector, 2> global_motion;
 };
 
 // What the part is predicted from.
@@ -126,7 +126,7 @@ void code_prediction(Coder& coder, const TileGrid& grid, const Part& part, const
     for (int r = 0; r < 2; ++r) {
         if (!uses(choice.source, r)) continue;
         const auto n = static_cast<std::size_t>(r);
-        const MotionVector from = predicted_motion(grid, part, r, around.usual_motion[n]);
+        const MotionVector from = predicted_motion(grid, part, r, around.global_motion[n]);
         const auto off = syntax::motion(coder, part, {choice.motion[n].x - from.x, choice.motion[n].y - from.y});
         const auto component = [](int value) {
             return static_cast<std::int16_t>(std::clamp(value, -kMaxMotion_q2, kMaxMotion_q2));
@@ -137,7 +137,8 @@ void code_prediction(Coder& coder, const TileGrid& grid, const Part& part, const
 
 // The coefficients; `choice` has its prediction.
 template <class Coder>
-void code_coefficients(Coder& coder, const TileGrid& grid, const Part& part, bool hidden_signs, PartChoice& choice) {
+void code_coefficients(Coder& coder, const TileGrid& grid, const Part& part, bool sign_data_hiding,
+                       PartChoice& choice) {
     const int inter = is_inter(choice.source) ? 1 : 0;
     choice.coded = syntax::coded(coder, grid, part, inter != 0, choice.coded);
     if (!choice.coded) return;
@@ -154,7 +155,7 @@ void code_coefficients(Coder& coder, const TileGrid& grid, const Part& part, boo
             bool& has = choice.plane_coded[plane][t];
             has = coder.bit(at + before, has ? 1 : 0) != 0;
             if (!has) continue;
-            syntax::block(coder, kind, size, hidden_signs, choice.levels[plane][t], choice.last[plane][t]);
+            syntax::block(coder, kind, size, sign_data_hiding, choice.levels[plane][t], choice.last[plane][t]);
             before = 1;
         }
     }

@@ -64,10 +64,10 @@ constexpr int size_index(int size) {
 // `references`: how many pictures there are to predict from, 0 .. 2.
 template <class Coder>
 Source source(Coder& coder, const TileGrid& grid, const Part& part, int references, Source value) {
-    if (references == 0) return Source::kNeighbours;
+    if (references == 0) return Source::kIntra;
     const int size = size_index(part.size);
     const int inter = count_neighbours(grid, part, [](const BlockInfo& b) { return is_inter(b.source); });
-    if (coder.bit(context::kInter + 3 * size + inter, is_inter(value) ? 1 : 0) == 0) return Source::kNeighbours;
+    if (coder.bit(context::kInter + 3 * size + inter, is_inter(value) ? 1 : 0) == 0) return Source::kIntra;
     if (references == 1) return Source::kFirst;
     const int both = count_neighbours(grid, part, [](const BlockInfo& b) { return b.source == Source::kBoth; });
     if (coder.bit(context::kBoth + 3 * size + both, value == Source::kBoth ? 1 : 0) != 0) return Source::kBoth;
@@ -184,7 +184,7 @@ inline constexpr int kHidingSpan = 4;
 // A block with at least one level that is not zero. `levels` holds those to be written, or zeros, and is filled in;
 // `last`: the scan place of the last one, for a writer.
 template <class Coder>
-void block(Coder& coder, int kind, int size, bool hidden_signs, Levels& levels, int last) {
+void block(Coder& coder, int kind, int size, bool sign_data_hiding, Levels& levels, int last) {
     const std::uint8_t* const scan = scan_order(size);
     const auto at = [&](int i) -> std::int16_t& {
         return levels.at[(scan[i] / size) * Levels::kStride + (scan[i] & (size - 1))];
@@ -204,8 +204,8 @@ void block(Coder& coder, int kind, int size, bool hidden_signs, Levels& levels, 
             places[found++] = i;
             sum += read;
         }
-        if (hidden_signs && (i & (kSignGroup - 1)) != 0) continue;
-        const bool hides = hidden_signs && found > 0 && places[0] - places[found - 1] >= kHidingSpan;
+        if (sign_data_hiding && (i & (kSignGroup - 1)) != 0) continue;
+        const bool hides = sign_data_hiding && found > 0 && places[0] - places[found - 1] >= kHidingSpan;
         for (int n = 0; n < found; ++n) {
             std::int16_t& one = at(places[n]);
             const int negative = hides && n + 1 == found ? sum & 1 : coder.raw(one < 0 ? 1 : 0);

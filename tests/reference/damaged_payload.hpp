@@ -122,8 +122,8 @@ protected:
         ASSERT_EQ(expected.step, found.head.step) << what;
         for (std::size_t r = 0; r < 2; ++r) {
             ASSERT_EQ(expected.reference[r], found.head.reference[r]) << what;
-            ASSERT_EQ(expected.usual[r].x, found.head.usual_motion[r].x) << what;
-            ASSERT_EQ(expected.usual[r].y, found.head.usual_motion[r].y) << what;
+            ASSERT_EQ(expected.usual[r].x, found.head.global_motion[r].x) << what;
+            ASSERT_EQ(expected.usual[r].y, found.head.global_motion[r].y) << what;
         }
         ASSERT_EQ(expected.tiles.size(), found.tiles.size()) << what;
         for (std::size_t t = 0; t < found.tiles.size(); ++t) {

@@ -34,18 +34,18 @@ RoomPlan::RoomPlan(const Scene& scene) {
     }
 }
 
-std::vector<Wish> RoomPlan::wishes(const VisitorPlace& visitor) const {
-    std::vector<Wish> wishes(files_.size());
+std::vector<LoadPriority> RoomPlan::wishes(const VisitorPlace& visitor) const {
+    std::vector<LoadPriority> wishes(files_.size());
     std::vector<bool> wished(files_.size());
     for (const Node& node : nodes_) {
-        Wish wish;
+        LoadPriority wish;
         wish.distance = glm::distance(node.middle, visitor.eye);
         wish.door = door_;
         if (node.room && !rooms_[*node.room].box.empty()) {
             const Place& room = rooms_[*node.room];
             wish.door = room.door;
             wish.room_now = distance_to(room.box, visitor.eye);
-            wish.room = wish.room_now > 0 ? distance_to(room.box, visitor.soon) : Wish::kHere;
+            wish.room = wish.room_now > 0 ? distance_to(room.box, visitor.soon) : LoadPriority::kHere;
         }
         if (!wished[node.file] || wish < wishes[node.file]) wishes[node.file] = wish;
         wished[node.file] = true;

@@ -6,7 +6,7 @@
 // the nearest objects come first.
 
 #include "compositor/scene/scene.hpp"
-#include "compositor/viewer/residency/wish.hpp"
+#include "compositor/viewer/residency/load_priority.hpp"
 
 #include <glm/glm.hpp>
 
@@ -31,7 +31,7 @@ public:
     [[nodiscard]] std::size_t file_of_node(std::size_t node) const { return nodes_[node].file; }
 
     // [file]
-    [[nodiscard]] std::vector<Wish> wishes(const VisitorPlace& visitor) const;
+    [[nodiscard]] std::vector<LoadPriority> wishes(const VisitorPlace& visitor) const;
 
 private:
     struct Node {
@@ -41,7 +41,7 @@ private:
     };
     struct Place {
         BoundingBox box;
-        double door = 0;  // Wish::door
+        double door = 0;  // LoadPriority::door
     };
     std::vector<std::filesystem::path> files_;
     std::vector<Node> nodes_;

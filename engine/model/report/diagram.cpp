@@ -53,7 +53,8 @@ std::string memory_table(const BoardTop& board) {
     const auto row = [](const char* what, std::size_t n) {
         return std::string("| ") + what + " | " + std::to_string(n) + " |\n";
     };
-    return "\n| block RAM of a pipe | bits |\n|---|---|\n" + row("codebooks, two sets (twin_lookup)", bits.books) +
+    return "\n| block RAM of a pipe | bits |\n|---|---|\n" +
+           row("codebooks, two sets (double_buffered_codebook)", bits.books) +
            row("cells of two stripes (cell_march)", bits.cells) +
            row("words of the last column's cells (cell_march)", bits.held_words) +
            row("pixels under way (cell_march)", bits.march_pixels) + row("texels (texel_cache)", bits.texels) +

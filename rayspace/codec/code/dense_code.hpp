@@ -27,9 +27,9 @@ struct DenseCode {
     AlphaCoding alpha_coding = AlphaCoding::kMask;
     int alpha_bits = 2;                              // 1 .. kMaxAlphaBits
     EdgeAlpha edge_alpha = {};                       // 0 .. kMaxEdgeAlpha; of masks of one bit only
-    bool edge_filter = true;                         // edge_filter.hpp
+    bool deblocking = true;                          // deblocking.hpp
     bool learning = true;                            // context_states.hpp
-    bool hidden_signs = true;                        // syntax.hpp
+    bool sign_data_hiding = true;                    // syntax.hpp
     std::array<int, 2> chroma_step_offset = {0, 0};  // of U and V, added to the step index of Y; +-kMaxChromaOffset
     std::array<std::uint16_t, context::kCount> probabilities = {};  // of 0, in 4096ths; 8 .. 4088
 
@@ -52,7 +52,7 @@ inline constexpr std::uint16_t kNoReference = 0xFFFF;
 struct PictureHead {
     int step = 0;                                                           // quantiser step of Y, 0 .. kMaxStep
     std::array<std::uint16_t, 2> reference = {kNoReference, kNoReference};  // views; the second only with the first
-    std::array<MotionVector, 2> usual_motion;
+    std::array<MotionVector, 2> global_motion;
     [[nodiscard]] int references() const {
         return (reference[0] != kNoReference ? 1 : 0) + (reference[1] != kNoReference ? 1 : 0);
     }

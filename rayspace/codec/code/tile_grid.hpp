@@ -16,7 +16,7 @@ inline constexpr int kMaxTileLog2 = 6;
 
 enum class AlphaClass : std::uint8_t { kOutside, kEmpty, kOpaque, kMixed };  // kOutside: of the tile or the picture
 
-enum class Source : std::uint8_t { kNone, kNeighbours, kFirst, kSecond, kBoth };  // kNone: nothing is there
+enum class Source : std::uint8_t { kNone, kIntra, kFirst, kSecond, kBoth };  // kNone: nothing is there
 constexpr bool is_inter(Source source) {
     return source >= Source::kFirst;
 }

@@ -80,14 +80,14 @@ Status check_references(const CodedPictures& coded, std::size_t view, const Pict
 }
 
 // What a dense object makes use of: bits of the byte `features`.
-constexpr unsigned kEdgeFilter = 1;
+constexpr unsigned kDeblocking = 1;
 constexpr unsigned kLearning = 2;
-constexpr unsigned kHiddenSigns = 4;
+constexpr unsigned kSignDataHiding = 4;
 constexpr int kAllFeatures = 7;
 
 std::uint8_t features_of(const DenseCode& dense) {
-    return static_cast<std::uint8_t>((dense.edge_filter ? kEdgeFilter : 0U) | (dense.learning ? kLearning : 0U) |
-                                     (dense.hidden_signs ? kHiddenSigns : 0U));
+    return static_cast<std::uint8_t>((dense.deblocking ? kDeblocking : 0U) | (dense.learning ? kLearning : 0U) |
+                                     (dense.sign_data_hiding ? kSignDataHiding : 0U));
 }
 
 // What follows in the chunk CODE of dense pictures, to its end.
@@ -185,9 +185,9 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     coded.tile_height_log2 = tile_height_log2;
     coded.dense.alpha_coding = static_cast<AlphaCoding>(alpha_coding);
     coded.dense.alpha_bits = alpha_bits;
-    coded.dense.edge_filter = (features & kEdgeFilter) != 0;
+    coded.dense.deblocking = (features & kDeblocking) != 0;
     coded.dense.learning = (features & kLearning) != 0;
-    coded.dense.hidden_signs = (features & kHiddenSigns) != 0;
+    coded.dense.sign_data_hiding = (features & kSignDataHiding) != 0;
     coded.levels.resize(views);
     for (std::size_t v = 0; v < views; ++v) {
         coded.levels[v] = static_cast<std::uint8_t>(levels[v]);
@@ -208,7 +208,7 @@ std::vector<std::byte> coded_picture_payload(const CodedPictures& coded, std::si
     out.put(kCodedPicture);
     out.put(static_cast<std::uint8_t>(picture.head.step));
     for (const std::uint16_t reference : picture.head.reference) out.put(reference);
-    for (const MotionVector motion : picture.head.usual_motion) {
+    for (const MotionVector motion : picture.head.global_motion) {
         out.put(motion.x);
         out.put(motion.y);
     }
@@ -229,7 +229,7 @@ Status parse_coded_picture(std::span<const std::byte> payload, std::size_t view,
     const auto coding = in.get<std::uint8_t>();
     picture.head.step = in.get<std::uint8_t>();
     for (std::uint16_t& reference : picture.head.reference) reference = in.get<std::uint16_t>();
-    for (MotionVector& motion : picture.head.usual_motion) {
+    for (MotionVector& motion : picture.head.global_motion) {
         motion.x = in.get<std::int16_t>();
         motion.y = in.get<std::int16_t>();
     }
@@ -243,7 +243,7 @@ Status parse_coded_picture(std::span<const std::byte> payload, std::size_t view,
     const int largest_step = board ? 0 : kMaxStep;
     if (picture.head.step > largest_step) return out_of_range("its quantiser step", picture.head.step, 0, largest_step);
     if (Status status = check_references(coded, view, picture.head); !status) return status;
-    for (const MotionVector motion : picture.head.usual_motion) {
+    for (const MotionVector motion : picture.head.global_motion) {
         for (const int component : {int{motion.x}, int{motion.y}}) {
             const int largest = board ? 0 : kMaxMotion_q2;
             if (std::abs(component) > largest) {

@@ -149,7 +149,7 @@ TEST_F(CodedFile, AnyBytesDecode) {
         for (auto& p : coded.dense.probabilities) p = static_cast<std::uint16_t>(16 * (1 + random() % 255));
         for (CodedPicture& picture : coded.pictures) {
             picture.head.step = static_cast<int>(random() % (kMaxStep + 1));
-            for (auto& motion : picture.head.usual_motion) {
+            for (auto& motion : picture.head.global_motion) {
                 motion = {static_cast<std::int16_t>(static_cast<int>(random() % 2047) - 1023),
                           static_cast<std::int16_t>(static_cast<int>(random() % 2047) - 1023)};
             }

@@ -99,29 +99,29 @@ struct Quantised {
     bool any = false;
 };
 
-Quantised quantised(const std::vector<std::int32_t>& coefficients, int size, int step, bool hidden_signs,
+Quantised quantised(const std::vector<std::int32_t>& coefficients, int size, int step, bool sign_data_hiding,
                     const CostTable& costs) {
     Quantised result;
-    result.any =
-        quantise(coefficients.data(), {size, 2, step, 1.0F, 30.0F, hidden_signs}, costs, result.levels, result.last);
+    result.any = quantise(coefficients.data(), {size, 2, step, 1.0F, 30.0F, sign_data_hiding}, costs, result.levels,
+                          result.last);
     return result;
 }
 
 // What is written, read again, and how many raw bits it has.
-std::pair<codec::Levels, int> read_back(const Quantised& quantised, int size, bool hidden_signs) {
+std::pair<codec::Levels, int> read_back(const Quantised& quantised, int size, bool sign_data_hiding) {
     BoolEncoder encoder;
     Writer writer{encoder};
     codec::Levels levels = quantised.levels;
-    codec::syntax::block(writer, 2, size, hidden_signs, levels, quantised.last);
+    codec::syntax::block(writer, 2, size, sign_data_hiding, levels, quantised.last);
     const auto bytes = encoder.finish();
     codec::BoolDecoder decoder(bytes);
     Reader reader{decoder};
     levels = {};
-    codec::syntax::block(reader, 2, size, hidden_signs, levels, 0);
+    codec::syntax::block(reader, 2, size, sign_data_hiding, levels, 0);
     return {levels, reader.raws};
 }
 
-TEST(HiddenSigns, AreReadBackFromFewerBits) {
+TEST(SignDataHiding, AreReadBackFromFewerBits) {
     std::mt19937 random(7);
     int saved = 0;
     for (int round = 0; round < 4000; ++round) {
@@ -154,7 +154,7 @@ TEST(HiddenSigns, AreReadBackFromFewerBits) {
 }
 
 // No group is changed at more than one place, and there by one.
-TEST(HiddenSigns, ChangeOneLevelOfAGroupByOne) {
+TEST(SignDataHiding, ChangeOneLevelOfAGroupByOne) {
     std::mt19937 random(8);
     int changed_groups = 0;
     for (int round = 0; round < 2000; ++round) {

@@ -186,11 +186,11 @@ TEST(SharedBoard, AnObjectThatTheDriverCannotLoadIsDrawnByTheCore) {
 }
 
 // More objects than the board holds, views of random ones, objects replaced on the way.
-void draw_random_cycles(int cycles, Sharing sharing) {
+void draw_random_cycles(int cycles) {
     constexpr int kObjects = 24;
     model::BoardConfig few = config();
     few.limits.objects = 20;
-    DataModule module({.objects = 64, .cycles_in_flight = 2}, model::make_simulated_board(few, true), sharing);
+    DataModule module({.objects = 64, .cycles_in_flight = 2}, model::make_simulated_board(few, true));
     std::vector<RaySpaceObject> objects;
     for (int n = 0; n < kObjects; ++n) objects.push_back(object_of(100 + static_cast<std::uint64_t>(n)));
 
@@ -262,12 +262,8 @@ void draw_random_cycles(int cycles, Sharing sharing) {
                 static_cast<long long>(statistics.board.loads), static_cast<long long>(statistics.board.evictions));
 }
 
-TEST(SharedBoard, TenThousandCyclesSharedByPaceAreRight) {
-    draw_random_cycles(10000, Sharing::kBalanced);
-}
-
-TEST(SharedBoard, AThousandCyclesMostlyOfTheBoardAreRight) {
-    draw_random_cycles(1000, Sharing::kBoardFirst);
+TEST(SharedBoard, ThousandsOfCyclesAreRight) {
+    draw_random_cycles(3000);
 }
 
 }  // namespace

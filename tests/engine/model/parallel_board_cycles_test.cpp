@@ -126,7 +126,7 @@ TEST(ParallelBoardCycles, MemoryReadsAreThoseOfTheFormula) {
         EXPECT_EQ(texels, 64 * fills);
         EXPECT_EQ(asks, any.coded ? 8 * fills : 0);
         EXPECT_EQ(words_of(board, "fill_fetch"), any.coded ? 0 : kRawBlockWords * fills);
-        EXPECT_EQ(words_of(board, "twin_lookup"), any.coded ? 3 * book_words(object.coded->board) : 0);
+        EXPECT_EQ(words_of(board, "double_buffered_codebook"), any.coded ? 3 * book_words(object.coded->board) : 0);
     }
 }
 
@@ -191,7 +191,7 @@ TEST(ParallelBoardCycles, BooksOfTheNextViewComeBesideThisOne) {
         const Result<BoardRun> run = board.render({other ? std::vector{view(0), view(1)} : std::vector{view(0)}});
         EXPECT_TRUE(run.ok());
         std::uint64_t loads = 0;
-        for (const auto& pipe : board.top().parallel->pipes) loads += pipe->twin_lookup.book_loads();
+        for (const auto& pipe : board.top().parallel->pipes) loads += pipe->double_buffered_codebook.book_loads();
         EXPECT_EQ(loads, other || resident ? 4U : 2U);
         return run->cycles[0].render_cycles();
     };

@@ -1,9 +1,9 @@
 // Latency and throughput of what a parallel board's pipe reads ahead, its codebooks, and of the blocks that join the
 // pipes.
 
-#include "engine/model/blocks/parallel/load_fan.hpp"
-#include "engine/model/blocks/parallel/view_fan.hpp"
-#include "engine/model/blocks/texels/twin_lookup.hpp"
+#include "engine/model/blocks/parallel/load_broadcast.hpp"
+#include "engine/model/blocks/parallel/view_dispatcher.hpp"
+#include "engine/model/blocks/texels/double_buffered_codebook.hpp"
 #include "tests/engine/model/block_bench.hpp"
 #include "tests/engine/model/parallel_registers.hpp"
 
@@ -45,11 +45,11 @@ struct Lookup {
     Fifo<MemoryRead> reads{"reads", 4, 1};
     Fifo<MemoryWord> words{"words", 4, 1};
     Fifo<YuvaPixel> out{"out", 8, 1};
-    TwinLookup block{r.file, jobs, done, in, reads, words, out};
+    DoubleBufferedCodebook block{r.file, jobs, done, in, reads, words, out};
     Bench bench{&jobs, &done, &in, &reads, &words, &out};
 };
 
-TEST(ParallelTexelTiming, TwinLookupLoadsBesideLookUpsOfLatencySeven) {
+TEST(ParallelTexelTiming, DoubleBufferedCodebookLoadsBesideLookUpsOfLatencySeven) {
     Lookup l;
     const auto words = [&](int slot) {
         return static_cast<int>(l.r.file.objects[static_cast<std::size_t>(l.r.slots[slot])].book_words);
@@ -73,7 +73,7 @@ TEST(ParallelTexelTiming, TwinLookupLoadsBesideLookUpsOfLatencySeven) {
     EXPECT_EQ(l.block.book_loads(), 2U);
 }
 
-TEST(ParallelTexelTiming, TwinLookupReplacesNoBooksOfAViewUnderWay) {
+TEST(ParallelTexelTiming, DoubleBufferedCodebookReplacesNoBooksOfAViewUnderWay) {
     Lookup l;
     l.view(0);
     l.run(30'000);
@@ -103,7 +103,7 @@ TEST(ParallelFans, AViewIsWrittenWhenAllPipesWithAShareHaveWrittenTheirs) {
         ports.push_back(
             {jobs[jobs.size() - 3].get(), jobs[jobs.size() - 2].get(), jobs.back().get(), done.back().get()});
     }
-    ViewFan block(r.file, in, ports, written);
+    ViewDispatcher block(r.file, in, ports, written);
     const auto step = [&] {
         block.clock(0);
         for (FifoState* fifo : std::initializer_list<FifoState*>{&in, &written}) fifo->commit();
@@ -139,7 +139,7 @@ TEST(ParallelFans, LoadedWordsGoToAllChannelsInTheSameCycle) {
     Fifo<Done> loaded("loaded", 2, 1);
     Fifo<MemoryWrite> words[] = {{"a", 2, 1}, {"b", 2, 1}};
     Fifo<Done> done[] = {{"c", 2, 1}, {"d", 2, 1}};
-    LoadFan block(in, {{&words[0], &done[0]}, {&words[1], &done[1]}}, loaded);
+    LoadBroadcast block(in, {{&words[0], &done[0]}, {&words[1], &done[1]}}, loaded);
     Bench bench({&in, &loaded, &words[0], &words[1], &done[0], &done[1]});
     for (std::uint64_t n = 0; n < 3; ++n) {
         put(in, {1, n, n == 2});

@@ -35,7 +35,7 @@ Square TileDecoder::read_coefficients(int n, int kind) {
         if (place == last || bits_.bit(kNonZero + (kind * 4 + band) * 5 + near) == 1) {
             int& level = levels.at(u, v);
             level = read_magnitude(kind, u + v == 0 ? 1 : 0, near);
-            if (code_.has_hidden_signs) {
+            if (code_.has_sign_data_hiding) {
                 group.push_back({place, &level});
             } else if (bits_.raw() == 1) {
                 level = -level;
@@ -43,7 +43,7 @@ Square TileDecoder::read_coefficients(int n, int kind) {
         }
         // "The signs of a group stand behind what is read for its lowest place", also where the level there is 0.
         if (place % 16 == 0) {
-            read_hidden_signs(group);
+            read_sign_data_hiding(group);
             group.clear();
         }
     }
@@ -61,7 +61,7 @@ int TileDecoder::read_magnitude(int kind, int e, int near) {
 }
 
 // "raw bits, 1 for negative, of its levels that are not zero, in the order in which their magnitudes were read"
-void TileDecoder::read_hidden_signs(const std::vector<SignlessLevel>& group) {
+void TileDecoder::read_sign_data_hiding(const std::vector<SignlessLevel>& group) {
     if (group.empty()) return;
     int sum = 0;
     for (const SignlessLevel& each : group) sum += *each.level;
@@ -104,7 +104,7 @@ int TileDecoder::read_mixed_level(const Part& part, int block_x, int x, int y) {
     const int m = 27 * kind(left) + 9 * kind(upper) + 3 * kind(level_in_tile(x - 1, y - 1)) + kind(upper_right);
 
     int from = 0;
-    if (part.source != Source::kNeighbours) {
+    if (part.source != Source::kIntra) {
         const std::size_t r = uses(part.source, 0) ? 0 : 1;
         const Vector vector = part.vector[r];
         const int s = nearest_sample(*references_[r], 3, tile_x_ + x + ((vector.x + 2) >> 2),

@@ -25,7 +25,7 @@ void TileDecoder::read_mask(const Part& part, int x, int y) {
 }
 
 int TileDecoder::mask_from(Source source, const std::array<Vector, 2>& vector, int x, int y) const {
-    if (source == Source::kNeighbours) return 0;
+    if (source == Source::kIntra) return 0;
     const int s = shown_alpha(source, vector, x, y);
     if (s == 0) return 1;
     if (s == 255) return 7;
@@ -103,7 +103,7 @@ void TileDecoder::read_depths(int block_x, int block_y) {
         for (int x = block_x; x < block_x + 8; ++x) {
             const int n = (depth_at(x - 1, y) != 0 ? 1 : 0) + (depth_at(x, y - 1) != 0 ? 1 : 0);
             int p = 0;
-            if (block.source != Source::kNeighbours) {
+            if (block.source != Source::kIntra) {
                 const int s = shown_alpha(block.source, block.vector, x, y);
                 p = s < 32 || s > 223 ? 1 : 2;
             }

@@ -98,10 +98,10 @@ int TileDecoder::count_neighbours(const Part& part, Predicate predicate) {
 }
 
 void TileDecoder::decode_part(int x, int y, int n) {
-    Part part = {x, y, n, block_in_tile(x - 8, y), block_in_tile(x, y - 8), Source::kNeighbours, 0, {}, false, false};
+    Part part = {x, y, n, block_in_tile(x - 8, y), block_in_tile(x, y - 8), Source::kIntra, 0, {}, false, false};
     const int size = n == 16 ? 1 : 0;
     read_source(part);
-    if (part.source == Source::kNeighbours) part.mode = bits_.tree(kIntraMode + 7 * size, 3);
+    if (part.source == Source::kIntra) part.mode = bits_.tree(kIntraMode + 7 * size, 3);
     for (int r = 0; r < 2; ++r) {
         if (uses(part.source, r)) part.vector[static_cast<std::size_t>(r)] = read_vector(part, r);
     }
@@ -114,7 +114,7 @@ void TileDecoder::decode_part(int x, int y, int n) {
             }
         }
     }
-    const int i = part.source == Source::kNeighbours ? 0 : 1;
+    const int i = part.source == Source::kIntra ? 0 : 1;
     const int coded = count_neighbours(part, [](const Block& block) { return block.is_coded; });
     part.is_coded = bits_.bit(kCoded + (size * 2 + i) * 3 + coded) == 1;
 
@@ -134,8 +134,8 @@ void TileDecoder::decode_part(int x, int y, int n) {
 void TileDecoder::read_source(Part& part) {
     if (references_[0] == nullptr) return;
     const int first = 3 * (part.n == 16 ? 1 : 0);
-    const int inter = count_neighbours(
-        part, [](const Block& b) { return b.source != Source::kNone && b.source != Source::kNeighbours; });
+    const int inter =
+        count_neighbours(part, [](const Block& b) { return b.source != Source::kNone && b.source != Source::kIntra; });
     if (bits_.bit(kInter + first + inter) == 0) return;
     part.source = Source::kFirst;
     if (references_[1] == nullptr) return;
@@ -181,7 +181,7 @@ int TileDecoder::step_index(int plane) const {
 }
 
 void TileDecoder::read_transforms(Part& part) {
-    const int i = part.source == Source::kNeighbours ? 0 : 1;
+    const int i = part.source == Source::kIntra ? 0 : 1;
     part.has_small_transforms = part.n == 8 || bits_.bit(kSmallTransforms + i) == 1;
     const int n = part.has_small_transforms ? 8 : 16;
     const int s = n == 16 ? 1 : 0;
@@ -205,7 +205,7 @@ void TileDecoder::predict(const Part& part) {
     const auto has_source = [](const Block* block) { return block != nullptr && block->source != Source::kNone; };
     for (int plane = 0; plane < 3; ++plane) {
         Square predicted(part.n);
-        if (part.source == Source::kNeighbours) {
+        if (part.source == Source::kIntra) {
             predicted = predict_from_neighbours(picture_, plane, x, y, part.n, part.mode, has_source(part.left),
                                                 has_source(part.upper));
         } else if (part.source == Source::kBoth) {
@@ -254,7 +254,7 @@ bool TileDecoder::is_smoothed(const Block& a, const Block& b, bool is_in_macrobl
     if (is_in_macroblock && !a.is_in_split) return a.has_small_transforms;
     // "between two parts: if both blocks have a source ..., and at least one of them is coded, or ..."
     if (a.source == Source::kNone || b.source == Source::kNone) return false;
-    if (a.is_coded || b.is_coded || a.source != b.source || a.source == Source::kNeighbours) return true;
+    if (a.is_coded || b.is_coded || a.source != b.source || a.source == Source::kIntra) return true;
     for (std::size_t r = 0; r < 2; ++r) {
         const bool differs = a.vector[r].x != b.vector[r].x || a.vector[r].y != b.vector[r].y;
         if (uses(a.source, static_cast<int>(r)) && differs) return true;

@@ -23,7 +23,7 @@ public:
 
 private:
     enum class AlphaClass { kOutside = 0, kEmpty = 1, kOpaque = 2, kMixed = 3 };
-    enum class Source { kNone, kNeighbours, kFirst, kSecond, kBoth };
+    enum class Source { kNone, kIntra, kFirst, kSecond, kBoth };
 
     struct Block {
         AlphaClass alpha = AlphaClass::kOutside;
@@ -80,7 +80,7 @@ private:
     void read_transforms(Part& part);
     Square read_coefficients(int n, int kind);
     int read_magnitude(int kind, int e, int near);
-    void read_hidden_signs(const std::vector<SignlessLevel>& group);
+    void read_sign_data_hiding(const std::vector<SignlessLevel>& group);
     void predict(const Part& part);
     void add(const Square& r, int plane, int x, int y);
     void smooth_edges(int plane, bool is_upright);

@@ -95,8 +95,8 @@ RaySpaceObject random_object(Profile profile, std::size_t most_bytes,
         if (!has_two || tiles % 8 == 0 || tiles < 2 || levels != 15 || !is_tame) continue;
         const codec::DenseCode& dense = coded->dense;
         const bool has_features = alpha_coding == codec::AlphaCoding::kMask;
-        const bool is_wanted = dense.alpha_coding == alpha_coding && dense.edge_filter == has_features &&
-                               dense.learning == has_features && dense.hidden_signs == has_features;
+        const bool is_wanted = dense.alpha_coding == alpha_coding && dense.deblocking == has_features &&
+                               dense.learning == has_features && dense.sign_data_hiding == has_features;
         if (profile == Profile::kDense && !is_wanted) continue;
         RaySpaceObject object =
             without_pictures({coded->width, coded->height, static_cast<int>(coded->pictures.size()), 1, false});

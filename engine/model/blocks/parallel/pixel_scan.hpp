@@ -3,7 +3,7 @@
 // pixel's rise, which no column changes in an upright view, is added up row by row (36 bits).
 //
 // Four patches are under way at most, each until its pixels have been written. A view is begun when the one before the
-// last is done: so of the two sets of codebooks one is always free for it (twin_lookup).
+// last is done: so of the two sets of codebooks one is always free for it (double_buffered_codebook).
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/parallel_messages.hpp"

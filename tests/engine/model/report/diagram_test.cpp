@@ -75,7 +75,7 @@ TEST(Diagram, AllPipesDeclareTheSame) {
     }
     for (const auto& [name, kinds] : declared) EXPECT_EQ(kinds.size(), 1U) << name;
     EXPECT_EQ(counts["texel_tags"], 16);
-    EXPECT_EQ(counts["view_fan"], 1);
+    EXPECT_EQ(counts["view_dispatcher"], 1);
     EXPECT_EQ(name_without_pipe("tiles_0"), "tiles_0");
     EXPECT_EQ(name_without_pipe("tiles_0_p12"), "tiles_0");
     EXPECT_EQ(name_without_pipe("_p"), "_p");

@@ -1,4 +1,4 @@
-#include "compositor/viewer/residency/object_store.hpp"
+#include "compositor/viewer/residency/object_cache.hpp"
 
 #include "rayspace/base/check.hpp"
 
@@ -47,7 +47,7 @@ struct File {
 
 }  // namespace
 
-struct ObjectStore::State {
+struct ObjectCache::State {
     State(std::vector<std::filesystem::path> paths, std::unique_ptr<ObjectSource> its_source, std::int64_t budget)
         : files(paths.size()), source(std::move(its_source)), ledger(budget) {
         for (std::size_t i = 0; i < paths.size(); ++i) files[i].path = std::move(paths[i]);
@@ -55,12 +55,12 @@ struct ObjectStore::State {
 
     std::vector<File> files;
     std::unique_ptr<ObjectSource> source;  // of the store's thread
-    MemoryLedger ledger;
+    MemoryBudget ledger;
 
     mutable std::mutex mutex;  // of what follows and the files, progress excepted
     std::condition_variable for_thread;
     std::condition_variable for_user;
-    std::vector<Wish> wishes;  // [file]; empty before the first
+    std::vector<LoadPriority> wishes;  // [file]; empty before the first
     std::vector<StoreEvent> events;
     std::vector<std::shared_ptr<const ViewableObject>> given_back;
     StoreStatistics statistics;
@@ -68,7 +68,7 @@ struct ObjectStore::State {
     bool stopping = false;
     std::thread thread;
 
-    void set_wishes(std::vector<Wish> changed) {
+    void set_wishes(std::vector<LoadPriority> changed) {
         RS_CHECK(changed.size() == files.size());
         if (changed == wishes) return;
         wishes = std::move(changed);
@@ -245,14 +245,14 @@ struct ObjectStore::State {
     }
 };
 
-ObjectStore::ObjectStore(std::vector<std::filesystem::path> files, std::unique_ptr<ObjectSource> source,
+ObjectCache::ObjectCache(std::vector<std::filesystem::path> files, std::unique_ptr<ObjectSource> source,
                          std::int64_t budget_bytes)
     : state_(std::make_unique<State>(std::move(files), std::move(source), budget_bytes)) {
     state_->statistics.budget_bytes = budget_bytes;
     state_->thread = std::thread([state = state_.get()] { state->work(); });
 }
 
-ObjectStore::~ObjectStore() {
+ObjectCache::~ObjectCache() {
     {
         const std::lock_guard lock(state_->mutex);
         state_->stopping = true;
@@ -261,51 +261,51 @@ ObjectStore::~ObjectStore() {
     state_->thread.join();
 }
 
-void ObjectStore::want(std::vector<Wish> wishes) {
+void ObjectCache::want(std::vector<LoadPriority> wishes) {
     const std::lock_guard lock(state_->mutex);
     state_->set_wishes(std::move(wishes));
 }
 
-bool ObjectStore::try_want(std::vector<Wish> wishes) {
+bool ObjectCache::try_want(std::vector<LoadPriority> wishes) {
     const std::unique_lock lock(state_->mutex, std::try_to_lock);
     if (!lock) return false;
     state_->set_wishes(std::move(wishes));
     return true;
 }
 
-std::vector<StoreEvent> ObjectStore::events() {
+std::vector<StoreEvent> ObjectCache::events() {
     const std::unique_lock lock(state_->mutex, std::try_to_lock);
     if (!lock) return {};
     return std::exchange(state_->events, {});
 }
 
-void ObjectStore::give_back(std::shared_ptr<const ViewableObject> object) {
+void ObjectCache::give_back(std::shared_ptr<const ViewableObject> object) {
     const std::lock_guard lock(state_->mutex);
     state_->given_back.push_back(std::move(object));
     state_->idle = false;
     state_->for_thread.notify_all();
 }
 
-float ObjectStore::progress(std::size_t file) const {
+float ObjectCache::progress(std::size_t file) const {
     return state_->files[file].progress;
 }
 
-double ObjectStore::load_seconds(std::size_t file) const {
+double ObjectCache::load_seconds(std::size_t file) const {
     const std::lock_guard lock(state_->mutex);
     return state_->files[file].load_s;
 }
 
-bool ObjectStore::settled() const {
+bool ObjectCache::settled() const {
     const std::lock_guard lock(state_->mutex);
     return state_->idle && state_->events.empty();
 }
 
-void ObjectStore::wait_for_events() {
+void ObjectCache::wait_for_events() {
     std::unique_lock lock(state_->mutex);
     state_->for_user.wait(lock, [&] { return state_->idle || !state_->events.empty(); });
 }
 
-StoreStatistics ObjectStore::statistics() const {
+StoreStatistics ObjectCache::statistics() const {
     const std::lock_guard lock(state_->mutex);
     StoreStatistics statistics = state_->statistics;
     statistics.used_bytes = state_->ledger.used_bytes();

@@ -1,4 +1,4 @@
-#include "rayspace/codec/edge_filter.hpp"
+#include "rayspace/codec/deblocking.hpp"
 
 #include "rayspace/codec/part_syntax.hpp"
 
@@ -23,7 +23,7 @@ Strength strength_of(int step) {
 // Whether an edge between two blocks can come from coding.
 bool may_show(const BlockInfo& a, const BlockInfo& b) {
     if (a.source == Source::kNone || b.source == Source::kNone) return false;
-    if (a.coded || b.coded || a.source != b.source || a.source == Source::kNeighbours) return true;
+    if (a.coded || b.coded || a.source != b.source || a.source == Source::kIntra) return true;
     for (const int r : {0, 1}) {
         const auto n = static_cast<std::size_t>(r);
         if (uses(a.source, r) && a.motion[n] != b.motion[n]) return true;
@@ -113,7 +113,7 @@ void filter_segment(std::uint8_t* first, std::ptrdiff_t across, std::ptrdiff_t a
 
 void filter_edges(const TileGrid& grid, const DenseCode& code, int step, const TilePlace& place,
                   const PlaneViews& out) {
-    if (!code.edge_filter) return;
+    if (!code.deblocking) return;
     for (int plane = 0; plane < kPlanes; ++plane) {
         const Strength strength = strength_of(code.plane_step(step, plane));
         if (strength.most == 0) continue;

@@ -12,12 +12,13 @@
 
 namespace rs::engine::model {
 
-class TwinLookup final : public Block {
+class DoubleBufferedCodebook final : public Block {
 public:
     static constexpr int kStages = BookLookup::kStages;
     static constexpr std::size_t kBits = 2 * BookBanks::kBits;
-    TwinLookup(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<Done>& view_done, Fifo<CodedPixel>& in,
-               Fifo<MemoryRead>& requests, Fifo<MemoryWord>& words, Fifo<YuvaPixel>& out);
+    DoubleBufferedCodebook(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<Done>& view_done,
+                           Fifo<CodedPixel>& in, Fifo<MemoryRead>& requests, Fifo<MemoryWord>& words,
+                           Fifo<YuvaPixel>& out);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return "books of loads " + std::to_string(sets_[0].serial) + " and " + std::to_string(sets_[1].serial) +

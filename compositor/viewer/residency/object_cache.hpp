@@ -8,10 +8,10 @@
 //
 // Thread-safety: everything is called from one thread, the frames', and never waits for a file, but wait_for_events().
 
-#include "compositor/viewer/residency/memory_ledger.hpp"
+#include "compositor/viewer/residency/load_priority.hpp"
+#include "compositor/viewer/residency/memory_budget.hpp"
 #include "compositor/viewer/residency/object_source.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
-#include "compositor/viewer/residency/wish.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -44,19 +44,19 @@ struct StoreStatistics {
     double load_s = 0;  // of all
 };
 
-class ObjectStore {
+class ObjectCache {
 public:
-    ObjectStore(std::vector<std::filesystem::path> files, std::unique_ptr<ObjectSource> source,
+    ObjectCache(std::vector<std::filesystem::path> files, std::unique_ptr<ObjectSource> source,
                 std::int64_t budget_bytes);
-    ~ObjectStore();  // waits for the file that is being read
-    ObjectStore(const ObjectStore&) = delete;
-    ObjectStore& operator=(const ObjectStore&) = delete;
+    ~ObjectCache();  // waits for the file that is being read
+    ObjectCache(const ObjectCache&) = delete;
+    ObjectCache& operator=(const ObjectCache&) = delete;
 
     // [file], from now on. Nothing is read before the first call.
-    void want(std::vector<Wish> wishes);
+    void want(std::vector<LoadPriority> wishes);
     // The same for a frame, which is not to wait even for the blink of an eye that the store's thread, of low priority,
     // may be held up in: false, and nothing is changed, where it is busy. To be said again with the next frame.
-    bool try_want(std::vector<Wish> wishes);
+    bool try_want(std::vector<LoadPriority> wishes);
 
     // What has happened since the last call; may come with a later one while the store is busy.
     std::vector<StoreEvent> events();

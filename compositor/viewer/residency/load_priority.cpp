@@ -1,4 +1,4 @@
-#include "compositor/viewer/residency/wish.hpp"
+#include "compositor/viewer/residency/load_priority.hpp"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ constexpr double kFarther = 1.25;  // times as far: clearly farther
 
 }  // namespace
 
-bool gives_way(const Wish& held, const Wish& wanted) {
+bool gives_way(const LoadPriority& held, const LoadPriority& wanted) {
     if (held.room < wanted.room) return false;
     if (held.room == wanted.room) return held.distance > kFarther * wanted.distance + wanted.door;
     // A room that was left a moment ago is still near, wherever the visitor is bound for.

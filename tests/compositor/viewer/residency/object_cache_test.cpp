@@ -1,6 +1,6 @@
 // Which objects are in memory: budget, order, hysteresis, failures.
 
-#include "compositor/viewer/residency/object_store.hpp"
+#include "compositor/viewer/residency/object_cache.hpp"
 
 #include "tests/compositor/slow_source.hpp"
 
@@ -85,28 +85,30 @@ public:
     std::map<std::size_t, std::shared_ptr<const ViewableObject>> here;
     std::vector<std::string> failures;
     int left = 0;
-    ObjectStore store;
+    ObjectCache store;
 };
 
-std::vector<Wish> distances(const std::vector<double>& rooms) {
-    std::vector<Wish> wishes;
+std::vector<LoadPriority> distances(const std::vector<double>& rooms) {
+    std::vector<LoadPriority> wishes;
     for (const double room : rooms) wishes.push_back({room, 1, 0.5});
     return wishes;
 }
 
-TEST(ObjectStore, ReadsTheMostWantedFirstAndEachOnce) {
+TEST(ObjectCache, ReadsTheMostWantedFirstAndEachOnce) {
     StoreVisitor visitor(5, room_for(5));
-    visitor.store.want({{4, 1}, {Wish::kHere, 7}, {2, 9}, {Wish::kHere, 3}, {Wish::kAlways, 50}});
+    visitor.store.want(
+        {{4, 1}, {LoadPriority::kHere, 7}, {2, 9}, {LoadPriority::kHere, 3}, {LoadPriority::kAlways, 50}});
     visitor.settle();
     EXPECT_THAT(visitor.log->names(), ElementsAre("e", "d", "b", "c", "a"));
     EXPECT_EQ(visitor.store.statistics().loads, 5);
     EXPECT_GT(visitor.store.load_seconds(0), 0);
-    visitor.store.want({{4, 2}, {Wish::kHere, 7}, {2, 9}, {Wish::kHere, 3}, {Wish::kAlways, 50}});
+    visitor.store.want(
+        {{4, 2}, {LoadPriority::kHere, 7}, {2, 9}, {LoadPriority::kHere, 3}, {LoadPriority::kAlways, 50}});
     visitor.settle();
     EXPECT_EQ(visitor.store.statistics().loads, 5);
 }
 
-TEST(ObjectStore, NothingIsReadBeforeItIsWanted) {
+TEST(ObjectCache, NothingIsReadBeforeItIsWanted) {
     // One thread reads, in the order in which it begins: what was read too early would stand first.
     for (int trial = 0; trial < 50; ++trial) {
         StoreVisitor visitor(3, room_for(1));
@@ -117,7 +119,7 @@ TEST(ObjectStore, NothingIsReadBeforeItIsWanted) {
     }
 }
 
-TEST(ObjectStore, TheFarthestMakesRoom) {
+TEST(ObjectCache, TheFarthestMakesRoom) {
     StoreVisitor visitor(4, room_for(2));
     visitor.store.want(distances({0, 4, 8, 12}));
     visitor.settle();
@@ -128,7 +130,7 @@ TEST(ObjectStore, TheFarthestMakesRoom) {
     EXPECT_EQ(visitor.store.statistics().evictions, 1);
 }
 
-TEST(ObjectStore, NearlyAsFarMakesNoRoom) {
+TEST(ObjectCache, NearlyAsFarMakesNoRoom) {
     StoreVisitor visitor(3, room_for(0));  // one
     visitor.store.want(distances({5, 5.2, 5.1}));
     visitor.settle();
@@ -144,7 +146,7 @@ TEST(ObjectStore, NearlyAsFarMakesNoRoom) {
     EXPECT_THAT(visitor.held(), ElementsAre(1));
 }
 
-TEST(ObjectStore, TheBudgetHoldsWhateverIsWanted) {
+TEST(ObjectCache, TheBudgetHoldsWhateverIsWanted) {
     constexpr int kFiles = 14;
     test::SlowSourceOptions options;
     options.reading = std::chrono::microseconds(200);
@@ -153,10 +155,10 @@ TEST(ObjectStore, TheBudgetHoldsWhateverIsWanted) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> distance(0, 20);
     for (int n = 0; n < 120; ++n) {
-        std::vector<Wish> wishes;
+        std::vector<LoadPriority> wishes;
         for (int i = 0; i < kFiles; ++i) {
             const double room = std::floor(distance(random));
-            wishes.push_back({room < 2 ? Wish::kHere : room, distance(random), 0.5});
+            wishes.push_back({room < 2 ? LoadPriority::kHere : room, distance(random), 0.5});
         }
         visitor.store.want(std::move(wishes));
         for (int m = 0; m < n % 7; ++m) {
@@ -174,7 +176,7 @@ TEST(ObjectStore, TheBudgetHoldsWhateverIsWanted) {
     EXPECT_GT(visitor.log->most_alive_bytes, 5 * SlowSource::object_bytes()) << "it is used, too";
 }
 
-TEST(ObjectStore, MemoryIsFreeOnlyWhenNobodyUsesTheObject) {
+TEST(ObjectCache, MemoryIsFreeOnlyWhenNobodyUsesTheObject) {
     StoreVisitor visitor(2, room_for(0));
     visitor.store.want(distances({1, 20}));
     visitor.settle();
@@ -188,7 +190,7 @@ TEST(ObjectStore, MemoryIsFreeOnlyWhenNobodyUsesTheObject) {
     EXPECT_EQ(visitor.store.statistics().used_bytes, still_used->memory_bytes());
 }
 
-TEST(ObjectStore, FailuresAreToldOnceAndTheRestGoesOn) {
+TEST(ObjectCache, FailuresAreToldOnceAndTheRestGoesOn) {
     test::SlowSourceOptions options;
     options.broken = {"b"};
     options.gone = {"a"};
@@ -205,7 +207,7 @@ TEST(ObjectStore, FailuresAreToldOnceAndTheRestGoesOn) {
     EXPECT_EQ(visitor.store.statistics().failures, 3);
 }
 
-TEST(ObjectStore, MayBeDestroyedWhileItReads) {
+TEST(ObjectCache, MayBeDestroyedWhileItReads) {
     for (int n = 0; n < 20; ++n) {
         test::SlowSourceOptions options;
         options.reading = std::chrono::milliseconds(3);
@@ -216,7 +218,7 @@ TEST(ObjectStore, MayBeDestroyedWhileItReads) {
     }
 }
 
-TEST(ObjectStore, ObjectsOutliveIt) {
+TEST(ObjectCache, ObjectsOutliveIt) {
     std::shared_ptr<const ViewableObject> kept;
     auto log = std::make_shared<test::SourceLog>();
     {
@@ -232,8 +234,8 @@ TEST(ObjectStore, ObjectsOutliveIt) {
     EXPECT_EQ(log->alive_bytes, 0);
 }
 
-TEST(MemoryLedger, GivesNoMoreThanItHas) {
-    MemoryLedger ledger(100);
+TEST(MemoryBudget, GivesNoMoreThanItHas) {
+    MemoryBudget ledger(100);
     auto first = ledger.reserve(60);
     ASSERT_TRUE(first);
     EXPECT_FALSE(ledger.reserve(41));
@@ -251,16 +253,16 @@ TEST(MemoryLedger, GivesNoMoreThanItHas) {
     EXPECT_EQ(ledger.used_bytes(), 0);
 }
 
-TEST(Wish, GivesWayOnlyWhereItIsClearlyLessWanted) {
-    const Wish here{Wish::kHere, 2, 0.3};
-    EXPECT_FALSE(gives_way(here, {Wish::kHere, 2.3, 0.3}));
+TEST(LoadPriority, GivesWayOnlyWhereItIsClearlyLessWanted) {
+    const LoadPriority here{LoadPriority::kHere, 2, 0.3};
+    EXPECT_FALSE(gives_way(here, {LoadPriority::kHere, 2.3, 0.3}));
     EXPECT_FALSE(gives_way({0.2, 1, 0.3}, here)) << "at the door of the next room";
     EXPECT_TRUE(gives_way({0.4, 1, 0.3}, here));
     EXPECT_FALSE(gives_way({5, 1, 0.3}, {4, 1, 0.3}));
     EXPECT_TRUE(gives_way({6, 1, 0.3}, {4, 1, 0.3}));
     EXPECT_FALSE(gives_way({4, 1, 0.3}, {6, 1, 0.3}));
-    EXPECT_TRUE(gives_way({Wish::kHere, 9, 0.3}, {Wish::kHere, 2, 0.3}));
-    EXPECT_FALSE(gives_way({Wish::kAlways, 90, 0.3}, here));
+    EXPECT_TRUE(gives_way({LoadPriority::kHere, 9, 0.3}, {LoadPriority::kHere, 2, 0.3}));
+    EXPECT_FALSE(gives_way({LoadPriority::kAlways, 90, 0.3}, here));
     EXPECT_FALSE(gives_way({6, 1, 0.3, 0.2}, here)) << "just left, in a hurry";
 }
 

@@ -1,11 +1,12 @@
-#include "engine/model/blocks/parallel/view_fan.hpp"
+#include "engine/model/blocks/parallel/view_dispatcher.hpp"
 
 #include <algorithm>
 
 namespace rs::engine::model {
 
-ViewFan::ViewFan(const RegisterFile& registers, Fifo<ViewJob>& in, std::vector<FanPort> pipes, Fifo<Done>& view_written)
-    : Block("view_fan", "a view's start and a view's end per cycle"),
+ViewDispatcher::ViewDispatcher(const RegisterFile& registers, Fifo<ViewJob>& in, std::vector<FanPort> pipes,
+                               Fifo<Done>& view_written)
+    : Block("view_dispatcher", "a view's start and a view's end per cycle"),
       registers_(registers),
       in_(reads(in)),
       pipes_(std::move(pipes)),
@@ -20,7 +21,7 @@ ViewFan::ViewFan(const RegisterFile& registers, Fifo<ViewJob>& in, std::vector<F
     }
 }
 
-bool ViewFan::begin_view() {
+bool ViewDispatcher::begin_view() {
     if (!in_.can_pop()) return false;
     const bool room = std::all_of(pipes_.begin(), pipes_.end(), [](const FanPort& pipe) {
         return pipe.columns->can_push() && pipe.pixels->can_push() && pipe.books->can_push();
@@ -40,7 +41,7 @@ bool ViewFan::begin_view() {
     return true;
 }
 
-bool ViewFan::end_view() {
+bool ViewDispatcher::end_view() {
     if (views_.empty() || !view_written_.can_push()) return false;
     for (std::size_t n = 0; n < pipes_.size(); ++n) {
         if (written_[n] < views_.front()[n]) return false;
@@ -50,7 +51,7 @@ bool ViewFan::end_view() {
     return true;
 }
 
-Activity ViewFan::tick(std::uint64_t) {
+Activity ViewDispatcher::tick(std::uint64_t) {
     bool busy = end_view();
     for (std::size_t n = 0; n < pipes_.size(); ++n) {
         if (!pipes_[n].written->can_pop()) continue;

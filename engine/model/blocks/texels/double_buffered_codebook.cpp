@@ -1,12 +1,14 @@
-#include "engine/model/blocks/texels/twin_lookup.hpp"
+#include "engine/model/blocks/texels/double_buffered_codebook.hpp"
 
 namespace rs::engine::model {
 
-TwinLookup::TwinLookup(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<Done>& view_done, Fifo<CodedPixel>& in,
-                       Fifo<MemoryRead>& requests, Fifo<MemoryWord>& words, Fifo<YuvaPixel>& out)
-    : Block("twin_lookup", "latency " + std::to_string(kStages + 1) +
-                               ", a pixel per cycle, one more for each prediction but the first; beside it a word of "
-                               "the next books per cycle"),
+DoubleBufferedCodebook::DoubleBufferedCodebook(const RegisterFile& registers, Fifo<ViewJob>& jobs,
+                                               Fifo<Done>& view_done, Fifo<CodedPixel>& in, Fifo<MemoryRead>& requests,
+                                               Fifo<MemoryWord>& words, Fifo<YuvaPixel>& out)
+    : Block("double_buffered_codebook",
+            "latency " + std::to_string(kStages + 1) +
+                ", a pixel per cycle, one more for each prediction but the first; beside it a word of "
+                "the next books per cycle"),
       registers_(registers),
       jobs_(reads(jobs)),
       view_done_(reads(view_done)),
@@ -16,7 +18,7 @@ TwinLookup::TwinLookup(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<
       out_(writes(out)) {}
 
 // Sees to it that the next view's books are there, or come.
-bool TwinLookup::next_view() {
+bool DoubleBufferedCodebook::next_view() {
     if (!jobs_.can_pop()) return false;
     const ObjectRegisters& object = registers_.object_of(jobs_.front().view);
     if (object.coded) {
@@ -38,7 +40,7 @@ bool TwinLookup::next_view() {
     return true;
 }
 
-bool TwinLookup::load() {
+bool DoubleBufferedCodebook::load() {
     bool moved = false;
     if (asked_ < object_.book_words && requests_.can_push()) {
         requests_.push({object_.books + asked_++, false});
@@ -61,7 +63,7 @@ bool TwinLookup::load() {
     return moved;
 }
 
-Activity TwinLookup::look_up() {
+Activity DoubleBufferedCodebook::look_up() {
     if (line_.leaves() && !out_.can_push()) return Activity::output_full;  // the whole pipe stands
     if (line_.leaves()) out_.push(line_.leaving());
     if (!in_.can_pop()) {
@@ -87,7 +89,7 @@ Activity TwinLookup::look_up() {
     return Activity::busy;
 }
 
-Activity TwinLookup::tick(std::uint64_t) {
+Activity DoubleBufferedCodebook::tick(std::uint64_t) {
     if (view_done_.can_pop()) {
         view_done_.pop();
         ++views_done_;

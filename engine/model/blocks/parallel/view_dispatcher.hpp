@@ -1,7 +1,7 @@
 #pragma once
-// View fan: tells all pipes that have a share of a view to begin it (its columns, its pixels, its books), and says that
-// a view is written when all of them have written theirs. Pipes go through the views of a rendering cycle each at its
-// own pace.
+// View dispatcher: tells all pipes that have a share of a view to begin it (its columns, its pixels, its books), and
+// says that a view is written when all of them have written theirs. Pipes go through the views of a rendering cycle
+// each at its own pace.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"
@@ -20,9 +20,10 @@ struct FanPort {
     Fifo<Done>* written = nullptr;
 };
 
-class ViewFan final : public Block {
+class ViewDispatcher final : public Block {
 public:
-    ViewFan(const RegisterFile& registers, Fifo<ViewJob>& in, std::vector<FanPort> pipes, Fifo<Done>& view_written);
+    ViewDispatcher(const RegisterFile& registers, Fifo<ViewJob>& in, std::vector<FanPort> pipes,
+                   Fifo<Done>& view_written);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "views " + std::to_string(views_.size()); }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Load fan: the words of the private bus go to all memory channels, which hold the same objects. An object is loaded
-// when it is in all of them.
+// Load broadcast: the words of the private bus go to all memory channels, which hold the same objects. An object is
+// loaded when it is in all of them.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"
@@ -14,9 +14,9 @@ struct LoadPort {
     Fifo<Done>* loaded = nullptr;
 };
 
-class LoadFan final : public Block {
+class LoadBroadcast final : public Block {
 public:
-    LoadFan(Fifo<MemoryWrite>& in, std::vector<LoadPort> channels, Fifo<Done>& loaded);
+    LoadBroadcast(Fifo<MemoryWrite>& in, std::vector<LoadPort> channels, Fifo<Done>& loaded);
     Activity tick(std::uint64_t now) override;
 
 private:

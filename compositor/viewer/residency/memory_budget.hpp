@@ -21,7 +21,7 @@ public:
     void shrink(std::int64_t bytes);
 
 private:
-    friend class MemoryLedger;
+    friend class MemoryBudget;
     struct Account;
     MemoryLease(std::shared_ptr<Account> account, std::int64_t bytes);
     std::shared_ptr<Account> account_;
@@ -29,9 +29,9 @@ private:
 };
 
 // Leases may outlive it.
-class MemoryLedger {
+class MemoryBudget {
 public:
-    explicit MemoryLedger(std::int64_t budget_bytes);
+    explicit MemoryBudget(std::int64_t budget_bytes);
 
     // Nothing where the budget would be exceeded.
     [[nodiscard]] std::optional<MemoryLease> reserve(std::int64_t bytes);

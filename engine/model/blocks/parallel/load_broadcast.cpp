@@ -1,11 +1,11 @@
-#include "engine/model/blocks/parallel/load_fan.hpp"
+#include "engine/model/blocks/parallel/load_broadcast.hpp"
 
 #include <algorithm>
 
 namespace rs::engine::model {
 
-LoadFan::LoadFan(Fifo<MemoryWrite>& in, std::vector<LoadPort> channels, Fifo<Done>& loaded)
-    : Block("load_fan", "a word per cycle, to all channels"),
+LoadBroadcast::LoadBroadcast(Fifo<MemoryWrite>& in, std::vector<LoadPort> channels, Fifo<Done>& loaded)
+    : Block("load_broadcast", "a word per cycle, to all channels"),
       in_(reads(in)),
       channels_(std::move(channels)),
       loaded_(writes(loaded)) {
@@ -15,7 +15,7 @@ LoadFan::LoadFan(Fifo<MemoryWrite>& in, std::vector<LoadPort> channels, Fifo<Don
     }
 }
 
-Activity LoadFan::tick(std::uint64_t) {
+Activity LoadBroadcast::tick(std::uint64_t) {
     bool busy = false;
     const auto all = [&](auto&& holds) { return std::all_of(channels_.begin(), channels_.end(), holds); };
     if (loaded_.can_push() && all([](const LoadPort& c) { return c.loaded->can_pop(); })) {

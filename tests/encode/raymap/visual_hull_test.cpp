@@ -2,8 +2,9 @@
 
 #include "encode/raymap/visual_hull.hpp"
 
+#include "encode/raymap/semi_global.hpp"
 #include "encode/raymap/shape_lines.hpp"
-#include "tests/encode/drawn_views.hpp"
+#include "tests/encode/raymap/drawn_views.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "compositor/viewer/residency/memory_ledger.hpp"
+#include "compositor/viewer/residency/memory_budget.hpp"
 
 #include "rayspace/base/check.hpp"
 
@@ -44,10 +44,10 @@ void MemoryLease::shrink(std::int64_t bytes) {
     bytes_ = bytes;
 }
 
-MemoryLedger::MemoryLedger(std::int64_t budget_bytes)
+MemoryBudget::MemoryBudget(std::int64_t budget_bytes)
     : budget_bytes_(budget_bytes), account_(std::make_shared<MemoryLease::Account>()) {}
 
-std::optional<MemoryLease> MemoryLedger::reserve(std::int64_t bytes) {
+std::optional<MemoryLease> MemoryBudget::reserve(std::int64_t bytes) {
     RS_CHECK(bytes >= 0);
     const std::lock_guard lock(account_->mutex);
     if (bytes > budget_bytes_ - account_->used) return std::nullopt;
@@ -56,12 +56,12 @@ std::optional<MemoryLease> MemoryLedger::reserve(std::int64_t bytes) {
     return MemoryLease(account_, bytes);
 }
 
-std::int64_t MemoryLedger::used_bytes() const {
+std::int64_t MemoryBudget::used_bytes() const {
     const std::lock_guard lock(account_->mutex);
     return account_->used;
 }
 
-std::int64_t MemoryLedger::peak_bytes() const {
+std::int64_t MemoryBudget::peak_bytes() const {
     const std::lock_guard lock(account_->mutex);
     return account_->peak;
 }

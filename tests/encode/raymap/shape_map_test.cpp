@@ -9,7 +9,7 @@
 #include "engine/core/views/compare.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/object_file.hpp"
-#include "tests/encode/drawn_views.hpp"
+#include "tests/encode/raymap/drawn_views.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/temporary_folder.hpp"
 
