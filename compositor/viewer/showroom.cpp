@@ -27,7 +27,7 @@ Showroom::Showroom(const Scene& scene, const ShowroomOptions& options, std::uniq
       engine_(std::make_shared<engine::DataModule>(limits_of_viewer(), std::move(board))),
       nodes_(std::make_shared<ShownNodes>(scene.objects.size())),
       handles_(plan_.files().size()),
-      store_(plan_.files(), source ? std::move(source) : object_files(engine_, !options.waits), options.memory_bytes) {
+      cache_(plan_.files(), source ? std::move(source) : object_files(engine_, !options.waits), options.memory_bytes) {
     for (const RaySpaceNode& node : scene.objects) scene_nodes_.push_back({node, std::nullopt, false});
 }
 
@@ -43,7 +43,7 @@ Placeholder Showroom::placeholder_of(std::size_t node) const {
         placeholder.top -= placeholder.bottom;
         placeholder.bottom = 0;
     }
-    placeholder.progress = store_.progress(plan_.file_of_node(node));
+    placeholder.progress = cache_.progress(plan_.file_of_node(node));
     return placeholder;
 }
 
@@ -69,7 +69,7 @@ void Showroom::leave(StoreEvent event) {
         (*nodes_)[i].handle = {};
     }
     static_cast<void>(engine_->evict(std::exchange(handles_[event.file], {})));
-    store_.give_back(std::move(event.object));
+    cache_.give_back(std::move(event.object));
 }
 
 Status Showroom::fail(const StoreEvent& event) {
@@ -83,7 +83,7 @@ Status Showroom::fail(const StoreEvent& event) {
 }
 
 Status Showroom::take_events() {
-    for (StoreEvent& event : store_.events()) {
+    for (StoreEvent& event : cache_.events()) {
         Status status;
         if (event.kind == StoreEvent::Kind::kArrived)
             status = arrive(event);
@@ -97,27 +97,27 @@ Status Showroom::take_events() {
 }
 
 Status Showroom::wait() {
-    while (!store_.settled()) {
-        store_.wait_for_events();
+    while (!cache_.settled()) {
+        cache_.wait_for_events();
         if (Status status = take_events(); !status) return status;
     }
     return {};
 }
 
 Status Showroom::wait_for_all(const glm::dvec3& eye) {
-    store_.want(plan_.wishes({eye, eye}));
+    cache_.want(plan_.priorities({eye, eye}));
     return wait();
 }
 
 // What a visitor at `eye` wants most, as many as boards hold.
 void Showroom::load_on_board(const glm::dvec3& eye) {
     if (!engine_->has_board()) return;
-    const std::vector<LoadPriority> wishes = plan_.wishes({eye, eye});
+    const std::vector<LoadPriority> priorities = plan_.priorities({eye, eye});
     std::vector<std::size_t> files;
     for (std::size_t file = 0; file < handles_.size(); ++file) {
         if (handles_[file].number != 0) files.push_back(file);
     }
-    std::stable_sort(files.begin(), files.end(), [&](auto a, auto b) { return wishes[a] < wishes[b]; });
+    std::stable_sort(files.begin(), files.end(), [&](auto a, auto b) { return priorities[a] < priorities[b]; });
     files.resize(std::min(files.size(), kObjectsOfBoard));
     std::vector<engine::ObjectHandle> wanted;
     for (const std::size_t file : files) wanted.push_back(handles_[file]);
@@ -145,10 +145,10 @@ Status Showroom::update(const glm::dvec3& eye, double seconds, const std::option
     eye_ = eye;
     const glm::dvec3 soon = destination.value_or(eye + velocity_ * kAhead_s);
     if (waits_) {
-        store_.want(plan_.wishes({eye, eye}));
-        wishes_heard_ = true;
+        cache_.want(plan_.priorities({eye, eye}));
+        priorities_heard_ = true;
     } else {
-        wishes_heard_ = store_.try_want(plan_.wishes({eye, soon}));
+        priorities_heard_ = cache_.try_want(plan_.priorities({eye, soon}));
     }
     Status status = waits_ ? wait() : take_events();
     if (waits_) load_on_board(eye);
@@ -158,7 +158,7 @@ Status Showroom::update(const glm::dvec3& eye, double seconds, const std::option
 
 std::string Showroom::absence(std::size_t node) const {
     if (scene_nodes_[node].failed) return "cannot be shown";
-    const float progress = store_.progress(plan_.file_of_node(node));
+    const float progress = cache_.progress(plan_.file_of_node(node));
     return progress > 0 ? "being read" : "not in memory";
 }
 

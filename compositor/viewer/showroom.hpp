@@ -55,10 +55,10 @@ public:
     // Of objects that cannot be shown, each told once.
     std::vector<std::string> take_warnings();
     // True where nothing will come or go while the visitor stays.
-    [[nodiscard]] bool settled() const { return wishes_heard_ && store_.settled(); }
-    [[nodiscard]] StoreStatistics statistics() const { return store_.statistics(); }
+    [[nodiscard]] bool settled() const { return priorities_heard_ && cache_.settled(); }
+    [[nodiscard]] StoreStatistics statistics() const { return cache_.statistics(); }
     // Seconds that reading the object of a node took; 0 before it was.
-    [[nodiscard]] double load_seconds(std::size_t node) const { return store_.load_seconds(plan_.file_of_node(node)); }
+    [[nodiscard]] double load_seconds(std::size_t node) const { return cache_.load_seconds(plan_.file_of_node(node)); }
 
 private:
     Status take_events();
@@ -84,8 +84,8 @@ private:
     std::vector<std::string> warnings_;
     std::optional<glm::dvec3> eye_;  // in the last frame
     glm::dvec3 velocity_{0};         // scene units a second
-    bool wishes_heard_ = false;      // by the store, those of the last frame
-    ObjectCache store_;
+    bool priorities_heard_ = false;  // by the cache, those of the last frame
+    ObjectCache cache_;
 };
 
 }  // namespace rs::compositor

@@ -41,10 +41,10 @@ TEST(RoomPlan, TheVisitorsRoomComesFirstThenTheOnesAhead) {
     const RoomPlan plan(scene);
     ASSERT_EQ(plan.files().size(), scene.objects.size());
     const auto room_wish = [&](const glm::dvec3& eye, const glm::dvec3& soon, std::size_t room) {
-        return plan.wishes({eye, soon})[room * test::kObjectsInRoom + 1];
+        return plan.priorities({eye, soon})[room * test::kObjectsInRoom + 1];
     };
     const glm::dvec3 eye(0, 1.5, -2.5 * test::kRoomSide);
-    EXPECT_EQ(plan.wishes({eye, eye})[0].room, LoadPriority::kAlways);
+    EXPECT_EQ(plan.priorities({eye, eye})[0].room, LoadPriority::kAlways);
     EXPECT_EQ(room_wish(eye, eye, 2).room, LoadPriority::kHere);
     EXPECT_NEAR(room_wish(eye, eye, 1).room, test::kRoomSide / 2, 1e-9);
     EXPECT_NEAR(room_wish(eye, eye, 3).room, test::kRoomSide / 2, 1e-9);
@@ -58,7 +58,8 @@ TEST(RoomPlan, AFileOfSeveralNodesIsWantedByTheNearest) {
     const Scene scene = test::six_rooms([](int, int number) { return name_of_file(0, number); });
     const RoomPlan plan(scene);
     ASSERT_EQ(plan.files().size(), static_cast<std::size_t>(test::kObjectsInRoom));
-    for (const LoadPriority& wish : plan.wishes({{0, 1, -20}, {0, 1, -20}})) EXPECT_EQ(wish.room, LoadPriority::kHere);
+    for (const LoadPriority& priority : plan.priorities({{0, 1, -20}, {0, 1, -20}}))
+        EXPECT_EQ(priority.room, LoadPriority::kHere);
 }
 
 class Walk : public ::testing::Test {

@@ -1,6 +1,6 @@
 #pragma once
 // Objects for tests of what is in memory when: small drums, of which the test says what they take and how long reading
-// them lasts, and that are counted independently of any ledger.
+// them lasts, and that are counted independently of any budget.
 
 #include "compositor/viewer/residency/object_source.hpp"
 #include "tests/compositor/objects.hpp"
@@ -17,7 +17,7 @@
 
 namespace rs::test {
 
-// What happens to the source, which belongs to a store, and to its objects, which belong to nobody.
+// What happens to the source, which belongs to a cache, and to its objects, which belong to nobody.
 struct SourceLog {
     std::mutex mutex;
     std::vector<std::string> read;  // names, in order

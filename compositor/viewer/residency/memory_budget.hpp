@@ -8,7 +8,7 @@
 
 namespace rs::compositor {
 
-// Bytes taken from a ledger until it is destroyed. Move-only; empty after a move.
+// Bytes taken from a budget until it is destroyed. Move-only; empty after a move.
 class MemoryLease {
 public:
     MemoryLease() = default;

@@ -49,18 +49,18 @@ struct File {
 
 struct ObjectCache::State {
     State(std::vector<std::filesystem::path> paths, std::unique_ptr<ObjectSource> its_source, std::int64_t budget)
-        : files(paths.size()), source(std::move(its_source)), ledger(budget) {
+        : files(paths.size()), source(std::move(its_source)), memory(budget) {
         for (std::size_t i = 0; i < paths.size(); ++i) files[i].path = std::move(paths[i]);
     }
 
     std::vector<File> files;
-    std::unique_ptr<ObjectSource> source;  // of the store's thread
-    MemoryBudget ledger;
+    std::unique_ptr<ObjectSource> source;  // of the cache's thread
+    MemoryBudget memory;
 
     mutable std::mutex mutex;  // of what follows and the files, progress excepted
     std::condition_variable for_thread;
     std::condition_variable for_user;
-    std::vector<LoadPriority> wishes;  // [file]; empty before the first
+    std::vector<LoadPriority> priorities;  // [file]; empty before the first
     std::vector<StoreEvent> events;
     std::vector<std::shared_ptr<const ViewableObject>> given_back;
     StoreStatistics statistics;
@@ -68,10 +68,10 @@ struct ObjectCache::State {
     bool stopping = false;
     std::thread thread;
 
-    void set_wishes(std::vector<LoadPriority> changed) {
+    void set_priorities(std::vector<LoadPriority> changed) {
         RS_CHECK(changed.size() == files.size());
-        if (changed == wishes) return;
-        wishes = std::move(changed);
+        if (changed == priorities) return;
+        priorities = std::move(changed);
         idle = false;
         for_thread.notify_all();
     }
@@ -89,7 +89,7 @@ struct ObjectCache::State {
         for (std::size_t i = 0; i < files.size(); ++i) {
             if (files[i].stage == stage) found.push_back(i);
         }
-        std::stable_sort(found.begin(), found.end(), [&](auto a, auto b) { return wishes[a] < wishes[b]; });
+        std::stable_sort(found.begin(), found.end(), [&](auto a, auto b) { return priorities[a] < priorities[b]; });
         return found;
     }
 
@@ -99,9 +99,9 @@ struct ObjectCache::State {
         const Result<std::int64_t> bytes = source->most_bytes(path);
         lock.lock();
         if (!bytes) return fail(file, bytes.error().message);
-        if (*bytes > ledger.budget_bytes()) {
+        if (*bytes > memory.budget_bytes()) {
             return fail(file, path.string() + ": needs " + mebibytes(*bytes) +
-                                  " of memory to be read, more than the budget of " + mebibytes(ledger.budget_bytes()) +
+                                  " of memory to be read, more than the budget of " + mebibytes(memory.budget_bytes()) +
                                   " (--memory)");
         }
         files[file].most_bytes = *bytes;
@@ -145,7 +145,7 @@ struct ObjectCache::State {
     // Asks for the least wanted to be let go, until there will be `bytes`; nobody is asked where that cannot be reached
     // with those that give way. True where somebody is leaving.
     bool make_room(std::size_t wanted, std::int64_t bytes) {
-        std::int64_t free = ledger.budget_bytes() - ledger.used_bytes();
+        std::int64_t free = memory.budget_bytes() - memory.used_bytes();
         std::vector<std::size_t> held;
         bool leaving = false;
         for (std::size_t i = 0; i < files.size(); ++i) {
@@ -153,10 +153,10 @@ struct ObjectCache::State {
                 leaving = true;
                 if (files[i].object) free += files[i].object->lease.bytes();
             }
-            if (files[i].stage == Stage::kHere && gives_way(wishes[i], wishes[wanted])) held.push_back(i);
+            if (files[i].stage == Stage::kHere && gives_way(priorities[i], priorities[wanted])) held.push_back(i);
         }
         if (leaving && free >= bytes) return true;
-        std::stable_sort(held.begin(), held.end(), [&](auto a, auto b) { return wishes[a] > wishes[b]; });
+        std::stable_sort(held.begin(), held.end(), [&](auto a, auto b) { return priorities[a] > priorities[b]; });
         std::size_t count = 0;
         while (free < bytes && count < held.size()) free += files[held[count++]].object->lease.bytes();
         if (free < bytes) return leaving;
@@ -208,7 +208,7 @@ struct ObjectCache::State {
             free_given_back(lock);
             return true;
         }
-        if (wishes.empty()) return false;
+        if (priorities.empty()) return false;
         if (const auto unmeasured = by_wish(Stage::kUnmeasured); !unmeasured.empty()) {
             measure(lock, unmeasured.front());
             return true;
@@ -216,7 +216,7 @@ struct ObjectCache::State {
         bool waits = false;
         for (const std::size_t next : by_wish(Stage::kAway)) {
             const std::int64_t bytes = files[next].most_bytes;
-            if (auto lease = ledger.reserve(bytes)) {
+            if (auto lease = memory.reserve(bytes)) {
                 load(lock, next, std::move(*lease));
                 return true;
             }
@@ -241,7 +241,7 @@ struct ObjectCache::State {
     [[nodiscard]] bool somebody_still_uses_memory() const {
         std::int64_t held = 0;
         for (const File& file : files) held += file.object ? file.object->lease.bytes() : 0;
-        return ledger.used_bytes() > held;
+        return memory.used_bytes() > held;
     }
 };
 
@@ -261,15 +261,15 @@ ObjectCache::~ObjectCache() {
     state_->thread.join();
 }
 
-void ObjectCache::want(std::vector<LoadPriority> wishes) {
+void ObjectCache::want(std::vector<LoadPriority> priorities) {
     const std::lock_guard lock(state_->mutex);
-    state_->set_wishes(std::move(wishes));
+    state_->set_priorities(std::move(priorities));
 }
 
-bool ObjectCache::try_want(std::vector<LoadPriority> wishes) {
+bool ObjectCache::try_want(std::vector<LoadPriority> priorities) {
     const std::unique_lock lock(state_->mutex, std::try_to_lock);
     if (!lock) return false;
-    state_->set_wishes(std::move(wishes));
+    state_->set_priorities(std::move(priorities));
     return true;
 }
 
@@ -308,8 +308,8 @@ void ObjectCache::wait_for_events() {
 StoreStatistics ObjectCache::statistics() const {
     const std::lock_guard lock(state_->mutex);
     StoreStatistics statistics = state_->statistics;
-    statistics.used_bytes = state_->ledger.used_bytes();
-    statistics.peak_bytes = state_->ledger.peak_bytes();
+    statistics.used_bytes = state_->memory.used_bytes();
+    statistics.peak_bytes = state_->memory.peak_bytes();
     return statistics;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
-// Which of a scene's objects are in memory. A thread of the store reads them, the most wanted first, and never more
+// Which of a scene's objects are in memory. A thread of the cache reads them, the most wanted first, and never more
 // than the budget holds: before it reads an object it takes what that needs at most from the budget, and where that is
 // not free it first has the least wanted ones let go.
 //
-// An object that is there leaves only for one that is wanted clearly more (wish.hpp). One whose memory cannot be had is
-// passed over, for as long as that is so.
+// An object that is there leaves only for one that is wanted clearly more (load_priority.hpp). One whose memory cannot
+// be had is passed over, for as long as that is so.
 //
 // Thread-safety: everything is called from one thread, the frames', and never waits for a file, but wait_for_events().
 
@@ -53,12 +53,12 @@ public:
     ObjectCache& operator=(const ObjectCache&) = delete;
 
     // [file], from now on. Nothing is read before the first call.
-    void want(std::vector<LoadPriority> wishes);
-    // The same for a frame, which is not to wait even for the blink of an eye that the store's thread, of low priority,
+    void want(std::vector<LoadPriority> priorities);
+    // The same for a frame, which is not to wait even for the blink of an eye that the cache's thread, of low priority,
     // may be held up in: false, and nothing is changed, where it is busy. To be said again with the next frame.
-    bool try_want(std::vector<LoadPriority> wishes);
+    bool try_want(std::vector<LoadPriority> priorities);
 
-    // What has happened since the last call; may come with a later one while the store is busy.
+    // What has happened since the last call; may come with a later one while the cache is busy.
     std::vector<StoreEvent> events();
     // The answer to kLeaves: nobody uses the object any more.
     void give_back(std::shared_ptr<const ViewableObject> object);
@@ -67,7 +67,7 @@ public:
     [[nodiscard]] float progress(std::size_t file) const;
     // Seconds that the last reading of the file took; 0 before.
     [[nodiscard]] double load_seconds(std::size_t file) const;
-    // True where nothing more will happen under the present wishes: what is wanted most is there, and events are
+    // True where nothing more will happen under the present priorities: what is wanted most is there, and events are
     // fetched.
     [[nodiscard]] bool settled() const;
     // Waits until there are events or it has settled.

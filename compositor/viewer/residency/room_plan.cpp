@@ -34,23 +34,23 @@ RoomPlan::RoomPlan(const Scene& scene) {
     }
 }
 
-std::vector<LoadPriority> RoomPlan::wishes(const VisitorPlace& visitor) const {
-    std::vector<LoadPriority> wishes(files_.size());
+std::vector<LoadPriority> RoomPlan::priorities(const VisitorPlace& visitor) const {
+    std::vector<LoadPriority> priorities(files_.size());
     std::vector<bool> wished(files_.size());
     for (const Node& node : nodes_) {
-        LoadPriority wish;
-        wish.distance = glm::distance(node.middle, visitor.eye);
-        wish.door = door_;
+        LoadPriority priority;
+        priority.distance = glm::distance(node.middle, visitor.eye);
+        priority.door = door_;
         if (node.room && !rooms_[*node.room].box.empty()) {
             const Place& room = rooms_[*node.room];
-            wish.door = room.door;
-            wish.room_now = distance_to(room.box, visitor.eye);
-            wish.room = wish.room_now > 0 ? distance_to(room.box, visitor.soon) : LoadPriority::kHere;
+            priority.door = room.door;
+            priority.room_now = distance_to(room.box, visitor.eye);
+            priority.room = priority.room_now > 0 ? distance_to(room.box, visitor.soon) : LoadPriority::kHere;
         }
-        if (!wished[node.file] || wish < wishes[node.file]) wishes[node.file] = wish;
+        if (!wished[node.file] || priority < priorities[node.file]) priorities[node.file] = priority;
         wished[node.file] = true;
     }
-    return wishes;
+    return priorities;
 }
 
 }  // namespace rs::compositor

@@ -31,7 +31,7 @@ public:
     [[nodiscard]] std::size_t file_of_node(std::size_t node) const { return nodes_[node].file; }
 
     // [file]
-    [[nodiscard]] std::vector<LoadPriority> wishes(const VisitorPlace& visitor) const;
+    [[nodiscard]] std::vector<LoadPriority> priorities(const VisitorPlace& visitor) const;
 
 private:
     struct Node {

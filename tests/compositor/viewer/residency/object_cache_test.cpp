@@ -89,9 +89,9 @@ public:
 };
 
 std::vector<LoadPriority> distances(const std::vector<double>& rooms) {
-    std::vector<LoadPriority> wishes;
-    for (const double room : rooms) wishes.push_back({room, 1, 0.5});
-    return wishes;
+    std::vector<LoadPriority> priorities;
+    for (const double room : rooms) priorities.push_back({room, 1, 0.5});
+    return priorities;
 }
 
 TEST(ObjectCache, ReadsTheMostWantedFirstAndEachOnce) {
@@ -155,12 +155,12 @@ TEST(ObjectCache, TheBudgetHoldsWhateverIsWanted) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> distance(0, 20);
     for (int n = 0; n < 120; ++n) {
-        std::vector<LoadPriority> wishes;
+        std::vector<LoadPriority> priorities;
         for (int i = 0; i < kFiles; ++i) {
             const double room = std::floor(distance(random));
-            wishes.push_back({room < 2 ? LoadPriority::kHere : room, distance(random), 0.5});
+            priorities.push_back({room < 2 ? LoadPriority::kHere : room, distance(random), 0.5});
         }
-        visitor.store.want(std::move(wishes));
+        visitor.store.want(std::move(priorities));
         for (int m = 0; m < n % 7; ++m) {
             std::this_thread::sleep_for(std::chrono::microseconds(300));
             visitor.listen();
@@ -235,22 +235,22 @@ TEST(ObjectCache, ObjectsOutliveIt) {
 }
 
 TEST(MemoryBudget, GivesNoMoreThanItHas) {
-    MemoryBudget ledger(100);
-    auto first = ledger.reserve(60);
+    MemoryBudget memory(100);
+    auto first = memory.reserve(60);
     ASSERT_TRUE(first);
-    EXPECT_FALSE(ledger.reserve(41));
-    auto second = ledger.reserve(40);
+    EXPECT_FALSE(memory.reserve(41));
+    auto second = memory.reserve(40);
     ASSERT_TRUE(second);
     first->shrink(10);
-    EXPECT_EQ(ledger.used_bytes(), 50);
+    EXPECT_EQ(memory.used_bytes(), 50);
     second.reset();
-    EXPECT_EQ(ledger.used_bytes(), 10);
-    EXPECT_EQ(ledger.peak_bytes(), 100);
+    EXPECT_EQ(memory.used_bytes(), 10);
+    EXPECT_EQ(memory.peak_bytes(), 100);
     MemoryLease moved = std::move(*first);
     first.reset();
-    EXPECT_EQ(ledger.used_bytes(), 10);
+    EXPECT_EQ(memory.used_bytes(), 10);
     moved = MemoryLease();
-    EXPECT_EQ(ledger.used_bytes(), 0);
+    EXPECT_EQ(memory.used_bytes(), 0);
 }
 
 TEST(LoadPriority, GivesWayOnlyWhereItIsClearlyLessWanted) {
