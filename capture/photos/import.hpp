@@ -3,7 +3,7 @@
 
 #include "capture/calibration/known/known_files.hpp"
 #include "capture/photos/background/backdrop.hpp"
-#include "capture/photos/rig/nominal_turn.hpp"
+#include "capture/photos/rig/nominal_rig.hpp"
 #include "capture/photos/rig/photo_calibration.hpp"
 #include "capture/photos/rig/rectification.hpp"
 #include "rayspace/base/progress.hpp"

@@ -13,7 +13,6 @@
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/file/write_file.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/output/view_output.hpp"
 #include "rayspace/pictures/picture_io.hpp"

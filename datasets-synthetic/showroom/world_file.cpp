@@ -3,7 +3,6 @@
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/file/write_file.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <nlohmann/json.hpp>

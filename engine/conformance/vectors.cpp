@@ -2,7 +2,6 @@
 
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/file/write_file.hpp"
 
 #include <xxhash.h>
 #include <nlohmann/json.hpp>

@@ -8,7 +8,6 @@
 #include "engine/tools/asked_views.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/file/write_file.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 #include "rayspace/output/view_output.hpp"

@@ -67,4 +67,8 @@ void remove_staged_output();
 // The whole file, refused when it is larger than `cap_bytes`.
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t cap_bytes);
 
+// Fails as StagedFile does; what stood under the name then still stands.
+Status write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+Status write_file(const std::filesystem::path& path, const std::string& text);
+
 }  // namespace rs

@@ -1,5 +1,5 @@
 // Writes the seed files of the corpus: `make_fuzz_seeds tests/fuzz/corpus`. Run it again when the format changes.
-#include "rayspace/file/write_file.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_chunks.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/fuzz/chunk_soup.hpp"

@@ -4,7 +4,7 @@
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "capture/tracer/scene/scene_file.hpp"
 #include "compositor/scene/scene_file.hpp"
-#include "rayspace/file/write_file.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "tests/hostile/mutation.hpp"

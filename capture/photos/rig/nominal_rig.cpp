@@ -1,5 +1,6 @@
 #include "capture/photos/rig/nominal_rig.hpp"
 
+#include "capture/photos/rig/turning.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <algorithm>
@@ -32,6 +33,71 @@ Rig make_nominal_rig(const NominalRigOptions& options, const TurnOutline::Box& v
         rig.views.push_back(std::move(view));
     }
     return rig;
+}
+
+namespace {
+
+constexpr double kDoubtfulSpread = 0.01;  // of the picture's width
+
+void find_axis(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn, bool closed,
+               NominalTurn& found) {
+    found.axis_x_px = folder.width / 2.0;
+    found.axis_from = "picture middle";
+    if (request.axis_x_px) {
+        found.axis_x_px = *request.axis_x_px;
+        found.axis_from = "given";
+        return;
+    }
+    const auto axis = turn.outline.axis();
+    if (!closed || !axis) {
+        found.notes.push_back(std::string("the axis cannot be found ") +
+                              (closed ? "(the object reaches the picture's sides)" : "from less than a full turn") +
+                              "; the picture's middle is taken, --axis-x PX sets it");
+        return;
+    }
+    found.axis_x_px = axis->x_px;
+    found.axis_spread_px = axis->spread_px;
+    found.axis_from = "silhouettes";
+    if (axis->spread_px > kDoubtfulSpread * folder.width) {
+        found.notes.push_back("the axis column is doubtful: the rows differ by " +
+                              std::to_string(std::lround(axis->spread_px)) +
+                              " px (camera not level, or steps uneven); --axis-x PX sets it");
+    }
+}
+
+void find_turning_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn, bool closed,
+                        NominalTurn& found) {
+    found.turning_from = "assumed";
+    if (request.turning) {
+        found.turning = *request.turning;
+        found.turning_from = "given";
+        return;
+    }
+    const double scale = static_cast<double>(turn.small.front().width()) / folder.width;
+    const TurnOutline::Box box = turn.outline.visible();
+    const double extent_px = std::max(found.axis_x_px - box.left, box.right - found.axis_x_px);
+    const TurningEvidence evidence =
+        find_turning(turn.small, found.axis_x_px * scale, extent_px * scale, radians(found.step_deg), closed);
+    if (evidence.turning) {
+        found.turning = *evidence.turning;
+        found.turning_from = "pictures";
+    } else {
+        found.notes.push_back(
+            "which way the object turns is not clear from the pictures; clockwise as seen from above is "
+            "assumed, --counter-clockwise says otherwise");
+    }
+}
+
+}  // namespace
+
+NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn) {
+    const auto views = static_cast<double>(folder.photos.size());
+    NominalTurn found;
+    found.step_deg = request.degrees_per_view.value_or(360.0 / views);
+    const bool closed = std::abs(found.step_deg * views - 360) < 1.5 * found.step_deg && views >= 4;
+    find_axis(request, folder, turn, closed, found);
+    find_turning_sense(request, folder, turn, closed, found);
+    return found;
 }
 
 }  // namespace rs::capture

@@ -12,10 +12,14 @@
 //     in px, the outermost ray is tangent to the circle of radius r about the axis: sin(atan(w / f)) = r / d, so the
 //     camera stands at d = r sqrt(w^2 + f^2) / w.
 
+#include "capture/photos/intake/photo_folder.hpp"
+#include "capture/photos/matte/cut_turn.hpp"
 #include "capture/photos/matte/outline.hpp"
 #include "rayspace/geometry/rig.hpp"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace rs::capture {
 
@@ -41,5 +45,25 @@ double distance_for_unit_radius(double extent_px, double fl_px);
 // Views without file names, object_radius 1. `visible` must not be empty and must reach to one side of the axis at
 // least.
 Rig make_nominal_rig(const NominalRigOptions& options, const TurnOutline::Box& visible);
+
+// What the cut-outs alone say about a turn that nobody calibrates: the axis' column and the sense of turning. The
+// nominal rig stands on it, and calibration begins with it.
+struct NominalTurn {
+    double step_deg = 0;
+    double axis_x_px = 0;
+    double axis_spread_px = 0;
+    std::string axis_from;  // "silhouettes", "given", "picture middle"
+    Turning turning = Turning::kClockwise;
+    std::string turning_from;        // "pictures", "given", "assumed"
+    std::vector<std::string> notes;  // of what is doubtful, one line each
+};
+
+struct NominalTurnRequest {
+    std::optional<double> degrees_per_view;
+    std::optional<double> axis_x_px;
+    std::optional<Turning> turning;
+};
+
+NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn);
 
 }  // namespace rs::capture

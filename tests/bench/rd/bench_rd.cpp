@@ -7,7 +7,7 @@
 // so that nobody is paid for empty background. Quality: PSNR over object pixels (alpha >= 128) of straight sRGB, the
 // squared error pooled over all views. rd_ratios.csv gets the rates relative to ASTC at equal PSNR.
 
-#include "rayspace/file/write_file.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/tool/tool_main.hpp"
 #include "tests/bench/rd/anchors/anchors.hpp"
 #include "tests/bench/rd/ours.hpp"

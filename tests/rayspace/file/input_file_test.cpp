@@ -2,7 +2,6 @@
 
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/file/write_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>

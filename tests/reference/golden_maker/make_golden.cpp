@@ -1,6 +1,6 @@
 // Writes the golden files: `make_golden tests/reference/golden`. A golden file changes only with a written reason: run
 // it when the format changes, and say so in tests/reference/golden/README.md.
-#include "rayspace/file/write_file.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/reference/golden_maker/golden_damage.hpp"
 #include "tests/reference/golden_maker/golden_objects.hpp"
