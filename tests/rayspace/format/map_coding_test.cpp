@@ -73,10 +73,10 @@ TEST(MapCoding, AnyBytesAreRunsAndNeverWrittenBeyondTheCells) {
         for (std::size_t i = 0; i < bytes.size(); ++i)
             bytes[i] = i % 2 == 0 ? static_cast<std::uint8_t>(random() % 3) : 0;
         const Runs found = map_coding::runs_of_residuals(bytes, rows, runs);
-        const Runs expected = decoded_from_the_document(bytes, rows, runs);
         std::size_t sum = 0;
         for (const std::uint16_t count : found.counts) sum += count;
-        ASSERT_TRUE(sum != runs || same(found, expected)) << "trial " << trial;
+        // The document says nothing of counts that do not add up, but that they are refused.
+        ASSERT_TRUE(sum != runs || same(found, decoded_from_the_document(bytes, rows, runs))) << "trial " << trial;
         constexpr int kWidth = 3;
         std::vector<std::uint16_t> cells(rows * kWidth);
         const bool ok = map_coding::put_runs(found, kWidth, cells).ok();
