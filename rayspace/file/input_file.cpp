@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <map>
@@ -114,6 +115,13 @@ Status check_keeps_inputs(const fs::path& output) {
 void note_written(const fs::path& path) {
     struct stat info {};
     if (::stat(path.c_str(), &info) == 0) note(info, path, true);
+}
+
+std::string lower_case_extension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
 }
 
 }  // namespace rs

@@ -4,6 +4,7 @@
 #include "rayspace/base/result.hpp"
 
 #include <filesystem>
+#include <string>
 
 namespace rs {
 
@@ -26,5 +27,8 @@ Status check_keeps_inputs(const std::filesystem::path& output);
 
 // `path` was written by this process.
 void note_written(const std::filesystem::path& path);
+
+// ".png" of "a/B.PNG"; empty where there is none.
+std::string lower_case_extension(const std::filesystem::path& path);
 
 }  // namespace rs

@@ -2,14 +2,15 @@
 
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/file/input_file.hpp"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
 #include <assimp/IOStream.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -50,13 +51,6 @@ private:
     std::size_t at_ = 0;
 };
 
-bool is_mtl(const char* path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".mtl";
-}
-
 // A .glb (glTF 2.0, 4.4; 1.0 has its JSON's length in the same place): Assimp allocates what a chunk's length says
 // before it looks whether the file has it.
 bool is_whole_glb(std::span<const std::byte> bytes) {
@@ -96,6 +90,33 @@ bool finite(const aiVector3D& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+void note_lines(const aiScene& model) {
+    constexpr unsigned kTypes[] = {0, aiPrimitiveType_POINT, aiPrimitiveType_LINE, aiPrimitiveType_TRIANGLE,
+                                   aiPrimitiveType_POLYGON};
+    for (unsigned m = 0; m < model.mNumMeshes; ++m) {
+        aiMesh& mesh = *model.mMeshes[m];
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+            const unsigned corners = std::min(mesh.mFaces[f].mNumIndices, 4U);
+            mesh.mPrimitiveTypes |= kTypes[corners];
+        }
+    }
+}
+
+Status check_finite(const aiScene& model, const std::string& file) {
+    for (unsigned m = 0; m < model.mNumMeshes; ++m) {
+        const aiMesh& mesh = *model.mMeshes[m];
+        const std::string of_mesh =
+            " of mesh \"" + std::string(mesh.mName.C_Str()) + "\" is not finite; repair the mesh";
+        for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+            if (!finite(mesh.mVertices[i])) return Error{file + ": vertex " + std::to_string(i) + of_mesh};
+            if (mesh.HasTextureCoords(0) && !finite(mesh.mTextureCoords[0][i])) {
+                return Error{file + ": the texture coordinate of vertex " + std::to_string(i) + of_mesh};
+            }
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 bool ModelFiles::Exists(const char* path) const {
@@ -115,7 +136,8 @@ Assimp::IOStream* ModelFiles::Open(const char* path, const char* mode) {
         refusal_ = std::string(path) + ": is a damaged .glb file; export it again";
         return nullptr;
     }
-    return new MemoryFile(is_mtl(path) ? from_first_material(std::move(*bytes)) : std::move(*bytes));
+    return new MemoryFile(lower_case_extension(path) == ".mtl" ? from_first_material(std::move(*bytes))
+                                                               : std::move(*bytes));
 }
 
 void ModelFiles::Close(Assimp::IOStream* stream) {
@@ -147,31 +169,12 @@ std::string shown_error(const char* words) {
     return printable(text);
 }
 
-void note_lines(const aiScene& model) {
-    constexpr unsigned kTypes[] = {0, aiPrimitiveType_POINT, aiPrimitiveType_LINE, aiPrimitiveType_TRIANGLE,
-                                   aiPrimitiveType_POLYGON};
-    for (unsigned m = 0; m < model.mNumMeshes; ++m) {
-        aiMesh& mesh = *model.mMeshes[m];
-        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-            const unsigned corners = std::min(mesh.mFaces[f].mNumIndices, 4U);
-            mesh.mPrimitiveTypes |= kTypes[corners];
-        }
-    }
-}
-
-Status check_finite(const aiScene& model, const std::string& file) {
-    for (unsigned m = 0; m < model.mNumMeshes; ++m) {
-        const aiMesh& mesh = *model.mMeshes[m];
-        const std::string of_mesh =
-            " of mesh \"" + std::string(mesh.mName.C_Str()) + "\" is not finite; repair the mesh";
-        for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-            if (!finite(mesh.mVertices[i])) return Error{file + ": vertex " + std::to_string(i) + of_mesh};
-            if (mesh.HasTextureCoords(0) && !finite(mesh.mTextureCoords[0][i])) {
-                return Error{file + ": the texture coordinate of vertex " + std::to_string(i) + of_mesh};
-            }
-        }
-    }
-    return {};
+Result<const aiScene*> post_processed(Assimp::Importer& importer, unsigned steps, const std::string& file) {
+    const aiScene* const model = importer.GetScene();
+    if (model == nullptr) return model;
+    if (Status finite = check_finite(*model, file); !finite) return finite.error();
+    note_lines(*model);
+    return importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | steps);
 }
 
 }  // namespace rs

@@ -39,11 +39,9 @@ ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes
 // Assimp's words in one line.
 std::string shown_error(const char* words);
 
-// Faces of two corners are lines, as Assimp's OBJ reader does not say; with it they pass
-// aiProcess_ValidateDataStructure. `model` is what an importer has just read.
-void note_lines(const aiScene& model);
-
-// An error where a vertex or a texture coordinate of `model` is not finite; `file` names it.
-Status check_finite(const aiScene& model, const std::string& file);
+// What `importer` has just read, without post-processing, after the aiProcess `steps`; null where Assimp refuses it.
+// Its structure is validated, faces of two corners are lines (as its OBJ reader does not say), and a vertex or a
+// texture coordinate that is not finite is an error, which steps would merge with its neighbours; `file` names it.
+Result<const aiScene*> post_processed(Assimp::Importer& importer, unsigned steps, const std::string& file);
 
 }  // namespace rs

@@ -1,18 +1,16 @@
 #include "rayspace/output/view_output.hpp"
 
+#include "rayspace/file/input_file.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 
 namespace rs {
 
 Result<OutputKind> output_kind(const std::string& output) {
-    std::string extension = std::filesystem::path(output).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_case_extension(output);
     if (extension == ".png") return OutputKind::picture;
     if (extension == ".mp4") return OutputKind::video;
     for (const char* other :

@@ -3,11 +3,11 @@
 #include "capture/calibration/known/known_turn.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/file/input_file.hpp"
 #include "rayspace/geometry/rig.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -221,9 +221,7 @@ Result<KnownFile> read_known_rig(const std::filesystem::path& path, PicturePixel
 }
 
 Result<KnownFile> read_known_file(const std::filesystem::path& path, PicturePixels pictures) {
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    const std::string ending = lower_case_extension(path);
     std::error_code failure;
     if (ending == ".json" || std::filesystem::is_directory(path, failure)) return read_known_rig(path, pictures);
     if (ending == ".yml" || ending == ".yaml" || ending == ".xml") return read_opencv_intrinsics(path, pictures);

@@ -2,6 +2,7 @@
 
 #include "capture/tracer/scene/mesh_material.hpp"
 #include "capture/tracer/scene/plain_ply.hpp"
+#include "rayspace/file/input_file.hpp"
 #include "rayspace/models/model_files.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
@@ -11,7 +12,6 @@
 #include <assimp/Importer.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -24,13 +24,6 @@ namespace {
 
 constexpr std::uint64_t kMaxModelFile_bytes = std::uint64_t{4} << 30;
 constexpr float kCreaseAngle_deg = 60.0F;
-
-std::string lower_case_extension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
 
 glm::vec3 to_vec(const aiVector3D& v) {
     return {v.x, v.y, v.z};
@@ -117,17 +110,18 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
         const ModelFiles& files = read_models_only(importer, kMaxModelFile_bytes);
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseAngle_deg);
-        const aiScene* source = plain_ply.empty()
-                                    ? importer.ReadFile(path.string(), 0)
-                                    : importer.ReadFileFromMemory(plain_ply.data(), plain_ply.size(), 0, "ply");
-        if (source != nullptr) {
-            // Before post-processing, which merges vertices that are not a number with their neighbours.
-            if (Status finite = check_finite(*source, path.string()); !finite) return finite.error();
-            note_lines(*source);
-            source = importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | aiProcess_Triangulate |
-                                                  aiProcess_SortByPType | aiProcess_GenSmoothNormals |
-                                                  aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices);
+        if (plain_ply.empty()) {
+            importer.ReadFile(path.string(), 0);
+        } else {
+            importer.ReadFileFromMemory(plain_ply.data(), plain_ply.size(), 0, "ply");
         }
+        const Result<const aiScene*> read =
+            post_processed(importer,
+                           aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
+                               aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices,
+                           path.string());
+        if (!read) return read.error();
+        const aiScene* const source = *read;
         if (!files.refusal().empty()) return Error{files.refusal()};
         if (source == nullptr) {
             return Error{path.string() + ": cannot be read as a mesh: " + shown_error(importer.GetErrorString())};

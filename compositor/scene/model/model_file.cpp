@@ -120,15 +120,14 @@ Result<Scene> read_model(const std::filesystem::path& path) {
     try {
         Assimp::Importer importer;
         const ModelFiles& files = read_models_only(importer, kMaxModel_bytes);
-        const aiScene* model = importer.ReadFile(path.string(), 0);
+        importer.ReadFile(path.string(), 0);
         if (!files.refusal().empty()) return Error{files.refusal()};
-        if (model != nullptr) {
-            if (Status finite = check_finite(*model, path.string()); !finite) return finite.error();
-            note_lines(*model);
-            model = importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | aiProcess_Triangulate |
-                                                 aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices |
-                                                 aiProcess_SortByPType);
-        }
+        const Result<const aiScene*> read = post_processed(importer,
+                                                           aiProcess_Triangulate | aiProcess_GenSmoothNormals |
+                                                               aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,
+                                                           path.string());
+        if (!read) return read.error();
+        const aiScene* const model = *read;
         if (model == nullptr || model->mRootNode == nullptr) {
             const std::string message =
                 path.string() + ": cannot be read: " + shown_error(importer.GetErrorString()) + "; export it again";
