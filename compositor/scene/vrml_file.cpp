@@ -1,7 +1,6 @@
 #include "compositor/scene/vrml_file.hpp"
 
 #include "compositor/scene/gzip.hpp"
-#include "compositor/scene/vrml/clean_vrml.hpp"
 #include "compositor/scene/vrml/flatten.hpp"
 #include "rayspace/file/file_output.hpp"
 
@@ -23,11 +22,8 @@ Result<std::string> read_world_text(const std::filesystem::path& path) {
 }
 
 Result<std::shared_ptr<const vrml::LoadedFile>> load_text(std::string_view text, const std::filesystem::path& path) {
-    const Result<vrml::CleanVrml> clean = vrml::clean_vrml(text, path.string());
-    if (!clean) return clean.error();
-    Result<vrml::Graph> graph = vrml::read_graph(*clean, path.string());
+    Result<vrml::Graph> graph = vrml::read_graph(text, path.string());
     if (!graph) return graph.error();
-    graph->warnings.insert(graph->warnings.begin(), clean->warnings.begin(), clean->warnings.end());
     return std::shared_ptr<const vrml::LoadedFile>(
         std::make_shared<vrml::LoadedFile>(vrml::LoadedFile{path, std::move(*graph)}));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes from VRML97 files (.wrl, plain or gzip): scene/vrml/clean_vrml.hpp tells what is read and what is left out.
+// Scenes from VRML97 files (.wrl, plain or gzip): scene/vrml/graph.hpp tells what is read and what is left out.
 //
 // Besides the nodes of VRML97 there are one for objects made of pictures and one for rooms, whose objects are in memory
 // while a visitor is in them or near (viewer/residency/room_plan.hpp):
@@ -27,8 +27,7 @@ namespace rs::compositor {
 
 // Files that the world names (textures, Inline) are looked for beside the file that names them, on this machine only.
 // No .rso is opened. What cannot be shown becomes a warning of the scene; what cannot be read is an error, with its
-// line. Worlds beyond 64 MiB, all included files together beyond 256 MiB, are refused. May be called from any thread;
-// one call works at a time.
+// line. Worlds beyond 64 MiB, all included files together beyond 256 MiB, are refused. Thread-safe.
 Result<Scene> read_vrml(const std::filesystem::path& path);
 
 // The text of a world without gzip; `path` names it in messages, and its folder is where it looks for files.

@@ -20,7 +20,7 @@ std::shared_ptr<const SceneTexture> pixel_texture(const Node& node) {
     const int height = static_cast<int>(numbers.at(1));
     const auto components = static_cast<std::size_t>(numbers.at(2));
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    if (pixels == 0 || components == 0 || numbers.size() < 3 + pixels * components) return nullptr;
+    if (pixels == 0 || components == 0) return nullptr;
     auto texture = std::make_shared<SceneTexture>();
     texture->picture = Image<Rgba8>(width, height);
     texture->has_alpha = components == 2 || components == 4;
@@ -29,8 +29,11 @@ std::shared_ptr<const SceneTexture> pixel_texture(const Node& node) {
     texture->modulates = components <= 2;
     const double* next = numbers.data() + 3;
     for (int y = height - 1; y >= 0; --y) {
-        for (int x = 0; x < width; ++x, next += components) {
-            const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(next[i]); };
+        for (int x = 0; x < width; ++x, ++next) {
+            const auto packed = static_cast<std::uint32_t>(*next);
+            const auto byte = [&](std::size_t i) {
+                return static_cast<std::uint8_t>(packed >> 8 * (components - 1 - i));
+            };
             const std::size_t colours = components <= 2 ? 0 : 1;
             const std::uint8_t alpha = texture->has_alpha ? byte(components - 1) : std::uint8_t{255};
             texture->picture(x, y) = {byte(0), byte(colours), byte(2 * colours), alpha};

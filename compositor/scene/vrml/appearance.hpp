@@ -2,6 +2,7 @@
 // VRML97's Appearance, Material and texture nodes -> Material. Private to the VRML reader; not thread-safe.
 
 #include "compositor/scene/material.hpp"
+#include "compositor/scene/mesh.hpp"
 #include "compositor/scene/scene_pictures.hpp"
 #include "compositor/scene/vrml/graph.hpp"
 

@@ -1,6 +1,6 @@
 #include "compositor/scene/vrml/field_values.hpp"
 
-#include <charconv>
+#include <utility>
 
 namespace rs::compositor::vrml {
 namespace {
@@ -23,127 +23,110 @@ int numbers_in(FieldType type) {
     }
 }
 
-template <class Number>
-void append(Number value, std::string& out) {
-    char text[48];
-    out += ' ';
-    out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
-
-class ValueCopier {
+class ValueReader {
 public:
-    ValueCopier(Lexer& lexer, const FieldSpec& spec, const std::string& field, std::string& out)
-        : lexer_(lexer), spec_(spec), field_(field), out_(out) {}
+    ValueReader(Lexer& lexer, const FieldSpec& spec, const std::string& field)
+        : lexer_(lexer), spec_(spec), field_(field) {}
 
-    std::size_t copy() {
+    Value read() {
         const Token first = lexer_.peek();
-        if (!spec_.many) {
-            if (first.kind == TokenKind::open_list) throw wrong_type();
-            copy_single();
-            return count_;
+        if (!spec_.many && first.kind == TokenKind::open_list) throw wrong_type();
+        if (!spec_.many || !lexer_.take_kind(TokenKind::open_list)) {
+            read_single();
+            return std::move(value_);
         }
-        out_ += " [";
-        if (lexer_.take_kind(TokenKind::open_list)) {
-            while (!lexer_.take_kind(TokenKind::close_list)) {
-                if (lexer_.peek().kind == TokenKind::end) {
-                    throw lexer_.wrong(first.line, "the list of " + field_ + " is not closed; add a ]");
-                }
-                copy_single();
+        while (!lexer_.take_kind(TokenKind::close_list)) {
+            if (lexer_.peek().kind == TokenKind::end) {
+                throw lexer_.wrong(first.line, "the list of " + field_ + " is not closed; add a ]");
             }
-        } else {
-            copy_single();
+            read_single();
         }
-        out_ += " ]";
-        return count_;
+        return std::move(value_);
     }
 
 private:
-    MalformedVrml wrong_type() const {
+    [[nodiscard]] MalformedVrml wrong_type() const {
         return lexer_.wrong(field_ + " takes " + field_type_name(spec_) + ", not " + shown(lexer_.peek()) +
                             "; correct it");
     }
 
-    void copy_single() {
-        if (spec_.type == FieldType::kBool) return copy_bool();
-        if (spec_.type == FieldType::kString) return copy_text();
-        if (spec_.type == FieldType::kImage) return copy_image();
-        for (int i = 0; i < numbers_in(spec_.type); ++i) {
-            if (spec_.type == FieldType::kInt32) {
-                copy_integer();
-            } else {
-                copy_number();
-            }
+    void read_single() {
+        switch (spec_.type) {
+            case FieldType::kBool:
+                return read_bool();
+            case FieldType::kString:
+                return read_text();
+            case FieldType::kImage:
+                return read_image();
+            case FieldType::kInt32:
+                return read_integer();
+            default:
+                for (int i = 0; i < numbers_in(spec_.type); ++i) read_number();
         }
     }
 
-    void copy_bool() {
+    void read_bool() {
         const bool yes = lexer_.peek().text == "TRUE";
         if (lexer_.peek().kind != TokenKind::word || (!yes && lexer_.peek().text != "FALSE")) throw wrong_type();
         lexer_.take();
-        out_ += yes ? " TRUE" : " FALSE";
-        ++count_;
+        value_.numbers.push_back(yes ? 1 : 0);
     }
 
-    void copy_text() {
+    void read_text() {
         if (lexer_.peek().kind != TokenKind::text) throw wrong_type();
         const Token token = lexer_.take();
         if (token.text.size() > kMaxString_bytes) {
             throw lexer_.wrong(token.line, "a text of " + std::to_string(token.text.size()) + " bytes; shorten it");
         }
-        ((out_ += " \"") += token.text) += '"';
-        count_ += 1 + token.text.size() / 8;
+        value_.texts.push_back(unescaped(token.text));
     }
 
     long take_integer() {
         long value = 0;
         if (lexer_.peek().kind != TokenKind::number || !parse_integer(lexer_.peek().text, value)) throw wrong_type();
         lexer_.take();
-        ++count_;
         return value;
     }
 
-    long copy_integer() {
+    void read_integer() {
         // Hexadecimal numbers may use the sign's bit.
-        const auto value = static_cast<int>(static_cast<unsigned>(take_integer()));
-        append(value, out_);
-        return value;
+        value_.numbers.push_back(static_cast<int>(static_cast<unsigned>(take_integer())));
     }
 
-    void copy_number() {
+    void read_number() {
         float value = 0;
         if (lexer_.peek().kind != TokenKind::number) throw wrong_type();
         if (!parse_float(lexer_.peek().text, value)) {
             throw lexer_.wrong(field_ + ": " + shown(lexer_.peek()) + " is no number that fits; correct it");
         }
         lexer_.take();
-        append(value, out_);
-        ++count_;
+        value_.numbers.push_back(static_cast<double>(value));
     }
 
-    void copy_image() {
+    void read_image() {
         const int line = lexer_.peek().line;
-        const long width = copy_integer();
-        const long height = copy_integer();
-        const long components = copy_integer();
+        const long width = take_integer();
+        const long height = take_integer();
+        const long components = take_integer();
         if (width < 0 || height < 0 || width > kMaxSide || height > kMaxSide || components < 0 || components > 4 ||
             (width > 0 && height > kMaxPixels / width)) {
             throw lexer_.wrong(line, field_ + ": an image of " + std::to_string(width) + "x" + std::to_string(height) +
                                          " with " + std::to_string(components) + " components; it cannot be read");
         }
-        for (long i = 0; i < width * height; ++i) append(static_cast<unsigned>(take_integer()), out_);
+        for (const long number : {width, height, components}) value_.numbers.push_back(static_cast<double>(number));
+        for (long i = 0; i < width * height; ++i) value_.numbers.push_back(static_cast<unsigned>(take_integer()));
     }
 
     Lexer& lexer_;
     const FieldSpec& spec_;
     const std::string& field_;
-    std::string& out_;
-    std::size_t count_ = 0;
+    Value value_;
 };
 
 }  // namespace
 
-std::size_t copy_value(Lexer& lexer, const FieldSpec& spec, const std::string& field, std::string& out) {
-    return ValueCopier(lexer, spec, field, out).copy();
+Value read_value(Lexer& lexer, const FieldSpec& spec, const std::string& field) {
+    return ValueReader(lexer, spec, field).read();
 }
 
 void skip_to_close(Lexer& lexer, int opened_at_line) {

@@ -1,5 +1,5 @@
 #pragma once
-// The values of fields that hold no nodes: checked, and written again in the plainest form. Private to the VRML reader.
+// The values of fields that hold no nodes. Private to the VRML reader.
 
 #include "compositor/scene/vrml/lexer.hpp"
 #include "compositor/scene/vrml/node_table.hpp"
@@ -8,10 +8,9 @@
 
 namespace rs::compositor::vrml {
 
-// Takes one value of the field's type (not kNode) and appends it to `out`, a space before it. Returns how many numbers
-// and texts it has. Throws MalformedVrml where a value is of another type, a number does not fit, a list is not closed,
-// or a list's length does not divide into whole values.
-std::size_t copy_value(Lexer& lexer, const FieldSpec& spec, const std::string& field, std::string& out);
+// Takes one value of the field's type (not kNode). Throws MalformedVrml where a value is of another type, a number does
+// not fit, a list is not closed, or a list's length does not divide into whole values.
+Value read_value(Lexer& lexer, const FieldSpec& spec, const std::string& field);
 
 // Takes whatever value stands there, of a field whose type is not known.
 void skip_value(Lexer& lexer);

@@ -1,7 +1,9 @@
 #include "compositor/scene/vrml/flatten.hpp"
 
 #include "compositor/scene/vrml/appearance.hpp"
+#include "compositor/scene/vrml/shape_lists.hpp"
 #include "compositor/scene/vrml/surroundings_nodes.hpp"
+#include "compositor/scene/vrml/triangulate.hpp"
 #include "rayspace/base/printable.hpp"
 
 #include <algorithm>
@@ -13,6 +15,7 @@ namespace {
 
 constexpr int kMaxInlines = 16;  // files in files
 constexpr std::size_t kMaxDraws = 100'000;
+constexpr double kMaxWork = 1e9;  // of all shapes (ShapeCheck::work): about 10 s
 
 struct TooMuch {};
 
@@ -49,8 +52,7 @@ private:
     }
 
     void warn(const Node& node, const std::string& what) {
-        const std::string line = node.source.line > 0 ? "line " + std::to_string(node.source.line) + ": " : "";
-        warn(path().string() + ": " + line + node.type + ": " + what);
+        warn(path().string() + ": line " + std::to_string(node.line) + ": " + node.type + ": " + what);
     }
 
     // A directional light shines on its siblings and what is below them.
@@ -88,7 +90,7 @@ private:
             walk_room(node, place);
         } else if (type == "PointLight" || type == "SpotLight") {
             if (node.flag("on")) scene_.lights.push_back(light_of(node, place));
-        } else if (node.fields.contains("children")) {
+        } else if (node.has("children")) {
             walk_children(node.field("children").nodes, place);
         } else {
             add_bindable(node, place);
@@ -97,17 +99,35 @@ private:
 
     void add_shape(const Node& shape, const Place& place) {
         const NodePointer geometry = shape.node("geometry");
-        if (!geometry || !geometry->mesh) return;
+        const std::shared_ptr<const Mesh> mesh = geometry ? mesh_of(*geometry) : nullptr;
+        if (!mesh) return;
         const NodePointer appearance = shape.node("appearance");
-        const auto key = std::pair(appearance.get(), geometry->mesh->topology);
+        const auto key = std::pair(appearance.get(), mesh->topology);
         auto known = materials_.find(key);
         if (known == materials_.end()) {
             std::string fault;
-            const Material material = material_of(appearance.get(), *geometry->mesh, folder(), pictures_, fault);
+            const Material material = material_of(appearance.get(), *mesh, folder(), pictures_, fault);
             if (!fault.empty()) warn(*appearance->node("texture"), fault + "; drawn without");
             known = materials_.emplace(key, material).first;
         }
-        scene_.geometry.push_back({geometry->mesh, known->second, place.world_from_node, place.lights});
+        scene_.geometry.push_back({mesh, known->second, place.world_from_node, place.lights});
+    }
+
+    // Null where there is nothing to draw.
+    std::shared_ptr<const Mesh> mesh_of(const Node& geometry) {
+        const auto [entry, is_new] = meshes_.emplace(&geometry, nullptr);
+        if (!is_new) return entry->second;
+        const ShapeCheck check = check_shape(geometry);
+        if (!check.fault.empty()) {
+            warn(geometry, check.fault + "; left out");
+        } else if (work_ + check.work > kMaxWork) {
+            warn(geometry, "cutting it into triangles would take too long; left out");
+        } else if (!check.empty) {
+            work_ += check.work;
+            for (const std::string& field : check.unusable) warn(geometry, field + " does not fit the shape; left out");
+            entry->second = triangulate(geometry, check);
+        }
+        return entry->second;
     }
 
     void add_object(const Node& node, const Place& place) {
@@ -124,7 +144,7 @@ private:
         object.chain.push_back(size);
         object.standing = node.flag("standing");
         object.room = place.room;
-        object.description = node.text("description").empty() ? node.source.name : node.text("description");
+        object.description = node.text("description").empty() ? node.name : node.text("description");
         scene_.objects.push_back(std::move(object));
     }
 
@@ -132,7 +152,7 @@ private:
         const std::size_t room = scene_.rooms.size();
         const std::size_t geometry = scene_.geometry.size();
         const std::size_t objects = scene_.objects.size();
-        scene_.rooms.push_back({node.text("description").empty() ? node.source.name : node.text("description"), {}});
+        scene_.rooms.push_back({node.text("description").empty() ? node.name : node.text("description"), {}});
         place.room = room;
         walk_children(node.field("children").nodes, place);
         const glm::dvec3 size = node.triple("bboxSize");
@@ -176,7 +196,9 @@ private:
     ScenePictures pictures_;
     std::map<std::pair<const Node*, Topology>, Material> materials_;
     std::vector<std::shared_ptr<const LoadedFile>> open_files_;
-    std::set<std::shared_ptr<const LoadedFile>> kept_files_;  // the keys of materials_ point into them
+    std::map<const Node*, std::shared_ptr<const Mesh>> meshes_;
+    double work_ = 0;
+    std::set<std::shared_ptr<const LoadedFile>> kept_files_;  // the keys of materials_ and meshes_ point into them
     std::set<const LoadedFile*> warned_files_;
     std::set<std::string> warned_;
     std::set<std::string> bound_;

@@ -1,57 +1,59 @@
 #pragma once
-// The second of the two steps in which VRML97 is read: Coin reads the text, unfolds PROTO, follows DEF and USE, and
-// cuts the shapes into triangles. This header and its source are the only place that knows Coin.
+// The graph of nodes that VRML97 text describes: PROTO unfolded, DEF and USE followed.
+//
+//   file -> read_graph -> flatten.hpp (shapes are cut into triangles by Coin: triangulate.hpp) -> Scene
 
-#include "compositor/scene/mesh.hpp"
-#include "compositor/scene/vrml/clean_vrml.hpp"
+#include "compositor/scene/vrml/node_table.hpp"
 #include "rayspace/base/result.hpp"
 
 #include <glm/glm.hpp>
 
 #include <map>
-#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rs::compositor::vrml {
 
-struct Node;
-using NodePointer = std::shared_ptr<const Node>;
+constexpr int kMaxNesting = 200;         // brackets of the text
+constexpr int kMaxHeight = 1000;         // of the graph, PROTO and USE followed
+constexpr double kMaxVisits = 1e6;       // nodes that a walk over the graph meets, PROTO and USE followed
+constexpr double kMaxValues = 32 << 20;  // numbers and texts, those of each instance of a PROTO counted
+constexpr std::size_t kMaxWarnings = 50;
 
-// The value of a field; one of the lists is used. A vector, colour or rotation takes as many numbers as it has parts,
-// TRUE and FALSE are 1 and 0.
-struct Value {
-    std::vector<double> numbers;
-    std::vector<std::string> texts;
-    std::vector<NodePointer> nodes;  // none of them null
-};
-
-// A node of the graph. Where the file says USE, the same node stands twice. PROTO instances are their first nodes.
+// Where the file says USE, the same node stands twice; so do parts of a PROTO that are the same in all instances.
 struct Node {
-    std::string type;                                  // as in VRML97: "Transform"
-    SourceNode source;                                 // name and line; line 0 where nobody asked for it
-    std::map<std::string, Value, std::less<>> fields;  // all fields of the type, defaults filled in
-    std::shared_ptr<const Mesh> mesh;                  // of a geometry node that can be drawn
+    std::string type;  // as in VRML97: "Transform"
+    const NodeSpec* spec = nullptr;
+    std::string name;                                  // of its DEF; empty where it has none
+    int line = 0;                                      // of the text
+    std::map<std::string, Value, std::less<>> fields;  // those that the text gives
+    int height = 0;                                    // nodes below it, one below the other
+    double visits = 1;                                 // that a walk over it and all below takes
 
-    // For fields that the type has (node_table.hpp) and whose type is right.
-    [[nodiscard]] const Value& field(std::string_view name) const;
-    [[nodiscard]] double number(std::string_view name) const { return field(name).numbers.at(0); }
-    [[nodiscard]] bool flag(std::string_view name) const { return number(name) != 0; }
-    [[nodiscard]] glm::dvec2 pair(std::string_view name) const;
-    [[nodiscard]] glm::dvec3 triple(std::string_view name) const;
-    [[nodiscard]] glm::dvec4 quadruple(std::string_view name) const;
-    [[nodiscard]] std::string text(std::string_view name) const { return field(name).texts.at(0); }
+    [[nodiscard]] bool has(std::string_view key) const { return spec->fields.contains(key); }
+    // For fields that the type has and whose type is right.
+    [[nodiscard]] const Value& field(std::string_view key) const;
+    [[nodiscard]] double number(std::string_view key) const { return field(key).numbers.at(0); }
+    [[nodiscard]] bool flag(std::string_view key) const { return number(key) != 0; }
+    [[nodiscard]] glm::dvec2 pair(std::string_view key) const;
+    [[nodiscard]] glm::dvec3 triple(std::string_view key) const;
+    [[nodiscard]] glm::dvec4 quadruple(std::string_view key) const;
+    [[nodiscard]] const std::string& text(std::string_view key) const { return field(key).texts.at(0); }
     // Null where there is none.
-    [[nodiscard]] NodePointer node(std::string_view name) const;
+    [[nodiscard]] NodePointer node(std::string_view key) const;
 };
 
 struct Graph {
     std::vector<NodePointer> roots;
-    std::vector<std::string> warnings;  // "FILE: line N: ..."
+    std::vector<std::string> warnings;  // "FILE: line N: ..."; at most kMaxWarnings and one that counts the rest
 };
 
-// `file` names the text in messages. Coin keeps state for the whole process: one call works at a time, others wait.
-// May be called from any thread.
-Result<Graph> read_graph(const CleanVrml& clean, const std::string& file);
+// Left out with a warning are unknown nodes (of those that group others the children stay) and unknown fields, nodes
+// that stand where they may not, USE of a name that is not known or that holds the USE itself, EXTERNPROTO. Left out,
+// since time stands still, are ROUTEs, scripts, sensors, interpolators and sound. Broken syntax, wrong types and what
+// goes beyond the limits above refuse the text. `file` names it in messages; an error names the line. Pure;
+// thread-safe.
+Result<Graph> read_graph(std::string_view text, const std::string& file);
 
 }  // namespace rs::compositor::vrml

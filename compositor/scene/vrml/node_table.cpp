@@ -1,78 +1,84 @@
 #include "compositor/scene/vrml/node_table.hpp"
 
+#include "compositor/scene/vrml/field_values.hpp"
+#include "rayspace/base/check.hpp"
+
 #include <algorithm>
 #include <array>
 #include <set>
-#include <sstream>
 #include <utility>
-#include <vector>
 
 namespace rs::compositor::vrml {
 namespace {
 
-// Type, group, "named" or "-", the type's name for Coin, then fields: name, type, and for nodes the group they must be
-// of. Inline, ImageTexture and those of ray space are node classes of our own there: Coin's own would open files.
+// Type, group, then fields: name, type, and the value of a node without it; for nodes the group they must be of.
 constexpr const char* kNodes[] = {
-    "Group child - Group children MFNode child bboxCenter SFVec3f bboxSize SFVec3f",
-    "Transform child - Transform children MFNode child center SFVec3f rotation SFRotation scale SFVec3f "
-    "scaleOrientation SFRotation translation SFVec3f bboxCenter SFVec3f bboxSize SFVec3f",
-    "Anchor child - Anchor children MFNode child description SFString url MFString parameter MFString "
-    "bboxCenter SFVec3f bboxSize SFVec3f",
-    "Billboard child - Billboard children MFNode child axisOfRotation SFVec3f bboxCenter SFVec3f bboxSize SFVec3f",
-    "Collision child - Collision children MFNode child collide SFBool proxy SFNode child "
-    "bboxCenter SFVec3f bboxSize SFVec3f",
-    "LOD child - LOD level MFNode child center SFVec3f range MFFloat",
-    "Switch child - Switch choice MFNode child whichChoice SFInt32",
-    "Inline child named RsInline url MFString load SFBool bboxCenter SFVec3f bboxSize SFVec3f",
-    "InlineLoadControl child named RsInline url MFString load SFBool bboxCenter SFVec3f bboxSize SFVec3f",
-    "RaySpace child named RsRaySpace url MFString size SFFloat standing SFBool description SFString",
-    "RaySpaceRoom child named RsRaySpaceRoom children MFNode child bboxCenter SFVec3f bboxSize SFVec3f "
-    "description SFString",
-    "Shape child - Shape appearance SFNode appearance geometry SFNode geometry",
-    "Appearance appearance - Appearance material SFNode material texture SFNode texture "
-    "textureTransform SFNode textureTransform",
-    "Material material - Material ambientIntensity SFFloat diffuseColor SFColor emissiveColor SFColor "
-    "shininess SFFloat specularColor SFColor transparency SFFloat",
-    "ImageTexture texture named RsImageTexture url MFString repeatS SFBool repeatT SFBool",
-    "PixelTexture texture named PixelTexture image SFImage repeatS SFBool repeatT SFBool",
-    "TextureTransform textureTransform - TextureTransform center SFVec2f rotation SFFloat scale SFVec2f "
-    "translation SFVec2f",
-    "Box geometry named Box size SFVec3f",
-    "Cone geometry named Cone bottomRadius SFFloat height SFFloat side SFBool bottom SFBool",
-    "Cylinder geometry named Cylinder bottom SFBool height SFFloat radius SFFloat side SFBool top SFBool",
-    "Sphere geometry named Sphere radius SFFloat",
-    "ElevationGrid geometry named ElevationGrid color SFNode color normal SFNode normal texCoord SFNode texCoord "
-    "height MFFloat ccw SFBool colorPerVertex SFBool creaseAngle SFFloat normalPerVertex SFBool solid SFBool "
-    "xDimension SFInt32 xSpacing SFFloat zDimension SFInt32 zSpacing SFFloat",
-    "Extrusion geometry named Extrusion beginCap SFBool ccw SFBool convex SFBool creaseAngle SFFloat "
-    "crossSection MFVec2f endCap SFBool orientation MFRotation scale MFVec2f solid SFBool spine MFVec3f",
-    "IndexedFaceSet geometry named IndexedFaceSet color SFNode color coord SFNode coord normal SFNode normal "
-    "texCoord SFNode texCoord ccw SFBool colorIndex MFInt32 colorPerVertex SFBool convex SFBool coordIndex MFInt32 "
-    "creaseAngle SFFloat normalIndex MFInt32 normalPerVertex SFBool solid SFBool texCoordIndex MFInt32",
-    "IndexedLineSet geometry named IndexedLineSet color SFNode color coord SFNode coord colorIndex MFInt32 "
-    "colorPerVertex SFBool coordIndex MFInt32",
-    "PointSet geometry named PointSet color SFNode color coord SFNode coord",
-    "Text geometry named Text string MFString fontStyle SFNode fontStyle length MFFloat maxExtent SFFloat",
-    "FontStyle fontStyle - FontStyle family MFString horizontal SFBool justify MFString language SFString "
-    "leftToRight SFBool size SFFloat spacing SFFloat style SFString topToBottom SFBool",
-    "Coordinate coord - Coordinate point MFVec3f",
-    "Color color - Color color MFColor",
-    "Normal normal - Normal vector MFVec3f",
-    "TextureCoordinate texCoord - TextureCoordinate point MFVec2f",
-    "DirectionalLight child - DirectionalLight ambientIntensity SFFloat color SFColor direction SFVec3f "
-    "intensity SFFloat on SFBool",
-    "PointLight child - PointLight ambientIntensity SFFloat attenuation SFVec3f color SFColor intensity SFFloat "
-    "location SFVec3f on SFBool radius SFFloat",
-    "SpotLight child - SpotLight ambientIntensity SFFloat attenuation SFVec3f beamWidth SFFloat color SFColor "
-    "cutOffAngle SFFloat direction SFVec3f intensity SFFloat location SFVec3f on SFBool radius SFFloat",
-    "Viewpoint child - Viewpoint fieldOfView SFFloat jump SFBool orientation SFRotation position SFVec3f "
-    "description SFString",
-    "NavigationInfo child - NavigationInfo avatarSize MFFloat headlight SFBool speed SFFloat type MFString "
-    "visibilityLimit SFFloat",
-    "Fog child - Fog color SFColor fogType SFString visibilityRange SFFloat",
-    "Background child named Background groundAngle MFFloat groundColor MFColor skyAngle MFFloat skyColor MFColor "
-    "backUrl MFString bottomUrl MFString frontUrl MFString leftUrl MFString rightUrl MFString topUrl MFString",
-    "WorldInfo child - WorldInfo info MFString title SFString",
+    "Group child children MFNode child bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1",
+    "Transform child children MFNode child center SFVec3f 0 0 0 rotation SFRotation 0 0 1 0 scale SFVec3f 1 1 1 "
+    "scaleOrientation SFRotation 0 0 1 0 translation SFVec3f 0 0 0 bboxCenter SFVec3f 0 0 0 "
+    "bboxSize SFVec3f -1 -1 -1",
+    "Anchor child children MFNode child description SFString \"\" url MFString [ ] parameter MFString [ ] "
+    "bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1",
+    "Billboard child children MFNode child axisOfRotation SFVec3f 0 1 0 bboxCenter SFVec3f 0 0 0 "
+    "bboxSize SFVec3f -1 -1 -1",
+    "Collision child children MFNode child collide SFBool TRUE proxy SFNode child "
+    "bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1",
+    "LOD child level MFNode child center SFVec3f 0 0 0 range MFFloat [ ]",
+    "Switch child choice MFNode child whichChoice SFInt32 -1",
+    "Inline child url MFString [ ] load SFBool TRUE bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1",
+    "InlineLoadControl child url MFString [ ] load SFBool TRUE bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1",
+    "RaySpace child url MFString [ ] size SFFloat 1 standing SFBool TRUE description SFString \"\"",
+    "RaySpaceRoom child children MFNode child bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1 "
+    "description SFString \"\"",
+    "Shape child appearance SFNode appearance geometry SFNode geometry",
+    "Appearance appearance material SFNode material texture SFNode texture textureTransform SFNode textureTransform",
+    "Material material ambientIntensity SFFloat 0.2 diffuseColor SFColor 0.8 0.8 0.8 emissiveColor SFColor 0 0 0 "
+    "shininess SFFloat 0.2 specularColor SFColor 0 0 0 transparency SFFloat 0",
+    "ImageTexture texture url MFString [ ] repeatS SFBool TRUE repeatT SFBool TRUE",
+    "PixelTexture texture image SFImage 0 0 0 repeatS SFBool TRUE repeatT SFBool TRUE",
+    "TextureTransform textureTransform center SFVec2f 0 0 rotation SFFloat 0 scale SFVec2f 1 1 "
+    "translation SFVec2f 0 0",
+    "Box geometry size SFVec3f 2 2 2",
+    "Cone geometry bottomRadius SFFloat 1 height SFFloat 2 side SFBool TRUE bottom SFBool TRUE",
+    "Cylinder geometry bottom SFBool TRUE height SFFloat 2 radius SFFloat 1 side SFBool TRUE top SFBool TRUE",
+    "Sphere geometry radius SFFloat 1",
+    "ElevationGrid geometry color SFNode color normal SFNode normal texCoord SFNode texCoord height MFFloat [ ] "
+    "ccw SFBool TRUE colorPerVertex SFBool TRUE creaseAngle SFFloat 0 normalPerVertex SFBool TRUE solid SFBool TRUE "
+    "xDimension SFInt32 0 xSpacing SFFloat 1 zDimension SFInt32 0 zSpacing SFFloat 1",
+    "Extrusion geometry beginCap SFBool TRUE ccw SFBool TRUE convex SFBool TRUE creaseAngle SFFloat 0 "
+    "crossSection MFVec2f [ 1 1 1 -1 -1 -1 -1 1 1 1 ] endCap SFBool TRUE orientation MFRotation [ 0 0 1 0 ] "
+    "scale MFVec2f [ 1 1 ] solid SFBool TRUE spine MFVec3f [ 0 0 0 0 1 0 ]",
+    "IndexedFaceSet geometry color SFNode color coord SFNode coord normal SFNode normal texCoord SFNode texCoord "
+    "ccw SFBool TRUE colorIndex MFInt32 [ ] colorPerVertex SFBool TRUE convex SFBool TRUE coordIndex MFInt32 [ ] "
+    "creaseAngle SFFloat 0 normalIndex MFInt32 [ ] normalPerVertex SFBool TRUE solid SFBool TRUE "
+    "texCoordIndex MFInt32 [ ]",
+    "IndexedLineSet geometry color SFNode color coord SFNode coord colorIndex MFInt32 [ ] "
+    "colorPerVertex SFBool TRUE coordIndex MFInt32 [ ]",
+    "PointSet geometry color SFNode color coord SFNode coord",
+    "Text geometry string MFString [ ] fontStyle SFNode fontStyle length MFFloat [ ] maxExtent SFFloat 0",
+    "FontStyle fontStyle family MFString \"SERIF\" horizontal SFBool TRUE justify MFString \"BEGIN\" "
+    "language SFString \"\" leftToRight SFBool TRUE size SFFloat 1 spacing SFFloat 1 style SFString \"PLAIN\" "
+    "topToBottom SFBool TRUE",
+    "Coordinate coord point MFVec3f [ ]",
+    "Color color color MFColor [ ]",
+    "Normal normal vector MFVec3f [ ]",
+    "TextureCoordinate texCoord point MFVec2f [ ]",
+    "DirectionalLight child ambientIntensity SFFloat 0 color SFColor 1 1 1 direction SFVec3f 0 0 -1 "
+    "intensity SFFloat 1 on SFBool TRUE",
+    "PointLight child ambientIntensity SFFloat 0 attenuation SFVec3f 1 0 0 color SFColor 1 1 1 intensity SFFloat 1 "
+    "location SFVec3f 0 0 0 on SFBool TRUE radius SFFloat 100",
+    "SpotLight child ambientIntensity SFFloat 0 attenuation SFVec3f 1 0 0 beamWidth SFFloat 1.570796 "
+    "color SFColor 1 1 1 cutOffAngle SFFloat 0.785398 direction SFVec3f 0 0 -1 intensity SFFloat 1 "
+    "location SFVec3f 0 0 0 on SFBool TRUE radius SFFloat 100",
+    "Viewpoint child fieldOfView SFFloat 0.785398 jump SFBool TRUE orientation SFRotation 0 0 1 0 "
+    "position SFVec3f 0 0 10 description SFString \"\"",
+    "NavigationInfo child avatarSize MFFloat [ 0.25 1.6 0.75 ] headlight SFBool TRUE speed SFFloat 1 "
+    "type MFString [ \"WALK\" \"ANY\" ] visibilityLimit SFFloat 0",
+    "Fog child color SFColor 1 1 1 fogType SFString \"LINEAR\" visibilityRange SFFloat 0",
+    "Background child groundAngle MFFloat [ ] groundColor MFColor [ ] skyAngle MFFloat [ ] skyColor MFColor [ ] "
+    "backUrl MFString [ ] bottomUrl MFString [ ] frontUrl MFString [ ] leftUrl MFString [ ] rightUrl MFString [ ] "
+    "topUrl MFString [ ]",
+    "WorldInfo child info MFString [ ] title SFString \"\"",
 };
 
 constexpr std::array<std::pair<const char*, FieldType>, 11> kTypes = {{
@@ -92,20 +98,19 @@ constexpr std::array<std::pair<const char*, FieldType>, 11> kTypes = {{
 std::map<std::string, NodeSpec, std::less<>> parsed_table() {
     std::map<std::string, NodeSpec, std::less<>> table;
     for (const char* row : kNodes) {
-        std::istringstream words(row);
-        std::string type;
-        std::string named;
-        NodeSpec spec;
-        words >> type >> spec.slot >> named >> spec.coin_name;
-        spec.named = named == "named";
-        std::string field;
-        std::string field_type;
-        while (words >> field >> field_type) {
-            FieldSpec& entry = spec.fields[field];
-            parse_field_type(field_type, entry);
-            if (entry.type == FieldType::kNode) words >> entry.slot;
+        Lexer lexer(row, "node table");
+        NodeSpec& spec = table[std::string(lexer.take().text)];
+        spec.slot = lexer.take().text;
+        while (lexer.peek().kind != TokenKind::end) {
+            const std::string name(lexer.take().text);
+            FieldSpec& field = spec.fields[name];
+            RS_CHECK(parse_field_type(lexer.take().text, field));
+            if (field.type == FieldType::kNode) {
+                field.slot = lexer.take().text;
+            } else {
+                field.initial = read_value(lexer, field, name);
+            }
         }
-        table.emplace(type, std::move(spec));
     }
     return table;
 }

@@ -1,11 +1,24 @@
 #pragma once
-// The nodes and fields of VRML97 that are read, and the ray-space node. Pure; thread-safe.
+// The nodes and fields of VRML97 that are read, and those of ray space. Pure; thread-safe.
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rs::compositor::vrml {
+
+struct Node;
+using NodePointer = std::shared_ptr<const Node>;
+
+// The value of a field; one of the lists is used. A vector, colour or rotation takes as many numbers as it has parts,
+// TRUE and FALSE are 1 and 0, an image is its width, height and components and then a number for each pixel.
+struct Value {
+    std::vector<double> numbers;
+    std::vector<std::string> texts;
+    std::vector<NodePointer> nodes;  // none of them null
+};
 
 enum class FieldType {
     kBool,
@@ -24,15 +37,16 @@ enum class FieldType {
 struct FieldSpec {
     FieldType type = FieldType::kFloat;
     bool many = false;  // MF...
-    std::string slot;   // of node fields: the group of nodes that may stand here
-    bool operator==(const FieldSpec& other) const { return type == other.type && many == other.many; }
+    std::string slot;   // of node fields: the group of nodes that may stand here; empty: any
+    Value initial;      // where a node does not give it
+
+    [[nodiscard]] bool same_type(const FieldSpec& other) const { return type == other.type && many == other.many; }
 };
+using FieldSpecs = std::map<std::string, FieldSpec, std::less<>>;
 
 struct NodeSpec {
-    std::string slot;       // the group that this node belongs to
-    std::string coin_name;  // as the text for Coin calls it
-    bool named = false;     // gets a name of ours even where the file gives none, so that messages can tell its line
-    std::map<std::string, FieldSpec, std::less<>> fields;
+    std::string slot;  // the group that this node belongs to
+    FieldSpecs fields;
 };
 
 // Null where the node is not known. Nodes that only matter when time passes (sensors, interpolators, scripts, sound)

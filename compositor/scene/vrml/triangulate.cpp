@@ -1,11 +1,12 @@
 #include "compositor/scene/vrml/triangulate.hpp"
 
-#include "compositor/scene/vrml/coin_pointer.hpp"
 #include "compositor/scene/vrml/node_table.hpp"
 #include "rayspace/image/linear_light.hpp"
 
+#include <Inventor/SoDB.h>
 #include <Inventor/SoPrimitiveVertex.h>
 #include <Inventor/actions/SoCallbackAction.h>
+#include <Inventor/errors/SoDebugError.h>
 #include <Inventor/fields/SoFields.h>
 #include <Inventor/nodes/SoComplexity.h>
 #include <Inventor/nodes/SoSeparator.h>
@@ -16,11 +17,37 @@
 #include <bit>
 #include <cstdint>
 #include <initializer_list>
+#include <mutex>
 #include <unordered_map>
 #include <utility>
 
 namespace rs::compositor::vrml {
 namespace {
+
+// Coin's state is one for the whole process: it is started once and used by one thread at a time.
+std::unique_lock<std::mutex> coin_session() {
+    static std::mutex lock;
+    static const bool started = [] {
+        SoDB::init();
+        SoDebugError::setHandlerCallback([](const SoError*, void*) {}, nullptr);
+        return true;
+    }();
+    static_cast<void>(started);
+    return std::unique_lock(lock);
+}
+
+class CoinRoot {
+public:
+    CoinRoot() : node_(new SoSeparator) { node_->ref(); }
+    CoinRoot(const CoinRoot&) = delete;
+    CoinRoot& operator=(const CoinRoot&) = delete;
+    ~CoinRoot() { node_->unref(); }
+    SoSeparator* operator->() const { return node_; }
+    [[nodiscard]] SoSeparator* get() const { return node_; }
+
+private:
+    SoSeparator* node_;
+};
 
 // Coin's measure of how finely spheres, cylinders and cones are cut, 0..1.
 constexpr float kRoundness = 0.8F;
@@ -154,7 +181,7 @@ public:
 private:
     SoNode* fresh(const Node& from) const {
         auto* node = static_cast<SoNode*>(SoType::fromName(("VRML" + from.type).c_str()).createInstance());
-        for (const auto& [name, spec] : find_node(from.type)->fields) {
+        for (const auto& [name, spec] : from.spec->fields) {
             SoField* field = node->getField(name.c_str());
             const Value& value = from.field(name);
             const bool usable =
@@ -181,10 +208,10 @@ private:
 
 // Whether only the front of the shape is to be seen.
 bool is_solid(const Node& node) {
-    if (node.fields.contains("solid")) return node.flag("solid");
+    if (node.has("solid")) return node.flag("solid");
     // The others are closed where nothing is taken off.
     for (const char* part : {"side", "bottom", "top"}) {
-        if (node.fields.contains(part) && !node.flag(part)) return false;
+        if (node.has(part) && !node.flag(part)) return false;
     }
     return node.type != "Text";
 }
@@ -206,9 +233,10 @@ void map_by_box(Mesh& mesh) {
 }  // namespace
 
 std::shared_ptr<const Mesh> triangulate(const Node& geometry, const ShapeCheck& check) {
-    const bool has_colours = geometry.fields.contains("color") && geometry.node("color") != nullptr &&
+    const bool has_colours = geometry.has("color") && geometry.node("color") != nullptr &&
                              std::find(check.unusable.begin(), check.unusable.end(), "color") == check.unusable.end();
-    const CoinPointer<SoSeparator> root(new SoSeparator);
+    const auto session = coin_session();
+    const CoinRoot root;
     auto* complexity = new SoComplexity;
     complexity->value = kRoundness;
     root->addChild(complexity);
@@ -219,7 +247,7 @@ std::shared_ptr<const Mesh> triangulate(const Node& geometry, const ShapeCheck& 
     root->addChild(picture);
     root->addChild(CoinShape(geometry, check).get());
     SoCallbackAction action;
-    MeshCollector collector(geometry.fields.contains("ccw") && !geometry.flag("ccw"));
+    MeshCollector collector(geometry.has("ccw") && !geometry.flag("ccw"));
     collector.add_to(action);
     action.apply(root.get());
     auto mesh = std::make_shared<Mesh>(collector.take());

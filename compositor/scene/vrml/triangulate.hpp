@@ -8,8 +8,8 @@
 
 namespace rs::compositor::vrml {
 
-// The shape must have passed check_shape() without a fault. Null where there is nothing to draw. To be called within a
-// CoinSession.
+// The shape must have passed check_shape() without a fault. Null where there is nothing to draw. Thread-safe:
+// Coin works for one call at a time, others wait. Its source is the only one that knows Coin.
 std::shared_ptr<const Mesh> triangulate(const Node& geometry, const ShapeCheck& check);
 
 }  // namespace rs::compositor::vrml
