@@ -67,17 +67,21 @@ bool is_whole_glb(std::span<const std::byte> bytes) {
     return true;
 }
 
-// From the first newmtl on; a comment alone where there is none, for fewer than 8 bytes are an error to Assimp.
-std::vector<std::byte> from_first_material(std::vector<std::byte> bytes) {
+// From the first newmtl on, for statements before it crash Assimp, and without the space before statements, which hides
+// them from it; a comment alone where there is no newmtl, for fewer than 8 bytes are an error to it.
+std::vector<std::byte> plain_materials(std::vector<std::byte> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    std::size_t line = 0;
-    while (line < text.size()) {
-        const std::size_t word = text.find_first_not_of(" \t", line);
-        if (word != std::string_view::npos && text.substr(word).starts_with("newmtl")) break;
-        const std::size_t end = text.find_first_of("\r\n", line);
-        line = end == std::string_view::npos ? text.size() : end + 1;
+    std::size_t kept = 0;
+    for (std::size_t line = 0; line < text.size();) {
+        const std::size_t end = std::min(text.find_first_of("\r\n", line), text.size() - 1) + 1;
+        const std::size_t word = std::min(text.find_first_not_of(" \t", line), end);
+        if (kept > 0 || text.substr(word).starts_with("newmtl")) {
+            std::memmove(bytes.data() + kept, bytes.data() + word, end - word);
+            kept += end - word;
+        }
+        line = end;
     }
-    bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(line));
+    bytes.resize(kept);
     constexpr std::string_view kNothing = "# empty\n";
     if (bytes.size() < kNothing.size()) {
         bytes.assign(reinterpret_cast<const std::byte*>(kNothing.data()),
@@ -136,7 +140,7 @@ Assimp::IOStream* ModelFiles::Open(const char* path, const char* mode) {
         refusal_ = std::string(path) + ": is a damaged .glb file; export it again";
         return nullptr;
     }
-    return new MemoryFile(lower_case_extension(path) == ".mtl" ? from_first_material(std::move(*bytes))
+    return new MemoryFile(lower_case_extension(path) == ".mtl" ? plain_materials(std::move(*bytes))
                                                                : std::move(*bytes));
 }
 

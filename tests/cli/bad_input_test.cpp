@@ -296,7 +296,9 @@ TEST_F(BadInput, ModelsThatAssimpDoesNotSurvive) {
     write_text("early.obj", "mtllib early.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     write_text("none.mtl", "map_Kd texture.png\n");
     write_text("none.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    for (const char* const model : {"early.obj", "none.obj"}) {
+    write_text("indented.mtl", " newmtlred\nKd 1 0 0\n");
+    write_text("indented.obj", "mtllib indented.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const char* const model : {"early.obj", "none.obj", "indented.obj"}) {
         EXPECT_EQ(
             test::run_tool(scratch_.path(), "rs-view", {in(model), "--size", "32x24", "-o", in("frame.png")}).exit_code,
             0)

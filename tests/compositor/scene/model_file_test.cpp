@@ -187,12 +187,16 @@ TEST_F(ModelFile, FacesOfTwoCornersAreLines) {
 }
 
 TEST_F(ModelFile, AnObjIsRead) {
-    std::ofstream(folder_ / "hall.mtl") << "newmtl red\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 64\nillum 2\n";
-    const auto scene = read("mtllib hall.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n", "hall.obj");
-    ASSERT_TRUE(scene) << scene.error().message;
-    ASSERT_EQ(scene->geometry.size(), 1U);
-    EXPECT_EQ(scene->geometry[0].material.diffuse, glm::vec3(1, 0, 0));
-    EXPECT_FLOAT_EQ(scene->geometry[0].material.shininess, 0.5F);
+    // The second as some programs write it: the statements indented, which Assimp does not read as such.
+    for (const char* materials : {"newmtl red\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 64\nillum 2\n",
+                                  "\tnewmtl red\r\n\t\tKd 1 0 0\r\n \r\n  Ks 0.5 0.5 0.5\r\n\t\tNs 64\r\n  illum 2"}) {
+        std::ofstream(folder_ / "hall.mtl") << materials;
+        const auto scene = read("mtllib hall.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n", "hall.obj");
+        ASSERT_TRUE(scene) << scene.error().message;
+        ASSERT_EQ(scene->geometry.size(), 1U);
+        EXPECT_EQ(scene->geometry[0].material.diffuse, glm::vec3(1, 0, 0));
+        EXPECT_FLOAT_EQ(scene->geometry[0].material.shininess, 0.5F);
+    }
 }
 
 }  // namespace
