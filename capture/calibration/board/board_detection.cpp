@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kFewestNeighbours = 4;
 constexpr double kSmoothing_px = 0.8;         // takes the pixels' stairs out before gradients are taken
-constexpr std::size_t kIntra = 16;            // matches that a local homography is made of
+constexpr std::size_t kNearest = 16;            // matches that a local homography is made of
 constexpr double kMarkerNeighbourhood = 2.0;  // squares
 constexpr double kNeighbourhood = 3.2;
 constexpr double kMarkerLimit_px = 2.5;  // markers' corners are found to a pixel or so
@@ -188,7 +188,7 @@ struct CornerSearch {
     static std::optional<cv::Matx33d> homography_near(const cv::Point2d& square, const std::vector<Match>& others,
                                                       double limit_px, double& disagreement_px) {
         disagreement_px = kDisagreement_px;
-        const auto near = homography_around(square, others, kIntra, kNeighbourhood, limit_px);
+        const auto near = homography_around(square, others, kNearest, kNeighbourhood, limit_px);
         if (near) return near;
         disagreement_px = kBoardDisagreement_px;
         return homography_around(square, others, others.size(), std::numeric_limits<double>::infinity(),
@@ -245,10 +245,10 @@ BoardCorners corners_in(const cv::Mat1b& grey, const BoardDesign& design) {
     }
     cv::GaussianBlur(smooth, smooth, {0, 0}, kSmoothing_px, kSmoothing_px, cv::BORDER_REPLICATE);
     CornerSearch search{smooth, design, {}};
-    search.look_around(markers, kIntra, kMarkerNeighbourhood, kMarkerLimit_px);
+    search.look_around(markers, kNearest, kMarkerNeighbourhood, kMarkerLimit_px);
     for (int pass = 0; pass < 2; ++pass) {  // what a poor neighbour spoilt in the first is found in the second
         for (int round = 0; round < kMostRounds; ++round) {
-            if (search.look_around(search.as_matches(), kIntra, kNeighbourhood, kCornerLimit_px) == 0) break;
+            if (search.look_around(search.as_matches(), kNearest, kNeighbourhood, kCornerLimit_px) == 0) break;
         }
         search.refine_again();
     }

@@ -17,7 +17,7 @@ namespace {
 constexpr int kNoNode = -1;
 
 // Half of the 8-neighbourhood, so that every pair is met once.
-constexpr std::pair<int, int> kIntra[] = {{1, 0}, {-1, 1}, {0, 1}, {1, 1}};
+constexpr std::pair<int, int> kNeighbours[] = {{1, 0}, {-1, 1}, {0, 1}, {1, 1}};
 
 float difference(const Rgba8& p, const Rgba8& q) {
     return delta_e(lab_from_linear(linear_rgb(p)), lab_from_linear(linear_rgb(q)));
@@ -53,7 +53,7 @@ Image<std::uint8_t> cut_by_contrast(ConstImageView<Rgba8> photo, ConstImageView<
     graph.addEdges(spare, graph.addVtx(), 0, 0);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            for (const auto& [dx, dy] : kIntra) {
+            for (const auto& [dx, dy] : kNeighbours) {
                 const int u = x + dx;
                 const int v = y + dy;
                 if (u < 0 || u >= width || v >= height) continue;
