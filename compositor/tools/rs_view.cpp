@@ -9,7 +9,7 @@
 #include "compositor/viewer/frame_times.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/window/visit.hpp"
-#include "engine/model/simulated_board.hpp"
+#include "engine/executors/executor_table.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -74,17 +74,10 @@ Status write_folder(const std::function<Result<Image<Rgba8>>(const Camera&)>& co
     return staged->commit();
 }
 
-Result<std::unique_ptr<engine::BoardDevice>> asked_board(const ViewArguments& arguments, std::string& name) {
-    constexpr std::string_view kBoard = "board:";
-    name = "software core";
-    if (arguments.executor == "core") return std::unique_ptr<engine::BoardDevice>();
-    if (!arguments.executor.starts_with(kBoard)) {
-        return Error{"--executor " + arguments.executor + ": must be core or board:CONFIG"};
-    }
-    const auto config = engine::model::read_board_config(arguments.executor.substr(kBoard.size()));
-    if (!config) return config.error();
-    name = "board " + config->name;
-    return engine::model::make_simulated_board(*config, true);
+// Who draws with the core; null where that is alone.
+Result<std::unique_ptr<engine::Executor>> asked_executor(const ViewArguments& arguments) {
+    if (arguments.executor == "core") return std::unique_ptr<engine::Executor>();
+    return engine::make_executor(arguments.executor, {.instant_loads = true});
 }
 
 ObjectDepth asked_depth(const ViewArguments& arguments) {
@@ -152,9 +145,12 @@ Status run_view(ViewArguments arguments) {
     const bool in_window = window.has_value();
     const Result<OutputKind> kind = in_window ? OutputKind::picture : output_kind(arguments.output);
     if (!kind) return kind.error();
-    std::string executor;
-    Result<std::unique_ptr<engine::BoardDevice>> board = asked_board(arguments, executor);
+    Result<std::unique_ptr<engine::Executor>> board = asked_executor(arguments);
     if (!board) return board.error();
+    const engine::ExecutorTraits drawer = *board ? (*board)->traits() : engine::ExecutorTraits{.name = "software core"};
+    if (arguments.object_depth == "pixel" && !drawer.depth) {
+        return Error{"--object-depth pixel: " + drawer.name + " gives no depth; leave out --executor"};
+    }
     const bool waits = !in_window && !arguments.streaming;
     auto showroom = std::make_unique<Showroom>(
         *scene, ShowroomOptions{.memory_bytes = arguments.memory_mib << 20, .waits = waits}, std::move(*board));
@@ -166,7 +162,7 @@ Status run_view(ViewArguments arguments) {
     if (!cameras) return cameras.error();
     if (in_place_of_window) cameras->erase(cameras->begin() + 1, cameras->end());
     if (in_window) {
-        return run_visit(std::move(*window), arguments, *scene, std::move(showroom), executor, cameras->front());
+        return run_visit(std::move(*window), arguments, *scene, std::move(showroom), drawer.name, cameras->front());
     }
     if (*kind == OutputKind::picture && cameras->size() != 1) {
         return Error{arguments.output + ": " + std::to_string(cameras->size()) +
@@ -175,7 +171,7 @@ Status run_view(ViewArguments arguments) {
 
     Result<gl::Context> context = gl::Context::create_surfaceless();
     if (!context) return context.error();
-    const bool upright = arguments.upright || arguments.streaming || arguments.executor != "core";
+    const bool upright = arguments.upright || arguments.streaming || !drawer.tilted;
     Result<FrameCompositor> compositor = FrameCompositor::create(*scene, showroom->engine(), showroom->nodes(),
                                                                  {.width = size->width,
                                                                   .height = size->height,
@@ -243,7 +239,7 @@ int main(int argc, char** argv) {
     app.add_flag("--wire-frame", arguments.wire_frame, "only the edges of the geometry's triangles");
     app.add_option("--object-depth", arguments.object_depth,
                    "how deep objects are: one plane each, or every pixel by itself, so that objects, and objects and "
-                   "geometry, reach into each other; with --executor core only")
+                   "geometry, reach into each other; boards give no depth")
         ->type_name("plane|pixel")
         ->check(CLI::IsMember({"plane", "pixel"}))
         ->capture_default_str();
@@ -267,9 +263,9 @@ int main(int argc, char** argv) {
     app.add_option("--stats", arguments.stats, "with -o: also write the frames' times, by part, as JSON")
         ->type_name("FILE.json");
     app.add_option("--executor", arguments.executor,
-                   "who draws the objects: core, or board:CONFIG, the model of the hardware board (rs-engine simulate "
-                   "--help), with the core for what the board cannot draw")
-        ->type_name("core|board:CONFIG")
+                   "who draws the objects, with the core for what that one cannot draw: " +
+                       rs::engine::executor_names() + " (the model of the hardware board: rs-engine simulate --help)")
+        ->type_name("NAME")
         ->capture_default_str();
     app.add_option("--memory", arguments.memory_mib,
                    "MiB that objects may take; room by room they come and go (half of the machine's memory)")
@@ -291,9 +287,6 @@ int main(int argc, char** argv) {
     app.callback([&] {
         if (arguments.scene.empty() && arguments.objects.empty()) {
             throw CLI::ValidationError("nothing to show; give a scene file or --object FILE.rso");
-        }
-        if (arguments.object_depth == "pixel" && arguments.executor != "core") {
-            throw CLI::ValidationError("--object-depth pixel: boards tell no depths; leave out --executor");
         }
         if (arguments.streaming && arguments.output.empty()) {
             throw CLI::ValidationError("--streaming is for -o; in a window objects always come while you walk");

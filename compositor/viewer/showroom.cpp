@@ -20,7 +20,7 @@ std::int64_t usual_memory_budget() {
     return std::int64_t{sysconf(_SC_PHYS_PAGES)} / 2 * sysconf(_SC_PAGESIZE);
 }
 
-Showroom::Showroom(const Scene& scene, const ShowroomOptions& options, std::unique_ptr<engine::BoardDevice> board,
+Showroom::Showroom(const Scene& scene, const ShowroomOptions& options, std::unique_ptr<engine::Executor> board,
                    std::unique_ptr<ObjectSource> source)
     : plan_(scene),
       waits_(options.waits),

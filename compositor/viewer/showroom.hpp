@@ -34,7 +34,7 @@ struct ShowroomOptions {
 class Showroom {
 public:
     // Without a `source`, objects are read from the scene's files.
-    Showroom(const Scene& scene, const ShowroomOptions& options, std::unique_ptr<engine::BoardDevice> board = nullptr,
+    Showroom(const Scene& scene, const ShowroomOptions& options, std::unique_ptr<engine::Executor> board = nullptr,
              std::unique_ptr<ObjectSource> source = nullptr);
 
     // For FrameCompositor::create().

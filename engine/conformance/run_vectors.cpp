@@ -1,13 +1,10 @@
 #include "engine/conformance/run_vectors.hpp"
 
 #include "engine/conformance/view_files.hpp"
-#include "engine/core/definition/reconstruct.hpp"
-#include "engine/core/fast/renderer.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
 #include "rayspace/format/object_file.hpp"
 
 #include <algorithm>
-#include <memory>
+#include <optional>
 #include <utility>
 
 namespace rs::engine {
@@ -31,10 +28,6 @@ std::string difference(const ConformanceView& expected, const ExecutedView& foun
     return "";
 }
 
-ExecutedView blank(const ViewRegisters& registers) {
-    return {Image<Rgba8>(registers.width, registers.height), Image<std::int32_t>(registers.width, registers.height)};
-}
-
 Status check_views(const ConformanceCase& of_case, const RaySpaceObject& object) {
     for (std::size_t v = 0; v < of_case.views.size(); ++v) {
         if (Status status = check_registers(object, of_case.views[v].registers); !status) {
@@ -44,10 +37,10 @@ Status check_views(const ConformanceCase& of_case, const RaySpaceObject& object)
     return {};
 }
 
-CaseResult run_case(const ConformanceCase& of_case, const RaySpaceObject& object, const Executor& executor,
+CaseResult run_case(const ConformanceCase& of_case, const RaySpaceObject& object, const Implementation& implementation,
                     const std::filesystem::path& write_folder) {
     CaseResult result;
-    const Result<ExecuteView> render = executor.open(of_case, object);
+    const Result<ExecuteView> render = implementation.open(of_case, object);
     if (!render) {
         result.declined = render.error().message;
         return result;
@@ -74,32 +67,33 @@ CaseResult run_case(const ConformanceCase& of_case, const RaySpaceObject& object
 
 }  // namespace
 
-Executor scalar_executor() {
-    return {"scalar", [](const ConformanceCase& of_case, RaySpaceObject object) -> Result<ExecuteView> {
-                if (object.coded) codec::decode_pictures(object);
-                const auto shared = std::make_shared<const RaySpaceObject>(std::move(object));
-                return ExecuteView([shared, &of_case](std::size_t v) -> Result<ExecutedView> {
-                    ExecutedView view = blank(of_case.views[v].registers);
-                    reconstruct_scalar(*shared, of_case.views[v].registers, view.picture.view(), view.depth_q20.view());
-                    return view;
+Implementation implementation_of(std::shared_ptr<Executor> executor) {
+    const std::string name = executor->traits().name;
+    return {name,
+            [executor = std::move(executor)](const ConformanceCase& of_case,
+                                             const RaySpaceObject& object) -> Result<ExecuteView> {
+                if (Status status = executor->takes(object); !status) return status.error();
+                if (executor->as_drawn(object).pictures != object.pictures) {
+                    return Error{"its alpha has values that " + executor->traits().name + " does not hold"};
+                }
+                const Result<std::optional<int>> slot = executor->load(object);
+                if (!slot) return slot.error();
+                if (!*slot) return Error{"there is no room for it"};
+                const std::shared_ptr<const int> loaded(new int(**slot), [executor](const int* held) {
+                    static_cast<void>(executor->evict(*held));
+                    delete held;
+                });
+                return ExecuteView([executor, loaded, &of_case](std::size_t v) -> Result<ExecutedView> {
+                    const ViewRegisters& registers = of_case.views[v].registers;
+                    if (Status status = executor->draws(registers); !status) return status.error();
+                    Result<std::vector<ExecutedView>> drawn = executor->render({{*loaded, registers}});
+                    if (!drawn) return drawn.error();
+                    return std::move(drawn->front());
                 });
             }};
 }
 
-Executor core_executor() {
-    return {"core", [](const ConformanceCase& of_case, RaySpaceObject object) -> Result<ExecuteView> {
-                Result<Renderer> renderer = Renderer::create(std::move(object));
-                if (!renderer) return renderer.error();
-                const auto shared = std::make_shared<const Renderer>(std::move(*renderer));
-                return ExecuteView([shared, &of_case](std::size_t v) -> Result<ExecutedView> {
-                    ExecutedView view = blank(of_case.views[v].registers);
-                    shared->render(of_case.views[v].registers, view.picture.view(), view.depth_q20.view());
-                    return view;
-                });
-            }};
-}
-
-Executor files_executor(const std::filesystem::path& folder) {
+Implementation implementation_in_files(const std::filesystem::path& folder) {
     return {"files:" + folder.filename().string(),
             [folder](const ConformanceCase& of_case, const RaySpaceObject&) -> Result<ExecuteView> {
                 if (!std::filesystem::is_directory(folder / of_case.name)) {
@@ -113,7 +107,7 @@ Executor files_executor(const std::filesystem::path& folder) {
 }
 
 bool ConformanceMatrix::passed() const {
-    std::vector<int> same(executors.size());
+    std::vector<int> same(names.size());
     for (const auto& row : results) {
         for (std::size_t e = 0; e < row.size(); ++e) {
             if (row[e].different > 0 || row[e].failed) return false;
@@ -123,20 +117,21 @@ bool ConformanceMatrix::passed() const {
     return std::all_of(same.begin(), same.end(), [](int views) { return views > 0; });
 }
 
-Result<ConformanceMatrix> run_vectors(const VectorSet& set, const std::vector<Executor>& executors,
+Result<ConformanceMatrix> run_vectors(const VectorSet& set, const std::vector<Implementation>& implementations,
                                       const std::filesystem::path& write_folder, Progress* progress) {
     ConformanceMatrix matrix;
-    for (const Executor& executor : executors) matrix.executors.push_back(executor.name);
+    for (const Implementation& each : implementations) matrix.names.push_back(each.name);
     if (progress != nullptr) {
-        progress->start("conformance", static_cast<std::int64_t>(set.cases.size() * executors.size()));
+        progress->start("conformance", static_cast<std::int64_t>(set.cases.size() * implementations.size()));
     }
     for (const ConformanceCase& of_case : set.cases) {
         const Result<RaySpaceObject> object = read_object(set.folder / of_case.object, {.decode = false});
         if (!object) return object.error();
         if (Status status = check_views(of_case, *object); !status) return status.error();
         std::vector<CaseResult>& row = matrix.results.emplace_back();
-        for (std::size_t e = 0; e < executors.size(); ++e) {
-            row.push_back(run_case(of_case, *object, executors[e], e == 0 ? write_folder : std::filesystem::path()));
+        for (std::size_t e = 0; e < implementations.size(); ++e) {
+            row.push_back(
+                run_case(of_case, *object, implementations[e], e == 0 ? write_folder : std::filesystem::path()));
             if (progress != nullptr) progress->advance();
         }
     }

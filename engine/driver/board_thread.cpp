@@ -19,7 +19,7 @@ Outcome guarded(const Ask& ask) {
 
 }  // namespace
 
-BoardThread::BoardThread(std::unique_ptr<BoardDevice> device) : device_(std::move(device)) {
+BoardThread::BoardThread(std::unique_ptr<Executor> device) : device_(std::move(device)) {
     thread_ = std::thread([this] { work(); });
 }
 
@@ -81,7 +81,7 @@ void BoardThread::draw(std::vector<Asked> views) {
     reserved_ = false;
     changed_.notify_all();
     if (views.empty()) return;
-    std::vector<DeviceView> cycle;
+    std::vector<SlotView> cycle;
     for (Asked& view : views) {
         // An object may have been removed since: its slot is not free before this cycle is drawn, but then it is
         // unknown here.
@@ -96,10 +96,10 @@ void BoardThread::draw(std::vector<Asked> views) {
     cycle_ = std::move(cycle);
 }
 
-Result<std::vector<Image<Rgba8>>> BoardThread::wait() {
+Result<std::vector<ExecutedView>> BoardThread::wait() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return drawn_.has_value(); });
-    Result<std::vector<Image<Rgba8>>> drawn = std::move(*drawn_);
+    Result<std::vector<ExecutedView>> drawn = std::move(*drawn_);
     drawn_.reset();
     return drawn;
 }
@@ -187,10 +187,10 @@ void BoardThread::work() {
             return stopping_ || cycle_ || (!reserved_ && (!slots_to_free_.empty() || next_to_load().has_value()));
         });
         if (cycle_) {
-            const std::vector<DeviceView> views = std::move(*cycle_);
+            const std::vector<SlotView> views = std::move(*cycle_);
             cycle_.reset();
             lock.unlock();
-            auto drawn = guarded<Result<std::vector<Image<Rgba8>>>>([&] { return device_->render(views); });
+            auto drawn = guarded<Result<std::vector<ExecutedView>>>([&] { return device_->render(views); });
             lock.lock();
             if (!drawn) {
                 ++counts_.failed_cycles;

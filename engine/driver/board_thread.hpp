@@ -5,7 +5,7 @@
 // Thread-safety: every member function may be called from any thread, but reserve(), draw() and wait() belong together,
 // from one.
 
-#include "engine/driver/board_device.hpp"
+#include "engine/core/definition/executor.hpp"
 
 #include <condition_variable>
 #include <cstdint>
@@ -30,12 +30,12 @@ struct BoardThreadCounts {
 
 class BoardThread {
 public:
-    explicit BoardThread(std::unique_ptr<BoardDevice> device);
+    explicit BoardThread(std::unique_ptr<Executor> device);
     ~BoardThread();  // finishes the cycle being drawn
     BoardThread(const BoardThread&) = delete;
     BoardThread& operator=(const BoardThread&) = delete;
 
-    [[nodiscard]] const BoardDevice& device() const { return *device_; }
+    [[nodiscard]] const Executor& device() const { return *device_; }
 
     // Objects are known by numbers that are never used twice. An object that the board takes; it is loaded when wanted.
     void add(std::uint32_t number, std::shared_ptr<const RaySpaceObject> object);
@@ -59,7 +59,7 @@ public:
     // After reserve(): begins to draw views of objects that it holds. No views: the board is free again.
     void draw(std::vector<Asked> views);
     // Waits for them. Fails, too, where an object was removed since.
-    Result<std::vector<Image<Rgba8>>> wait();
+    Result<std::vector<ExecutedView>> wait();
 
     [[nodiscard]] BoardThreadCounts counts() const;
 
@@ -78,14 +78,14 @@ private:
     void evict_slot(std::unique_lock<std::mutex>& lock, int slot);
     void note_failure(const Error& error);
 
-    std::unique_ptr<BoardDevice> device_;
+    std::unique_ptr<Executor> device_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::map<std::uint32_t, Known> known_;
     std::vector<int> slots_to_free_;
     std::uint64_t now_ = 0;  // counts want()
-    std::optional<std::vector<DeviceView>> cycle_;
-    std::optional<Result<std::vector<Image<Rgba8>>>> drawn_;
+    std::optional<std::vector<SlotView>> cycle_;
+    std::optional<Result<std::vector<ExecutedView>>> drawn_;
     BoardThreadCounts counts_;
     bool loading_ = false;
     bool reserved_ = false;

@@ -26,7 +26,7 @@ DrawnView drawn_by_core(const PreparedView& view) {
 
 }  // namespace
 
-CycleExecutor::CycleExecutor(std::unique_ptr<BoardDevice> board) {
+CycleExecutor::CycleExecutor(std::unique_ptr<Executor> board) {
     if (board) board_ = std::make_unique<BoardThread>(std::move(board));
 }
 
@@ -35,7 +35,7 @@ std::vector<std::size_t> CycleExecutor::share_of_board(const std::vector<Prepare
     std::vector<std::size_t> share;
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (!views[v].board_draws || !board_->holds(views[v].object)) continue;
-        if (share.size() == static_cast<std::size_t>(board_->device().views_per_cycle())) break;
+        if (share.size() == static_cast<std::size_t>(board_->device().traits().views_per_cycle)) break;
         share.push_back(v);
     }
     return share;
@@ -52,7 +52,7 @@ void CycleExecutor::want_objects(const std::vector<PreparedView>& views) {
 
 bool CycleExecutor::take_from_board(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share,
                                     double seconds, std::vector<DrawnView>& drawn,
-                                    Result<std::vector<Image<Rgba8>>> pictures) {
+                                    Result<std::vector<ExecutedView>> pictures) {
     if (!pictures) return false;
     std::int64_t all = 0;
     for (const std::size_t v : share) all += views[v].pixels();
@@ -60,7 +60,7 @@ bool CycleExecutor::take_from_board(const std::vector<PreparedView>& views, cons
         DrawnView& view = drawn[share[n]];
         const double part =
             static_cast<double>(views[share[n]].pixels()) / static_cast<double>(std::max(all, std::int64_t{1}));
-        view.picture = std::move((*pictures)[n]);
+        static_cast<ExecutedView&>(view) = std::move((*pictures)[n]);
         view.seconds = seconds * part;
         view.by_board = true;
     }
@@ -92,7 +92,7 @@ Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedVie
         if (!of_board[v]) draw_by_core(v);
     }
     if (!share.empty()) {
-        Result<std::vector<Image<Rgba8>>> pictures = board_->wait();
+        Result<std::vector<ExecutedView>> pictures = board_->wait();
         const double seconds = seconds_since(begin);
         if (!take_from_board(views, share, seconds, drawn, std::move(pictures))) {
             for (const std::size_t v : share) draw_by_core(v);  // stands in

@@ -14,9 +14,7 @@
 namespace rs::engine {
 
 // A view as an executor has drawn it.
-struct DrawnView {
-    Image<Rgba8> picture;
-    Image<std::int32_t> depth_q20;  // axial, 0 where alpha is 0; empty where nobody asked for it
+struct DrawnView : ExecutedView {  // depth: empty where nobody asked for it
     // It took the core; of a view that the board drew, its share of the cycle by its pixels.
     double seconds = 0;
     bool by_board = false;
@@ -33,7 +31,7 @@ struct PreparedView {
 
 class CycleExecutor {
 public:
-    explicit CycleExecutor(std::unique_ptr<BoardDevice> board);
+    explicit CycleExecutor(std::unique_ptr<Executor> board);
 
     // Null where the core draws everything. May be used from any thread.
     [[nodiscard]] BoardThread* board() const { return board_.get(); }
@@ -46,7 +44,7 @@ private:
     void want_objects(const std::vector<PreparedView>& views);
     // False where the board has failed.
     bool take_from_board(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share, double seconds,
-                         std::vector<DrawnView>& drawn, Result<std::vector<Image<Rgba8>>> pictures);
+                         std::vector<DrawnView>& drawn, Result<std::vector<ExecutedView>> pictures);
 
     std::unique_ptr<BoardThread> board_;
 };

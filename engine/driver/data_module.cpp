@@ -32,7 +32,7 @@ Error not_loaded(ObjectHandle object) {
 }  // namespace
 
 struct DataModule::State {
-    State(const DataModuleLimits& its_limits, std::unique_ptr<BoardDevice> device)
+    State(const DataModuleLimits& its_limits, std::unique_ptr<Executor> device)
         : limits(its_limits), executor(std::move(device)) {}
 
     DataModuleLimits limits;
@@ -75,7 +75,7 @@ struct DataModule::State {
     }
 };
 
-DataModule::DataModule(const DataModuleLimits& limits, std::unique_ptr<BoardDevice> board)
+DataModule::DataModule(const DataModuleLimits& limits, std::unique_ptr<Executor> board)
     : state_(std::make_unique<State>(limits, std::move(board))) {
     state_->worker = std::thread([state = state_.get()] { state->work(); });
 }
@@ -174,7 +174,8 @@ Result<CycleHandle> DataModule::submit(const std::vector<ViewRequest>& views) {
         const RaySpaceObject& object = found->second.renderer->object();
         Result<ViewRegisters> registers = prepare_view(object, view.camera);
         if (!registers) return Error{object.name + ": " + registers.error().message};
-        const bool board_draws = found->second.on_board && !view.depth && board->device().draws(*registers).ok();
+        const bool board_draws = found->second.on_board && (!view.depth || board->device().traits().depth) &&
+                                 board->device().draws(*registers).ok();
         cycle->views.push_back(
             {view.object.number, found->second.renderer, std::move(*registers), view.depth, board_draws});
     }

@@ -8,7 +8,7 @@
 // Two executors: the software core, which draws everything, and, if the module is given one, a board. The board's
 // memory holds the objects that were asked for last; the core draws what the board does not hold or cannot draw, at the
 // same time, and stands in for the board when it fails. Either gives the same bits: with a board,
-// objects that it takes are drawn as it holds them (BoardDevice::as_drawn).
+// objects that it takes are drawn as it holds them (Executor::as_drawn).
 //
 // Thread-safety: every member function may be called from any thread.
 
@@ -34,7 +34,7 @@ struct ObjectHandle {
 struct ViewRequest {
     ObjectHandle object;
     Camera camera;       // in the units of the object's rig
-    bool depth = false;  // axial depth is wanted too; only the core has it
+    bool depth = false;  // axial depth is wanted too
 };
 
 struct CycleHandle {
@@ -63,7 +63,7 @@ struct DataModuleStatistics {
 
 class DataModule {
 public:
-    explicit DataModule(const DataModuleLimits& limits = {}, std::unique_ptr<BoardDevice> board = nullptr);
+    explicit DataModule(const DataModuleLimits& limits = {}, std::unique_ptr<Executor> board = nullptr);
     ~DataModule();  // waits for the cycle being rendered; drops queued ones
     DataModule(const DataModule&) = delete;
     DataModule& operator=(const DataModule&) = delete;

@@ -8,10 +8,18 @@
 namespace rs::engine::model {
 namespace {
 
-class SimulatedBoard final : public BoardDevice {
+class SimulatedBoard final : public Executor {
 public:
     SimulatedBoard(const BoardConfig& config, bool instant_loads)
-        : limits_(config.limits), board_(config), instant_loads_(instant_loads) {}
+        : traits_{.name = "board:" + config.name,
+                  .depth = false,
+                  .tilted = false,
+                  .views_per_cycle = config.limits.views_per_cycle},
+          limits_(config.limits),
+          board_(config),
+          instant_loads_(instant_loads) {}
+
+    [[nodiscard]] const ExecutorTraits& traits() const override { return traits_; }
 
     [[nodiscard]] Status takes(const RaySpaceObject& object) const override { return drawable(object, limits_); }
 
@@ -28,8 +36,6 @@ public:
         return as_drawn_by_board(std::move(object), limits_);
     }
 
-    [[nodiscard]] int views_per_cycle() const override { return limits_.views_per_cycle; }
-
     Result<std::optional<int>> load(const RaySpaceObject& object) override {
         const Result<int> slot = instant_loads_ ? board_.place(object) : board_.start_load(object);
         if (!slot) return std::optional<int>();  // takes() was asked before: only room can be missing
@@ -40,19 +46,22 @@ public:
 
     Status evict(int slot) override { return board_.evict(slot); }
 
-    Result<std::vector<Image<Rgba8>>> render(const std::vector<DeviceView>& views) override {
+    Result<std::vector<ExecutedView>> render(const std::vector<SlotView>& views) override {
         std::vector<BoardView> cycle;
-        for (const DeviceView& view : views) {
+        for (const SlotView& view : views) {
             const Result<BoardView> registers = board_.view(view.slot, view.registers);
             if (!registers) return registers.error();
             cycle.push_back(*registers);
         }
         Result<BoardRun> run = board_.render({cycle});
         if (!run) return run.error();
-        return std::move(run->cycles.front().pictures);
+        std::vector<ExecutedView> drawn;
+        for (Image<Rgba8>& picture : run->cycles.front().pictures) drawn.push_back({std::move(picture), {}});
+        return drawn;
     }
 
 private:
+    const ExecutorTraits traits_;
     const BoardLimits limits_;  // read from any thread
     Board board_;
     bool instant_loads_;
@@ -60,7 +69,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<BoardDevice> make_simulated_board(const BoardConfig& config, bool instant_loads) {
+std::unique_ptr<Executor> make_simulated_board(const BoardConfig& config, bool instant_loads) {
     return std::make_unique<SimulatedBoard>(config, instant_loads);
 }
 

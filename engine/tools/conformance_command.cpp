@@ -2,7 +2,7 @@
 
 #include "engine/conformance/run_vectors.hpp"
 #include "engine/core/views/conformance.hpp"
-#include "engine/tools/board_executor.hpp"
+#include "engine/executors/executor_table.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/format/object_file.hpp"
 
@@ -26,14 +26,12 @@ struct ConformanceArguments {
     bool json = false;
 };
 
-Result<Executor> executor_from(const std::string& name) {
-    if (name == "scalar") return scalar_executor();
-    if (name == "core") return core_executor();
-    constexpr std::string_view kBoard = "board:";
+Result<Implementation> implementation_from(const std::string& name) {
     constexpr std::string_view kFiles = "files:";
-    if (name.starts_with(kBoard)) return board_executor(name.substr(kBoard.size()));
-    if (name.starts_with(kFiles)) return files_executor(name.substr(kFiles.size()));
-    return Error{"--executor " + name + ": there is no such executor; give scalar, core, board:CONFIG or files:FOLDER"};
+    if (name.starts_with(kFiles)) return implementation_in_files(name.substr(kFiles.size()));
+    Result<std::unique_ptr<Executor>> executor = make_executor(name, {.instant_loads = true});
+    if (!executor) return Error{executor.error().message + " or files:FOLDER"};
+    return implementation_of(std::move(*executor));
 }
 
 std::string cell_text(const CaseResult& result) {
@@ -45,7 +43,7 @@ std::string cell_text(const CaseResult& result) {
 
 void print_matrix(const VectorSet& set, const ConformanceMatrix& matrix) {
     std::printf("conformance set, edition %s: %zu cases\n%-20s", set.edition.c_str(), set.cases.size(), "");
-    for (const std::string& name : matrix.executors) std::printf(" %18s", name.c_str());
+    for (const std::string& name : matrix.names) std::printf(" %18s", name.c_str());
     std::printf("\n");
     for (std::size_t c = 0; c < set.cases.size(); ++c) {
         std::printf("%-20s", set.cases[c].name.c_str());
@@ -53,11 +51,11 @@ void print_matrix(const VectorSet& set, const ConformanceMatrix& matrix) {
         std::printf("\n");
     }
     for (std::size_t c = 0; c < set.cases.size(); ++c) {
-        for (std::size_t e = 0; e < matrix.executors.size(); ++e) {
+        for (std::size_t e = 0; e < matrix.names.size(); ++e) {
             const CaseResult& result = matrix.results[c][e];
             const std::string why = result.different > 0 ? result.first : result.declined;
             if (!why.empty()) {
-                std::printf("  %s, %s: %s\n", set.cases[c].name.c_str(), matrix.executors[e].c_str(), why.c_str());
+                std::printf("  %s, %s: %s\n", set.cases[c].name.c_str(), matrix.names[e].c_str(), why.c_str());
             }
         }
     }
@@ -67,12 +65,12 @@ void print_json(const VectorSet& set, const ConformanceMatrix& matrix) {
     nlohmann::json json{{"edition", set.edition}, {"passed", matrix.passed()}};
     for (std::size_t c = 0; c < set.cases.size(); ++c) {
         nlohmann::json row{{"case", set.cases[c].name}};
-        for (std::size_t e = 0; e < matrix.executors.size(); ++e) {
+        for (std::size_t e = 0; e < matrix.names.size(); ++e) {
             const CaseResult& result = matrix.results[c][e];
-            row["executors"][matrix.executors[e]] = {{"same", result.same},
-                                                     {"different", result.different},
-                                                     {"declined", result.declined},
-                                                     {"first", result.first}};
+            row["executors"][matrix.names[e]] = {{"same", result.same},
+                                                 {"different", result.different},
+                                                 {"declined", result.declined},
+                                                 {"first", result.first}};
         }
         json["cases"].push_back(row);
     }
@@ -82,15 +80,15 @@ void print_json(const VectorSet& set, const ConformanceMatrix& matrix) {
 Status run_set(const ConformanceArguments& arguments) {
     const Result<VectorSet> set = read_vectors(arguments.target);
     if (!set) return set.error();
-    std::vector<Executor> executors;
+    std::vector<Implementation> implementations;
     for (const std::string& name :
          arguments.executors.empty() ? std::vector<std::string>{"scalar", "core"} : arguments.executors) {
-        Result<Executor> executor = executor_from(name);
-        if (!executor) return executor.error();
-        executors.push_back(std::move(*executor));
+        Result<Implementation> implementation = implementation_from(name);
+        if (!implementation) return implementation.error();
+        implementations.push_back(std::move(*implementation));
     }
     ProgressBar progress(arguments.quiet);
-    const Result<ConformanceMatrix> matrix = run_vectors(*set, executors, arguments.write_folder, &progress);
+    const Result<ConformanceMatrix> matrix = run_vectors(*set, implementations, arguments.write_folder, &progress);
     if (!matrix) return matrix.error();
     if (arguments.json) {
         print_json(*set, *matrix);
@@ -131,10 +129,12 @@ void add_conformance_command(CLI::App& app, std::function<Status()>& run) {
         "vectors.json), or, given an object, the core on random views of it");
     command->add_option("TARGET", arguments->target, "the folder of the conformance set, or an object, .rso")
         ->required();
-    command->add_option("--executor", arguments->executors,
-                        "of the set: scalar, core, board:CONFIG (a configuration of `simulate`), or files:FOLDER, "
-                        "pictures that another implementation wrote; may be given several times; scalar and core if "
-                        "not given");
+    command->add_option(
+        "--executor", arguments->executors,
+        "of the set: " + executor_names() +
+            " (a configuration of `simulate`), or files:FOLDER, "
+            "pictures that another implementation wrote; may be given several times; scalar and core if "
+            "not given");
     command->add_option("--write", arguments->write_folder,
                         "of the set: also write what the first executor renders, as files:FOLDER would be read");
     command->add_option("--views", arguments->views, "of an object: how many views")

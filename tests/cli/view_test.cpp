@@ -151,7 +151,7 @@ TEST_F(View, RoomsAreWalkedThroughWithinABudget) {
     stats_of({"--executor", "board:none"});
     EXPECT_EQ(run_.exit_code, 1);
     stats_of({"--executor", "fpga"});
-    EXPECT_THAT(run_.err, HasSubstr("must be core or board:CONFIG"));
+    EXPECT_THAT(run_.err, HasSubstr("give one of scalar, core, board:CONFIG"));
     EXPECT_EQ(view({in("rooms.json"), "--streaming"}).exit_code, 2);
     stats_of({"--memory", "1"});
     EXPECT_EQ(run_.exit_code, 0);

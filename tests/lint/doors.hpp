@@ -69,7 +69,7 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"engine/core/fast", {"rayspace/*", "engine/core/definition"}},
     {"engine/core/views", {"rayspace/*", "engine/core/definition", "engine/core/fast"}},
     {"engine/driver", {"rayspace/*", "engine/core/definition", "engine/core/fast"}},
-    {"engine/conformance", {"rayspace/*", "engine/core/definition", "engine/core/fast"}},
+    {"engine/conformance", {"rayspace/*", "engine/core/definition"}},
     // The hardware knows the arithmetic, never the renderer that it is compared with.
     {"engine/model/limits", {"rayspace/*"}},
     {"engine/model/clock", {"rayspace/base"}},
@@ -92,9 +92,11 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
      {"rayspace/*", "engine/model/signals", "engine/model/limits", "engine/model/blocks/shared",
       "engine/model/blocks/memory"}},
     {"engine/model",
-     {"rayspace/*", "engine/driver", "engine/model/clock", "engine/model/signals", "engine/model/limits",
+     {"rayspace/*", "engine/core/definition", "engine/model/clock", "engine/model/signals", "engine/model/limits",
       "engine/model/layout", "engine/model/blocks/*"}},
     {"engine/model/report", {"rayspace/*", "engine/model"}},
+    // The one place that knows every executor.
+    {"engine/executors", {"rayspace/*", "engine/core/definition", "engine/core/fast", "engine/model"}},
     {"engine/python", {"rayspace/*", "engine/core/definition", "engine/core/fast", "engine/core/views"}},
     {"engine/tools", {"rayspace/*", "engine/*"}},
 
@@ -111,7 +113,7 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"compositor/window",
      {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/viewer", "compositor/viewer/views",
       "compositor/viewer/drawing"}},
-    {"compositor/tools", {"rayspace/*", "compositor/*", "engine/model"}},
+    {"compositor/tools", {"rayspace/*", "compositor/*", "engine/core/definition", "engine/executors"}},
 };
 
 // The room of a file; empty where it stands in none.

@@ -2,6 +2,7 @@
 
 #include "engine/conformance/run_vectors.hpp"
 #include "engine/conformance/view_files.hpp"
+#include "engine/executors/software_executors.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -33,7 +34,8 @@ VectorSet small_set() {
 TEST(ConformanceSet, DefinitionAndCoreAreAsTheHashesSay) {
     const VectorSet set = the_set();
     ASSERT_GE(set.cases.size(), 20U);
-    const auto matrix = run_vectors(set, {scalar_executor(), core_executor()});
+    const auto matrix =
+        run_vectors(set, {implementation_of(make_scalar_executor()), implementation_of(make_core_executor())});
     ASSERT_TRUE(matrix.ok()) << matrix.error().message;
     EXPECT_TRUE(matrix->passed());
     for (std::size_t c = 0; c < set.cases.size(); ++c) {
@@ -61,9 +63,9 @@ TEST(ConformanceSet, CasesShowTheirObjects) {
 TEST(ConformanceSet, OneWrongBitIsFound) {
     const VectorSet set = small_set();
     for (const bool in_depth : {false, true}) {
-        Executor wrong = scalar_executor();
+        Implementation wrong = implementation_of(make_scalar_executor());
         wrong.open = [in_depth](const ConformanceCase& of_case, RaySpaceObject object) -> Result<ExecuteView> {
-            auto right = scalar_executor().open(of_case, std::move(object));
+            auto right = implementation_of(make_scalar_executor()).open(of_case, std::move(object));
             return ExecuteView([right = *right, in_depth](std::size_t v) {
                 auto view = right(v);
                 if (v == 1 && in_depth) view->depth_q20(3, 3) ^= 1;
@@ -82,10 +84,10 @@ TEST(ConformanceSet, OneWrongBitIsFound) {
 }
 
 TEST(ConformanceSet, WhoDeclinesEverythingHasNotPassed) {
-    const Executor none{"none", [](const ConformanceCase&, const RaySpaceObject&) -> Result<ExecuteView> {
-                            return Error{"does nothing"};
-                        }};
-    const auto matrix = run_vectors(small_set(), {scalar_executor(), none});
+    const Implementation none{"none", [](const ConformanceCase&, const RaySpaceObject&) -> Result<ExecuteView> {
+                                  return Error{"does nothing"};
+                              }};
+    const auto matrix = run_vectors(small_set(), {implementation_of(make_scalar_executor()), none});
     ASSERT_TRUE(matrix.ok());
     EXPECT_FALSE(matrix->passed());
     EXPECT_EQ(matrix->results[0][1].declined, "does nothing");
@@ -94,20 +96,20 @@ TEST(ConformanceSet, WhoDeclinesEverythingHasNotPassed) {
 TEST(ConformanceFiles, GoOutAndComeBack) {
     const test::TemporaryFolder work;
     const VectorSet set = small_set();
-    ASSERT_TRUE(run_vectors(set, {core_executor()}, work / "out")->passed());
-    const auto matrix = run_vectors(set, {files_executor(work / "out")});
+    ASSERT_TRUE(run_vectors(set, {implementation_of(make_core_executor())}, work / "out")->passed());
+    const auto matrix = run_vectors(set, {implementation_in_files(work / "out")});
     ASSERT_TRUE(matrix.ok()) << matrix.error().message;
     EXPECT_TRUE(matrix->passed()) << matrix->results[0][0].first << matrix->results[0][0].declined;
 
     const fs::path colours = work / "out" / set.cases[0].name / "1.rgba";
     fs::remove(work / "out" / set.cases[0].name / "1.depth");
-    EXPECT_TRUE(run_vectors(set, {files_executor(work / "out")})->passed());  // depth may be left out
+    EXPECT_TRUE(run_vectors(set, {implementation_in_files(work / "out")})->passed());  // depth may be left out
     fs::resize_file(colours, fs::file_size(colours) - 1);
-    const auto cut = run_vectors(set, {files_executor(work / "out")});
+    const auto cut = run_vectors(set, {implementation_in_files(work / "out")});
     EXPECT_FALSE(cut->passed());
     EXPECT_NE(cut->results[0][0].declined.find("1.rgba"), std::string::npos) << cut->results[0][0].declined;
     fs::remove(colours);
-    EXPECT_FALSE(run_vectors(set, {files_executor(work / "out")})->passed());
+    EXPECT_FALSE(run_vectors(set, {implementation_in_files(work / "out")})->passed());
 }
 
 class VectorsFile : public testing::Test {
@@ -159,7 +161,7 @@ TEST_F(VectorsFile, RegistersOutOfRangeAreRefused) {
     const auto refused = [&](const char* what, const std::function<void(ViewRegisters&)>& damage) {
         VectorSet set = sound;
         damage(set.cases[0].views[1].registers);
-        const auto matrix = run_vectors(set, {scalar_executor()});
+        const auto matrix = run_vectors(set, {implementation_of(make_scalar_executor())});
         ASSERT_FALSE(matrix.ok()) << what;
         EXPECT_NE(matrix.error().message.find("view 1"), std::string::npos) << matrix.error().message;
     };

@@ -123,16 +123,15 @@ TEST(SharedBoard, ALoadThatFailsLeavesTheObjectToTheCore) {
     EXPECT_NE(statistics.board.last_failure.find("disk"), std::string::npos) << statistics.board.last_failure;
 }
 
+const ExecutorTraits kTwoViews{.name = "two views", .depth = false, .views_per_cycle = 2};
+
 // A board that holds an object and then refuses every cycle.
-class BrokenBoard final : public BoardDevice {
+class BrokenBoard final : public Executor {
 public:
-    [[nodiscard]] Status takes(const RaySpaceObject&) const override { return {}; }
-    [[nodiscard]] Status draws(const ViewRegisters&) const override { return {}; }
-    [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override { return object; }
-    [[nodiscard]] int views_per_cycle() const override { return 2; }
+    [[nodiscard]] const ExecutorTraits& traits() const override { return kTwoViews; }
     Result<std::optional<int>> load(const RaySpaceObject&) override { return std::optional<int>(next_++); }
     Status evict(int) override { return {}; }
-    Result<std::vector<Image<Rgba8>>> render(const std::vector<DeviceView>& views) override {
+    Result<std::vector<ExecutedView>> render(const std::vector<SlotView>& views) override {
         EXPECT_LE(views.size(), 2U);
         if (++calls_ % 2 == 0) throw std::runtime_error("smoke");
         return Error{"no power"};
@@ -159,15 +158,12 @@ TEST(SharedBoard, ACycleThatFailsIsDrawnByTheCore) {
 }
 
 // A board whose driver has no memory left.
-class ExhaustedBoard final : public BoardDevice {
+class ExhaustedBoard final : public Executor {
 public:
-    [[nodiscard]] Status takes(const RaySpaceObject&) const override { return {}; }
-    [[nodiscard]] Status draws(const ViewRegisters&) const override { return {}; }
-    [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override { return object; }
-    [[nodiscard]] int views_per_cycle() const override { return 2; }
+    [[nodiscard]] const ExecutorTraits& traits() const override { return kTwoViews; }
     Result<std::optional<int>> load(const RaySpaceObject&) override { throw std::bad_alloc(); }
     Status evict(int) override { throw std::bad_alloc(); }
-    Result<std::vector<Image<Rgba8>>> render(const std::vector<DeviceView>&) override { throw std::bad_alloc(); }
+    Result<std::vector<ExecutedView>> render(const std::vector<SlotView>&) override { throw std::bad_alloc(); }
 };
 
 TEST(SharedBoard, AnObjectThatTheDriverCannotLoadIsDrawnByTheCore) {

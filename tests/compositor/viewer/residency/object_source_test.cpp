@@ -63,7 +63,7 @@ TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
     const auto [coded, with_board] = GetParam();
     const test::TemporaryFolder folder;
     ASSERT_TRUE(write_object(folder / "ball.rso", ball(coded, !with_board)));
-    std::unique_ptr<engine::BoardDevice> board;
+    std::unique_ptr<engine::Executor> board;
     if (with_board) {
         const auto config = engine::model::read_board_config("prototype-2000");
         ASSERT_TRUE(config);

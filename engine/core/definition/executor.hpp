@@ -1,0 +1,62 @@
+#pragma once
+// Who draws views of objects: the definition itself, the software core, a board, a graphics processor. All of them give
+// the definition's pictures bit for bit, of what as_drawn() says. engine/executors/executor_table.hpp lists them.
+//
+// traits(), takes(), draws() and as_drawn() may be called from any thread at any time; all else from one thread at a
+// time.
+
+#include "engine/core/definition/view_registers.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/object/ray_space_object.hpp"
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rs::engine {
+
+struct ExecutorTraits {
+    std::string name;
+    bool depth = true;   // gives depth, too
+    bool tilted = true;  // draws views from cameras that are tilted
+    int views_per_cycle = std::numeric_limits<int>::max();
+};
+
+struct SlotView {
+    int slot = 0;
+    ViewRegisters registers;
+};
+
+struct ExecutedView {
+    Image<Rgba8> picture;
+    Image<std::int32_t> depth_q20;  // axial, 0 where alpha is 0; empty where the executor gives none
+};
+
+class Executor {
+public:
+    Executor() = default;
+    Executor(const Executor&) = delete;
+    Executor& operator=(const Executor&) = delete;
+    virtual ~Executor() = default;
+
+    [[nodiscard]] virtual const ExecutorTraits& traits() const = 0;
+    // Whether it could hold and draw such an object, if it had nothing else; says why not.
+    [[nodiscard]] virtual Status takes(const RaySpaceObject& /*object*/) const { return {}; }
+    // Whether it could draw such a view of an object that it takes.
+    [[nodiscard]] virtual Status draws(const ViewRegisters& /*registers*/) const { return {}; }
+    // The object that it really draws: boards may hold alpha in fewer bits.
+    [[nodiscard]] virtual RaySpaceObject as_drawn(RaySpaceObject object) const { return object; }
+
+    // The object's slot; nothing where there is no room now. Fails where loading failed, with nothing loaded.
+    virtual Result<std::optional<int>> load(const RaySpaceObject& object) = 0;
+    // The slot is free again; no cycle uses it.
+    virtual Status evict(int slot) = 0;
+    // A rendering cycle: one picture per view. Fails as a whole.
+    virtual Result<std::vector<ExecutedView>> render(const std::vector<SlotView>& views) = 0;
+};
+
+}  // namespace rs::engine
