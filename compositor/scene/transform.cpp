@@ -56,11 +56,6 @@ Similarity world_from_node(const TransformChain& chain) {
     return result;
 }
 
-glm::dvec3 viewpoint_in_node(const glm::dvec3& viewpoint, const TransformChain& over_viewpoint,
-                             const TransformChain& over_node) {
-    return world_from_node(over_node).inverse().point(world_from_node(over_viewpoint).point(viewpoint));
-}
-
 Camera camera_in_node(const Camera& camera_in_world, const Similarity& world_from_node) {
     const Similarity node_from_world = world_from_node.inverse();
     Camera camera = camera_in_world;

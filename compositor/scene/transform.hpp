@@ -46,13 +46,8 @@ struct NodeTransform {
 using TransformChain = std::vector<NodeTransform>;
 Similarity world_from_node(const TransformChain& chain);
 
-// Equation 3: a viewpoint given below one branch of the graph, in the coordinates of a node below another. With T1 over
-// the viewpoint and T2, T3, T5 over the node: P5 = inv(T5) inv(T3) inv(T2) T1 P1.
-glm::dvec3 viewpoint_in_node(const glm::dvec3& viewpoint, const TransformChain& over_viewpoint,
-                             const TransformChain& over_node);
-
-// The same camera in a node's coordinates. Its pixels show the same directions; depths are divided by the chain's
-// scale. Left-handed below a node that mirrors.
+// Equation 3: the same camera in a node's coordinates. Its pixels show the same directions; depths are divided by the
+// chain's scale. Left-handed below a node that mirrors.
 Camera camera_in_node(const Camera& camera_in_world, const Similarity& world_from_node);
 
 }  // namespace rs::compositor

@@ -40,12 +40,6 @@ void append_smooth_section(capture::Mesh& mesh, std::span<const vec2> profile, s
 
 }  // namespace
 
-float profile_length(std::span<const vec2> profile) {
-    float length = 0.0F;
-    for (std::size_t i = 1; i < profile.size(); ++i) length += glm::length(profile[i] - profile[i - 1]);
-    return length;
-}
-
 void append_lathe(capture::Mesh& mesh, std::span<const vec2> profile, const LatheStyle& style) {
     RS_CHECK(profile.size() >= 2 && style.segments >= 3);
     std::vector<float> lengths{0.0F};

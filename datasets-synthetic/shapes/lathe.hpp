@@ -20,7 +20,4 @@ struct LatheStyle {
 // from 0 at +Z.
 void append_lathe(capture::Mesh& mesh, std::span<const glm::vec2> profile, const LatheStyle& style = {});
 
-// Length of the profile.
-float profile_length(std::span<const glm::vec2> profile);
-
 }  // namespace rs::synthetic

@@ -13,37 +13,6 @@ ReferencePlane reference_plane(int k, int count) {
     return {{std::sin(t), 0, std::cos(t)}, {std::cos(t), 0, -std::sin(t)}};
 }
 
-int most_square_plane(const glm::dvec3& direction, int count) {
-    int best = 0;
-    double best_squareness = -glm::dot(direction, reference_plane(0, count).normal);
-    for (int k = 1; k < count; ++k) {
-        const double squareness = -glm::dot(direction, reference_plane(k, count).normal);
-        if (squareness > best_squareness) {
-            best = k;
-            best_squareness = squareness;
-        }
-    }
-    return best;
-}
-
-std::optional<PlaneRay> to_ray_space(const Ray& ray, const ReferencePlane& plane) {
-    const double against = -glm::dot(ray.direction, plane.normal);
-    if (against <= 0) return std::nullopt;
-    const ViewpointLine line = viewpoint_line(ray.origin, plane);
-    PlaneRay result;
-    result.u = glm::dot(ray.direction, plane.tangent) / against;
-    result.slope = ray.direction.y / against;
-    result.x = line.x_at(result.u);
-    result.y = line.b + result.slope * line.c;
-    return result;
-}
-
-Ray from_ray_space(const PlaneRay& ray, const ReferencePlane& plane, double c) {
-    const glm::dvec3 up(0, 1, 0);
-    return {(ray.x - ray.u * c) * plane.tangent + (ray.y - ray.slope * c) * up + c * plane.normal,
-            ray.u * plane.tangent + ray.slope * up - plane.normal};
-}
-
 ViewpointLine viewpoint_line(const glm::dvec3& viewpoint, const ReferencePlane& plane) {
     return {glm::dot(viewpoint, plane.tangent), viewpoint.y, glm::dot(viewpoint, plane.normal)};
 }

@@ -6,6 +6,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/ray_space.hpp"
+#include "tests/support/plane_ray.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <gtest/gtest.h>
@@ -74,10 +75,10 @@ TEST(ReconstructionProperty, AgreesWithFloatingPointGeometry) {
             const int i = static_cast<int>(in(0, 255)), j = static_cast<int>(in(0, 255));
             const RaySetup setup = set_up_ray(object, *registers, i, j);
             if (setup.picture < 0) continue;
-            const Ray ray{camera.centre(), camera.ray(i + 0.5, j + 0.5)};
+            const test::Ray ray{camera.centre(), camera.ray(i + 0.5, j + 0.5)};
             const ReferencePlane plane =
-                reference_plane(most_square_plane(ray.direction, options.planes), options.planes);
-            const auto place = to_ray_space(ray, plane);
+                reference_plane(test::most_square_plane(ray.direction, options.planes), options.planes);
+            const auto place = test::to_ray_space(ray, plane);
             ASSERT_TRUE(place);
             const glm::dvec3 p = place->x * plane.tangent + glm::dvec3(0, place->y, 0);
             const glm::dvec3 pixel = rig.views[static_cast<std::size_t>(setup.picture)].camera.project(p);

@@ -5,6 +5,7 @@
 #include "encode/raymap/rings.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/ray_space.hpp"
+#include "tests/support/plane_ray.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <gtest/gtest.h>
@@ -77,7 +78,7 @@ TEST(PlaneMap, HoldsTheNearestRayOfEveryCell) {
                 double best = 1e9;
                 for (const RigView& view : rig.views) {
                     const glm::dvec3 point = x * plane.tangent + glm::dvec3(0, view.camera.centre().y, 0);
-                    const auto ray = to_ray_space({view.camera.centre(), point - view.camera.centre()}, plane);
+                    const auto ray = test::to_ray_space({view.camera.centre(), point - view.camera.centre()}, plane);
                     const glm::dvec3 pixel = view.camera.project(point);
                     if (!ray || pixel.z <= 0 || pixel.x < 0 || pixel.x >= 64) continue;
                     best = std::min(best, std::abs(std::atan(ray->u) - std::atan(u)));
@@ -115,9 +116,9 @@ TEST(PlaneMap, HalfWayViewpointsSeeOnePicture) {
         std::set<int> pictures;
         for (int column = -40; column <= 40; ++column) {
             const glm::dvec3 at = glm::dvec3(std::cos(azimuth), 0, -std::sin(azimuth)) * (column / 45.0);
-            const Ray ray{viewpoint, at - viewpoint};
-            const int k = most_square_plane(ray.direction, 12);
-            const auto place = to_ray_space(ray, reference_plane(k, 12));
+            const test::Ray ray{viewpoint, at - viewpoint};
+            const int k = test::most_square_plane(ray.direction, 12);
+            const auto place = test::to_ray_space(ray, reference_plane(k, 12));
             ASSERT_TRUE(place);
             const int xi = static_cast<int>((place->x + x_half) * 512 / (2 * x_half));
             const int ui = static_cast<int>((place->u + u_half) * 512 / (2 * u_half));

@@ -2,6 +2,7 @@
 
 #include "rayspace/geometry/ray_space.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "tests/support/plane_ray.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ private:
     std::mt19937_64 engine_;
 };
 
-double distance_point_to_ray(const glm::dvec3& p, const Ray& ray) {
+double distance_point_to_ray(const glm::dvec3& p, const test::Ray& ray) {
     const glm::dvec3 d = glm::normalize(ray.direction);
     return glm::length(glm::cross(p - ray.origin, d));
 }
@@ -51,12 +52,12 @@ TEST(RaySpaceProperty, RayGoesThereAndBack) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const int count = random.in(3, 24);
-        const Ray ray{{random.in(-4.0, 4.0), random.in(-2.0, 2.0), random.in(-4.0, 4.0)}, random.direction()};
-        const ReferencePlane plane = reference_plane(most_square_plane(ray.direction, count), count);
-        const auto in_ray_space = to_ray_space(ray, plane);
+        const test::Ray ray{{random.in(-4.0, 4.0), random.in(-2.0, 2.0), random.in(-4.0, 4.0)}, random.direction()};
+        const ReferencePlane plane = reference_plane(test::most_square_plane(ray.direction, count), count);
+        const auto in_ray_space = test::to_ray_space(ray, plane);
         ASSERT_TRUE(in_ray_space);
         EXPECT_LE(std::abs(in_ray_space->u), std::tan(kPi / count) + 1e-9);
-        const Ray back = from_ray_space(*in_ray_space, plane, random.in(0.5, 5.0));
+        const test::Ray back = test::from_ray_space(*in_ray_space, plane, random.in(0.5, 5.0));
         EXPECT_NEAR(glm::dot(glm::normalize(back.direction), ray.direction), 1, 1e-12);
         EXPECT_NEAR(distance_point_to_ray(ray.origin, back), 0, 1e-9);
     }
@@ -71,8 +72,8 @@ TEST(RaySpaceProperty, TheRaysOfAViewpointLieOnItsLine) {
         const ReferencePlane plane = reference_plane(random.in(0, count - 1), count);
         const ViewpointLine line = viewpoint_line(viewpoint, plane);
         for (int n = 0; n < 20; ++n) {
-            const Ray ray{viewpoint, random.direction()};
-            const auto point = to_ray_space(ray, plane);
+            const test::Ray ray{viewpoint, random.direction()};
+            const auto point = test::to_ray_space(ray, plane);
             if (!point) continue;
             EXPECT_NEAR(point->x, line.a + point->u * line.c, 1e-9);
             // And the point (x, y) of the plane is on the ray.
@@ -84,13 +85,13 @@ TEST(RaySpaceProperty, TheRaysOfAViewpointLieOnItsLine) {
 
 TEST(RaySpace, RaysFromBehindThePlaneHaveNoPlace) {
     const ReferencePlane plane = reference_plane(0, 4);
-    EXPECT_FALSE(to_ray_space({{0, 0, 3}, {0, 0, 1}}, plane));
-    EXPECT_FALSE(to_ray_space({{0, 0, 3}, {1, 0, 0}}, plane));
-    EXPECT_TRUE(to_ray_space({{0, 0, 3}, {0, 0, -1}}, plane));
+    EXPECT_FALSE(test::to_ray_space({{0, 0, 3}, {0, 0, 1}}, plane));
+    EXPECT_FALSE(test::to_ray_space({{0, 0, 3}, {1, 0, 0}}, plane));
+    EXPECT_TRUE(test::to_ray_space({{0, 0, 3}, {0, 0, -1}}, plane));
 }
 
 TEST(VerticalCompensation, IsThePapersEquationForCamerasAtTheAxisHeight) {
-    EXPECT_DOUBLE_EQ(compensated_slope(0.25, 0, 3, 0, 4), 0.25 * 3 / 4);
+    EXPECT_DOUBLE_EQ(test::compensated_slope(0.25, 0, 3, 0, 4), 0.25 * 3 / 4);
 }
 
 TEST(VerticalCompensationProperty, BothCamerasSeeOnePoint) {
@@ -109,7 +110,7 @@ TEST(VerticalCompensationProperty, BothCamerasSeeOnePoint) {
         const glm::dvec3 in_p = p.project(point), in_q = q.project(point);
         const double slope_p = (p.cy - in_p.y) / p.fl_y;
         const double slope_q = (q.cy - in_q.y) / q.fl_y;
-        EXPECT_NEAR(compensated_slope(slope_p, p.centre().y, in_p.z, q.centre().y, in_q.z), slope_q, 1e-9);
+        EXPECT_NEAR(test::compensated_slope(slope_p, p.centre().y, in_p.z, q.centre().y, in_q.z), slope_q, 1e-9);
     }
 }
 
