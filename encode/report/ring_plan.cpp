@@ -2,6 +2,7 @@
 
 #include "encode/raymap/rings.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/median.hpp"
 #include "rayspace/page/line_plot.hpp"
 
 #include <algorithm>
@@ -70,12 +71,10 @@ std::vector<MissingSector> missing_sectors(const std::vector<double>& azimuths_r
         const double next = n + 1 < count ? azimuths_rad[n + 1] : azimuths_rad[0] + 2 * kPi;
         steps.push_back(next - azimuths_rad[n]);
     }
-    std::vector<double> sorted = steps;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count / 2), sorted.end());
-    const double median = sorted[count / 2];
+    const double usual = median(steps);
     std::vector<MissingSector> missing;
     for (std::size_t n = 0; n < count; ++n) {
-        if (steps[n] > 1.75 * median) missing.push_back({azimuths_rad[n], azimuths_rad[n] + steps[n]});
+        if (steps[n] > 1.75 * usual) missing.push_back({azimuths_rad[n], azimuths_rad[n] + steps[n]});
     }
     return missing;
 }

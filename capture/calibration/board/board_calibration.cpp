@@ -3,6 +3,7 @@
 #include "capture/calibration/board/board_bundle.hpp"
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/median.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -98,8 +99,7 @@ std::optional<double> common_step(const Task& task, const std::vector<double>& a
         steps.push_back(std::remainder(angles_rad[i] - angles_rad[i - 1], 2 * kPi));
     }
     if (steps.empty()) return std::nullopt;
-    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
-    return steps[steps.size() / 2];
+    return median(std::move(steps));
 }
 
 // Replaces the start's angles by those that are known or share a step; the board is turned so that the first view shown
@@ -184,8 +184,7 @@ double robust_noise_px(const BoardTurn& turn, std::span<const BoardObservation> 
         const auto r = residual(turn, one);
         lengths.push_back(r ? glm::length(*r) : 1e9);
     }
-    std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2), lengths.end());
-    return std::max(kLeastNoise_px, lengths[lengths.size() / 2] / 1.1774);
+    return std::max(kLeastNoise_px, median(std::move(lengths)) / 1.1774);
 }
 
 std::vector<BoardObservation> within(const BoardTurn& turn, std::span<const BoardObservation> seen, double limit_px) {

@@ -2,6 +2,7 @@
 
 #include "capture/calibration/model/quiet_ceres.hpp"
 #include "capture/calibration/points/reprojection.hpp"
+#include "rayspace/base/median.hpp"
 
 #include <ceres/ceres.h>
 
@@ -288,9 +289,7 @@ double robust_deviation_px(const Bundle& bundle) {
             sizes.push_back(std::abs(weighted.y));
         }
     }
-    if (sizes.empty()) return 0;
-    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
-    return 1.4826 * sizes[sizes.size() / 2];
+    return 1.4826 * median(std::move(sizes));
 }
 
 }  // namespace rs::capture

@@ -1,6 +1,7 @@
 #include "capture/calibration/silhouettes/outline_tangency.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/median.hpp"
 
 #include <Eigen/Dense>
 
@@ -117,9 +118,7 @@ std::optional<Tangent> tangent(const std::vector<glm::dvec3>& rays, const Pencil
 
 double median_size(std::vector<double> values) {
     for (double& value : values) value = std::abs(value);
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return median(std::move(values));
 }
 
 // By how much camera numbers that moved by `step` (the axis' position is known from outlines already) went farther than

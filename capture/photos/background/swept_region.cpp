@@ -1,6 +1,7 @@
 #include "capture/photos/background/swept_region.hpp"
 
 #include "capture/photos/intake/colour_difference.hpp"
+#include "rayspace/base/median.hpp"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -85,9 +86,7 @@ std::optional<double> axis_of(const cv::Mat1b& swept) {
         if (left >= 0) middles.push_back(0.5 * (left + right + 1));
     }
     if (middles.empty()) return std::nullopt;
-    const auto middle = middles.begin() + static_cast<std::ptrdiff_t>(middles.size() / 2);
-    std::nth_element(middles.begin(), middle, middles.end());
-    return *middle;
+    return median(std::move(middles));
 }
 
 // Where neighbouring cells differ, gaps closed.

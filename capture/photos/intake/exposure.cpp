@@ -1,6 +1,7 @@
 #include "capture/photos/intake/exposure.hpp"
 
 #include "rayspace/base/check.hpp"
+#include "rayspace/base/median.hpp"
 #include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>
@@ -17,11 +18,9 @@ constexpr double kEnoughPixels = 20000;
 constexpr double kFewPixels = 50;
 constexpr double kFewOfThem = 0.3;  // a white backdrop is clipped: its few grey pixels are shadows
 
-float median(std::vector<float>& values, double asked) {
+float median_gain(std::vector<float>& values, double asked) {
     if (static_cast<double>(values.size()) < std::max(kFewPixels, kFewOfThem * asked)) return 1;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return std::clamp(*middle, 0.5F, 2.0F);
+    return std::clamp(median(std::move(values)), 0.5F, 2.0F);
 }
 
 }  // namespace
@@ -49,7 +48,7 @@ LinearRgb exposure_gain(ConstImageView<Rgba8> photo, ConstImageView<LinearRgb> p
             add(b, photo(x, y).b, plate(x, y).b);
         }
     }
-    return {median(r, asked), median(g, asked), median(b, asked)};
+    return {median_gain(r, asked), median_gain(g, asked), median_gain(b, asked)};
 }
 
 }  // namespace rs::capture
