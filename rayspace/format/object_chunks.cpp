@@ -3,10 +3,8 @@
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/zstd_frame.hpp"
-#include "rayspace/codec/stream/coded_chunks.hpp"
 #include "rayspace/format/line_coding.hpp"
 #include "rayspace/format/map_coding.hpp"
-#include "rayspace/format/shape_chunk.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -319,45 +317,6 @@ Status parse_picture(std::span<const std::byte> payload, int width, int height, 
         std::memcpy(plane->data(), bytes.data(), bytes.size());
     }
     return {};
-}
-
-// --------------------------------------------------------------------------------------------------------------- order
-
-int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n) {
-    return object.coded ? object.coded->levels[ring.views[n]] : progressive_level(static_cast<int>(n));
-}
-
-std::vector<ChunkKey> chunk_order(const RaySpaceObject& object) {
-    std::vector<ChunkKey> order = {{kHead, 0}, {kRig, 0}, {kViews, 0}};
-    if (object.foot_q20) order.push_back({kFoot, 0});
-    if (object.coded) order.push_back({kCode, 0});
-    for (std::uint32_t r = 0; r < object.rings.size(); ++r) {
-        order.push_back({kRing, r});
-        order.push_back({kMap, r});
-        if (!object.rings[r].shape.empty()) order.push_back({kShape, r});
-    }
-    for (int level = 0; level < kProgressiveLevels; ++level) {
-        for (const Ring& ring : object.rings) {
-            for (std::size_t n = 0; n < ring.views.size(); ++n) {
-                if (level_of(object, ring, n) == level) order.push_back({kPicture, ring.views[n]});
-            }
-        }
-    }
-    return order;
-}
-
-Payload chunk_payload(const RaySpaceObject& object, ChunkKey key) {
-    if (key.name == kHead) return head_payload(object);
-    if (key.name == kRig) return rig_payload(object);
-    if (key.name == kViews) return views_payload(object);
-    if (key.name == kFoot) return foot_payload(object);
-    if (key.name == kRing) return ring_payload(object, key.index);
-    if (key.name == kMap) return map_payload(object.rings[key.index]);
-    if (key.name == kShape) return shape_payload(object.rings[key.index]);
-    if (key.name == kCode) return codec::code_payload(*object.coded);
-    RS_CHECK(key.name == kPicture);
-    if (object.coded) return codec::coded_picture_payload(*object.coded, key.index);
-    return picture_payload(object.pictures[key.index]);
 }
 
 }  // namespace rs::object_chunks

@@ -71,19 +71,4 @@ Payload picture_payload(const PlanarPicture& picture);
 Status parse_picture(std::span<const std::byte> payload, int width, int height, PlanarPicture& picture);
 std::uint64_t raw_picture_bytes(int width, int height);
 
-// The chunks of an object in the order of the file. Needs the rings' view lists, which rings have a shape map, whether
-// there is a foot, and the levels of coded pictures.
-struct ChunkKey {
-    ChunkName name{};
-    std::uint32_t index = 0;
-    bool operator==(const ChunkKey&) const = default;
-};
-std::vector<ChunkKey> chunk_order(const RaySpaceObject& object);
-
-// The payload of one of these, as write_object() stores it.
-Payload chunk_payload(const RaySpaceObject& object, ChunkKey key);
-
-// The level at which the n-th view of a ring is loaded: a coded picture says it itself.
-int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n);
-
 }  // namespace rs::object_chunks

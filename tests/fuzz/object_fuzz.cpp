@@ -1,5 +1,5 @@
 #include "engine/core/definition/reconstruct.hpp"
-#include "rayspace/format/object_chunks.hpp"
+#include "rayspace/format/chunk_table.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 #include "tests/fuzz/chunk_soup.hpp"

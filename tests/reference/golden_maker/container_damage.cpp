@@ -126,9 +126,9 @@ std::vector<Damage> order_damages() {
         added("unknown", kBase, {{'N', 'E', 'W', 'S'}, 0, one_byte}, "chunk NEWS 0 | " + kUnknown),
         added("picture-too-many", kBase, {kPicture, 99, one_byte}, "chunk PICT 99 | " + kUnknown),
         added("second-code", kBoard, {kCode, 1, one_byte}, "chunk CODE 1 | " + kUnknown),
-        added("shape-of-no-ring", kShaped, {kShape, 9, one_byte}, "chunk shap 9 | behind"),
-        added("second-foot", kStanding, {kFoot, 1, Bytes(4)}, "chunk foot 1 | not the one behind"),
-        moved("foot-before-view", kStanding, {kFoot, 0}, {kViews, 0}, "chunk foot 0 | not the one behind"),
+        added("shape-of-no-ring", kShaped, {kShape, 9, one_byte}, "chunk shap 9 | out of place"),
+        added("second-foot", kStanding, {kFoot, 1, Bytes(4)}, "chunk foot 1 | out of place"),
+        moved("foot-before-view", kStanding, {kFoot, 0}, {kViews, 0}, "chunk foot 0 | out of place"),
         moved("foot-behind-ring", kStanding, {kFoot, 0}, {kMap, 0}, kUnknown),
         missing(kBase, kHead, 0, "no chunk HEAD 0"),
         missing(kBase, kRig, 0, "no chunk RIGJ 0"),
@@ -144,9 +144,10 @@ std::vector<Damage> order_damages() {
         swapped("pictures", kBase, {kPicture, 0}, {kPicture, 1}, kUnknown),
         moved("head-last", kBase, {kHead, 0}, {kPicture, 0}, kUnknown),
         moved("code-behind-maps", kBoard, {kCode, 0}, {kMap, 0}, kUnknown),
-        moved("shape-before-map", kShaped, {kShape, 1}, {kMap, 1}, "chunk shap 1 | behind"),
-        moved("shape-behind-another-map", kShaped, {kShape, 1}, {kRing, 1}, "chunk shap 1 | behind"),
-        moved("shape-behind-a-picture", kShaped, {kShape, 1}, {kPicture, 1}, "chunk shap 1 | behind"),
+        moved("shape-before-map", kShaped, {kShape, 1}, {kMap, 1}, "chunk shap 1 | out of place"),
+        moved("shape-behind-another-map", kShaped, {kShape, 1}, {kRing, 1}, "chunk shap 1 | out of place"),
+        moved("shape-behind-a-picture", kShaped, {kShape, 1}, {kPicture, 1},
+              "out of place, where chunk shap 1 should stand"),
     };
 }
 
