@@ -1,13 +1,13 @@
 #include "compositor/scene/strict_json.hpp"
 
-#include <algorithm>
+#include "rayspace/base/json_text.hpp"
+
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace rs::compositor {
 namespace {
-
-constexpr int kMaxNesting = 64;
 
 std::string shown(double number) {
     char text[32];
@@ -18,22 +18,9 @@ std::string shown(double number) {
 }  // namespace
 
 nlohmann::json parse_json_text(const std::string& text, const std::string& file) {
-    const auto refuse_depth = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
-        if (depth > kMaxNesting) {
-            throw MalformedJson{file + ": nests brackets more than " + std::to_string(kMaxNesting) +
-                                " deep; flatten its groups"};
-        }
-        return true;
-    };
-    try {
-        return nlohmann::json::parse(text, refuse_depth);
-    } catch (const nlohmann::json::parse_error& error) {
-        const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-        throw MalformedJson{file + ": is not valid JSON at line " +
-                            std::to_string(1 + std::count(text.begin(), end, '\n')) + "; correct it there"};
-    } catch (const nlohmann::json::exception&) {
-        throw MalformedJson{file + ": holds a number that is out of range; correct it"};
-    }
+    Result<nlohmann::json> parsed = parse_json(text, file);
+    if (!parsed) throw MalformedJson{parsed.error().message};
+    return std::move(*parsed);
 }
 
 JsonValue::JsonValue(const nlohmann::json& value, std::string file, std::string key)

@@ -1,6 +1,7 @@
 #include "engine/conformance/vectors.hpp"
 
 #include "rayspace/base/byte_stream.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <xxhash.h>
@@ -103,9 +104,11 @@ Result<VectorSet> read_vectors(const std::filesystem::path& folder) {
     if (!bytes) return bytes.error();
     VectorSet set;
     set.folder = folder;
+    const Result<json> parsed =
+        parse_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string());
+    if (!parsed) return parsed.error();
+    const json& root = *parsed;
     try {
-        const json root = json::parse(reinterpret_cast<const char*>(bytes->data()),
-                                      reinterpret_cast<const char*>(bytes->data()) + bytes->size());
         const int version = root.at("version").get<int>();
         if (version != kVectorsVersion) {
             return Error{file.string() + ": is of version " + std::to_string(version) + "; these tools know " +

@@ -1,6 +1,7 @@
 #include "rayspace/geometry/rig_json.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/json_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,6 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr int kMaxNesting = 64;
 constexpr std::size_t kMaxPath_bytes = 4096;
 constexpr double kMinFocal_px = 1e-3;
 constexpr double kMaxFocal_px = 1e7;
@@ -26,26 +26,6 @@ constexpr double kRigidTolerance = 1e-3;
 struct Malformed {
     std::string message;
 };
-
-// The parser recurses per bracket: hostile nesting is refused before it starts.
-bool nests_too_deeply(const std::string& text) {
-    int depth = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            if (c == '"') in_string = false;
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '[' || c == '{') {
-            if (++depth > kMaxNesting) return true;
-        } else if (c == ']' || c == '}') {
-            --depth;
-        }
-    }
-    return false;
-}
 
 // An object whose known keys are taken one by one; what is left over are the extras.
 class Keys {
@@ -206,22 +186,6 @@ RigView parse_frame(json frame, const std::string& place, const FindPictureSize&
     return view;
 }
 
-json parse_text(const std::string& text, const std::string& where) {
-    if (nests_too_deeply(text)) {
-        throw Malformed{where + ": nests brackets more than " + std::to_string(kMaxNesting) + " deep; this is no rig"};
-    }
-    try {
-        return json::parse(text);
-    } catch (const json::parse_error& error) {
-        const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-        const auto line = 1 + std::count(text.begin(), end, '\n');
-        throw Malformed{where + ": is not valid JSON at line " + std::to_string(line) +
-                        "; correct it there (NaN and Infinity are not JSON)"};
-    } catch (const json::exception&) {
-        throw Malformed{where + ": holds a number that is out of range"};
-    }
-}
-
 void put_intrinsics(ordered_json& object, const Camera& camera) {
     object["w"] = camera.width;
     object["h"] = camera.height;
@@ -271,7 +235,9 @@ std::string dumped(const ordered_json& value) {
 
 Result<Rig> parse_rig(const std::string& text, const std::string& where, const FindPictureSize& find_size) {
     try {
-        Keys keys(parse_text(text, where), where);
+        Result<json> parsed = parse_json(text, where);
+        if (!parsed) return parsed.error();
+        Keys keys(std::move(*parsed), where);
         if (!keys.has("frames")) throw keys.wrong("frames", "is missing; is this a transforms.json?");
         Intrinsics file = take_intrinsics(keys);
         Rig rig;

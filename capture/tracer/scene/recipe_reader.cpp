@@ -3,7 +3,6 @@
 #include <cmath>
 #include <sstream>
 #include <utility>
-#include <vector>
 
 namespace rs::capture {
 
@@ -25,44 +24,7 @@ bool in_range(const nlohmann::json& value, double low, double high) {
     return value.is_number() && value.get<double>() >= low && value.get<double>() <= high;
 }
 
-// Watches the parser for keys that an object names twice, which nlohmann::json would silently take the last of.
-class DuplicateKeys {
-public:
-    void see(nlohmann::json::parse_event_t event, const nlohmann::json& parsed) {
-        using Event = nlohmann::json::parse_event_t;
-        if (event == Event::object_start) objects_.emplace_back();
-        if (event == Event::object_end) objects_.pop_back();
-        if (event != Event::key) return;
-        const auto [key, is_new] = objects_.back().insert(parsed.get<std::string>());
-        if (!is_new && !first_) first_ = *key;
-    }
-    [[nodiscard]] const std::optional<std::string>& first() const { return first_; }
-
-private:
-    std::vector<std::set<std::string>> objects_;  // the keys so far of each object that is open
-    std::optional<std::string> first_;
-};
-
 }  // namespace
-
-std::optional<nlohmann::json> parse_recipe(std::string_view text, RecipeErrors& errors) {
-    const auto refuse = [&](const std::string& problem) {
-        if (!errors.first) errors.first = Error{errors.file + ": " + problem};
-        return std::nullopt;
-    };
-    DuplicateKeys duplicates;
-    const auto watch = [&](int, nlohmann::json::parse_event_t event, const nlohmann::json& parsed) {
-        duplicates.see(event, parsed);
-        return true;
-    };
-    try {
-        nlohmann::json json = nlohmann::json::parse(text, watch);
-        if (!duplicates.first()) return json;
-    } catch (const nlohmann::json::exception& problem) {
-        return refuse(std::string("is not valid JSON: ") + problem.what());
-    }
-    return refuse("the key \"" + *duplicates.first() + "\" is there twice in one object; keep one of them");
-}
 
 RecipeReader::RecipeReader(const nlohmann::json& object, std::string place, RecipeErrors& errors)
     : object_(object.is_object() ? object : empty_object()), place_(std::move(place)), errors_(errors) {

@@ -1,6 +1,7 @@
 #pragma once
-// Strict reading of a recipe's JSON: every key must be known, named once, of the right type and in range. The first
-// error is kept, with the recipe's file and the place in it ("camera.views"); later reads then change nothing.
+// Strict reading of a recipe's JSON (rayspace/base/json_text.hpp): every key must be known, of the right type and in
+// range. The first error is kept, with the recipe's file and the place in it ("camera.views"); later reads then change
+// nothing.
 
 #include "rayspace/base/result.hpp"
 
@@ -12,7 +13,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 
 namespace rs::capture {
 
@@ -25,9 +25,6 @@ struct RecipeErrors {
         if (!first) first = Error{file + ": " + place + ": " + problem};
     }
 };
-
-// The text as JSON; nothing, with the reason in `errors`, where it is none or an object names a key twice.
-std::optional<nlohmann::json> parse_recipe(std::string_view text, RecipeErrors& errors);
 
 // Reads one JSON object. Values whose key is absent keep what they were. Call finish() after the last read: it reports
 // keys that nobody asked for.

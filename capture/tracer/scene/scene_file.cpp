@@ -4,6 +4,7 @@
 #include "capture/tracer/scene/normalise.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "capture/tracer/scene/studio.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <algorithm>
@@ -115,9 +116,9 @@ Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path
 Result<SceneFile> load_recipe(const std::filesystem::path& path, const Generator& generator) {
     const auto bytes = read_file(path, kMaxRecipe_bytes);
     if (!bytes) return bytes.error();
+    const auto json = parse_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+    if (!json) return json.error();
     RecipeErrors errors{path.string(), std::nullopt};
-    const auto json = parse_recipe({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, errors);
-    if (!json) return *errors.first;
 
     SceneFile file;
     RecipeReader reader(*json, "", errors);

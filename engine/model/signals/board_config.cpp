@@ -1,5 +1,6 @@
 #include "engine/model/signals/board_config.hpp"
 
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <nlohmann/json.hpp>
@@ -210,8 +211,10 @@ std::vector<std::string> built_in_configs() {
 }
 
 Result<BoardConfig> parse_board_config(const std::string& text, const std::string& where) {
-    const Json json = Json::parse(text, nullptr, false);
-    if (json.is_discarded() || !json.is_object()) return Error{where + ": not a JSON object; see engine/README.md"};
+    const Result<Json> parsed = parse_json(text, where);
+    if (!parsed) return parsed.error();
+    const Json& json = *parsed;
+    if (!json.is_object()) return Error{where + ": not a JSON object; see engine/README.md"};
     const auto text_of = [&](const char* key, std::string otherwise) -> std::string {
         if (!json.contains(key) || !json[key].is_string()) return otherwise;
         return json[key].get<std::string>();
