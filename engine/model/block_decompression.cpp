@@ -5,11 +5,6 @@
 namespace rs::engine::model {
 namespace {
 
-// The encoder predicts over one hop; the chains behind it are as long as they must be for records to come.
-constexpr bool is_common(int hop) {
-    return hop < 2;
-}
-
 std::string of_hop(const char* name, int hop) {
     return std::string(name) + "_" + std::to_string(hop);
 }
@@ -39,24 +34,6 @@ std::array<Block*, 5> blocks_of(HopBlocks& b) {
 
 }  // namespace
 
-HopFifos::HopFifos(int hop, const std::string& suffix)
-    : asks(of_hop("asks", hop) + suffix, is_common(hop) ? 8 : 4, BlockAsk::kBits),
-      table_reads(of_hop("table_reads", hop) + suffix, 2, MemoryRead::kBits),
-      table_words(of_hop("table_words", hop) + suffix, is_common(hop) ? 8 : 2, MemoryWord::kBits),
-      found(of_hop("found", hop) + suffix, is_common(hop) ? 8 : 2, FoundTile::kBits),
-      tile_reads(of_hop("tile_reads", hop) + suffix, 2, MemoryRead::kBits),
-      tile_words(of_hop("tile_words", hop) + suffix, is_common(hop) ? 8 : 2, MemoryWord::kBits),
-      tiles(of_hop("tiles", hop) + suffix, is_common(hop) ? 8 : 2, AskedTile::kBits),
-      record_reads(of_hop("record_reads", hop) + suffix, 4, MemoryRead::kBits),
-      record_words(of_hop("record_words", hop) + suffix, is_common(hop) ? 16 : 4, MemoryWord::kBits),
-      asked_records(of_hop("asked_records", hop) + suffix, is_common(hop) ? 8 : 2, AskedRecord::kBits),
-      records(of_hop("records", hop) + suffix, is_common(hop) ? 8 : 4, BlockRecord::kBits),
-      pixels(of_hop("pixels", hop) + suffix,
-             hop == 0   ? 128
-             : hop == 1 ? 64
-                        : 4,
-             CodedPixel::bits(hop)) {}
-
 HopBlocks::HopBlocks(int hop, const RegisterFile& registers, HopFifos& f, Fifo<BlockAsk>* next_asks,
                      Fifo<CodedPixel>& next_pixels)
     : tile_finder(hop, registers, f.asks, f.table_reads, f.found),
@@ -66,29 +43,23 @@ HopBlocks::HopBlocks(int hop, const RegisterFile& registers, HopFifos& f, Fifo<B
       record_select(hop, registers, f.pixels, f.records, next_pixels) {}
 
 RecordChains::RecordChains(const RegisterFile& registers, const std::string& suffix)
-    : fifos(all_fifos(suffix)),
-      complete("complete" + suffix, 4, CodedPixel::bits(kHops)),
-      hops(all_blocks(registers, fifos, complete)) {
+    : FifoRack(suffix), hop_fifos(all_fifos(suffix)), hops(all_blocks(registers, hop_fifos, complete)) {
     for (const auto& hop : hops) {
         for (Block* block : blocks_of(*hop)) block->append_to_name(suffix);
     }
 }
 
-void RecordChains::add_chains_to(Simulator& simulator) {
+void RecordChains::add_to(Simulator& simulator) {
     for (std::size_t hop = 0; hop < hops.size(); ++hop) {
         for (Block* block : blocks_of(*hops[hop])) simulator.add(Domain::board, *block);
-        HopFifos& f = *fifos[hop];
-        for (FifoState* fifo : std::initializer_list<FifoState*>{
-                 &f.asks, &f.table_reads, &f.table_words, &f.found, &f.tile_reads, &f.tile_words, &f.tiles,
-                 &f.record_reads, &f.record_words, &f.asked_records, &f.records, &f.pixels}) {
-            simulator.add(Domain::board, *fifo);
-        }
+        simulator.add(Domain::board, *hop_fifos[hop]);
     }
+    simulator.add(Domain::board, *this);
 }
 
 void RecordChains::add_chain_ports(std::vector<ReadPort>& ports) {
-    for (std::size_t n = fifos.size(); n-- > 0;) {
-        HopFifos& f = *fifos[n];
+    for (std::size_t n = hop_fifos.size(); n-- > 0;) {
+        HopFifos& f = *hop_fifos[n];
         const int hop = static_cast<int>(n);
         ports.push_back({of_hop("record_reader", hop), &f.record_reads, &f.record_words});
         ports.push_back({of_hop("tile_reader", hop), &f.tile_reads, &f.tile_words});
@@ -98,16 +69,13 @@ void RecordChains::add_chain_ports(std::vector<ReadPort>& ports) {
 
 BlockDecompression::BlockDecompression(const RegisterFile& registers, Fifo<ColumnWalk>& walks, Fifo<YuvaPixel>& samples)
     : RecordChains(registers),
-      block_scan(registers, walks, fifos[0]->asks, fifos[0]->pixels),
+      block_scan(registers, walks, hop_fifos[0]->asks, hop_fifos[0]->pixels),
       book_lookup(registers, complete, book_reads, book_words, samples) {}
 
 void BlockDecompression::add_to(Simulator& simulator) {
     simulator.add(Domain::board, block_scan);
-    add_chains_to(simulator);
+    RecordChains::add_to(simulator);
     simulator.add(Domain::board, book_lookup);
-    for (FifoState* fifo : std::initializer_list<FifoState*>{&complete, &book_reads, &book_words}) {
-        simulator.add(Domain::board, *fifo);
-    }
 }
 
 void BlockDecompression::add_ports(std::vector<ReadPort>& ports) {

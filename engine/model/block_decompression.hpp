@@ -20,25 +20,32 @@
 #include "engine/model/blocks/memory/memory_controller.hpp"
 #include "engine/model/clock/simulator.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 namespace rs::engine::model {
 
-struct HopFifos {
-    explicit HopFifos(int hop, const std::string& suffix);
-    Fifo<BlockAsk> asks;
-    Fifo<MemoryRead> table_reads;
-    Fifo<MemoryWord> table_words;
-    Fifo<FoundTile> found;
-    Fifo<MemoryRead> tile_reads;
-    Fifo<MemoryWord> tile_words;
-    Fifo<AskedTile> tiles;
-    Fifo<MemoryRead> record_reads;
-    Fifo<MemoryWord> record_words;
-    Fifo<AskedRecord> asked_records;
-    Fifo<BlockRecord> records;
-    Fifo<CodedPixel> pixels;
+struct HopFifos : FifoRack {
+    HopFifos(int hop, const std::string& suffix)
+        : FifoRack("_" + std::to_string(hop) + suffix), depth(is_common(hop) ? 8 : 2), its_hop(hop) {}
+    // The encoder predicts over one hop; the chains behind it are as long as they must be for records to come.
+    static constexpr bool is_common(int hop) { return hop < 2; }
+
+    const int depth;
+    const int its_hop;
+    Fifo<BlockAsk> asks{*this, "asks", std::max(depth, 4), BlockAsk::kBits};
+    Fifo<MemoryRead> table_reads{*this, "table_reads", 2, MemoryRead::kBits};
+    Fifo<MemoryWord> table_words{*this, "table_words", depth, MemoryWord::kBits};
+    Fifo<FoundTile> found{*this, "found", depth, FoundTile::kBits};
+    Fifo<MemoryRead> tile_reads{*this, "tile_reads", 2, MemoryRead::kBits};
+    Fifo<MemoryWord> tile_words{*this, "tile_words", depth, MemoryWord::kBits};
+    Fifo<AskedTile> tiles{*this, "tiles", depth, AskedTile::kBits};
+    Fifo<MemoryRead> record_reads{*this, "record_reads", 4, MemoryRead::kBits};
+    Fifo<MemoryWord> record_words{*this, "record_words", is_common(its_hop) ? 16 : 4, MemoryWord::kBits};
+    Fifo<AskedRecord> asked_records{*this, "asked_records", depth, AskedRecord::kBits};
+    Fifo<BlockRecord> records{*this, "records", std::max(depth, 4), BlockRecord::kBits};
+    Fifo<CodedPixel> pixels{*this, "pixels", is_common(its_hop) ? 128 >> its_hop : 4, CodedPixel::bits(its_hop)};
 };
 
 struct HopBlocks {
@@ -52,16 +59,16 @@ struct HopBlocks {
 };
 
 // The chains of all hops: asks and pixels go into those of hop 0, pixels with all their records come out of `complete`.
-struct RecordChains {
+struct RecordChains : FifoRack {
     // `suffix` is appended to the names of FIFOs and blocks.
     explicit RecordChains(const RegisterFile& registers, const std::string& suffix = "");
-    void add_chains_to(Simulator& simulator);
+    void add_to(Simulator& simulator);
     // The memory ports in order of service: the last hop first, for others wait for it; of a hop, records first, which
     // stand in the row of the record before.
     void add_chain_ports(std::vector<ReadPort>& ports);
 
-    std::vector<std::unique_ptr<HopFifos>> fifos;  // [hop]
-    Fifo<CodedPixel> complete;
+    std::vector<std::unique_ptr<HopFifos>> hop_fifos;  // [hop]
+    Fifo<CodedPixel> complete{*this, "complete", 4, CodedPixel::bits(kHops)};
     std::vector<std::unique_ptr<HopBlocks>> hops;  // [hop]
 };
 
@@ -70,8 +77,8 @@ struct BlockDecompression : RecordChains {
     void add_to(Simulator& simulator);
     void add_ports(std::vector<ReadPort>& ports);
 
-    Fifo<MemoryRead> book_reads{"book_reads", 8, MemoryRead::kBits};
-    Fifo<MemoryWord> book_words{"book_words", 16, MemoryWord::kBits};
+    Fifo<MemoryRead> book_reads{*this, "book_reads", 8, MemoryRead::kBits};
+    Fifo<MemoryWord> book_words{*this, "book_words", 16, MemoryWord::kBits};
     BlockScan block_scan;
     BookLookup book_lookup;
 };

@@ -25,14 +25,9 @@ std::vector<ReadPort> read_ports(SingleBoard& board) {
 }
 
 void add_pipe(Simulator& simulator, Pipe& pipe) {
-    PipeFifos& f = pipe.fifos;
     for (Block* block : std::initializer_list<Block*>{&pipe.raster_generator, &pipe.ray_position, &pipe.map_reader,
                                                       &pipe.line_reader, &pipe.vertical_compensation}) {
         simulator.add(Domain::board, *block);
-    }
-    for (FifoState* fifo :
-         std::initializer_list<FifoState*>{&f.jobs, &f.columns, &f.points, &f.mapped, &f.lines, &f.walks}) {
-        simulator.add(Domain::board, *fifo);
     }
     if (pipe.sample_reading) {
         pipe.sample_reading->add_to(simulator);
@@ -42,11 +37,7 @@ void add_pipe(Simulator& simulator, Pipe& pipe) {
     for (Block* block : std::initializer_list<Block*>{&pipe.colour_conversion, &pipe.image_writer}) {
         simulator.add(Domain::board, *block);
     }
-    for (FifoState* fifo :
-         std::initializer_list<FifoState*>{&f.samples, &f.pixels, &f.map_reads, &f.map_words, &f.line_reads,
-                                           &f.line_words, &f.image_writes, &f.view_written}) {
-        simulator.add(Domain::board, *fifo);
-    }
+    simulator.add(Domain::board, pipe.fifos);
 }
 
 RegisterFile register_file(const BoardConfig& config) {
@@ -109,9 +100,7 @@ void SampleReading::add_to(Simulator& simulator) {
     for (Block* block : std::initializer_list<Block*>{&column_address, &row_scan, &sample_fetch, &sample_select}) {
         simulator.add(Domain::board, *block);
     }
-    for (FifoState* fifo : std::initializer_list<FifoState*>{&placed, &pairs, &tags, &sample_reads, &sample_words}) {
-        simulator.add(Domain::board, *fifo);
-    }
+    simulator.add(Domain::board, *this);
 }
 
 Pipe::Pipe(const RegisterFile& registers, bool coded_pictures)
@@ -146,7 +135,7 @@ ParallelBoard::ParallelBoard(const BoardConfig& config, const RegisterFile& regi
 BoardTop::BoardTop(const BoardConfig& board_config, std::uint64_t shuffle_seed)
     : config(board_config),
       registers(register_file(config)),
-      object_ready("object_ready", 2, static_cast<int>(std::bit_width(registers.objects.size() - 1))),
+      object_ready(*this, "object_ready", 2, static_cast<int>(std::bit_width(registers.objects.size() - 1))),
       single(config.pipes == 0 ? std::make_unique<SingleBoard>(config, registers, load_words, object_loaded) : nullptr),
       parallel(config.pipes > 0 ? std::make_unique<ParallelBoard>(config, registers, load_words, object_loaded)
                                 : nullptr),
@@ -168,14 +157,8 @@ BoardTop::BoardTop(const BoardConfig& board_config, std::uint64_t shuffle_seed)
     simulator.add(Domain::board, host_dma);
     if (parallel) simulator.add(Domain::board, parallel->load_broadcast);
     simulator.add(Domain::board, disk_controller);
-    std::vector<FifoState*> fifos = {&images_ready, &buffer_free};
-    if (single) {
-        fifos.insert(fifos.end(), {&single->host_reads, &single->host_words});
-    } else {
-        fifos.insert(fifos.end(), {&parallel->jobs, &parallel->view_written});
-    }
-    fifos.insert(fifos.end(), {&load_words, &object_loaded, &object_ready});
-    for (FifoState* fifo : fifos) simulator.add(Domain::board, *fifo);
+    simulator.add(Domain::board, *this);
+    simulator.add(Domain::board, single ? static_cast<FifoRack&>(*single) : *parallel);
     simulator.add(Domain::pci, host_bus);
     simulator.add_crossing(Domain::pci, commands);
     simulator.add_crossing(Domain::board, image_words);

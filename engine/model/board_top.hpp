@@ -31,36 +31,36 @@ namespace rs::engine::model {
 
 // The FIFOs between a column's start and its pixels, and the blocks that they join: a pipe. What lies between `walks`
 // and `samples` depends on the pictures: SampleReading, or block decompression.
-struct PipeFifos {
+struct PipeFifos : FifoRack {
     explicit PipeFifos(bool coded_pictures)
-        : samples("samples", 4, coded_pictures ? YuvaPixel::kBitsOfCoded : YuvaPixel::kBits) {}
-    Fifo<ViewJob> jobs{"jobs", 2, ViewJob::kBits};
-    Fifo<ColumnRay> columns{"columns", 2, ColumnRay::kBits};
-    Fifo<RayPoint> points{"points", 2, RayPoint::kBits};
-    Fifo<MappedRay> mapped{"mapped", 2, MappedRay::kBits};
-    Fifo<RayLine> lines{"lines", 2, RayLine::kBits};
-    Fifo<ColumnWalk> walks{"walks", 2, ColumnWalk::kBits};
+        : samples(*this, "samples", 4, coded_pictures ? YuvaPixel::kBitsOfCoded : YuvaPixel::kBits) {}
+    Fifo<ViewJob> jobs{*this, "jobs", 2, ViewJob::kBits};
+    Fifo<ColumnRay> columns{*this, "columns", 2, ColumnRay::kBits};
+    Fifo<RayPoint> points{*this, "points", 2, RayPoint::kBits};
+    Fifo<MappedRay> mapped{*this, "mapped", 2, MappedRay::kBits};
+    Fifo<RayLine> lines{*this, "lines", 2, RayLine::kBits};
+    Fifo<ColumnWalk> walks{*this, "walks", 2, ColumnWalk::kBits};
     Fifo<YuvaPixel> samples;
-    Fifo<RgbaPixel> pixels{"pixels", 4, RgbaPixel::kBits};
+    Fifo<RgbaPixel> pixels{*this, "pixels", 4, RgbaPixel::kBits};
 
-    Fifo<MemoryRead> map_reads{"map_reads", 2, MemoryRead::kBits};
-    Fifo<MemoryWord> map_words{"map_words", 2, MemoryWord::kBits};
-    Fifo<MemoryRead> line_reads{"line_reads", 4, MemoryRead::kBits};
-    Fifo<MemoryWord> line_words{"line_words", 4, MemoryWord::kBits};
-    Fifo<MemoryWrite> image_writes{"image_writes", 16, MemoryWrite::kBits};
-    Fifo<Done> view_written{"view_written", 2, Done::kBits};
+    Fifo<MemoryRead> map_reads{*this, "map_reads", 2, MemoryRead::kBits};
+    Fifo<MemoryWord> map_words{*this, "map_words", 2, MemoryWord::kBits};
+    Fifo<MemoryRead> line_reads{*this, "line_reads", 4, MemoryRead::kBits};
+    Fifo<MemoryWord> line_words{*this, "line_words", 4, MemoryWord::kBits};
+    Fifo<MemoryWrite> image_writes{*this, "image_writes", 16, MemoryWrite::kBits};
+    Fifo<Done> view_written{*this, "view_written", 2, Done::kBits};
 };
 
 // Of pictures that are not compressed: from a column's walk to its samples, pixel by pixel.
-struct SampleReading {
+struct SampleReading : FifoRack {
     SampleReading(const RegisterFile& registers, PipeFifos& pipe);
     void add_to(Simulator& simulator);
 
-    Fifo<PlacedColumn> placed{"placed", 4, PlacedColumn::kBits};
-    Fifo<PixelPair> pairs{"pairs", 4, PixelPair::kBits};
-    Fifo<SampleTag> tags{"tags", 32, SampleTag::kBits};
-    Fifo<MemoryRead> sample_reads{"sample_reads", 8, MemoryRead::kBits};
-    Fifo<MemoryWord> sample_words{"sample_words", 16, MemoryWord::kBits};
+    Fifo<PlacedColumn> placed{*this, "placed", 4, PlacedColumn::kBits};
+    Fifo<PixelPair> pairs{*this, "pairs", 4, PixelPair::kBits};
+    Fifo<SampleTag> tags{*this, "tags", 32, SampleTag::kBits};
+    Fifo<MemoryRead> sample_reads{*this, "sample_reads", 8, MemoryRead::kBits};
+    Fifo<MemoryWord> sample_words{*this, "sample_words", 16, MemoryWord::kBits};
     ColumnAddress column_address;
     RowScan row_scan;
     SampleFetch sample_fetch;
@@ -82,31 +82,29 @@ struct Pipe {
 };
 
 // One pipe and one memory channel: the boards of 2000.
-struct SingleBoard {
+struct SingleBoard : FifoRack {
     SingleBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
                 Fifo<Done>& object_loaded);
     Sdram sdram;
-    Fifo<MemoryRead> host_reads{"host_reads", 4, MemoryRead::kBits};
-    Fifo<MemoryWord> host_words{"host_words", 8, MemoryWord::kBits};
+    Fifo<MemoryRead> host_reads{*this, "host_reads", 4, MemoryRead::kBits};
+    Fifo<MemoryWord> host_words{*this, "host_words", 8, MemoryWord::kBits};
     Pipe pipe;
     MemoryController memory;
 };
 
 // Several, each pipe with a channel of its own: the parallel board.
-struct ParallelBoard {
+struct ParallelBoard : FifoRack {
     ParallelBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
                   Fifo<Done>& object_loaded);
-    Fifo<ViewJob> jobs{"jobs", 2, ViewJob::kBits};
-    Fifo<Done> view_written{"view_written", 2, Done::kBits};
+    Fifo<ViewJob> jobs{*this, "jobs", 2, ViewJob::kBits};
+    Fifo<Done> view_written{*this, "view_written", 2, Done::kBits};
     std::vector<std::unique_ptr<ParallelPipe>> pipes;
     ViewDispatcher view_dispatcher;
     LoadBroadcast load_broadcast;
 };
 
-struct BoardTop {
+struct BoardTop : FifoRack {
     explicit BoardTop(const BoardConfig& config, std::uint64_t shuffle_seed = 0);
-    BoardTop(const BoardTop&) = delete;
-    BoardTop& operator=(const BoardTop&) = delete;
 
     const BoardConfig config;
     RegisterFile registers;
@@ -115,10 +113,10 @@ struct BoardTop {
     CrossingFifo<StartCommand> commands{"commands", 4, StartCommand::kBits};
     CrossingFifo<ImageWord> image_words{"image_words", 32, ImageWord::kBits};
     CrossingFifo<Done> transferred{"transferred", 2, Done::kBits};
-    Fifo<Done> images_ready{"images_ready", 2, Done::kBits};
-    Fifo<Done> buffer_free{"buffer_free", 2, Done::kBits};
-    Fifo<MemoryWrite> load_words{"load_words", 64, MemoryWrite::kBits};
-    Fifo<Done> object_loaded{"object_loaded", 2, Done::kBits};
+    Fifo<Done> images_ready{*this, "images_ready", 2, Done::kBits};
+    Fifo<Done> buffer_free{*this, "buffer_free", 2, Done::kBits};
+    Fifo<MemoryWrite> load_words{*this, "load_words", 64, MemoryWrite::kBits};
+    Fifo<Done> object_loaded{*this, "object_loaded", 2, Done::kBits};
     Fifo<Done> object_ready;
 
     std::unique_ptr<SingleBoard> single;  // one of the two

@@ -9,6 +9,7 @@
 
 #include "rayspace/base/check.hpp"
 
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -16,12 +17,33 @@
 
 namespace rs::engine::model {
 
+class FifoState;
+
+// FIFOs that stand together: each enters itself, and gets the rack's suffix behind its name.
+class FifoRack {
+public:
+    explicit FifoRack(std::string suffix = "") : suffix_(std::move(suffix)) {}
+    FifoRack(const FifoRack&) = delete;
+    FifoRack& operator=(const FifoRack&) = delete;
+
+    [[nodiscard]] const std::vector<FifoState*>& fifos() const { return fifos_; }
+
+private:
+    friend class FifoState;
+    std::string suffix_;
+    std::vector<FifoState*> fifos_;
+};
+
 // What can be said of a FIFO without knowing its items: for diagrams, waveforms and dumps.
 class FifoState {
 public:
     FifoState(std::string name, int depth, int width_bits)
         : name_(std::move(name)), depth_(depth), width_bits_(width_bits) {
         RS_CHECK(depth >= 1 && width_bits >= 1);
+    }
+    FifoState(FifoRack& rack, const std::string& name, int depth, int width_bits)
+        : FifoState(name + rack.suffix_, depth, width_bits) {
+        rack.fifos_.push_back(this);
     }
     virtual ~FifoState() = default;
     FifoState(const FifoState&) = delete;
@@ -66,12 +88,10 @@ private:
 template <class T>
 class Fifo final : public FifoState {
 public:
-    Fifo(std::string name, int depth, int width_bits) : FifoState(std::move(name), depth, width_bits) {
-        std::size_t places = 1;
-        while (places < static_cast<std::size_t>(depth)) places *= 2;
-        items_.resize(places);
-        mask_ = places - 1;
-    }
+    Fifo(std::string name, int depth, int width_bits)
+        : FifoState(std::move(name), depth, width_bits), items_(places(depth)) {}
+    Fifo(FifoRack& rack, const std::string& name, int depth, int width_bits)
+        : FifoState(rack, name, depth, width_bits), items_(places(depth)) {}
 
     void push(const T& item) {
         RS_CHECK(can_push() && !pushed_);
@@ -94,8 +114,10 @@ public:
     }
 
 private:
+    static std::size_t places(int depth) { return std::bit_ceil(static_cast<std::size_t>(depth)); }
+
     std::vector<T> items_;
-    std::size_t mask_ = 0;
+    std::size_t mask_ = items_.size() - 1;
     std::size_t head_ = 0;
 };
 

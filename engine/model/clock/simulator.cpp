@@ -33,6 +33,10 @@ void Simulator::add(Domain domain, FifoState& fifo) {
     (domain == Domain::board ? board_ : pci_).fifos.push_back(&fifo);
 }
 
+void Simulator::add(Domain domain, const FifoRack& rack) {
+    for (FifoState* const fifo : rack.fifos()) add(domain, *fifo);
+}
+
 void Simulator::add_crossing(Domain writer, CrossingState& fifo) {
     (writer == Domain::board ? board_ : pci_).written.push_back(&fifo);
     (writer == Domain::board ? pci_ : board_).read.push_back(&fifo);

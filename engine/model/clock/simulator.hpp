@@ -28,6 +28,7 @@ public:
 
     void add(Domain domain, Block& block);
     void add(Domain domain, FifoState& fifo);
+    void add(Domain domain, const FifoRack& rack);
     void add_crossing(Domain writer, CrossingState& fifo);
 
     // One cycle of the board's clock, and those of the bus that fall due in it.

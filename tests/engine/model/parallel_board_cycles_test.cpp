@@ -119,7 +119,7 @@ TEST(ParallelBoardCycles, MemoryReadsAreThoseOfTheFormula) {
         std::uint64_t texels = 0;
         for (const auto& pipe : board.top().parallel->pipes) {
             fills += pipe->texel_tags.fills_asked();
-            asks += pipe->chains.fifos[0]->asks.pushed_in_all();
+            asks += pipe->chains.hop_fifos[0]->asks.pushed_in_all();
             texels += pipe->fifos.texels.pushed_in_all();
         }
         EXPECT_GT(fills, 50U);

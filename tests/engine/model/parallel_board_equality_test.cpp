@@ -22,7 +22,7 @@ void compare(const test::AnyObject& kind, std::uint64_t seed, Seen& seen) {
         ASSERT_NO_FATAL_FAILURE(test::compare_random_views(board, object, object, random, 60, seen));
         for (const auto& pipe : board.top().parallel->pipes) {
             seen.sent_back += pipe->surface_blend.sent_back();
-            seen.of_last_hop += pipe->chains.fifos[3]->records.pushed_in_all();
+            seen.of_last_hop += pipe->chains.hop_fifos[3]->records.pushed_in_all();
         }
     }
 }
