@@ -1,11 +1,20 @@
 #include "capture/tools/as_photos_options.hpp"
 
-#include "capture/tools/number_range.hpp"
-
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <string>
 
 namespace rs::capture {
+
+CLI::Validator within(double low, double high) {
+    const CLI::Validator is_number(
+        [](const std::string& text) {
+            return std::isnan(std::strtod(text.c_str(), nullptr)) ? "'" + text + "' is no number" : std::string();
+        },
+        "");
+    return CLI::Range(low, high) & is_number;
+}
 
 const char* const kAsPhotosExamples = R"(
   rs-capture synth spot.json --as-photos -o spot-photos --k1 -0.12

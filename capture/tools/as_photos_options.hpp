@@ -10,6 +10,11 @@
 
 namespace rs::capture {
 
+// A check of a numeric option's range.
+
+// A number in [low, high]; CLI::Range alone lets NaN pass.
+CLI::Validator within(double low, double high);
+
 struct AsPhotosOptions {
     bool asked = false;
     PhotoOptions photos;  // what --as-photos alone decides; the rest is filled in from the other options of `synth`

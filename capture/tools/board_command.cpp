@@ -1,4 +1,4 @@
-#include "capture/tools/board_command.hpp"
+#include "capture/tools/commands.hpp"
 
 #include "capture/calibration/board/board_sheet.hpp"
 

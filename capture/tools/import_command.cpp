@@ -1,4 +1,4 @@
-#include "capture/tools/import_command.hpp"
+#include "capture/tools/commands.hpp"
 
 #include "capture/photos/import.hpp"
 #include "capture/photos/import_page.hpp"

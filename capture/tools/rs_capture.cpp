@@ -1,8 +1,6 @@
 // rs-capture: photographs or traced pictures -> a calibrated, matted capture set.
 
-#include "capture/tools/board_command.hpp"
-#include "capture/tools/import_command.hpp"
-#include "capture/tools/synth_command.hpp"
+#include "capture/tools/commands.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,8 +1,6 @@
-#include "capture/tools/synth_command.hpp"
+#include "capture/tools/commands.hpp"
 
 #include "capture/tools/as_photos_options.hpp"
-#include "capture/tools/kept_input.hpp"
-#include "capture/tools/number_range.hpp"
 #include "capture/tracer/integrator/tracer.hpp"
 #include "capture/tracer/scene/scene_file.hpp"
 #include "capture/tracer/session/capture_set.hpp"
@@ -10,11 +8,13 @@
 #include "datasets-synthetic/objects.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdint>
@@ -24,12 +24,38 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 namespace rs::capture {
-
 namespace {
+
+// Output folders must not swallow what they are made of.
+// Where `path` is once links are followed, and where its name is, which differs where it is a link itself.
+std::vector<std::filesystem::path> places_of(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const std::filesystem::path plain = path.has_filename() ? path : path.parent_path();  // "set/" is "set"
+    const std::filesystem::path folder = plain.has_parent_path() ? plain.parent_path() : std::filesystem::path(".");
+    return {std::filesystem::weakly_canonical(plain, ignored),
+            std::filesystem::weakly_canonical(folder, ignored) / plain.filename()};
+}
+
+bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+Status check_output_keeps(const std::filesystem::path& output, const std::filesystem::path& input) {
+    if (input.empty()) return {};
+    for (const std::filesystem::path& folder : places_of(output)) {
+        for (const std::filesystem::path& place : places_of(input)) {
+            if (!is_within(place, folder)) continue;
+            return Error{output.string() + ": writing the set would replace this folder and " + input.string() +
+                         " with it; give another -o"};
+        }
+    }
+    return {};
+}
 
 // What the command line says; empty where the recipe decides.
 struct Options {

@@ -2,15 +2,29 @@
 // Indexed triangles, lines or points ready to be drawn, or no vertices at all for shaders that make theirs from
 // gl_VertexID.
 
-#include "compositor/gl/buffer.hpp"
 #include "compositor/gl/handle.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace rs::gl {
+
+// Bytes that shaders read: vertices, indices, tables. Their content is fixed at creation.
+
+class Buffer {
+public:
+    // Not empty.
+    explicit Buffer(std::span<const std::byte> bytes);
+    // To `layout(std430, binding = binding) buffer`.
+    void bind_table(unsigned binding) const;
+    [[nodiscard]] unsigned name() const { return handle_.name(); }
+
+private:
+    Handle<Kind::kBuffer> handle_;
+};
 
 // Attribute n of the vertex shader (location n) takes `floats` (1..4) floats at `offset_bytes` of each vertex.
 struct VertexAttribute {

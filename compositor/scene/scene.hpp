@@ -3,7 +3,6 @@
 // Colours are linear light. Y is up; the unit of length is the scene's own.
 
 #include "compositor/scene/camera_path.hpp"
-#include "compositor/scene/light.hpp"
 #include "compositor/scene/material.hpp"
 #include "compositor/scene/mesh.hpp"
 #include "compositor/scene/surroundings.hpp"

@@ -2,7 +2,7 @@
 // Scenes from VRML97 files (.wrl, plain or gzip): scene/vrml/graph.hpp tells what is read and what is left out.
 //
 // Besides the nodes of VRML97 there are one for objects made of pictures and one for rooms, whose objects are in memory
-// while a visitor is in them or near (viewer/residency/room_plan.hpp):
+// while a visitor is in them or near (viewer/residency/load_priority.hpp):
 //
 //     RaySpace {
 //         exposedField MFString url          []     # the .rso file; the first counts

@@ -1,13 +1,13 @@
 #pragma once
 // A scene's objects for a visitor who walks through it: room by room into memory before they are seen, out of it behind
-// the visitor, within a budget (object_cache.hpp, room_plan.hpp); and what each node shows meanwhile (shown_node.hpp).
+// the visitor, within a budget (object_cache.hpp, load_priority.hpp); and what each node shows meanwhile (shown_parts.hpp).
 //
 // No OpenGL here. One thread; it never waits for a file unless the options say so.
 
 #include "compositor/scene/scene.hpp"
-#include "compositor/viewer/drawing/shown_node.hpp"
+#include "compositor/viewer/drawing/shown_parts.hpp"
+#include "compositor/viewer/residency/load_priority.hpp"
 #include "compositor/viewer/residency/object_cache.hpp"
-#include "compositor/viewer/residency/room_plan.hpp"
 #include "engine/driver/data_module.hpp"
 #include "rayspace/base/result.hpp"
 

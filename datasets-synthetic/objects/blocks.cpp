@@ -1,18 +1,185 @@
 #include "datasets-synthetic/objects/blocks.hpp"
 
-#include "datasets-synthetic/objects/blocks_painting.hpp"
 #include "datasets-synthetic/objects/object_assembly.hpp"
+#include "datasets-synthetic/shapes/curve.hpp"
 #include "datasets-synthetic/shapes/frame.hpp"
 #include "datasets-synthetic/shapes/grid_surface.hpp"
+#include "datasets-synthetic/shapes/lettering.hpp"
+#include "datasets-synthetic/shapes/noise.hpp"
+#include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/parameters.hpp"
+#include "datasets-synthetic/shapes/portable_math.hpp"
 #include "datasets-synthetic/shapes/random.hpp"
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace rs::synthetic {
+namespace {
+
+using glm::vec2;
+using glm::vec3;
+
+constexpr int kTile_px = 256;
+constexpr float kTile = static_cast<float>(kTile_px);
+
+vec3 toy_colour(int index) {
+    constexpr std::array<std::uint32_t, 6> kColours{0xC8281E, 0x1C5FA8, 0xE0A010, 0x2C8540, 0xD8601A, 0x6A3A8C};
+    return srgb(kColours[static_cast<std::size_t>(index) % kColours.size()]);
+}
+
+class BlockPainter {
+public:
+    BlockPainter(Canvas& canvas, std::uint64_t seed)
+        : canvas_(canvas), seed_(static_cast<std::uint32_t>(seed)), random_(seed, 81) {}
+
+    // Sawn maple: a cut through slightly wavy year rings.
+    void wood(vec2 corner_px, std::uint32_t board) {
+        const auto row = board / 64U;
+        const vec3 offset{static_cast<float>(board % 64U) * 3.1F, static_cast<float>(row) * 5.7F, 0.0F};
+        canvas_.shade(corner_px, corner_px + kTile, [&](vec2 p, vec3) {
+            const vec2 q = (p - corner_px) / kTile;
+            const float warp = layered_noise(vec3{q.x * 1.2F, q.y * 2.0F, 0.3F} + offset, 3, seed_);
+            const float rings = (q.x + 0.35F * warp) * 13.0F;
+            const float ring = rings - std::floor(rings);
+            const float fibre = layered_noise(vec3{q.x * 90.0F, q.y * 5.0F, 1.0F} + offset, 2, seed_ + 1U);
+            const vec3 colour = glm::mix(srgb(0xDDB782), srgb(0xB98350), 0.65F * ring * ring + 0.35F * fibre);
+            return colour * (1.0F + 0.10F * fibre);
+        });
+    }
+
+    void frame(vec2 corner_px, vec3 colour) {
+        constexpr float kInset = 0.105F * kTile;
+        const auto at = [&](float x, float y) { return corner_px + vec2{x, y}; };
+        const std::vector<vec2> square{at(kInset, kInset), at(kTile - kInset, kInset),
+                                       at(kTile - kInset, kTile - kInset), at(kInset, kTile - kInset),
+                                       at(kInset, kInset)};
+        const float radius_px = 0.032F * kTile;
+        canvas_.stroke(square, {&radius_px, 1}, {colour, 0.95F, 0.18F, 0.2F, random_.next()});
+        const float inner = kInset + 0.058F * kTile;
+        const std::vector<vec2> thin{at(inner, inner), at(kTile - inner, inner), at(kTile - inner, kTile - inner),
+                                     at(inner, kTile - inner), at(inner, inner)};
+        const float thin_px = 0.006F * kTile;
+        canvas_.stroke(thin, {&thin_px, 1}, {colour, 0.9F, 0.1F, 0.0F, random_.next()});
+    }
+
+    void letter(vec2 corner_px, char which, vec3 colour) {
+        const Letter letter = pen_letter(which);
+        const float size_px = 0.46F * kTile;
+        const vec2 origin = corner_px + vec2{0.5F * (kTile - letter.width * size_px), 0.27F * kTile};
+        // A shadow line first, then the colour, then a light line along the upper left.
+        const std::array<std::pair<vec2, float>, 3> passes{
+            {{{3.0F, -3.0F}, 0.066F}, {{0.0F, 0.0F}, 0.062F}, {{-2.5F, 3.0F}, 0.012F}}};
+        const std::array<Ink, 3> inks{Ink{srgb(0x2A1C12), 0.9F, 0.1F, 0.0F, random_.next()},
+                                      Ink{colour, 0.98F, 0.12F, 0.1F, random_.next()},
+                                      Ink{srgb(0xFFF4DC), 0.75F, 0.3F, 0.0F, random_.next()}};
+        for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+            const float radius_px = passes[pass].second * kTile;
+            for (const std::vector<vec2>& stroke : letter.strokes) {
+                std::vector<vec2> path;
+                path.reserve(stroke.size());
+                for (const vec2& p : stroke) path.push_back(origin + passes[pass].first + p * size_px);
+                canvas_.stroke(path, {&radius_px, 1}, inks[pass]);
+            }
+        }
+    }
+
+    // Star, heart, sun, fish-scale ring or checkers.
+    void picture(vec2 corner_px, int which, vec3 colour) {
+        const vec2 centre = corner_px + 0.5F * kTile;
+        const Ink ink{colour, 0.96F, 0.18F, 0.2F, random_.next()};
+        switch (which % 5) {
+            case 0:
+                return canvas_.fill(star(centre, 5, 0.30F * kTile, 0.13F * kTile), ink);
+            case 1:
+                return canvas_.fill(heart(centre, 0.27F * kTile), ink);
+            case 2: {
+                canvas_.fill(star(centre, 14, 0.31F * kTile, 0.20F * kTile), ink);
+                const float radius_px = 0.15F * kTile;
+                return canvas_.stroke({&centre, 1}, {&radius_px, 1},
+                                      {srgb(0xF3D27A), 1.0F, 0.1F, 0.1F, random_.next()});
+            }
+            case 3: {
+                for (int ring = 3; ring >= 1; --ring) {
+                    const float radius_px = 0.09F * kTile * static_cast<float>(ring);
+                    canvas_.stroke({&centre, 1}, {&radius_px, 1},
+                                   {ring == 2 ? srgb(0xF0E2C4) : colour, 0.98F, 0.12F, 0.1F, random_.next()});
+                }
+                return;
+            }
+            default:
+                return checkers(corner_px, ink);
+        }
+    }
+
+private:
+    static std::vector<vec2> star(vec2 centre, int points, float outer_px, float inner_px) {
+        std::vector<vec2> outline;
+        for (int k = 0; k < 2 * points; ++k) {
+            const float angle_rad =
+                0.25F * portable::kTwoPiF + portable::kTwoPiF * static_cast<float>(k) / static_cast<float>(2 * points);
+            const float radius_px = k % 2 == 0 ? outer_px : inner_px;
+            outline.push_back(centre + radius_px * vec2{portable::cos(angle_rad), portable::sin(angle_rad)});
+        }
+        return outline;
+    }
+
+    static std::vector<vec2> heart(vec2 centre, float size_px) {
+        std::vector<vec2> outline;
+        constexpr int kPoints = 60;
+        for (int k = 0; k < kPoints; ++k) {
+            const float a = portable::kTwoPiF * static_cast<float>(k) / kPoints;
+            const float s = portable::sin(a);
+            const vec2 p{s * s * s, (13.0F * portable::cos(a) - 5.0F * portable::cos(2.0F * a) -
+                                     2.0F * portable::cos(3.0F * a) - portable::cos(4.0F * a)) /
+                                        16.0F};
+            outline.push_back(centre + size_px * p);
+        }
+        return outline;
+    }
+
+    void checkers(vec2 corner_px, const Ink& ink) {
+        constexpr int kFields = 4;
+        const float field_px = 0.60F * kTile / kFields;
+        for (int k = 0; k < kFields * kFields; ++k) {
+            const int row = k / kFields;
+            if ((k + row) % 2 != 0) continue;
+            const vec2 low =
+                corner_px + 0.20F * kTile + field_px * vec2{static_cast<float>(k % kFields), static_cast<float>(row)};
+            const std::array<vec2, 4> square{low, low + vec2{field_px, 0}, low + field_px, low + vec2{0, field_px}};
+            canvas_.fill(square, ink);
+        }
+    }
+
+    Canvas& canvas_;
+    std::uint32_t seed_;
+    Random random_;
+};
+
+}  // namespace
+
+capture::Texture paint_blocks(int blocks, const std::string& text, std::uint64_t seed) {
+    Canvas canvas(kTile_px * kBlockFaces, kTile_px * blocks, vec3{0.0F});
+    BlockPainter painter(canvas, seed);
+    for (int block = 0; block < blocks; ++block) {
+        for (int face = 0; face < kBlockFaces; ++face) {
+            const vec2 corner_px{kTile * static_cast<float>(face), kTile * static_cast<float>(block)};
+            painter.wood(corner_px, static_cast<std::uint32_t>(block * kBlockFaces + face));
+            painter.frame(corner_px, toy_colour(block + face));
+            const vec3 colour = toy_colour(block + face + 1 + face / 2);
+            // Letters on three sides, a picture on the fourth and at the ends: no two neighbours alike.
+            if (face < 3)
+                painter.letter(corner_px, text[static_cast<std::size_t>(block + face * 3) % text.size()], colour);
+            else
+                painter.picture(corner_px, block + 2 * face, colour);
+        }
+    }
+    return std::move(canvas).texture("block faces");
+}
+
 namespace {
 
 using glm::vec2;

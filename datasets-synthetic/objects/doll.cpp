@@ -7,7 +7,6 @@
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/parameters.hpp"
-#include "datasets-synthetic/shapes/strand.hpp"
 #include "datasets-synthetic/shapes/sweep.hpp"
 
 #include <algorithm>

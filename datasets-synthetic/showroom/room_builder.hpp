@@ -10,8 +10,22 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace rs::synthetic {
+
+// How large the procedural objects are as pictures show them, so that they can be placed by their height. In object
+// radii: the radius of the upright cylinder around the object (rayspace/base/conventions.hpp).
+
+struct ObjectShape {
+    std::string name;  // of the recipe
+    float height_radii = 2.0F;
+    float foot_radii = 0.5F;  // radius of what touches the ground, about
+};
+
+// One for each of object_names(), with the recipes' parameters.
+const std::vector<ObjectShape>& object_shapes();
+const ObjectShape& object_shape(const std::string& name);  // the name must be one of them
 
 // The colour (linear light) of a sheet at a point, in metres from its lower left corner, to the right and up.
 using Painter = std::function<glm::vec3(glm::vec2 place_m)>;

@@ -1,6 +1,5 @@
 #include "encode/raymap/captured_view.hpp"
 
-#include "encode/raymap/fixed_point.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 
 #include <cmath>

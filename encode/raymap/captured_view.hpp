@@ -5,7 +5,17 @@
 #include "rayspace/geometry/camera.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
+#include <cmath>
+#include <cstdint>
+
 namespace rs::encode {
+
+// Numbers as the file writes them.
+
+// The nearest multiple of 2^-fractional_bits, as a whole number of them. The value must fit. Thread-safe.
+inline std::int32_t fixed_point(double value, int fractional_bits) {
+    return static_cast<std::int32_t>(std::lround(std::ldexp(value, fractional_bits)));
+}
 
 // `camera` is upright and in object radii, farther than 1.2 from the Y axis and nearer than 200. With C its centre, r
 // and f its right and forward vectors and t a plane's tangent, the plane point x t is seen at axial depth

@@ -1,7 +1,7 @@
 #include "encode/raymap/shape_lines.hpp"
 
+#include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/depth_range.hpp"
-#include "encode/raymap/fixed_point.hpp"
 #include "encode/raymap/semi_global.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"

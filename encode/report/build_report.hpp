@@ -1,7 +1,7 @@
 #pragma once
 // The page of a build: what was made from what, how good it is on views held out, and what was found on the way.
 
-#include "encode/held_out_scores.hpp"
+#include "encode/hold_out.hpp"
 #include "encode/report/stage_clock.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/format/object_file.hpp"

@@ -1,4 +1,4 @@
-#include "encode/tools/build_command.hpp"
+#include "encode/tools/commands.hpp"
 
 #include "encode/build.hpp"
 #include "encode/report/build_report.hpp"

@@ -1,4 +1,4 @@
-#include "encode/tools/evaluate_command.hpp"
+#include "encode/tools/commands.hpp"
 
 #include "encode/tools/evaluation.hpp"
 #include "rayspace/base/printable.hpp"

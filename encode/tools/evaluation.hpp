@@ -5,7 +5,6 @@
 // stored as Y, U and V.
 
 #include "encode/build.hpp"
-#include "encode/held_out_scores.hpp"
 #include "encode/hold_out.hpp"
 #include "encode/set/capture_set.hpp"
 #include "rayspace/base/progress.hpp"

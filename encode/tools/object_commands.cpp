@@ -1,4 +1,4 @@
-#include "encode/tools/object_commands.hpp"
+#include "encode/tools/commands.hpp"
 
 #include "encode/build.hpp"
 #include "rayspace/base/printable.hpp"

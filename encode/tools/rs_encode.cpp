@@ -1,8 +1,6 @@
 // rs-encode: capture set -> ray-space object, how good it is, and a look into objects.
 
-#include "encode/tools/build_command.hpp"
-#include "encode/tools/evaluate_command.hpp"
-#include "encode/tools/object_commands.hpp"
+#include "encode/tools/commands.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 int main(int argc, char** argv) {

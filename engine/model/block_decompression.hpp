@@ -13,10 +13,8 @@
 #include "engine/model/blocks/decompression/block_motion.hpp"
 #include "engine/model/blocks/decompression/block_scan.hpp"
 #include "engine/model/blocks/decompression/book_lookup.hpp"
-#include "engine/model/blocks/decompression/record_reader.hpp"
+#include "engine/model/blocks/decompression/record_reading.hpp"
 #include "engine/model/blocks/decompression/record_select.hpp"
-#include "engine/model/blocks/decompression/tile_finder.hpp"
-#include "engine/model/blocks/decompression/tile_reader.hpp"
 #include "engine/model/blocks/memory/memory_controller.hpp"
 #include "engine/model/clock/simulator.hpp"
 

@@ -1,4 +1,4 @@
-#include "engine/tools/conformance_command.hpp"
+#include "engine/tools/commands.hpp"
 
 #include "engine/conformance/run_vectors.hpp"
 #include "engine/core/views/conformance.hpp"

@@ -1,4 +1,4 @@
-#include "engine/tools/measure_commands.hpp"
+#include "engine/tools/commands.hpp"
 
 #include "engine/core/views/compare.hpp"
 #include "engine/model/limits/board_limits.hpp"

@@ -1,7 +1,6 @@
-#include "engine/tools/render_command.hpp"
+#include "engine/tools/commands.hpp"
 
 #include "engine/core/fast/renderer.hpp"
-#include "engine/core/views/contact_sheet.hpp"
 #include "engine/core/views/depth_picture.hpp"
 #include "engine/tools/asked_views.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -10,15 +9,37 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/rig.hpp"
+#include "rayspace/image/image.hpp"
 #include "rayspace/output/view_output.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 namespace rs::engine {
 namespace {
+
+// Many views on one picture, to look at an object at a glance.
+Image<Rgba8> contact_sheet(const std::vector<Image<Rgba8>>& pictures, int columns, Rgba8 backdrop) {
+    RS_CHECK(!pictures.empty() && columns > 0);
+    const int count = static_cast<int>(pictures.size());
+    columns = std::min(columns, count);
+    const int width = pictures.front().width();
+    const int height = pictures.front().height();
+    Image<Rgba8> sheet(columns * width, (count + columns - 1) / columns * height, backdrop);
+    for (int n = 0; n < count; ++n) {
+        const Image<Rgba8>& picture = pictures[static_cast<std::size_t>(n)];
+        RS_CHECK(picture.width() == width && picture.height() == height);
+        const int left = n % columns * width;
+        const int top = n / columns * height;
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) sheet(left + x, top + y) = over(picture(x, y), backdrop);
+        }
+    }
+    return sheet;
+}
 
 struct RenderArguments {
     std::string object;

@@ -1,9 +1,6 @@
 // rs-engine: ray-space object + viewpoint -> pictures.
 
-#include "engine/tools/conformance_command.hpp"
-#include "engine/tools/measure_commands.hpp"
-#include "engine/tools/render_command.hpp"
-#include "engine/tools/simulate_command.hpp"
+#include "engine/tools/commands.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 int main(int argc, char** argv) {

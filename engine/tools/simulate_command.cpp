@@ -1,4 +1,4 @@
-#include "engine/tools/simulate_command.hpp"
+#include "engine/tools/commands.hpp"
 
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/model/layout/object_image.hpp"

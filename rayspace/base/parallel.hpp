@@ -1,9 +1,10 @@
 #pragma once
-// The same work on many things at once, any of which may fail.
+// The same work on many things at once.
 
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -14,5 +15,8 @@ namespace rs {
 // lowest index is returned.
 Status for_each_in_parallel(int count, const std::string& label, Progress* progress,
                             const std::function<Status(int)>& work);
+
+// Calls work(0) .. work(count - 1), in any order, on `threads` threads (0 = as many as the processor has).
+void for_each_index(std::int64_t count, int threads, const std::function<void(std::int64_t)>& work);
 
 }  // namespace rs

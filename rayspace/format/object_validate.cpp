@@ -4,7 +4,6 @@
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/format/shape_validate.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/object/object_ranges.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/shape_chunk.hpp"
-#include "rayspace/object/object_ranges.hpp"
 
 #include <string>
 

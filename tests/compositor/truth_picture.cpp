@@ -1,9 +1,9 @@
 #include "tests/compositor/truth_picture.hpp"
 
-#include "capture/tracer/integrator/in_parallel.hpp"
 #include "capture/tracer/integrator/path.hpp"
 #include "capture/tracer/integrator/sampler.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
+#include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>
@@ -215,7 +215,7 @@ TruthPicture TruthScene::render(const Camera& camera, const TruthOptions& option
         truth.objects(x, y) = static_cast<float>(shown) / samples;
         truth.unhidden(x, y) = static_cast<float>(unhidden) / samples;
     };
-    capture::for_each_index(camera.height, 0, [&](std::int64_t y) {
+    for_each_index(camera.height, 0, [&](std::int64_t y) {
         for (int x = 0; x < camera.width; ++x) render_pixel(x, static_cast<int>(y));
     });
     return truth;

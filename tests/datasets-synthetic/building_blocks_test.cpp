@@ -9,7 +9,6 @@
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
 #include "datasets-synthetic/shapes/random.hpp"
-#include "datasets-synthetic/shapes/strand.hpp"
 #include "datasets-synthetic/shapes/sweep.hpp"
 
 #include <gtest/gtest.h>

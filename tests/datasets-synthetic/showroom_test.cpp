@@ -5,7 +5,7 @@
 #include "capture/tracer/scene/scene_file.hpp"
 #include "datasets-synthetic/objects.hpp"
 #include "datasets-synthetic/shapes/curve.hpp"
-#include "datasets-synthetic/showroom/object_shape.hpp"
+#include "datasets-synthetic/showroom/room_builder.hpp"
 #include "tests/datasets-synthetic/world_triangles.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The widest view that prepare_view lets through leaves the arithmetic its 63 bits (engine/RECONSTRUCTION.md,
 // "Ranges").
-#include "engine/core/definition/plane_point.hpp"
+#include "engine/core/definition/ray_setup.hpp"
 #include "engine/core/definition/view_registers.hpp"
 #include "tests/support/ring_object.hpp"
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kFewestNeighbours = 4;
 constexpr double kSmoothing_px = 0.8;         // takes the pixels' stairs out before gradients are taken
-constexpr std::size_t kNearest = 16;            // matches that a local homography is made of
+constexpr std::size_t kNearest = 16;          // matches that a local homography is made of
 constexpr double kMarkerNeighbourhood = 2.0;  // squares
 constexpr double kNeighbourhood = 3.2;
 constexpr double kMarkerLimit_px = 2.5;  // markers' corners are found to a pixel or so

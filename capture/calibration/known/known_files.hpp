@@ -5,11 +5,25 @@
 #include "capture/calibration/model/calibration.hpp"
 #include "rayspace/base/result.hpp"
 
+#include <glm/glm.hpp>
+
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace rs::capture {
+
+// What the readers of these files share; private to them.
+
+// Pixels count as square within this share; f is the mean of both.
+inline constexpr double kSquarePixels = 0.01;
+
+// f from fx and fy, or an error that begins with `where`.
+Result<double> common_focal_length(double fx_px, double fy_px, const std::string& where);
+
+// Fills in pose, angles and sense.
+Status set_turn(KnownInputs& known, std::span<const glm::dmat4> world_from_camera, const std::string& where);
 
 struct KnownFile {
     KnownInputs known;

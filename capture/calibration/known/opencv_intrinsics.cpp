@@ -1,4 +1,4 @@
-#include "capture/calibration/known/known_turn.hpp"
+#include "capture/calibration/known/known_files.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <opencv2/core.hpp>

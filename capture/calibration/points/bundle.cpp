@@ -1,10 +1,10 @@
 #include "capture/calibration/points/bundle.hpp"
 
-#include "capture/calibration/model/quiet_ceres.hpp"
 #include "capture/calibration/points/reprojection.hpp"
 #include "rayspace/base/median.hpp"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +12,15 @@
 #include <memory>
 
 namespace rs::capture {
+
+void silence_ceres() {
+    static const bool done = [] {
+        FLAGS_minloglevel = google::GLOG_FATAL;  // failed steps are part of a solver's life; the summary tells the rest
+        return true;
+    }();
+    static_cast<void>(done);
+}
+
 namespace {
 
 struct LensPrior {

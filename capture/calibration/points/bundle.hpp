@@ -17,6 +17,11 @@
 
 namespace rs::capture {
 
+// Libraries of this project do not print; Ceres does, through glog.
+
+// Call before ceres::Solve. Thread-safe; affects the whole process.
+void silence_ceres();
+
 enum class AngleFreedom {
     kHeld,
     kCommonStep,  // view i stands at i times one step

@@ -1,7 +1,6 @@
 #include "capture/calibration/points/picture_places.hpp"
 
 #include "capture/calibration/model/projection.hpp"
-#include "capture/calibration/model/quiet_ceres.hpp"
 #include "capture/calibration/points/bundle.hpp"
 #include "rayspace/base/conventions.hpp"
 

@@ -2,14 +2,82 @@
 
 #include "capture/photos/intake/exposure.hpp"
 #include "capture/photos/intake/opencv_image.hpp"
-#include "capture/photos/matte/foreground_colour.hpp"
 #include "capture/photos/matte/soft_edge.hpp"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace rs::capture {
+namespace {
+
+constexpr int kHalfCovered = 128;
+
+// The unmixed colour counts from this alpha on, and counts alone from that.
+constexpr float kUnmixFrom = 0.1F;
+constexpr float kUnmixAlone = 0.6F;
+
+}  // namespace
+
+Image<Rgba8> unmix(ConstImageView<Rgba8> photo, const SoftEdge& edge) {
+    RS_CHECK(photo.width() == edge.alpha.width() && photo.height() == edge.alpha.height());
+    Image<Rgba8> cut(photo.width(), photo.height());
+    for (int y = 0; y < photo.height(); ++y) {
+        for (int x = 0; x < photo.width(); ++x) {
+            const float alpha = edge.alpha(x, y);
+            const auto alpha_code = static_cast<std::uint8_t>(std::lround(alpha * 255));
+            const Rgba8& seen = photo(x, y);
+            if (alpha_code == 255) {
+                cut(x, y) = {seen.r, seen.g, seen.b, 255};
+            } else if (alpha_code > 0) {
+                const LinearRgb& f = edge.object(x, y);
+                const LinearRgb& b = edge.backdrop(x, y);
+                const float trust = std::clamp((alpha - kUnmixFrom) / (kUnmixAlone - kUnmixFrom), 0.0F, 1.0F);
+                const auto colour = [&](std::uint8_t code, float near_by, float behind) {
+                    const float unmixed =
+                        std::clamp((linear_from_srgb8(code) - (1 - alpha) * behind) / alpha, 0.0F, 1.0F);
+                    return near_by + trust * (unmixed - near_by);
+                };
+                cut(x, y) = rgba8_from_linear(
+                    {colour(seen.r, f.r, b.r), colour(seen.g, f.g, b.g), colour(seen.b, f.b, b.b)}, alpha_code);
+            }
+        }
+    }
+    return cut;
+}
+
+void bleed_colours(Image<Rgba8>& picture) {
+    if (picture.empty()) return;
+    cv::Mat1b bare(picture.height(), picture.width());
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) bare(y, x) = picture(x, y).a >= kHalfCovered ? 0 : 255;
+    }
+    cv::Mat1f distance;
+    cv::Mat1i nearest;
+    cv::distanceTransform(bare, distance, nearest, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
+    std::vector<Rgba8> colour_of(1);  // label 0 is never given
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            if (bare(y, x) != 0) continue;
+            const auto label = static_cast<std::size_t>(nearest(y, x));
+            if (label >= colour_of.size()) colour_of.resize(label + 1);
+            colour_of[label] = picture(x, y);
+        }
+    }
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            Rgba8& pixel = picture(x, y);
+            if (pixel.a != 0) continue;
+            const auto label = static_cast<std::size_t>(nearest(y, x));
+            const bool near = distance(y, x) <= kBleed_px && label < colour_of.size();
+            pixel = near ? colour_of[label] : Rgba8{};
+            pixel.a = 0;
+        }
+    }
+}
+
 namespace {
 
 // What stands at the nearest pixel of a picture of the plate's size.

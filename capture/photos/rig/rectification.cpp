@@ -1,6 +1,6 @@
 #include "capture/photos/rig/rectification.hpp"
 
-#include "capture/photos/matte/foreground_colour.hpp"
+#include "capture/photos/matte/cut_out.hpp"
 #include "capture/photos/rig/nominal_rig.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/premultiplied_sampling.hpp"

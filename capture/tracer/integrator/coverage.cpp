@@ -1,7 +1,7 @@
 #include "capture/tracer/integrator/coverage.hpp"
 
-#include "capture/tracer/integrator/in_parallel.hpp"
 #include "capture/tracer/integrator/sampler.hpp"
+#include "rayspace/base/parallel.hpp"
 
 #include <algorithm>
 #include <limits>

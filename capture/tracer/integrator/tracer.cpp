@@ -1,9 +1,9 @@
 #include "capture/tracer/integrator/tracer.hpp"
 
-#include "capture/tracer/integrator/in_parallel.hpp"
 #include "capture/tracer/integrator/path.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "rayspace/base/check.hpp"
+#include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "capture/tracer/session/capture_set.hpp"
 
-#include "capture/tracer/session/view_number.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 

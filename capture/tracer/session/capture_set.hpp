@@ -6,9 +6,19 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/rig.hpp"
 
+#include <cstddef>
+#include <cstdio>
 #include <filesystem>
+#include <string>
 
 namespace rs::capture {
+
+// The number of a view in the names of a capture set's files: three digits or more, "007". Thread-safe.
+inline std::string view_number(std::size_t view) {
+    char text[24];
+    std::snprintf(text, sizeof text, "%03zu", view);
+    return text;
+}
 
 enum class PictureFormat { png, exr };
 

@@ -2,7 +2,6 @@
 
 #include "capture/tracer/scene/texture_lookup.hpp"
 #include "capture/tracer/session/seeded_draws.hpp"
-#include "capture/tracer/session/soft_step.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,18 @@
 #include "capture/tracer/session/turntable_plate.hpp"
 #include "rayspace/image/image.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace rs::capture {
+
+// An edge that is as wide as a pixel is, for what is drawn point by point.
+
+// 0 below -1 .. 1 above 1.
+inline double soft_step(double t) {
+    const double c = std::clamp(0.5 + 0.5 * t, 0.0, 1.0);
+    return c * c * (3 - 2 * c);
+}
 
 // A table top that the plate stands on, with its shadow, and a wall behind: low contrast, out of focus, a few marks.
 Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Plate& plate, std::uint64_t seed);

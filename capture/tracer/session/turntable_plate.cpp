@@ -2,7 +2,7 @@
 
 #include "capture/tracer/scene/normalise.hpp"
 #include "capture/tracer/session/seeded_draws.hpp"
-#include "capture/tracer/session/soft_step.hpp"
+#include "capture/tracer/session/still_backdrop.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <algorithm>

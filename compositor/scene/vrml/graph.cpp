@@ -1,6 +1,12 @@
 #include "compositor/scene/vrml/graph.hpp"
 
+#include "compositor/scene/vrml/field_values.hpp"
+#include "compositor/scene/vrml/graph_builder.hpp"
 #include "rayspace/base/check.hpp"
+
+#include <deque>
+#include <optional>
+#include <utility>
 
 namespace rs::compositor::vrml {
 
@@ -29,6 +35,300 @@ glm::dvec4 Node::quadruple(std::string_view key) const {
 NodePointer Node::node(std::string_view key) const {
     const Value& value = field(key);
     return value.nodes.empty() ? nullptr : value.nodes.front();
+}
+
+namespace {
+
+constexpr std::string_view kHeader = "#VRML V2.0 utf8";
+
+// The names that a piece of text has defined so far. The body of a PROTO has names of its own, but knows the PROTOs
+// around it.
+struct Scope {
+    struct Named {
+        NodePointer node;
+        bool open = true;  // its body is not closed yet: a USE would make the graph a ring
+    };
+    const Scope* outer = nullptr;
+    const Prototype* inside = nullptr;  // whose body this is
+    std::map<std::string, Named, std::less<>> nodes;
+    std::map<std::string, const Prototype*, std::less<>> prototypes;
+
+    [[nodiscard]] const Prototype* find_prototype(std::string_view name) const {
+        for (const Scope* scope = this; scope != nullptr; scope = scope->outer) {
+            if (const auto found = scope->prototypes.find(name); found != scope->prototypes.end()) return found->second;
+        }
+        return nullptr;
+    }
+};
+
+class GraphReader {
+public:
+    GraphReader(std::string_view text, const std::string& file) : lexer_(text, file) {
+        if (text.substr(0, kHeader.size()) == kHeader) return;
+        const std::string_view start = text.substr(0, text.find_first_of("\r\n"));
+        if (start.starts_with("#VRML V1") || start.starts_with("#Inventor") || start.starts_with("#X3D")) {
+            throw lexer_.wrong(1, "is " + shown({TokenKind::word, start, 1}) + ", not VRML97; convert it to VRML97");
+        }
+        throw lexer_.wrong(1, "does not begin with '" + std::string(kHeader) + "'; is it VRML97?");
+    }
+
+    Graph read() {
+        double visits = 0;
+        while (lexer_.peek().kind != TokenKind::end) {
+            if (take_statement()) continue;
+            NodePointer node = take_node("child");
+            if (!node) continue;
+            visits += node->visits;
+            builder_.check_extent(visits, 0);
+            roots_.push_back(std::move(node));
+        }
+        return {std::move(roots_), builder_.take_warnings()};
+    }
+
+private:
+    // Takes a statement that is no node: PROTO, EXTERNPROTO, ROUTE.
+    bool take_statement() {
+        const int line = lexer_.peek().line;
+        if (lexer_.take_word("ROUTE")) {
+            lexer_.expect(TokenKind::word, "NODE.event");
+            if (!lexer_.take_word("TO")) throw lexer_.wrong("TO should stand here, not " + shown(lexer_.peek()));
+            lexer_.expect(TokenKind::word, "NODE.event");
+            return true;
+        }
+        if (lexer_.take_word("PROTO")) {
+            take_prototype(line);
+            return true;
+        }
+        if (!lexer_.take_word("EXTERNPROTO")) return false;
+        const Token name = lexer_.expect(TokenKind::word, "a name");
+        skip_to_close(lexer_, lexer_.expect(TokenKind::open_list, "[").line);
+        skip_value(lexer_);
+        if (find_node(name.text) == nullptr)
+            builder_.warn(line, "EXTERNPROTO " + shown(name) + " is not fetched; left out");
+        return true;
+    }
+
+    [[nodiscard]] static bool fits(const std::string& slot, const Node& node) {
+        return slot.empty() || slot == node.spec->slot;
+    }
+
+    // A node, DEF, USE or NULL; null where nothing of it is to be drawn.
+    NodePointer take_node(const std::string& slot) {
+        const Token first = lexer_.expect(TokenKind::word, "a node");
+        if (first.text == "NULL") return nullptr;
+        if (first.text == "USE") return take_use(slot);
+        if (first.text != "DEF") return take_body(first, {}, slot);
+        const Token name = lexer_.expect(TokenKind::word, "a name");
+        return take_body(lexer_.expect(TokenKind::word, "a node"), std::string(name.text), slot);
+    }
+
+    NodePointer take_use(const std::string& slot) {
+        const Token name = lexer_.expect(TokenKind::word, "a name");
+        const auto found = scope_->nodes.find(name.text);
+        std::string fault;
+        if (found == scope_->nodes.end()) {
+            fault = ": no node of this name was shown before";
+        } else if (found->second.open) {
+            fault = " stands inside of that node itself";
+        } else if (found->second.node && !fits(slot, *found->second.node)) {
+            fault = ": is no " + slot + " node";
+        } else {
+            return found->second.node;
+        }
+        builder_.warn(name.line, "USE " + shown(name) + fault + "; left out");
+        return nullptr;
+    }
+
+    NodePointer take_body(const Token& type, const std::string& name, const std::string& slot) {
+        const int opened = lexer_.expect(TokenKind::open_body, "{").line;
+        if (is_behaviour(type.text)) {
+            skip_to_close(lexer_, opened);
+            return nullptr;
+        }
+        const Level level(lexer_, nesting_, kMaxNesting, type.line);
+        std::string shown_type(type.text);
+        const NodeSpec* spec = find_node(type.text);
+        const Prototype* prototype = spec == nullptr ? scope_->find_prototype(type.text) : nullptr;
+        const bool known = spec != nullptr || prototype != nullptr;
+        if (!known) {
+            builder_.warn(type.line, shown(type) + " is no known node; " +
+                                         (slot == "child" ? "only its children are shown" : "left out"));
+            shown_type = "Group";
+        }
+        if (!name.empty()) scope_->nodes[name] = {};
+        auto node = std::make_shared<Node>();
+        node->type = shown_type;
+        node->name = name;
+        node->line = type.line;
+        const NodePointer made =
+            prototype != nullptr ? take_instance(*prototype, node, opened) : take_fields(node, opened, known);
+        if (!name.empty()) scope_->nodes[name] = {made, false};
+        if (!made || fits(slot, *made)) return made;
+        if (known) builder_.warn(type.line, shown(type) + " cannot stand as " + slot + "; left out");
+        return nullptr;
+    }
+
+    // The name of the next field in a body, or of none at its end.
+    std::optional<Token> next_field(int opened) {
+        while (true) {
+            if (lexer_.take_kind(TokenKind::close_body)) return std::nullopt;
+            if (lexer_.peek().kind == TokenKind::end) throw lexer_.wrong(opened, "the { is not closed; add a }");
+            if (!take_statement()) return lexer_.expect(TokenKind::word, "a field or }");
+        }
+    }
+
+    // The fields of `specs` up to the closing bracket. Of others `ignores` tells whether they go without a warning.
+    template <class Ignores>
+    void take_given(const FieldSpecs& specs, int opened, Node& node, Pattern& pattern, const Ignores& ignores) {
+        while (const auto field = next_field(opened)) {
+            const auto found = specs.find(field->text);
+            if (found == specs.end()) {
+                if (!ignores(*field)) {
+                    builder_.warn(field->line, node.type + " has no field " + shown(*field) + "; left out");
+                }
+                skip_value(lexer_);
+                continue;
+            }
+            const int line = lexer_.peek().line;
+            if (lexer_.take_word("IS")) {
+                take_is(found->first, found->second, line, pattern);
+            } else {
+                node.fields[found->first] = take_value(found->second, found->first);
+            }
+        }
+    }
+
+    NodePointer take_fields(const std::shared_ptr<Node>& node, int opened, bool known) {
+        node->spec = find_node(node->type);
+        Pattern pattern;
+        take_given(node->spec->fields, opened, *node, pattern, [&](const Token&) {
+            return !known || (lexer_.peek().kind == TokenKind::word && lexer_.peek().text == "IS");
+        });
+        return builder_.finished(node, std::move(pattern));
+    }
+
+    // Where the arguments depend on the PROTO around it, the instance is made with that one's.
+    NodePointer take_instance(const Prototype& prototype, const std::shared_ptr<Node>& node, int opened) {
+        Pattern pattern;
+        take_given(prototype.fields, opened, *node, pattern,
+                   [&](const Token& field) { return prototype.events.contains(field.text); });
+        if (!prototype.root) return nullptr;
+        if (pattern.is.empty() && !builder_.has_patterns(*node)) return builder_.instance(prototype, node->fields);
+        node->type = prototype.root->type;
+        node->spec = prototype.root->spec;
+        pattern.instance_of = &prototype;
+        return builder_.finished(node, std::move(pattern));
+    }
+
+    Value take_value(const FieldSpec& spec, const std::string& name) {
+        if (spec.type != FieldType::kNode) {
+            Value value = read_value(lexer_, spec, name);
+            builder_.count(value);
+            return value;
+        }
+        Value value;
+        const auto add = [&] {
+            if (NodePointer node = take_node(spec.slot)) value.nodes.push_back(std::move(node));
+        };
+        const int line = lexer_.peek().line;
+        if (!spec.many || !lexer_.take_kind(TokenKind::open_list)) {
+            add();
+            return value;
+        }
+        while (!lexer_.take_kind(TokenKind::close_list)) {
+            if (take_statement()) continue;
+            if (lexer_.peek().kind == TokenKind::end) {
+                throw lexer_.wrong(line, "the list of " + name + " is not closed; add a ]");
+            }
+            add();
+        }
+        return value;
+    }
+
+    void take_is(const std::string& field, const FieldSpec& spec, int line, Pattern& pattern) {
+        const Token name = lexer_.expect(TokenKind::word, "a name");
+        const Prototype* prototype = scope_->inside;
+        if (prototype == nullptr) return builder_.warn(line, "IS stands outside of a PROTO; left out");
+        if (prototype->events.contains(name.text)) return;
+        const auto found = prototype->fields.find(name.text);
+        if (found == prototype->fields.end()) {
+            return builder_.warn(line, "the PROTO has no field " + shown(name) + "; left out");
+        }
+        if (!found->second.same_type(spec)) {
+            return builder_.warn(line, shown(name) + " is " + field_type_name(found->second) + " but should be " +
+                                           field_type_name(spec) + "; left out");
+        }
+        pattern.is[field] = found->first;
+    }
+
+    void take_prototype(int line) {
+        const Token name = lexer_.expect(TokenKind::word, "a name");
+        const Level level(lexer_, nesting_, kMaxNesting, line);
+        Prototype& made = prototypes_.emplace_back();
+        Scope own{scope_, nullptr, {}, {}};
+        Scope* const outer = std::exchange(scope_, &own);
+        take_interface(made, lexer_.expect(TokenKind::open_list, "[").line);
+        own = {outer, &made, {}, {}};
+        take_prototype_body(made, lexer_.expect(TokenKind::open_body, "{").line);
+        scope_ = outer;
+        // Worlds may bring PROTO RaySpace for browsers that do not know the node.
+        if (find_node(name.text) != nullptr) return;
+        if (!scope_->prototypes.emplace(std::string(name.text), &made).second) {
+            builder_.warn(line, "PROTO " + shown(name) + " is there already; the first one counts");
+        }
+    }
+
+    void take_interface(Prototype& prototype, int opened) {
+        while (!lexer_.take_kind(TokenKind::close_list)) {
+            if (lexer_.peek().kind == TokenKind::end) throw lexer_.wrong(opened, "the [ is not closed; add a ]");
+            const Token kind = lexer_.expect(TokenKind::word, "field, exposedField, eventIn or eventOut");
+            const bool is_event = kind.text == "eventIn" || kind.text == "eventOut";
+            if (!is_event && kind.text != "field" && kind.text != "exposedField") {
+                throw lexer_.wrong(kind.line,
+                                   "field, exposedField, eventIn or eventOut should stand here, not " + shown(kind));
+            }
+            const Token type = lexer_.expect(TokenKind::word, "a type");
+            const Token name = lexer_.expect(TokenKind::word, "a name");
+            FieldSpec spec;
+            if (!parse_field_type(type.text, spec)) throw lexer_.wrong(type.line, shown(type) + " is no type");
+            if (is_event) {
+                prototype.events.emplace(name.text);
+                continue;
+            }
+            spec.initial = take_value(spec, std::string(name.text));
+            if (!prototype.fields.emplace(std::string(name.text), std::move(spec)).second) {
+                throw lexer_.wrong(name.line, "the PROTO has two fields " + shown(name) + "; rename one");
+            }
+        }
+    }
+
+    void take_prototype_body(Prototype& prototype, int opened) {
+        bool is_first = true;
+        while (!lexer_.take_kind(TokenKind::close_body)) {
+            if (lexer_.peek().kind == TokenKind::end) throw lexer_.wrong(opened, "the { is not closed; add a }");
+            if (take_statement()) continue;
+            const NodePointer node = take_node("");
+            if (std::exchange(is_first, false)) prototype.root = node;
+        }
+    }
+
+    Lexer lexer_;
+    GraphBuilder builder_{lexer_};
+    std::vector<NodePointer> roots_;
+    Scope top_;
+    Scope* scope_ = &top_;
+    std::deque<Prototype> prototypes_;
+    int nesting_ = 0;
+};
+
+}  // namespace
+
+Result<Graph> read_graph(std::string_view text, const std::string& file) {
+    try {
+        return GraphReader(text, file).read();
+    } catch (const MalformedVrml& malformed) {
+        return Error{malformed.message};
+    }
 }
 
 }  // namespace rs::compositor::vrml

@@ -1,7 +1,6 @@
 #pragma once
 // VRML97's lights, viewpoints, navigation, fog and background nodes. Private to the VRML reader.
 
-#include "compositor/scene/light.hpp"
 #include "compositor/scene/scene_pictures.hpp"
 #include "compositor/scene/surroundings.hpp"
 #include "compositor/scene/vrml/place.hpp"

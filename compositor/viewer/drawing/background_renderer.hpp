@@ -1,7 +1,6 @@
 #pragma once
 // Draws a scene's background over the whole frame (background_shaders.hpp).
 
-#include "compositor/gl/buffer.hpp"
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/texture.hpp"
 #include "compositor/gl/vertex_array.hpp"

@@ -1,10 +1,9 @@
 #include "compositor/viewer/drawing/object_renderer.hpp"
 
 #include "compositor/gl/draw.hpp"
-#include "compositor/viewer/drawing/shader_constants.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
 #include "compositor/viewer/drawing/shown_parts.hpp"
-#include "compositor/viewer/views/frustum.hpp"
+#include "compositor/viewer/views/screen_rectangle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,10 +59,11 @@ Result<ObjectRenderer> ObjectRenderer::create(std::size_t nodes, ObjectDepth dep
     Programs programs;
     for (const bool opaque : {false, true}) {
         for (int samples = 0; samples <= kMostSamplesAcross; ++samples) {
-            const std::string constants =
-                "#version 450 core\n" + shader_constant("kPixelDepth", depth == ObjectDepth::kPixel) +
-                shader_constant("kOpaque", opaque) + shader_constant("kSamplesAcross", std::max(samples, 1)) +
-                shader_constant("kSmooth", samples == 0);
+            const std::string constants = "#version 450 core\n" +
+                                          shaders::shader_constant("kPixelDepth", depth == ObjectDepth::kPixel) +
+                                          shaders::shader_constant("kOpaque", opaque) +
+                                          shaders::shader_constant("kSamplesAcross", std::max(samples, 1)) +
+                                          shaders::shader_constant("kSmooth", samples == 0);
             auto program = gl::Program::create("object", shaders::kObjectVertex, constants + shaders::kObjectFragment);
             if (!program) return program.error();
             (opaque ? programs.opaque : programs.blended).push_back(std::move(*program));

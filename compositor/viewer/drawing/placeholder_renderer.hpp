@@ -4,8 +4,8 @@
 
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/vertex_array.hpp"
-#include "compositor/viewer/drawing/shown_node.hpp"
-#include "compositor/viewer/views/frustum.hpp"
+#include "compositor/viewer/drawing/shown_parts.hpp"
+#include "compositor/viewer/views/screen_rectangle.hpp"
 #include "rayspace/base/result.hpp"
 
 namespace rs::compositor {

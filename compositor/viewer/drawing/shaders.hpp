@@ -1,7 +1,19 @@
 #pragma once
 // The GLSL of floors and of objects made of pictures. Colours are linear light; the framebuffer encodes sRGB.
 
+#include <string>
+
 namespace rs::compositor::shaders {
+
+// Constants at the head of a shader's text, behind its "#version".
+
+inline std::string shader_constant(const std::string& name, int value) {
+    return "const int " + name + " = " + std::to_string(value) + ";\n";
+}
+
+inline std::string shader_constant(const std::string& name, bool value) {
+    return "const bool " + name + (value ? " = true;\n" : " = false;\n");
+}
 
 // The floor's square; a disc of it is kept. The checker is averaged over the pixel's footprint, so that it fades to an
 // even tone in the distance instead of flickering.

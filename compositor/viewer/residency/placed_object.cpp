@@ -1,10 +1,219 @@
 #include "compositor/viewer/residency/placed_object.hpp"
 
+#include "rayspace/base/conventions.hpp"
 #include "rayspace/format/object_memory.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
+#include <vector>
 
 namespace rs::compositor {
+namespace {
+
+constexpr std::uint8_t kSolid = 128;  // alpha from which a pixel counts as the object rather than its fringe
+
+struct RowRange {
+    int begin = 0;
+    int end = 0;  // begin == end: the picture is empty
+};
+
+RowRange occupied_rows(const Image<std::uint8_t>& alpha, std::uint8_t least) {
+    const auto shows = [&](int y) {
+        return std::any_of(alpha.row(y), alpha.row(y) + alpha.width(), [=](std::uint8_t a) { return a >= least; });
+    };
+    RowRange rows{0, alpha.height()};
+    while (rows.begin < rows.end && !shows(rows.begin)) ++rows.begin;
+    while (rows.begin < rows.end && !shows(rows.end - 1)) --rows.end;
+    return rows;
+}
+
+// The widest of the rows, in pixels from its first solid one to its last.
+int widest(const Image<std::uint8_t>& alpha, RowRange rows) {
+    int width = 0;
+    for (int y = rows.begin; y < rows.end; ++y) {
+        int first = 0;
+        int last = alpha.width() - 1;
+        while (first <= last && alpha(first, y) < kSolid) ++first;
+        while (first <= last && alpha(last, y) < kSolid) --last;
+        width = std::max(width, last + 1 - first);
+    }
+    return width;
+}
+
+// A CapturedView in floating point.
+struct PictureScale {
+    explicit PictureScale(const CapturedView& view)
+        : axis_depth(std::ldexp(view.lines.front().l0_q20, -20)),  // where x = 0, on every plane
+          focal_px(std::ldexp(view.fl_y_q16, -16)),
+          principal_row(std::ldexp(view.cy_q16, -16)),
+          height(std::ldexp(view.height_q20, -20)) {}
+
+    [[nodiscard]] double height_at(double row, double depth) const {
+        return height + (principal_row - row) * depth / focal_px;
+    }
+    [[nodiscard]] double row_of(double at_height, double depth) const {
+        return principal_row - (at_height - height) * focal_px / depth;
+    }
+
+    double axis_depth;
+    double focal_px;
+    double principal_row;
+    double height;
+};
+
+// One picture that shows something.
+struct Outline {
+    std::size_t view;
+    RowRange rows;  // solid ones
+    double azimuth_rad;
+    double left;  // how far the foot reaches to either side of the axis, object radii
+    double right;
+};
+
+// From which side the camera looks at the axis: 0 is +Z, growing towards +X.
+double azimuth_of(const CapturedView& view) {
+    const double step = 2 * kPi / static_cast<double>(view.lines.size());
+    const double x = std::ldexp(view.lines[0].l1_q30, -30);  // forward . tangent of planes 0 and 1
+    const double along_next = std::ldexp(view.lines[1].l1_q30, -30);
+    const double z = (x * std::cos(step) - along_next) / std::sin(step);
+    return std::atan2(-x, -z);
+}
+
+// The outlines of the ring whose cameras are nearest to the height of the foot: they see it most nearly from the side.
+std::vector<Outline> outlines_of_lowest_ring(const RaySpaceObject& object) {
+    const auto lowest = std::min_element(object.rings.begin(), object.rings.end(), [](const Ring& a, const Ring& b) {
+        return std::abs(a.elevation_udeg) < std::abs(b.elevation_udeg);
+    });
+    std::vector<Outline> outlines;
+    for (const std::uint16_t view : lowest->views) {
+        if (object.pictures[view].empty()) continue;
+        const RowRange rows = occupied_rows(object.pictures[view].a, kSolid);
+        if (rows.begin < rows.end) outlines.push_back({view, rows, azimuth_of(object.views[view]), 0, 0});
+    }
+    return outlines;
+}
+
+// Measures how far the object reaches to either side where a foot at this height would be seen, and below.
+void measure_sides(const RaySpaceObject& object, double foot, Outline& outline) {
+    const Image<std::uint8_t>& alpha = object.pictures[outline.view].a;
+    const CapturedView& view = object.views[outline.view];
+    const PictureScale scale(view);
+    const double axis_column = std::ldexp(view.cx_q16, -16) + std::ldexp(view.lines[0].q0_q16, -16) / scale.axis_depth;
+    const int some = std::max((outline.rows.end - outline.rows.begin) / 24, 1);
+    const auto begin = static_cast<int>(std::clamp(scale.row_of(foot, scale.axis_depth) - some,
+                                                   static_cast<double>(outline.rows.begin),
+                                                   static_cast<double>(outline.rows.end - some)));
+    double first = axis_column;
+    double last = axis_column;
+    for (int y = begin; y < outline.rows.end; ++y) {
+        for (int x = 0; x < alpha.width(); ++x) {
+            if (alpha(x, y) < kSolid) continue;
+            first = std::min(first, static_cast<double>(x));
+            last = std::max(last, x + 1.0);
+        }
+    }
+    outline.left = std::min((axis_column - first) * scale.axis_depth / scale.focal_px, 1.0);
+    outline.right = std::min((last - axis_column) * scale.axis_depth / scale.focal_px, 1.0);
+}
+
+// How far the foot reaches towards the camera of an outline: what the outlines seen from a quarter turn to either side
+// say, or half its own width where there are none.
+double reach_towards(const std::vector<Outline>& outlines, const Outline& outline) {
+    constexpr double kNearlyAQuarter_rad = kPi / 12;
+    double sum = 0;
+    int count = 0;
+    for (const double side : {-1.0, 1.0}) {
+        const Outline* nearest = nullptr;
+        double nearest_error = kNearlyAQuarter_rad;
+        for (const Outline& other : outlines) {
+            const double turn = other.azimuth_rad - outline.azimuth_rad - side * kPi / 2;
+            const double error = std::abs(std::remainder(turn, 2 * kPi));
+            if (error >= nearest_error) continue;
+            nearest = &other;
+            nearest_error = error;
+        }
+        if (nearest == nullptr) continue;
+        sum += side < 0 ? nearest->right : nearest->left;
+        ++count;
+    }
+    return count > 0 ? sum / count : (outline.left + outline.right) / 2;
+}
+
+// Where the foot is, begun at a first guess: its height tells where in the pictures its sides are, and these how far
+// before the axis the lowest point of each picture is.
+double foot_of(const RaySpaceObject& object, double foot) {
+    std::vector<Outline> outlines = outlines_of_lowest_ring(object);
+    if (outlines.empty()) return foot;
+    for (int i = 0; i < 3; ++i) {
+        for (Outline& outline : outlines) measure_sides(object, foot, outline);
+        std::vector<double> heights;
+        for (const Outline& outline : outlines) {
+            const PictureScale scale(object.views[outline.view]);
+            const bool beyond_horizon = outline.rows.end < scale.principal_row;
+            const double reach = reach_towards(outlines, outline);
+            heights.push_back(scale.height_at(outline.rows.end, scale.axis_depth + (beyond_horizon ? reach : -reach)));
+        }
+        const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+        std::nth_element(heights.begin(), middle, heights.end());
+        foot = *middle;
+    }
+    return foot;
+}
+
+}  // namespace
+
+BoundingCylinder bounding_cylinder(const RaySpaceObject& object) {
+    BoundingCylinder bound{0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const Ring& ring : object.rings) {
+        const double x_half = std::ldexp(ring.x_half_q20, -20);
+        bound.radius = std::max(bound.radius, x_half);
+        for (const std::uint16_t index : ring.views) {
+            const PlanarPicture& picture = object.pictures[index];
+            if (picture.empty()) continue;
+            const RowRange rows = occupied_rows(picture.a, 1);
+            if (rows.begin == rows.end) continue;
+            const PictureScale scale(object.views[index]);
+            for (const double depth : {std::max(scale.axis_depth - x_half, 0.0), scale.axis_depth + x_half}) {
+                bound.top = std::max(bound.top, scale.height_at(rows.begin, depth));
+                bound.bottom = std::min(bound.bottom, scale.height_at(rows.end, depth));
+            }
+        }
+    }
+    if (bound.empty()) return {bound.radius, 0, 0};
+    return bound;
+}
+
+UprightExtent estimated_extent(const RaySpaceObject& object) {
+    std::vector<double> bottoms;
+    std::vector<double> tops;
+    for (std::size_t i = 0; i < object.pictures.size(); ++i) {
+        const Image<std::uint8_t>& alpha = object.pictures[i].a;
+        if (object.pictures[i].empty()) continue;
+        const RowRange rows = occupied_rows(alpha, kSolid);
+        if (rows.begin == rows.end) continue;
+        const PictureScale scale(object.views[i]);
+        // The rim that reaches farthest away from the horizon is the near one; where an end of the object lies beyond
+        // the horizon (a foot above the camera) it is the far one.
+        const auto height_of_end = [&](int row, RowRange end_rows, bool beyond_horizon) {
+            const double radius_px = widest(alpha, end_rows) / 2.0;
+            const double radius = std::min(radius_px / scale.focal_px * scale.axis_depth, 1.0);
+            return scale.height_at(row, scale.axis_depth + (beyond_horizon ? radius : -radius));
+        };
+        const int some = std::max((rows.end - rows.begin) / 16, 1);
+        bottoms.push_back(height_of_end(rows.end, {rows.end - some, rows.end}, rows.end < scale.principal_row));
+        tops.push_back(height_of_end(rows.begin, {rows.begin, rows.begin + some}, rows.begin > scale.principal_row));
+    }
+    if (bottoms.empty()) return {};
+    const auto median = [](std::vector<double>& values) {
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    };
+    const double foot = object.foot_q20 ? std::ldexp(*object.foot_q20, -20) : foot_of(object, median(bottoms));
+    return {foot, median(tops)};
+}
 
 std::int64_t ViewableObject::memory_bytes() const {
     const std::int64_t board = for_board ? memory_of(*for_board) : 0;

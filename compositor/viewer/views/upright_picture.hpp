@@ -4,7 +4,7 @@
 // tilted one sees, and a homography tells where. Engines are several times faster at pictures of upright cameras, a
 // column of which is one vertical plane of rays, and boards draw no others. Pure; thread-safe.
 
-#include "compositor/viewer/residency/object_bounds.hpp"
+#include "compositor/viewer/residency/placed_object.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
 #include "rayspace/geometry/camera.hpp"
 

@@ -9,6 +9,23 @@
 
 namespace rs::engine {
 
+// Section 2 of engine/RECONSTRUCTION.md: the reference plane of a view ray, and the ray's place (x, u) on it.
+
+struct PlanePoint {
+    bool exists = false;
+    int plane = 0;
+    std::int64_t n_q28 = 0;  // the direction's components against the normal and along the tangent
+    std::int64_t t_q28 = 0;
+    std::int64_t u_q28 = 0;
+    std::int64_t x_q20 = 0;
+    std::int64_t lambda_q20 = 0;  // axial distance to the plane
+};
+
+PlanePoint plane_point(const Ring& ring, const ViewRegisters& registers, int i, int j);
+
+// What the RS map says of the ray: a view, or kNoPicture.
+std::uint16_t map_answer(const Ring& ring, const PlanePoint& point);
+
 struct RaySetup {
     int picture = -1;  // -1: there is no ray
     int column = 0;

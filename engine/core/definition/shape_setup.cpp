@@ -1,7 +1,7 @@
 #include "engine/core/definition/shape_setup.hpp"
 
 #include "engine/core/definition/fixed_point.hpp"
-#include "engine/core/definition/plane_point.hpp"
+#include "engine/core/definition/ray_setup.hpp"
 
 #include <algorithm>
 

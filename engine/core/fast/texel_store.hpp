@@ -14,7 +14,6 @@
 // many (coded_texels.hpp).
 
 #include "engine/core/fast/coded_texels.hpp"
-#include "engine/core/fast/texel_layout.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/object/ray_space_object.hpp"

@@ -3,7 +3,7 @@
 #include "engine/model/blocks/shared/map_reader.hpp"
 #include "engine/model/layout/coded_object_image.hpp"
 #include "engine/model/layout/parallel_object_image.hpp"
-#include "engine/model/signals/word_pair.hpp"
+#include "engine/model/signals/messages.hpp"
 #include "rayspace/codec/part_syntax.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 // An object as it lies on the board's disk and in its memory: pictures column by column, alpha in 2 bits, the RS map a
-// byte per cell, cameras and lines in records (the layouts stand in column_address.hpp and line_reader.hpp).
+// byte per cell, cameras and lines in records (the layouts stand in picture_scan.hpp and line_reader.hpp).
 
 #include "engine/model/blocks/memory/disk_controller.hpp"
 #include "engine/model/layout/memory_map.hpp"

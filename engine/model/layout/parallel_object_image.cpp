@@ -4,7 +4,7 @@
 #include "engine/model/layout/coded_object_image.hpp"
 #include "engine/model/limits/coded_layout.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
-#include "engine/model/signals/word_pair.hpp"
+#include "engine/model/signals/messages.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -210,4 +210,10 @@ inline std::string text(const StartCommand& m) {
     return "program " + std::to_string(m.program);
 }
 
+// Two numbers of 32 bits in one word of the board's memory.
+
+inline std::uint64_t word_pair(std::int32_t low, std::int32_t high) {
+    return std::uint64_t{static_cast<std::uint32_t>(low)} | std::uint64_t{static_cast<std::uint32_t>(high)} << 32U;
+}
+
 }  // namespace rs::engine::model

@@ -1,7 +1,6 @@
 // Cycles and memory reads of the parallel board.
 
 #include "engine/core/definition/fixed_point.hpp"
-#include "engine/core/definition/plane_point.hpp"
 #include "engine/core/definition/ray_setup.hpp"
 #include "engine/core/definition/shape_setup.hpp"
 #include "engine/model/limits/coded_layout.hpp"

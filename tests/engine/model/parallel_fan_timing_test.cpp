@@ -1,8 +1,7 @@
 // Latency and throughput of what a parallel board's pipe reads ahead, its codebooks, and of the blocks that join the
 // pipes.
 
-#include "engine/model/blocks/parallel/load_broadcast.hpp"
-#include "engine/model/blocks/parallel/view_dispatcher.hpp"
+#include "engine/model/blocks/parallel/dispatch.hpp"
 #include "engine/model/blocks/texels/double_buffered_codebook.hpp"
 #include "tests/engine/model/block_bench.hpp"
 #include "tests/engine/model/parallel_registers.hpp"

@@ -2,11 +2,10 @@
 
 #include "engine/model/blocks/parallel/cell_march.hpp"
 #include "engine/model/blocks/parallel/patch_store.hpp"
-#include "engine/model/blocks/parallel/pixel_scan.hpp"
-#include "engine/model/blocks/parallel/ray_rise.hpp"
+#include "engine/model/blocks/parallel/pixel_rays.hpp"
 #include "engine/model/blocks/texels/sample_place.hpp"
 #include "engine/model/blocks/texels/surface_blend.hpp"
-#include "engine/model/blocks/texels/texel_filter.hpp"
+#include "engine/model/blocks/texels/texel_cache.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
 #include "tests/engine/model/block_bench.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"

@@ -1,9 +1,8 @@
 // Latency and throughput of the blocks that bring texels to a parallel board's samples, and of those that join its
 // pipes.
 
-#include "engine/model/blocks/texels/fill_fetch.hpp"
 #include "engine/model/blocks/texels/texel_cache.hpp"
-#include "engine/model/blocks/texels/texel_merge.hpp"
+#include "engine/model/blocks/texels/texel_fills.hpp"
 #include "engine/model/blocks/texels/texel_tags.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
 #include "tests/engine/model/block_bench.hpp"

@@ -14,8 +14,8 @@
 // two ports, and cells that come in take one. It also keeps of each pixel under way where its ray passes the bands.
 
 #include "engine/core/definition/shape_cells.hpp"
-#include "engine/model/blocks/parallel/column_table.hpp"
-#include "engine/model/blocks/shared/delay_line.hpp"
+#include "engine/model/blocks/parallel/column_setup.hpp"
+#include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/clock/block.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
 #include "engine/model/signals/arithmetic.hpp"

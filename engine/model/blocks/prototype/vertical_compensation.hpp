@@ -10,7 +10,7 @@
 //            56      cx + ..; column, m, rise in range?            55..63  m * rise
 //                                                       64 the signs;  65 hand over
 
-#include "engine/model/blocks/shared/serial_stage.hpp"
+#include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/signals/arithmetic.hpp"
 #include "engine/model/signals/messages.hpp"
 #include "engine/model/signals/registers.hpp"

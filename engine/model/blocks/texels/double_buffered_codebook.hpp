@@ -5,7 +5,7 @@
 // object's books are not there yet.
 
 #include "engine/model/blocks/decompression/book_lookup.hpp"
-#include "engine/model/blocks/shared/delay_line.hpp"
+#include "engine/model/blocks/shared/stages.hpp"
 
 #include <array>
 #include <memory>

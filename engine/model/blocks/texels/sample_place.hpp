@@ -4,8 +4,8 @@
 // two of a surface, one token of a surface without any. Behind one another: lambda, height (a product each); beside
 // them l, the pipelined divider (1 / l), column and rows per radius, row; place of the texels.
 
-#include "engine/model/blocks/parallel/column_table.hpp"
-#include "engine/model/blocks/shared/delay_line.hpp"
+#include "engine/model/blocks/parallel/column_setup.hpp"
+#include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/arithmetic.hpp"
 #include "engine/model/signals/parallel_messages.hpp"

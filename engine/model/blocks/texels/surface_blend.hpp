@@ -5,7 +5,7 @@
 // 31-bit subtract and a choice each).
 
 #include "engine/core/definition/shape_pixel.hpp"
-#include "engine/model/blocks/shared/delay_line.hpp"
+#include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/parallel_messages.hpp"
 

@@ -3,6 +3,7 @@
 // the four texels of any sample come in one cycle; another texel is written in the same cycle. A sample waits until the
 // blocks that were asked for it have been written.
 
+#include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/blocks/texels/texel_tags.hpp"
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/parallel_messages.hpp"
@@ -34,6 +35,24 @@ private:
     int written_ = 0;  // texels of the block
     int fills_ = 0;    // blocks written, less those that samples have waited for
     std::uint64_t samples_ = 0;
+};
+
+// Texel filter: the sums of a sample over its four texels (RECONSTRUCTION.md, section 7): weight * alpha, and that
+// times R, G and B: four small products, twelve of 14 x 8 bits, two levels of additions. A sample per cycle.
+
+// The arithmetic without the clock.
+FilteredSample filtered(const TexelQuad& quad);
+
+class TexelFilter final : public Block {
+public:
+    static constexpr int kStages = 6;
+    TexelFilter(Fifo<TexelQuad>& in, Fifo<FilteredSample>& out);
+    Activity tick(std::uint64_t now) override;
+
+private:
+    Fifo<TexelQuad>& in_;
+    Fifo<FilteredSample>& out_;
+    DelayLine<FilteredSample> line_{kStages};
 };
 
 }  // namespace rs::engine::model

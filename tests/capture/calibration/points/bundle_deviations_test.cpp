@@ -1,6 +1,6 @@
 // Stated deviations against the scatter of what is really found when the noise is drawn anew.
 
-#include "capture/calibration/points/bundle_deviations.hpp"
+#include "capture/calibration/points/model_covariance.hpp"
 
 #include "rayspace/base/conventions.hpp"
 #include "tests/capture/calibration/point_turns.hpp"

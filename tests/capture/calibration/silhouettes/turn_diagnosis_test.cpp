@@ -1,6 +1,6 @@
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
 
-#include "capture/calibration/points/bundle_deviations.hpp"
+#include "capture/calibration/points/model_covariance.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "tests/capture/calibration/point_turns.hpp"
 

@@ -1,6 +1,5 @@
 #include "capture/photos/matte/cut_out.hpp"
 
-#include "capture/photos/matte/foreground_colour.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "tests/capture/photos/turn_of_pictures.hpp"
 

@@ -1,0 +1,113 @@
+#include "engine/model/blocks/decompression/record_reading.hpp"
+#include "engine/model/limits/coded_layout.hpp"
+
+namespace rs::engine::model {
+
+TileFinder::TileFinder(int hop, const RegisterFile& registers, Fifo<BlockAsk>& in, Fifo<MemoryRead>& requests,
+                       Fifo<FoundTile>& out)
+    : Block("tile_finder_" + std::to_string(hop), "a block per cycle"),
+      registers_(registers),
+      in_(reads(in)),
+      requests_(writes(requests)),
+      out_(writes(out)) {}
+
+Activity TileFinder::tick(std::uint64_t) {
+    if (!in_.can_pop()) return Activity::idle;
+    if (!out_.can_push()) return Activity::output_full;
+    const BlockAsk& ask = in_.front();
+    const ObjectRegisters& object = registers_.object_of(ask.view);
+    const int column = ask.picture * object.tile_columns + (ask.column >> 5);
+    const int entry = column * object.table_pitch + (ask.block_row >> 2);
+    // Within a view column all blocks are of one object; what was known before it may be of one that is gone.
+    const bool same = !ask.first && entry == last_entry_;
+    if (!same) {
+        if (!requests_.can_push()) return Activity::memory_port;
+        requests_.push({object.tile_table + static_cast<WordAddress>(entry >> 1), false});
+    }
+    out_.push({ask, same, (entry & 1) != 0});
+    last_entry_ = entry;
+    in_.pop();
+    return Activity::busy;
+}
+
+TileReader::TileReader(int hop, Fifo<FoundTile>& in, Fifo<MemoryWord>& entries, Fifo<MemoryRead>& requests,
+                       Fifo<AskedTile>& out)
+    : Block("tile_reader_" + std::to_string(hop), "a block per cycle, that of a new tile with its word"),
+      in_(reads(in)),
+      entries_(reads(entries)),
+      requests_(writes(requests)),
+      out_(writes(out)) {}
+
+Activity TileReader::tick(std::uint64_t) {
+    if (!in_.can_pop()) return Activity::idle;
+    if (!out_.can_push()) return Activity::output_full;
+    const FoundTile& found = in_.front();
+    AskedTile asked{found.ask, AskedTile::Kind::same, 0};
+    if (!found.same) {
+        if (!entries_.can_pop()) return Activity::memory_data;
+        if (!requests_.can_push()) return Activity::memory_port;
+        const auto entry = static_cast<std::uint32_t>(entries_.pop().data >> (found.high ? 32 : 0));
+        asked.kind = entry == kNoTile ? AskedTile::Kind::nothing : AskedTile::Kind::read;
+        if (asked.kind == AskedTile::Kind::read) {
+            asked.address = entry;
+            requests_.push({entry, false});
+        }
+    }
+    out_.push(asked);
+    in_.pop();
+    return Activity::busy;
+}
+
+RecordReader::RecordReader(int hop, const RegisterFile& registers, Fifo<AskedTile>& in, Fifo<MemoryWord>& heads,
+                           Fifo<MemoryRead>& requests, Fifo<AskedRecord>& out)
+    : Block("record_reader_" + std::to_string(hop),
+            "a record in as many cycles as it has words, 1 without; 1 more for a new tile"),
+      registers_(registers),
+      in_(reads(in)),
+      heads_(reads(heads)),
+      requests_(writes(requests)),
+      out_(writes(out)) {}
+
+Activity RecordReader::tick(std::uint64_t) {
+    if (to_ask_ > 0) {
+        if (!requests_.can_push()) return Activity::memory_port;
+        requests_.push({next_++, false});
+        --to_ask_;
+        return Activity::busy;
+    }
+    if (!in_.can_pop()) return Activity::idle;
+    const AskedTile& asked = in_.front();
+    if (asked.kind == AskedTile::Kind::read && !loaded_) {
+        if (!heads_.can_pop()) return Activity::memory_data;
+        head_ = heads_.pop().data;
+        tile_ = asked.address;
+        loaded_ = true;
+        return Activity::busy;
+    }
+    if (!out_.can_push()) return Activity::output_full;
+    if (!requests_.can_push()) return Activity::memory_port;
+    if (asked.kind == AskedTile::Kind::nothing) head_ = 0;
+    const int block = asked.ask.block();
+    AskedRecord record;
+    record.ask = asked.ask;
+    record.class_number = block_class(head_, block);
+    const auto byte = [&](int n) { return static_cast<int>((head_ >> (8 * n)) & 255U); };
+    record.predicted_picture = byte(6) != kNoReferenceByte;
+    record.references = {byte(6), byte(7)};
+    if (record.class_number > 0) {
+        const auto& classes = registers_.object_of(asked.ask.view).classes[record.predicted_picture ? 1 : 0];
+        const int offset = record_offset(head_, block, classes);
+        const int bytes = classes[static_cast<std::size_t>(record.class_number)].bytes();
+        record.lane = offset & 7;
+        record.words = (record.lane + bytes + 7) / 8;
+        next_ = tile_ + 1 + static_cast<WordAddress>(offset / 8);
+        requests_.push({next_++, false});
+        to_ask_ = record.words - 1;
+    }
+    out_.push(record);
+    in_.pop();
+    loaded_ = false;
+    return Activity::busy;
+}
+
+}  // namespace rs::engine::model

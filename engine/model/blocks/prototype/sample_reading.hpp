@@ -1,0 +1,45 @@
+#pragma once
+// Sample fetch: the reads of a pair of pixels, one per cycle, always in this order through one address adder:
+//
+//     alpha of both (again, where the two rows lie in different words), chroma 0, Y 0, chroma 1, Y 1
+//
+// Two alphas of 2 bits nearly always lie in the same word of 32 rows, so one read serves the pair; a word of U and V
+// pairs serves both colour differences. A pixel that shows nothing takes the same way with null reads, so that pixels
+// stay in order and the rate of the board does not depend on the picture.
+
+#include "engine/model/clock/block.hpp"
+#include "engine/model/signals/messages.hpp"
+
+namespace rs::engine::model {
+
+class SampleFetch final : public Block {
+public:
+    SampleFetch(Fifo<PixelPair>& in, Fifo<MemoryRead>& requests, Fifo<SampleTag>& tags);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override { return "slot " + std::to_string(slot_); }
+
+private:
+    Fifo<PixelPair>& in_;
+    Fifo<MemoryRead>& requests_;
+    Fifo<SampleTag>& tags_;
+    int slot_ = 0;  // 0, 1: alpha; 2..5: chroma and Y of pixel 0 and 1
+};
+
+// Sample select (the paper's "Y, U, V, alpha data get"): takes the words that come back from memory in the order in
+// which they were asked for, picks bytes and bits by their tags, and hands on a pixel with its Y.
+
+class SampleSelect final : public Block {
+public:
+    SampleSelect(Fifo<SampleTag>& tags, Fifo<MemoryWord>& words, Fifo<YuvaPixel>& out);
+    Activity tick(std::uint64_t now) override;
+
+private:
+    Fifo<SampleTag>& tags_;
+    Fifo<MemoryWord>& words_;
+    Fifo<YuvaPixel>& out_;
+    int level_[2] = {0, 0};
+    int u_ = 0;
+    int v_ = 0;
+};
+
+}  // namespace rs::engine::model

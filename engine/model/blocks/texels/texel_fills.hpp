@@ -1,0 +1,68 @@
+#pragma once
+// Fill fetch: has a block of 8x8 texels fetched, column by column. Of coded pictures it asks the readers of hop 0 for
+// each of the block's columns and sends the 64 pixels that the records are joined with; of raw ones it asks memory for
+// the block's words. The line for which the texels are goes ahead to the cache.
+
+#include "engine/model/clock/block.hpp"
+#include "engine/model/signals/coded_messages.hpp"
+#include "engine/model/signals/parallel_messages.hpp"
+#include "engine/model/signals/registers.hpp"
+
+namespace rs::engine::model {
+
+class FillFetch final : public Block {
+public:
+    FillFetch(const RegisterFile& registers, Fifo<TexelFill>& in, Fifo<BlockAsk>& asks, Fifo<CodedPixel>& pixels,
+              Fifo<MemoryRead>& raw_reads, Fifo<FillKind>& kinds, Fifo<FillTarget>& targets);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override {
+        return "columns to ask " + std::to_string(8 - asked_) + ", pixels to send " + std::to_string(64 - sent_);
+    }
+
+private:
+    bool begin();
+    bool fetch_coded();
+    bool fetch_raw();
+
+    const RegisterFile& registers_;
+    Fifo<TexelFill>& in_;
+    Fifo<BlockAsk>& asks_;
+    Fifo<CodedPixel>& pixels_;
+    Fifo<MemoryRead>& raw_reads_;
+    Fifo<FillKind>& kinds_;
+    Fifo<FillTarget>& targets_;
+    bool active_ = false;
+    TexelFill fill_;
+    bool coded_ = false;
+    std::uint32_t serial_ = 0;  // of the object that was asked for last
+    bool first_ = false;        // of that object
+    int asked_ = 8;
+    int sent_ = 64;
+    WordAddress next_ = 0;
+};
+
+// Texel merge: the samples of a block come unpacked from book_lookup, or as they are from memory; a texel per cycle, in
+// the order in which the blocks were asked for. Of a raw block (parallel_layout.hpp) it keeps three words: (U, V) of a
+// pair of columns, Y and alpha of one.
+
+class TexelMerge final : public Block {
+public:
+    TexelMerge(Fifo<FillKind>& kinds, Fifo<YuvaPixel>& coded, Fifo<MemoryWord>& raw_words, Fifo<YuvaPixel>& out);
+    Activity tick(std::uint64_t now) override;
+    [[nodiscard]] std::string state_text() const override { return "texels left " + std::to_string(left_); }
+
+private:
+    Activity take_word();
+    [[nodiscard]] YuvaPixel raw_texel() const;
+
+    Fifo<FillKind>& kinds_;
+    Fifo<YuvaPixel>& coded_;
+    Fifo<MemoryWord>& raw_words_;
+    Fifo<YuvaPixel>& out_;
+    int left_ = 0;  // texels of the block
+    bool is_coded_ = false;
+    int words_ = 0;  // of the column, and before it of the pair, that are here
+    std::uint64_t chroma_ = 0, luma_ = 0, alpha_ = 0;
+};
+
+}  // namespace rs::engine::model
