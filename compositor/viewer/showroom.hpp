@@ -1,6 +1,7 @@
 #pragma once
 // A scene's objects for a visitor who walks through it: room by room into memory before they are seen, out of it behind
-// the visitor, within a budget (object_cache.hpp, load_priority.hpp); and what each node shows meanwhile (shown_parts.hpp).
+// the visitor, within a budget (object_cache.hpp, load_priority.hpp); and what each node shows meanwhile
+// (shown_parts.hpp).
 //
 // No OpenGL here. One thread; it never waits for a file unless the options say so.
 

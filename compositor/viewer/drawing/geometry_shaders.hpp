@@ -3,9 +3,9 @@
 //
 //   colour = fog * (1 - f) + f * (emissive + sum over lights: attenuation * spot * (ambient + diffuse + specular))
 //
-// A shader for every kind of surface (surface_renderer.hpp): what kinds differ in are constants at its head, so that loops
-// over lights are unrolled and what a surface does not have costs nothing. Drawn on a CPU that is several times faster
-// than asking at every pixel.
+// A shader for every kind of surface (surface_renderer.hpp): what kinds differ in are constants at its head, so that
+// loops over lights are unrolled and what a surface does not have costs nothing. Drawn on a CPU that is several times
+// faster than asking at every pixel.
 
 namespace rs::compositor::shaders {
 
