@@ -1,6 +1,6 @@
 #include "encode/codec/fidelity.hpp"
 
-#include "rayspace/codec/part_syntax.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
 #include "rayspace/object/yuv.hpp"
 
 #include <tbb/parallel_for.h>

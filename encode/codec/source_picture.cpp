@@ -1,6 +1,6 @@
 #include "encode/codec/source_picture.hpp"
 
-#include "rayspace/codec/part_syntax.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 #include "encode/codec/tile_encoder.hpp"
 
-#include "encode/codec/part_search.hpp"
+#include "encode/codec/unit_search.hpp"
 #include "rayspace/codec/alpha_mask.hpp"
 #include "rayspace/codec/deblocking.hpp"
-#include "rayspace/codec/part_syntax.hpp"
-#include "rayspace/codec/reconstruct_part.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
+#include "rayspace/codec/reconstruct_unit.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -15,8 +15,8 @@ namespace {
 using codec::AlphaClass;
 using codec::kBlock;
 using codec::kMacroblock;
-using codec::Part;
 using codec::PartChoice;
+using codec::PredictionUnit;
 
 class TileEncoder {
 public:
@@ -79,18 +79,18 @@ private:
             codec::clear_tile({left_ + bx * kBlock, top_ + by * kBlock, kMacroblock, kMacroblock}, task_.out);
             return;
         }
-        const PartSearch search(task_, costs_, state_, left_, top_);
+        const UnitSearch search(task_, costs_, state_, left_, top_);
 
         Estimator whole_bits(costs_);
         codec::syntax::split(whole_bits, state_.grid, bx, by, false);
         Estimator split_bits(costs_);
         codec::syntax::split(split_bits, state_.grid, bx, by, true);
 
-        const Part whole{bx, by, kMacroblock};
+        const PredictionUnit whole{bx, by, kMacroblock};
         const float whole_cost = search.choose(whole, *choices_[4]) + task_.lambda * whole_bits.bits();
         float split_cost = task_.lambda * split_bits.bits();
         for (int i = 0; i < 4 && split_cost < whole_cost; ++i) {
-            const Part quarter{bx + (i & 1), by + (i >> 1), kBlock};
+            const PredictionUnit quarter{bx + (i & 1), by + (i >> 1), kBlock};
             if (state_.grid.at(quarter.bx, quarter.by).alpha == AlphaClass::kEmpty) {
                 codec::clear_tile({left_ + quarter.bx * kBlock, top_ + quarter.by * kBlock, kBlock, kBlock}, task_.out);
                 continue;
@@ -111,7 +111,7 @@ private:
             return;
         }
         for (int i = 0; i < 4; ++i) {
-            const Part quarter{bx + (i & 1), by + (i >> 1), kBlock};
+            const PredictionUnit quarter{bx + (i & 1), by + (i >> 1), kBlock};
             if (state_.grid.at(quarter.bx, quarter.by).alpha == AlphaClass::kEmpty) {
                 codec::clear_tile({left_ + quarter.bx * kBlock, top_ + quarter.by * kBlock, kBlock, kBlock}, task_.out);
             } else {
@@ -120,7 +120,7 @@ private:
         }
     }
 
-    void put(const PartSearch& search, const Part& part, PartChoice& choice) {
+    void put(const UnitSearch& search, const PredictionUnit& part, PartChoice& choice) {
         search.write(part, choice, recorder_);
         search.commit(part, choice);
         for (std::size_t r = 0; r < 2; ++r) {

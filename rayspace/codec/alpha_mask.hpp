@@ -4,7 +4,7 @@
 
 #include "rayspace/codec/code/dense_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
-#include "rayspace/codec/part_syntax.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
 
 #include <algorithm>
 #include <array>

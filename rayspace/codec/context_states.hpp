@@ -1,6 +1,6 @@
 #pragma once
-// What a tile's decisions so far make likely: encode/FORMAT.md, section "Learning". Every tile begins with the
-// probabilities of the object's table, so tiles stay independent of each other.
+// What a tile's decisions so far make likely: encode/FORMAT.md, section "Context adaptation". Every tile begins with
+// the probabilities of the object's table, so tiles stay independent of each other.
 
 #include "rayspace/codec/bool_decoder.hpp"
 #include "rayspace/codec/code/contexts.hpp"
@@ -16,7 +16,7 @@ namespace rs::codec {
 
 class ContextStates {
 public:
-    explicit ContextStates(const DenseCode& code) : shifts_(code.learning ? kLearning : kFixed) {
+    explicit ContextStates(const DenseCode& code) : shifts_(code.adaptation ? kAdaptation : kFixed) {
         for (std::size_t c = 0; c < zero_q16_.size(); ++c) {
             zero_q16_[c] = static_cast<std::uint16_t>(code.probabilities[c] << kFractionBits);
         }
@@ -46,7 +46,7 @@ private:
 
     using Shifts = std::array<std::uint8_t, 256>;
     // floor(log2(uses)), or so far that nothing changes.
-    static constexpr Shifts kLearning = [] {
+    static constexpr Shifts kAdaptation = [] {
         Shifts shifts{};
         for (unsigned n = 1; n < shifts.size(); ++n) shifts[n] = static_cast<std::uint8_t>(std::bit_width(n) - 1);
         return shifts;

@@ -1,6 +1,6 @@
 #include "rayspace/codec/deblocking.hpp"
 
-#include "rayspace/codec/part_syntax.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -5,8 +5,8 @@
 #include "rayspace/codec/alpha_mask.hpp"
 #include "rayspace/codec/deblocking.hpp"
 #include "rayspace/codec/dense_tile.hpp"
-#include "rayspace/codec/part_syntax.hpp"
-#include "rayspace/codec/reconstruct_part.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
+#include "rayspace/codec/reconstruct_unit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -53,7 +53,7 @@ private:
         }
         for (int i = 0; i < 4; ++i) grid_.at(bx + (i & 1), by + (i >> 1)).split = true;
         for (int i = 0; i < 4; ++i) {
-            const Part quarter{bx + (i & 1), by + (i >> 1), kBlock};
+            const PredictionUnit quarter{bx + (i & 1), by + (i >> 1), kBlock};
             if (grid_.at(quarter.bx, quarter.by).alpha != AlphaClass::kEmpty) {
                 part(quarter);
             } else {
@@ -62,7 +62,7 @@ private:
         }
     }
 
-    void part(const Part& part) {
+    void part(const PredictionUnit& part) {
         PartChoice& choice = choice_;
         choice.coded = false;
         code_prediction(reader_, grid_, part, around_, choice);
@@ -74,12 +74,12 @@ private:
         }
         code_coefficients(reader_, grid_, part, code_.sign_data_hiding, choice);
         const PartPlace place = place_of_part(grid_, part, left_, top_);
-        reconstruct_part(choice, place, head_.step, code_, references_, out_);
+        reconstruct_unit(choice, place, head_.step, code_, references_, out_);
         enter_part(grid_, part, choice);
         if (choice.coded) forget_levels(part, choice);
     }
 
-    void announce(const Part& part, const PartChoice& choice) {
+    void announce(const PredictionUnit& part, const PartChoice& choice) {
         for (int r = 0; r < 2; ++r) {
             if (!uses(choice.source, r)) continue;
             const MotionVector motion = choice.motion[static_cast<std::size_t>(r)];
@@ -93,7 +93,7 @@ private:
         }
     }
 
-    void alpha(const Part& part, const PartChoice& choice) {
+    void alpha(const PredictionUnit& part, const PartChoice& choice) {
         const auto& plane = out_[3];
         for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
             const int bx = part.bx + (i & (part.blocks() - 1));
@@ -118,7 +118,7 @@ private:
     }
 
     // What is shown where no more than the mask is said: in blocks that are not mixed, and have none beside them.
-    void mask(const Part& part, const PartChoice& choice) {
+    void mask(const PredictionUnit& part, const PartChoice& choice) {
         for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
             const int bx = part.bx + (i & (part.blocks() - 1));
             const int by = part.by + i / part.blocks();
@@ -138,7 +138,7 @@ private:
         }
     }
 
-    static void forget_levels(const Part& part, PartChoice& choice) {
+    static void forget_levels(const PredictionUnit& part, PartChoice& choice) {
         for (std::size_t plane = 0; plane < kPlanes; ++plane) {
             for (std::size_t t = 0; t < static_cast<std::size_t>(choice.transforms(part.size)); ++t) {
                 if (choice.plane_coded[plane][t]) choice.levels[plane][t] = Levels{};

@@ -53,7 +53,7 @@ bool split(Coder& coder, const TileGrid& grid, int bx, int by, bool value) {
 
 // How many of the two neighbours fulfil the condition.
 template <class Condition>
-int count_neighbours(const TileGrid& grid, const Part& part, const Condition& condition) {
+int count_neighbours(const TileGrid& grid, const PredictionUnit& part, const Condition& condition) {
     return (condition(grid.at(part.bx - 1, part.by)) ? 1 : 0) + (condition(grid.at(part.bx, part.by - 1)) ? 1 : 0);
 }
 
@@ -63,7 +63,7 @@ constexpr int size_index(int size) {
 
 // `references`: how many pictures there are to predict from, 0 .. 2.
 template <class Coder>
-Source source(Coder& coder, const TileGrid& grid, const Part& part, int references, Source value) {
+Source source(Coder& coder, const TileGrid& grid, const PredictionUnit& part, int references, Source value) {
     if (references == 0) return Source::kIntra;
     const int size = size_index(part.size);
     const int inter = count_neighbours(grid, part, [](const BlockInfo& b) { return is_inter(b.source); });
@@ -77,13 +77,13 @@ Source source(Coder& coder, const TileGrid& grid, const Part& part, int referenc
 }
 
 template <class Coder>
-int intra_mode(Coder& coder, const Part& part, int value) {
+int intra_mode(Coder& coder, const PredictionUnit& part, int value) {
     return tree(coder, context::kIntraMode + 7 * size_index(part.size), 3, value);
 }
 
 // A vector less its prediction. What is read may lie outside of +-kMaxMotion_q2: the reader has to look.
 template <class Coder>
-std::array<int, 2> motion(Coder& coder, const Part& part, std::array<int, 2> value) {
+std::array<int, 2> motion(Coder& coder, const PredictionUnit& part, std::array<int, 2> value) {
     constexpr int kPlaces = 10;
     const int zero = context::kMotionZero + size_index(part.size);
     if (coder.bit(zero, value[0] != 0 || value[1] != 0 ? 1 : 0) == 0) return {0, 0};
@@ -103,7 +103,7 @@ std::array<int, 2> motion(Coder& coder, const Part& part, std::array<int, 2> val
 
 // Whether a part has any coefficients.
 template <class Coder>
-bool coded(Coder& coder, const TileGrid& grid, const Part& part, bool inter, bool value) {
+bool coded(Coder& coder, const TileGrid& grid, const PredictionUnit& part, bool inter, bool value) {
     const int neighbours = count_neighbours(grid, part, [](const BlockInfo& b) { return b.coded; });
     return coder.bit(context::kCoded + 3 * (2 * size_index(part.size) + (inter ? 1 : 0)) + neighbours, value ? 1 : 0) !=
            0;

@@ -18,7 +18,7 @@ constexpr int kCoherenceTries = 4;      // of a step, each more damped
 constexpr double kFarthestStretch = 8;  // a step is doubled while that helps
 constexpr double kLittle = 0.2;         // of cost, twice the log likelihood: no more rounds for less
 constexpr double kWidth = 0.5;          // of differences, in deviations
-constexpr double kOutlier_px = 1;       // of the turn: shortfalls far above it count no more
+constexpr double kOutlier_px = 1;       // of the turn: residuals far above it count no more
 // Outlines that agree better are those of bodies that look alike from everywhere, and know no more for it.
 constexpr double kFinest_px = 0.12;
 // Neighbouring points of an outline are off alike: a view is worth this many independent ones.
@@ -93,24 +93,24 @@ public:
     [[nodiscard]] TurntableModel at(const Eigen::VectorXd& z) const { return stepped(model_, places_, columns_ * z); }
 
     // Px of the turn.
-    [[nodiscard]] Eigen::VectorXd shortfalls(const Eigen::VectorXd& z) {
+    [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& z) {
         TurntableModel model = at(z);
         model.lens.f_px /= picture_px_;
         model.lens.cx /= picture_px_;
         model.lens.cy /= picture_px_;
-        const std::vector<double> found = shortfalls_px(turn_, model, {}, &depths_);
+        const std::vector<double> found = consistency_residuals_px(turn_, model, {}, &depths_);
         return Eigen::Map<const Eigen::VectorXd>(found.data(), static_cast<Eigen::Index>(found.size()));
     }
 
     // Geman-McClure's, so that what is cut out wrong counts little.
-    [[nodiscard]] static double robust_sum(const Eigen::VectorXd& shortfalls) {
-        return (shortfalls.array().square() / (1 + shortfalls.array().square() / (kOutlier_px * kOutlier_px))).sum();
+    [[nodiscard]] static double robust_sum(const Eigen::VectorXd& residuals) {
+        return (residuals.array().square() / (1 + residuals.array().square() / (kOutlier_px * kOutlier_px))).sum();
     }
 
-    // What a squared shortfall counts for, if those given are what outlines are usually off.
-    [[nodiscard]] double weight(const Eigen::VectorXd& shortfalls) const {
-        const double finest = kFinest_px * kFinest_px * static_cast<double>(shortfalls.size());
-        return kIndependentRays * static_cast<double>(turn_.views()) / std::max(robust_sum(shortfalls), finest);
+    // What a squared residual counts for, if those given are what outlines are usually off.
+    [[nodiscard]] double weight(const Eigen::VectorXd& residuals) const {
+        const double finest = kFinest_px * kFinest_px * static_cast<double>(residuals.size());
+        return kIndependentRays * static_cast<double>(turn_.views()) / std::max(robust_sum(residuals), finest);
     }
 
     [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::VectorXd& z, Eigen::Index rays) {
@@ -119,7 +119,7 @@ public:
             Eigen::VectorXd before = z, behind = z;
             before(k) -= kWidth;
             behind(k) += kWidth;
-            result.col(k) = (shortfalls(behind) - shortfalls(before)) / (2 * kWidth);
+            result.col(k) = (residuals(behind) - residuals(before)) / (2 * kWidth);
         }
         return result;
     }
@@ -146,17 +146,17 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     Outlines outlines(model, places, turn, picture_px, columns);
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(n, n);
     Eigen::VectorXd z = Eigen::VectorXd::Zero(n);
-    Eigen::VectorXd shortfalls = outlines.shortfalls(z);
+    Eigen::VectorXd residuals = outlines.residuals(z);
     double damping = 1e-3;
     Eigen::MatrixXd of_outlines;
     for (int round = 0; round < kCoherenceRounds; ++round) {
-        const double weight = outlines.weight(shortfalls);
-        const Eigen::MatrixXd slopes = outlines.slopes(z, shortfalls.size());
-        const Eigen::ArrayXd tail = 1 + shortfalls.array().square() / (kOutlier_px * kOutlier_px);
+        const double weight = outlines.weight(residuals);
+        const Eigen::MatrixXd slopes = outlines.slopes(z, residuals.size());
+        const Eigen::ArrayXd tail = 1 + residuals.array().square() / (kOutlier_px * kOutlier_px);
         const Eigen::VectorXd weights = weight / tail.square();
         of_outlines = slopes.transpose() * weights.asDiagonal() * slopes;
-        const Eigen::VectorXd gradient = slopes.transpose() * weights.cwiseProduct(shortfalls) + z;
-        const double cost_before = weight * Outlines::robust_sum(shortfalls) + z.squaredNorm();
+        const Eigen::VectorXd gradient = slopes.transpose() * weights.cwiseProduct(residuals) + z;
+        const double cost_before = weight * Outlines::robust_sum(residuals) + z.squaredNorm();
         double cost = cost_before;
         bool better = false;
         for (int i = 0; i < kCoherenceTries && !better; ++i) {
@@ -167,12 +167,12 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
             const Eigen::VectorXd start = z;
             for (double stretch = 1; stretch <= kFarthestStretch; stretch *= 2) {
                 const Eigen::VectorXd there = start + stretch * step;
-                const Eigen::VectorXd tried = outlines.shortfalls(there);
+                const Eigen::VectorXd tried = outlines.residuals(there);
                 const double tried_cost = weight * Outlines::robust_sum(tried) + there.squaredNorm();
                 if (!(tried_cost < cost)) break;
                 cost = tried_cost;
                 z = there;
-                shortfalls = tried;
+                residuals = tried;
                 better = true;
             }
             damping = better ? damping / 5 : damping * 8;
@@ -180,8 +180,9 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
         if (!better || cost_before - cost < kLittle) break;
     }
     CoherenceFit fit{outlines.at(z), covariance, 0};
-    fit.shortfall_px = picture_px * std::sqrt(shortfalls.squaredNorm() / static_cast<double>(shortfalls.size()));
-    if (!(fit.shortfall_px <= options.worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
+    fit.consistency_residual_px =
+        picture_px * std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size()));
+    if (!(fit.consistency_residual_px <= options.worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
     if (!(angles_left(places, columns, of_outlines) <= kTellsOfAngles)) return std::nullopt;
     fit.covariance += columns * (variance_with(of_outlines, options.untold_together) - unit) * columns.transpose();
     return fit;

@@ -15,14 +15,14 @@ namespace rs::capture {
 
 struct CoherenceFit {
     TurntableModel model;
-    Eigen::MatrixXd covariance;  // as the one given
-    double shortfall_px = 0;     // root mean square over the rays, px of the photographs
+    Eigen::MatrixXd covariance;          // as the one given
+    double consistency_residual_px = 0;  // root mean square over the rays, px of the photographs
 };
 
 struct CoherenceOptions {
     double worst_px = 0.5;     // of the photographs: outlines that come to agree no better are not heeded
     int most_directions = 14;  // combinations of numbers that are looked at; the work grows with them
-    // Outlines err together in ways no shortfall shows: they are taken to be off by so many times what they say.
+    // Outlines err together in ways no residual shows: they are taken to be off by so many times what they say.
     double untold_together = 6;
 };
 

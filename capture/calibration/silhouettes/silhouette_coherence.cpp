@@ -154,8 +154,8 @@ std::vector<std::size_t> views_of_rays(const SilhouetteTurn& turn, const RaySele
     return views;
 }
 
-std::vector<double> shortfalls_px(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays,
-                                  RayDepths* depths) {
+std::vector<double> consistency_residuals_px(const SilhouetteTurn& turn, const TurntableModel& model,
+                                             const RaySelection& rays, RayDepths* depths) {
     RS_CHECK(model.angles_rad.size() == turn.views() && rays.every > 0);
     // The rays of all views first: the farthest from the axis says how far the object may reach.
     struct View {
@@ -181,7 +181,7 @@ std::vector<double> shortfalls_px(const SilhouetteTurn& turn, const TurntableMod
     const FloatLens lens{static_cast<float>(model.lens.f_px), static_cast<float>(model.lens.cx),
                          static_cast<float>(model.lens.cy), static_cast<float>(model.lens.k1),
                          static_cast<float>(model.lens.k2)};
-    std::vector<double> shortfalls(count);
+    std::vector<double> residuals(count);
     RayDepths near = depths != nullptr ? *depths : RayDepths{};
     RS_CHECK(near.empty() || near.size() == count);
     near.resize(count);
@@ -192,11 +192,11 @@ std::vector<double> shortfalls_px(const SilhouetteTurn& turn, const TurntableMod
         for (std::size_t e = 0; e < views[i].directions.size(); ++e) {
             const auto& direction = views[i].directions[e];
             const double best_px = direction ? probe.best(*direction, reach, near[views[i].first + e]) : -kNoRay_px;
-            shortfalls[views[i].first + e] = std::clamp(-best_px, 0.0, kNoRay_px);
+            residuals[views[i].first + e] = std::clamp(-best_px, 0.0, kNoRay_px);
         }
     });
     if (depths != nullptr && depths->empty()) *depths = std::move(near);
-    return shortfalls;
+    return residuals;
 }
 
 }  // namespace rs::capture

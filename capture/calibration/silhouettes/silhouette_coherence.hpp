@@ -1,7 +1,7 @@
 #pragma once
 // How well outlines agree with a turntable model. A ray through a point of an outline touches the object, so somewhere
 // along it there is a point that lies within the outlines of all views. How much the best point of the ray lacks of
-// that, in px, is the ray's shortfall; it is 0 for the true model (after Hernandez, Schmitt, Cipolla, "Silhouette
+// that, in px, is the ray's residual; it is 0 for the true model (after Hernandez, Schmitt, Cipolla, "Silhouette
 // coherence for camera calibration under circular motion", 2007).
 
 #include "capture/calibration/model/turntable_model.hpp"
@@ -16,18 +16,18 @@ struct RaySelection {
     std::vector<char> left_out;  // [view]: neither rays nor outlines of it count; empty: none
 };
 
-// Where along its ray each shortfall was found, in distances from the camera.
+// Where along its ray each residual was found, in distances from the camera.
 using RayDepths = std::vector<double>;
 
-// The shortfall of each selected ray, 0 and more, view by view in the order of SilhouetteTurn::edges(); rays that the
+// The residual of each selected ray, 0 and more, view by view in the order of SilhouetteTurn::edges(); rays that the
 // model does not have (lens distortion) fall short by a fixed large amount. `model` is in px of `turn` and has an angle
 // for each of its views. Works on the threads of the calling tbb arena; equal results whatever their number. About 10
 // ms for 36 views on 2 cores. `depths`, where given: if empty it is filled in; else it is of a model that differs
 // little, and rays are only looked at near there, in a third of the time.
-std::vector<double> shortfalls_px(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays,
-                                  RayDepths* depths = nullptr);
+std::vector<double> consistency_residuals_px(const SilhouetteTurn& turn, const TurntableModel& model,
+                                             const RaySelection& rays, RayDepths* depths = nullptr);
 
-// The views that the shortfalls belong to, in the same order.
+// The views that the residuals belong to, in the same order.
 std::vector<std::size_t> views_of_rays(const SilhouetteTurn& turn, const RaySelection& rays);
 
 }  // namespace rs::capture

@@ -15,7 +15,7 @@ constexpr double kIndependentPerView = 8;
 // For derivatives: wide enough to look past the steps of the distances, narrow enough for what is asked.
 constexpr std::array<double, SilhouetteParameters::kCount> kSteps = {0.3, 0.004, 0.002, 0.02, 0.002};
 
-// Weight of one ray's squared shortfall.
+// Weight of one ray's squared residual.
 double ray_weight(const SilhouetteProblem& problem, const RaySelection& rays, std::size_t count) {
     std::size_t views = problem.turn->views();
     for (const char left_out : rays.left_out) views -= left_out != 0 ? 1 : 0;
@@ -33,31 +33,31 @@ double prior_cost(const SilhouetteProblem& problem, const SilhouetteParameters& 
 }
 
 // Geman-McClure.
-double robust_sum(const std::vector<double>& shortfalls, double outlier_px) {
+double robust_sum(const std::vector<double>& residuals, double outlier_px) {
     double sum = 0;
-    for (const double s : shortfalls) sum += s * s / (1 + s * s / (outlier_px * outlier_px));
+    for (const double s : residuals) sum += s * s / (1 + s * s / (outlier_px * outlier_px));
     return sum;
 }
 
 double cost_of(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays,
-               const std::vector<double>& shortfalls) {
-    return ray_weight(problem, rays, shortfalls.size()) * robust_sum(shortfalls, problem.outlier_px) +
+               const std::vector<double>& residuals) {
+    return ray_weight(problem, rays, residuals.size()) * robust_sum(residuals, problem.outlier_px) +
            prior_cost(problem, at);
 }
 
-std::vector<double> shortfalls_at(const SilhouetteProblem& problem, const SilhouetteParameters& at,
-                                  const RaySelection& rays) {
-    return shortfalls_px(*problem.turn, changed(problem.start, at), rays);
+std::vector<double> residuals_at(const SilhouetteProblem& problem, const SilhouetteParameters& at,
+                                 const RaySelection& rays) {
+    return consistency_residuals_px(*problem.turn, changed(problem.start, at), rays);
 }
 
 struct Normals {
-    Eigen::MatrixXd data;      // J^T W J of the shortfalls
+    Eigen::MatrixXd data;      // J^T W J of the residuals
     Eigen::VectorXd gradient;  // of data and priors, halved
 };
 
 Normals normals_at(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays,
-                   const std::vector<std::size_t>& free, const std::vector<double>& shortfalls) {
-    const auto rows = static_cast<Eigen::Index>(shortfalls.size());
+                   const std::vector<std::size_t>& free, const std::vector<double>& residuals) {
+    const auto rows = static_cast<Eigen::Index>(residuals.size());
     const auto columns = static_cast<Eigen::Index>(free.size());
     Eigen::MatrixXd jacobian(rows, columns);
     for (Eigen::Index c = 0; c < columns; ++c) {
@@ -66,8 +66,8 @@ Normals normals_at(const SilhouetteProblem& problem, const SilhouetteParameters&
         SilhouetteParameters behind = at;
         before.value[name] -= kSteps[name];
         behind.value[name] += kSteps[name];
-        const auto low = shortfalls_at(problem, before, rays);
-        const auto high = shortfalls_at(problem, behind, rays);
+        const auto low = residuals_at(problem, before, rays);
+        const auto high = residuals_at(problem, behind, rays);
         for (Eigen::Index r = 0; r < rows; ++r) {
             const auto k = static_cast<std::size_t>(r);
             jacobian(r, c) = (high[k] - low[k]) / (2 * kSteps[name]);
@@ -75,9 +75,9 @@ Normals normals_at(const SilhouetteProblem& problem, const SilhouetteParameters&
     }
     Eigen::VectorXd weight(rows);
     Eigen::VectorXd residual(rows);
-    const double per_ray = ray_weight(problem, rays, shortfalls.size());
+    const double per_ray = ray_weight(problem, rays, residuals.size());
     for (Eigen::Index r = 0; r < rows; ++r) {
-        const double s = shortfalls[static_cast<std::size_t>(r)];
+        const double s = residuals[static_cast<std::size_t>(r)];
         const double tail = 1 + s * s / (problem.outlier_px * problem.outlier_px);
         weight(r) = per_ray / (tail * tail);
         residual(r) = s;
@@ -115,7 +115,7 @@ TurntableModel changed(const TurntableModel& start, const SilhouetteParameters& 
 }
 
 double silhouette_cost(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays) {
-    return cost_of(problem, at, rays, shortfalls_at(problem, at, rays));
+    return cost_of(problem, at, rays, residuals_at(problem, at, rays));
 }
 
 SilhouetteFit fit_silhouettes(const SilhouetteProblem& problem, const SilhouetteParameters& at,
@@ -125,12 +125,12 @@ SilhouetteFit fit_silhouettes(const SilhouetteProblem& problem, const Silhouette
         if (problem.free[i]) free.push_back(i);
     }
     SilhouetteFit fit{at, 0, {}};
-    std::vector<double> shortfalls = shortfalls_at(problem, at, rays);
-    fit.cost = cost_of(problem, at, rays, shortfalls);
+    std::vector<double> residuals = residuals_at(problem, at, rays);
+    fit.cost = cost_of(problem, at, rays, residuals);
     if (free.empty()) return fit;
 
     double damping = 1e-2;
-    Normals normals = normals_at(problem, fit.at, rays, free, shortfalls);
+    Normals normals = normals_at(problem, fit.at, rays, free, residuals);
     for (int i = 0; i < iterations; ++i) {
         const Eigen::MatrixXd full = with_priors(normals.data, free);
         bool better = false;
@@ -146,18 +146,18 @@ SilhouetteFit fit_silhouettes(const SilhouetteProblem& problem, const Silhouette
                 next.value[free[k]] += change;
                 small = small && std::abs(change) < 0.02 * kSteps[free[k]];
             }
-            const std::vector<double> tried = shortfalls_at(problem, next, rays);
+            const std::vector<double> tried = residuals_at(problem, next, rays);
             const double cost = cost_of(problem, next, rays, tried);
             better = cost < fit.cost;
             damping = better ? std::max(damping / 5, 1e-6) : damping * 6;
             if (better) {
                 fit.at = next;
                 fit.cost = cost;
-                shortfalls = tried;
+                residuals = tried;
             }
         }
         if (!better) break;
-        normals = normals_at(problem, fit.at, rays, free, shortfalls);
+        normals = normals_at(problem, fit.at, rays, free, residuals);
         if (small) break;
     }
 

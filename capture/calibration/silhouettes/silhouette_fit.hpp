@@ -29,7 +29,7 @@ struct SilhouetteProblem {
     const SilhouetteTurn* turn = nullptr;
     TurntableModel start;  // in px of the turn
     std::array<bool, SilhouetteParameters::kCount> free{};
-    double outlier_px = 3;  // shortfalls far above it count no more
+    double outlier_px = 3;  // residuals far above it count no more
 };
 
 TurntableModel changed(const TurntableModel& start, const SilhouetteParameters& by);

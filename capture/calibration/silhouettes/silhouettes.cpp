@@ -192,13 +192,12 @@ double rms(const std::vector<double>& values) {
     return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-std::vector<ViewFit> fits_by_view(const SilhouetteTurn& turn, const std::vector<double>& shortfalls,
-                                  double picture_px) {
+std::vector<ViewFit> fits_by_view(const SilhouetteTurn& turn, const std::vector<double>& residuals, double picture_px) {
     const std::vector<std::size_t> view_of = views_of_rays(turn, {});
     std::vector<ViewFit> views(turn.views());
-    for (std::size_t r = 0; r < shortfalls.size(); ++r) {
+    for (std::size_t r = 0; r < residuals.size(); ++r) {
         ++views[view_of[r]].observations;
-        views[view_of[r]].rms_px += shortfalls[r] * shortfalls[r];
+        views[view_of[r]].rms_px += residuals[r] * residuals[r];
     }
     for (ViewFit& view : views)
         view.rms_px = view.observations > 0 ? picture_px * std::sqrt(view.rms_px / view.observations) : 0;
@@ -262,7 +261,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     const std::vector<SilhouetteFit> along = fits_along_tilts(problem, best, half);
     SilhouetteFit fit = nearest_to_start(best, best_cost, along);
     const double start_cost = silhouette_cost(problem, {}, {});
-    const double start_rms = rms(shortfalls_px(*turn, problem.start, {}));
+    const double start_rms = rms(consistency_residuals_px(*turn, problem.start, {}));
     if (start_rms > kGoodEnough_px && !(fit.cost < kImprovement * start_cost)) {
         return Error{
             "silhouettes: no axis, tilt, roll or focal length near the assumed ones makes the outlines agree "
@@ -271,13 +270,13 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     Calibration calibration;
     calibration.method = CalibrationMethod::kSilhouettes;
     TurntableModel of_turn = changed(problem.start, fit.at);
-    std::vector<double> shortfalls = shortfalls_px(*turn, of_turn, {});
+    std::vector<double> residuals = consistency_residuals_px(*turn, of_turn, {});
     calibration.model = of_turn;
     calibration.model.lens = scaled(calibration.model.lens, picture_px);
     std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
     const std::array<double, Parameters::kCount> open = valley(fit, best_cost, along);
     // Outlines that fit worse than good ones should are surer of nothing.
-    const double doubt = std::max(1.0, rms(shortfalls) / kSilhouetteError_px);
+    const double doubt = std::max(1.0, rms(residuals) / kSilhouetteError_px);
     for (std::size_t k = 0; k < Parameters::kCount; ++k) {
         spread[k] = std::max(spread[k], doubt * open[k]);
         fit.deviation[k] *= doubt;
@@ -288,16 +287,16 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
         calibration.deviations = std::move(found->deviations);
         of_turn = calibration.model;
         of_turn.lens = scaled(of_turn.lens, 1 / picture_px);
-        shortfalls = shortfalls_px(*turn, of_turn, {});
+        residuals = consistency_residuals_px(*turn, of_turn, {});
     }
-    const double fit_rms = rms(shortfalls);
+    const double fit_rms = rms(residuals);
     if (fit_rms > kDisagree_px) {
         return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(fit_rms * picture_px)) +
                      " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
     }
-    calibration.observations = static_cast<int>(shortfalls.size());
+    calibration.observations = static_cast<int>(residuals.size());
     calibration.rms_px = fit_rms * picture_px;
-    calibration.views = fits_by_view(*turn, shortfalls, picture_px);
+    calibration.views = fits_by_view(*turn, residuals, picture_px);
     calibration.step_rad = median_step(calibration.model.angles_rad);
     warn(calibration, *turn);
     return calibration;

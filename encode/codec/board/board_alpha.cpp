@@ -1,7 +1,7 @@
 #include "encode/codec/board/board_alpha.hpp"
 
 #include "rayspace/codec/code/board_code.hpp"
-#include "rayspace/codec/part_syntax.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
 
 #include <algorithm>
 #include <cstddef>

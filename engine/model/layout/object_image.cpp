@@ -4,7 +4,7 @@
 #include "engine/model/layout/coded_object_image.hpp"
 #include "engine/model/layout/parallel_object_image.hpp"
 #include "engine/model/signals/messages.hpp"
-#include "rayspace/codec/part_syntax.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
 
 #include <algorithm>
 

@@ -28,7 +28,7 @@ struct DenseCode {
     int alpha_bits = 2;                              // 1 .. kMaxAlphaBits
     EdgeAlpha edge_alpha = {};                       // 0 .. kMaxEdgeAlpha; of masks of one bit only
     bool deblocking = true;                          // deblocking.hpp
-    bool learning = true;                            // context_states.hpp
+    bool adaptation = true;                          // context_states.hpp
     bool sign_data_hiding = true;                    // syntax.hpp
     std::array<int, 2> chroma_step_offset = {0, 0};  // of U and V, added to the step index of Y; +-kMaxChromaOffset
     std::array<std::uint16_t, context::kCount> probabilities = {};  // of 0, in 4096ths; 8 .. 4088

@@ -48,7 +48,7 @@ private:
 };
 
 // A part: a macroblock (size 16) or one of its four blocks (8). bx, by: its first block in the tile.
-struct Part {
+struct PredictionUnit {
     int bx = 0;
     int by = 0;
     int size = kMacroblock;
@@ -56,7 +56,8 @@ struct Part {
 };
 
 // The median of what the blocks to the left and above use, and `usual`.
-inline MotionVector predicted_motion(const TileGrid& grid, const Part& part, int reference, MotionVector usual) {
+inline MotionVector predicted_motion(const TileGrid& grid, const PredictionUnit& part, int reference,
+                                     MotionVector usual) {
     const BlockInfo& left = grid.at(part.bx - 1, part.by);
     const BlockInfo& above = grid.at(part.bx, part.by - 1);
     const bool of_left = uses(left.source, reference);

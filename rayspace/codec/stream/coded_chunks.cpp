@@ -81,12 +81,12 @@ Status check_references(const CodedPictures& coded, std::size_t view, const Pict
 
 // What a dense object makes use of: bits of the byte `features`.
 constexpr unsigned kDeblocking = 1;
-constexpr unsigned kLearning = 2;
+constexpr unsigned kAdaptation = 2;
 constexpr unsigned kSignDataHiding = 4;
 constexpr int kAllFeatures = 7;
 
 std::uint8_t features_of(const DenseCode& dense) {
-    return static_cast<std::uint8_t>((dense.deblocking ? kDeblocking : 0U) | (dense.learning ? kLearning : 0U) |
+    return static_cast<std::uint8_t>((dense.deblocking ? kDeblocking : 0U) | (dense.adaptation ? kAdaptation : 0U) |
                                      (dense.sign_data_hiding ? kSignDataHiding : 0U));
 }
 
@@ -186,7 +186,7 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     coded.dense.alpha_coding = static_cast<AlphaCoding>(alpha_coding);
     coded.dense.alpha_bits = alpha_bits;
     coded.dense.deblocking = (features & kDeblocking) != 0;
-    coded.dense.learning = (features & kLearning) != 0;
+    coded.dense.adaptation = (features & kAdaptation) != 0;
     coded.dense.sign_data_hiding = (features & kSignDataHiding) != 0;
     coded.levels.resize(views);
     for (std::size_t v = 0; v < views; ++v) {

@@ -4,7 +4,7 @@
 #include "encode/codec/bool_encoder.hpp"
 #include "encode/codec/quantise.hpp"
 #include "encode/encode_pictures.hpp"
-#include "rayspace/codec/part_syntax.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
 #include "rayspace/codec/stream/byte_account.hpp"
 #include "rayspace/codec/stream/coded_chunks.hpp"
 #include "rayspace/codec/stream/decode_picture.hpp"

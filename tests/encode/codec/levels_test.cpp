@@ -62,9 +62,9 @@ TEST(ContextStates, TheFirstStepsAreThoseOfTheFormat) {
     EXPECT_EQ(states.probability(context::kNonZero), (32768U + 512U) >> 4U);
 }
 
-TEST(ContextStates, DoNotMoveWithoutLearning) {
+TEST(ContextStates, DoNotMoveWithoutAdaptation) {
     codec::DenseCode code;
-    code.learning = false;
+    code.adaptation = false;
     std::mt19937 random(3);
     code.probabilities = random_probabilities(random);
     codec::ContextStates states(code);

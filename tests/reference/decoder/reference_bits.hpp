@@ -1,5 +1,5 @@
 #pragma once
-// FORMAT.md, "Bits" and "Learning": the binary arithmetic decoder of a tile's bytes.
+// FORMAT.md, "Bits" and "Context adaptation": the binary arithmetic decoder of a tile's bytes.
 
 #include "tests/reference/decoder/reference_chunks.hpp"
 
@@ -11,7 +11,7 @@
 
 namespace rs::reference {
 
-// "Learning": what a tile has taught one context so far.
+// "Context adaptation": what a tile has taught one context so far.
 class LearnedContext {
 public:
     LearnedContext() = default;

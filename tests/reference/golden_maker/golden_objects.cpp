@@ -96,7 +96,7 @@ RaySpaceObject random_object(Profile profile, std::size_t most_bytes,
         const codec::DenseCode& dense = coded->dense;
         const bool has_features = alpha_coding == codec::AlphaCoding::kMask;
         const bool is_wanted = dense.alpha_coding == alpha_coding && dense.deblocking == has_features &&
-                               dense.learning == has_features && dense.sign_data_hiding == has_features;
+                               dense.adaptation == has_features && dense.sign_data_hiding == has_features;
         if (profile == Profile::kDense && !is_wanted) continue;
         RaySpaceObject object =
             without_pictures({coded->width, coded->height, static_cast<int>(coded->pictures.size()), 1, false});

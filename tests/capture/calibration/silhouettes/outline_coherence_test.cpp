@@ -86,7 +86,7 @@ TEST(OutlineCoherence, MendsAnglesThatDriftAroundTheTurn) {
     ASSERT_TRUE(fit.has_value());
     EXPECT_GT(angles_error_rad(start, truth), radians(0.4));
     EXPECT_LT(angles_error_rad(fit->model, truth), radians(0.15));
-    EXPECT_LT(fit->shortfall_px, 0.2);
+    EXPECT_LT(fit->consistency_residual_px, 0.2);
     // It is known better now, and not better than it is.
     double variance = 0, before = 0;
     for (const int place : places.angles) {

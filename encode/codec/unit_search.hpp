@@ -2,8 +2,8 @@
 // The best choice for one part of a tile.
 
 #include "encode/codec/tile_encoder.hpp"
-#include "rayspace/codec/part_syntax.hpp"
-#include "rayspace/codec/reconstruct_part.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
+#include "rayspace/codec/reconstruct_unit.hpp"
 
 namespace rs::encode {
 
@@ -16,29 +16,31 @@ struct TileState {
     codec::AlphaLevels depths;  // of syntax::alpha_depth
 };
 
-class PartSearch {
+class UnitSearch {
 public:
-    PartSearch(const PictureTask& task, const CostTable& costs, TileState& state, int left, int top)
+    UnitSearch(const PictureTask& task, const CostTable& costs, TileState& state, int left, int top)
         : task_(task), costs_(costs), state_(state), left_(left), top_(top) {}
 
     // Fills `choice`; returns its weighted squared error and lambda * bits. The samples of the part in task.out are
     // used as scratch. `around`: the choice of the macroblock as a whole, whose vectors are tried too.
-    float choose(const codec::Part& part, codec::PartChoice& choice, const codec::PartChoice* around = nullptr) const;
+    float choose(const codec::PredictionUnit& part, codec::PartChoice& choice,
+                 const codec::PartChoice* around = nullptr) const;
 
     // Writes the part's decisions.
-    void write(const codec::Part& part, codec::PartChoice& choice, SymbolBuffer& recorder) const;
+    void write(const codec::PredictionUnit& part, codec::PartChoice& choice, SymbolBuffer& recorder) const;
 
     // Reconstructs the part in task.out and enters it into the grid.
-    void commit(const codec::Part& part, const codec::PartChoice& choice) const;
+    void commit(const codec::PredictionUnit& part, const codec::PartChoice& choice) const;
 
 private:
-    [[nodiscard]] codec::PartPlace place_of(const codec::Part& part) const;
-    float evaluate(const codec::Part& part, codec::PartChoice& choice, float best) const;
-    void find_intra(const codec::Part& part, codec::PartChoice& trial, codec::PartChoice& choice, float& best) const;
-    void find_inter(const codec::Part& part, const codec::PartChoice* around, codec::PartChoice& trial,
+    [[nodiscard]] codec::PartPlace place_of(const codec::PredictionUnit& part) const;
+    float evaluate(const codec::PredictionUnit& part, codec::PartChoice& choice, float best) const;
+    void find_intra(const codec::PredictionUnit& part, codec::PartChoice& trial, codec::PartChoice& choice,
+                    float& best) const;
+    void find_inter(const codec::PredictionUnit& part, const codec::PartChoice* around, codec::PartChoice& trial,
                     codec::PartChoice& choice, float& best) const;
     template <class Coder>
-    void code_alpha(Coder& coder, const codec::Part& part, const codec::PartChoice& choice) const;
+    void code_alpha(Coder& coder, const codec::PredictionUnit& part, const codec::PartChoice& choice) const;
 
     const PictureTask& task_;
     const CostTable& costs_;

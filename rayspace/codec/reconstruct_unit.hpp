@@ -4,7 +4,7 @@
 
 #include "rayspace/codec/code/dense_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
-#include "rayspace/codec/part_syntax.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
 
 #include <array>
 
@@ -18,14 +18,14 @@ struct PartPlace {
     bool has_above = false;
 };
 
-inline PartPlace place_of_part(const TileGrid& grid, const Part& part, int tile_left, int tile_top) {
+inline PartPlace place_of_part(const TileGrid& grid, const PredictionUnit& part, int tile_left, int tile_top) {
     return {tile_left + part.bx * kBlock, tile_top + part.by * kBlock, part.size,
             grid.at(part.bx - 1, part.by).source != Source::kNone,
             grid.at(part.bx, part.by - 1).source != Source::kNone};
 }
 
 // What the blocks of a part that is done tell those that come after.
-inline void enter_part(TileGrid& grid, const Part& part, const PartChoice& choice) {
+inline void enter_part(TileGrid& grid, const PredictionUnit& part, const PartChoice& choice) {
     for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
         BlockInfo& info = grid.at(part.bx + (i & (part.blocks() - 1)), part.by + i / part.blocks());
         info.source = choice.source;
@@ -44,7 +44,7 @@ void predict_part(const PartChoice& choice, const PartPlace& place, int plane,
                   const std::array<ConstPlaneViews, 2>& references, ImageView<std::uint8_t> out);
 
 // Prediction and coefficients of Y, U and V.
-void reconstruct_part(const PartChoice& choice, const PartPlace& place, int step, const DenseCode& code,
+void reconstruct_unit(const PartChoice& choice, const PartPlace& place, int step, const DenseCode& code,
                       const std::array<ConstPlaneViews, 2>& references, const PlaneViews& out);
 
 // Adds the residual of one transform to `size` x `size` samples.

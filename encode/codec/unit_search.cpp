@@ -1,4 +1,4 @@
-#include "encode/codec/part_search.hpp"
+#include "encode/codec/unit_search.hpp"
 
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/quantise.hpp"
@@ -16,9 +16,9 @@ namespace {
 using codec::kBlock;
 using codec::kMacroblock;
 using codec::MotionVector;
-using codec::Part;
 using codec::PartChoice;
 using codec::PartPlace;
+using codec::PredictionUnit;
 using codec::Source;
 
 constexpr int kMacroblockSamples = kMacroblock * kMacroblock;
@@ -84,12 +84,12 @@ bool code_transform(const TransformTarget& target, const QuantiserSettings& sett
 
 }  // namespace
 
-PartPlace PartSearch::place_of(const Part& part) const {
+PartPlace UnitSearch::place_of(const PredictionUnit& part) const {
     return codec::place_of_part(state_.grid, part, left_, top_);
 }
 
 template <class Coder>
-void PartSearch::code_alpha(Coder& coder, const Part& part, const PartChoice& choice) const {
+void UnitSearch::code_alpha(Coder& coder, const PredictionUnit& part, const PartChoice& choice) const {
     for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
         const int bx = part.bx + (i & (part.blocks() - 1));
         const int by = part.by + i / part.blocks();
@@ -101,20 +101,20 @@ void PartSearch::code_alpha(Coder& coder, const Part& part, const PartChoice& ch
     }
 }
 
-void PartSearch::write(const Part& part, PartChoice& choice, SymbolBuffer& recorder) const {
+void UnitSearch::write(const PredictionUnit& part, PartChoice& choice, SymbolBuffer& recorder) const {
     const codec::PartSurroundings around{task_.head.references(), task_.head.global_motion};
     codec::code_prediction(recorder, state_.grid, part, around, choice);
     code_alpha(recorder, part, choice);
     codec::code_coefficients(recorder, state_.grid, part, task_.code->sign_data_hiding, choice);
 }
 
-void PartSearch::commit(const Part& part, const PartChoice& choice) const {
-    codec::reconstruct_part(choice, place_of(part), task_.head.step, *task_.code, task_.references, task_.out);
+void UnitSearch::commit(const PredictionUnit& part, const PartChoice& choice) const {
+    codec::reconstruct_unit(choice, place_of(part), task_.head.step, *task_.code, task_.references, task_.out);
     codec::enter_part(state_.grid, part, choice);
 }
 
 // `choice` has its prediction; finds coefficients. kNever as soon as it cannot be below `best`.
-float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) const {
+float UnitSearch::evaluate(const PredictionUnit& part, PartChoice& choice, float best) const {
     const PartPlace place = place_of(part);
     const codec::PartSurroundings around{task_.head.references(), task_.head.global_motion};
     Estimator head_bits(costs_);
@@ -201,7 +201,7 @@ float PartSearch::evaluate(const Part& part, PartChoice& choice, float best) con
     return head_cost + cost;
 }
 
-void PartSearch::find_intra(const Part& part, PartChoice& trial, PartChoice& choice, float& best) const {
+void UnitSearch::find_intra(const PredictionUnit& part, PartChoice& trial, PartChoice& choice, float& best) const {
     const PartPlace place = place_of(part);
     trial.source = Source::kIntra;
     std::array<std::pair<int, int>, codec::kIntraModes> ranked;
@@ -230,7 +230,7 @@ void PartSearch::find_intra(const Part& part, PartChoice& trial, PartChoice& cho
     }
 }
 
-void PartSearch::find_inter(const Part& part, const PartChoice* around, PartChoice& trial, PartChoice& choice,
+void UnitSearch::find_inter(const PredictionUnit& part, const PartChoice* around, PartChoice& trial, PartChoice& choice,
                             float& best) const {
     const PartPlace place = place_of(part);
     MotionSearch search;
@@ -282,7 +282,7 @@ void PartSearch::find_inter(const Part& part, const PartChoice* around, PartChoi
     take(Source::kBoth);
 }
 
-float PartSearch::choose(const Part& part, PartChoice& choice, const PartChoice* around) const {
+float UnitSearch::choose(const PredictionUnit& part, PartChoice& choice, const PartChoice* around) const {
     float best = kNever;
     PartChoice trial;
     if (task_.head.references() > 0) find_inter(part, around, trial, choice, best);

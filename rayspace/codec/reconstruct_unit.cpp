@@ -1,4 +1,4 @@
-#include "rayspace/codec/reconstruct_part.hpp"
+#include "rayspace/codec/reconstruct_unit.hpp"
 
 #include "rayspace/codec/kernels/prediction.hpp"
 #include "rayspace/codec/kernels/transform.hpp"
@@ -54,7 +54,7 @@ void add_residual(const Levels& levels, int step, int size, std::uint8_t* sample
     }
 }
 
-void reconstruct_part(const PartChoice& choice, const PartPlace& place, int step, const DenseCode& code,
+void reconstruct_unit(const PartChoice& choice, const PartPlace& place, int step, const DenseCode& code,
                       const std::array<ConstPlaneViews, 2>& references, const PlaneViews& out) {
     const int size = choice.transform_size(place.size);
     for (int plane = 0; plane < kPlanes; ++plane) {

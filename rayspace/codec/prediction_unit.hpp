@@ -116,7 +116,7 @@ struct PartSurroundings {
 
 // What the part is predicted from.
 template <class Coder>
-void code_prediction(Coder& coder, const TileGrid& grid, const Part& part, const PartSurroundings& around,
+void code_prediction(Coder& coder, const TileGrid& grid, const PredictionUnit& part, const PartSurroundings& around,
                      PartChoice& choice) {
     choice.source = syntax::source(coder, grid, part, around.references, choice.source);
     if (!is_inter(choice.source)) {
@@ -137,7 +137,7 @@ void code_prediction(Coder& coder, const TileGrid& grid, const Part& part, const
 
 // The coefficients; `choice` has its prediction.
 template <class Coder>
-void code_coefficients(Coder& coder, const TileGrid& grid, const Part& part, bool sign_data_hiding,
+void code_coefficients(Coder& coder, const TileGrid& grid, const PredictionUnit& part, bool sign_data_hiding,
                        PartChoice& choice) {
     const int inter = is_inter(choice.source) ? 1 : 0;
     choice.coded = syntax::coded(coder, grid, part, inter != 0, choice.coded);
