@@ -27,24 +27,25 @@ Image<Rgba8> picture_of(const HostPicture& words, const BoardView& view) {
 
 Board::Board(const BoardConfig& config, std::uint64_t shuffle_seed)
     : top_(std::make_unique<BoardTop>(config, shuffle_seed)),
-      map_(config.memory, config.limits.coded_pictures),
+      layout_(layout_of(config.limits.kind)),
+      map_(config.memory, config.limits.unpacks()),
       slots_(static_cast<std::size_t>(config.limits.objects)) {}
 
 Result<int> Board::take_slot(const RaySpaceObject& object) {
-    if (Status status = drawable(object, top_->config.limits); !status) return status.error();
+    if (Status status = layout_.drawable(object, top_->config.limits); !status) return status.error();
     const auto free = std::find_if(slots_.begin(), slots_.end(), [](const Slot& s) { return !s.used; });
     if (free == slots_.end()) {
         return Error{object.name + ": all " + std::to_string(slots_.size()) +
                      " object slots of the board are taken; evict an object first"};
     }
-    const Result<Placement> placement = map_.take(object_words(object, top_->config.limits), object.name);
+    const Result<Placement> placement = map_.take(layout_.words(object), object.name);
     if (!placement) return placement.error();
     *free = {true, *placement};
     return static_cast<int>(free - slots_.begin());
 }
 
 ObjectImage Board::image_of(const RaySpaceObject& object, int slot) {
-    ObjectImage image = object_image(object, slots_[static_cast<std::size_t>(slot)].placement, top_->config.limits);
+    ObjectImage image = layout_.image(object, slots_[static_cast<std::size_t>(slot)].placement);
     image.registers.serial = ++loads_;
     return image;
 }

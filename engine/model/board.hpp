@@ -86,6 +86,7 @@ private:
     [[nodiscard]] RenderedCycle collect(std::uint64_t cycle);
 
     std::unique_ptr<BoardTop> top_;
+    const ObjectLayout& layout_;
     MemoryMap map_;
     std::vector<Slot> slots_;
     std::size_t collected_loads_ = 0;

@@ -122,7 +122,7 @@ Pipe::Pipe(const RegisterFile& registers, bool coded_pictures)
 SingleBoard::SingleBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
                          Fifo<Done>& object_loaded)
     : sdram(config.memory.shape, config.memory.timing),
-      pipe(registers, config.limits.coded_pictures),
+      pipe(registers, config.limits.unpacks()),
       memory("memory_controller", config.memory, sdram, read_ports(*this), pipe.fifos.image_writes,
              pipe.fifos.view_written, load_words, object_loaded) {}
 

@@ -21,7 +21,9 @@ public:
 
     [[nodiscard]] const ExecutorTraits& traits() const override { return traits_; }
 
-    [[nodiscard]] Status takes(const RaySpaceObject& object) const override { return drawable(object, limits_); }
+    [[nodiscard]] Status takes(const RaySpaceObject& object) const override {
+        return layout_.drawable(object, limits_);
+    }
 
     [[nodiscard]] Status draws(const ViewRegisters& registers) const override {
         const Result<BoardView> view = board_view(registers, 0);
@@ -33,7 +35,7 @@ public:
     }
 
     [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override {
-        return as_drawn_by_board(std::move(object), limits_);
+        return layout_.as_drawn(std::move(object));
     }
 
     Result<std::optional<int>> load(const RaySpaceObject& object) override {
@@ -63,6 +65,7 @@ public:
 private:
     const ExecutorTraits traits_;
     const BoardLimits limits_;  // read from any thread
+    const ObjectLayout& layout_ = layout_of(limits_.kind);
     Board board_;
     bool instant_loads_;
 };

@@ -75,8 +75,9 @@ Result<std::vector<Drawing>> asked_drawings(const std::vector<RaySpaceObject>& o
 // What an object takes of the board, and how many like it the board would hold.
 void print_footprint(const RaySpaceObject& object, const model::Board& board) {
     const BoardLimits& limits = board.top().config.limits;
-    if (!model::drawable(object, limits)) return;  // refused, with the reason, when it is loaded
-    const auto words = model::object_words(object, limits);
+    const model::ObjectLayout& layout = model::layout_of(limits.kind);
+    if (!layout.drawable(object, limits)) return;  // refused, with the reason, when it is loaded
+    const auto words = layout.words(object);
     std::uint64_t all = 0;
     for (const std::uint64_t n : words) all += 8 * n;
     std::printf("%s: %llu bytes of board memory; memory for %llu such objects, %d slots\n",
@@ -219,7 +220,7 @@ Status run_simulate(const SimulateArguments& arguments) {
     for (const std::string& path : arguments.objects) {
         Result<RaySpaceObject> object = read_object(path);
         if (!object) return object.error();
-        objects.push_back(model::as_drawn_by_board(std::move(*object), config->limits));
+        objects.push_back(model::layout_of(config->limits.kind).as_drawn(std::move(*object)));
     }
     for (const RaySpaceObject& object : objects) print_footprint(object, board);
     const Result<std::vector<int>> slots = put_on_board(board, objects, arguments.load);

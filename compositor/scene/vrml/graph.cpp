@@ -160,7 +160,7 @@ private:
         node->type = shown_type;
         node->name = name;
         node->line = type.line;
-        const NodePointer made =
+        NodePointer made =
             prototype != nullptr ? take_instance(*prototype, node, opened) : take_fields(node, opened, known);
         if (!name.empty()) scope_->nodes[name] = {made, false};
         if (!made || fits(slot, *made)) return made;

@@ -25,7 +25,10 @@ void GraphBuilder::check_extent(double visits, int height) const {
 
 void GraphBuilder::count(const Value& value) {
     values_ += static_cast<double>(value.numbers.size());
-    for (const std::string& text : value.texts) values_ += 1 + static_cast<double>(text.size() / 8);
+    for (const std::string& text : value.texts) {
+        const std::size_t words = text.size() / 8;
+        values_ += static_cast<double>(1 + words);
+    }
 }
 
 bool GraphBuilder::has_patterns(const Node& node) const {
@@ -100,7 +103,7 @@ NodePointer GraphBuilder::copied(const NodePointer& from, Copies& copies) {
             return true;
         });
     }
-    const NodePointer made =
+    NodePointer made =
         pattern.instance_of != nullptr ? instance(*pattern.instance_of, node->fields) : finished(node, {});
     copies.made[from.get()] = made;
     return made;

@@ -95,23 +95,6 @@ Status has_raw_pictures(const RaySpaceObject& object) {
     return {};
 }
 
-Status drawable(const RaySpaceObject& object, const BoardLimits& limits) {
-    if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
-    if (limits.any_object && object.coded != nullptr && object.coded->profile != codec::Profile::kBoard) {
-        return Error{object.name + ": its pictures are of profile " + codec::name_of(object.coded->profile) +
-                     ", and the board unpacks those of profile board; encode it with --profile board or --profile raw"};
-    }
-    const bool coded = limits.any_object ? object.coded != nullptr : limits.coded_pictures;
-    if (Status status = coded ? has_board_pictures(object) : has_raw_pictures(object); !status) return status;
-    if (Status status = fits_board(object, limits); !status) return status;
-    if (!limits.any_object && !object.rings.front().shape.empty()) {
-        return Error{object.name +
-                     ": has a shape map, which the published board does not know (it takes objects to lie on "
-                     "their reference planes); encode it with --raymap plane, or use parallel"};
-    }
-    return {};
-}
-
 RaySpaceObject with_board_alpha(RaySpaceObject object) {
     for (PlanarPicture& picture : object.pictures) {
         for (std::uint8_t& a : picture.a.pixels()) {
@@ -119,29 +102,6 @@ RaySpaceObject with_board_alpha(RaySpaceObject object) {
         }
     }
     return object;
-}
-
-RaySpaceObject as_drawn_by_board(RaySpaceObject object, const BoardLimits& limits) {
-    return limits.coded_pictures ? object : with_board_alpha(std::move(object));
-}
-
-std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object, const BoardLimits& limits) {
-    if (limits.any_object) return parallel_object_words(object);
-    const std::uint64_t pictures = object.views.size();
-    const Ring& ring = object.rings.front();
-    const std::uint64_t tables =
-        (ring.cells.size() + 7) / 8 + 2 * pictures * static_cast<std::uint64_t>(1 + ring.planes);
-    if (limits.coded_pictures) {
-        std::array<std::uint64_t, kObjectRegions> words = coded_words(*object.coded);
-        words[static_cast<std::size_t>(Region::tables)] += tables;
-        return words;
-    }
-    const auto columns_of = [&](int width, int words) {
-        return pictures * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(words);
-    };
-    return {columns_of(object.width, words_of(object.height, 8)),
-            columns_of(half_size(object.width), words_of(half_size(object.height), 4)),
-            columns_of(object.width, words_of(object.height, 32)), tables};
 }
 
 void set_map_registers(const RaySpaceObject& object, ObjectRegisters& r) {
@@ -158,22 +118,120 @@ void set_map_registers(const RaySpaceObject& object, ObjectRegisters& r) {
     r.u_cells_per_unit_q12 = ring.u_cells_per_unit_q12;
 }
 
-ObjectImage object_image(const RaySpaceObject& object, const Placement& placement, const BoardLimits& limits) {
-    if (limits.any_object) return parallel_object_image(object, placement);
-    const Ring& ring = object.rings.front();
-    ObjectImage image;
-    ObjectRegisters& r = image.registers;
-    set_map_registers(object, r);
-    r.map = placement.first[static_cast<std::size_t>(Region::tables)];
-    r.lines = r.map + static_cast<WordAddress>((ring.cells.size() + 7) / 8);
-    image.segments.push_back(map_and_lines(r.map, object));
-    if (limits.coded_pictures) {
-        const auto books = r.map + static_cast<WordAddress>(image.segments.back().words.size());
-        add_coded_pictures(*object.coded, placement, books, r, image.segments);
-    } else {
-        add_raw_pictures(object, placement, r, image.segments);
+namespace {
+
+using Words = std::array<std::uint64_t, kObjectRegions>;
+
+// The boards of 2000: one ring, its map and lines in one table, the pictures as the derived class has them.
+class LayoutOf2000 : public ObjectLayout {
+public:
+    [[nodiscard]] Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const override {
+        if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
+        if (Status status = has_pictures(object); !status) return status;
+        if (Status status = fits_board(object, limits); !status) return status;
+        if (object.rings.front().shape.empty()) return {};
+        return Error{object.name +
+                     ": has a shape map, which the published board does not know (it takes objects to lie on "
+                     "their reference planes); encode it with --raymap plane, or use parallel"};
     }
-    return image;
+
+    [[nodiscard]] Words words(const RaySpaceObject& object) const override {
+        const Ring& ring = object.rings.front();
+        Words words = picture_words(object);
+        words[static_cast<std::size_t>(Region::tables)] +=
+            (ring.cells.size() + 7) / 8 + 2 * object.views.size() * static_cast<std::uint64_t>(1 + ring.planes);
+        return words;
+    }
+
+    [[nodiscard]] ObjectImage image(const RaySpaceObject& object, const Placement& placement) const override {
+        const Ring& ring = object.rings.front();
+        ObjectImage image;
+        ObjectRegisters& r = image.registers;
+        set_map_registers(object, r);
+        r.map = placement.first[static_cast<std::size_t>(Region::tables)];
+        r.lines = r.map + static_cast<WordAddress>((ring.cells.size() + 7) / 8);
+        image.segments.push_back(map_and_lines(r.map, object));
+        add_pictures(object, placement, r.map + static_cast<WordAddress>(image.segments.back().words.size()), image);
+        return image;
+    }
+
+protected:
+    [[nodiscard]] virtual Status has_pictures(const RaySpaceObject& object) const = 0;
+    [[nodiscard]] virtual Words picture_words(const RaySpaceObject& object) const = 0;
+    // `behind_tables`: the first word of its region that is free.
+    virtual void add_pictures(const RaySpaceObject& object, const Placement& placement, WordAddress behind_tables,
+                              ObjectImage& image) const = 0;
+};
+
+class RawLayout final : public LayoutOf2000 {
+public:
+    [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override {
+        return with_board_alpha(std::move(object));
+    }
+
+private:
+    [[nodiscard]] Status has_pictures(const RaySpaceObject& object) const override { return has_raw_pictures(object); }
+    [[nodiscard]] Words picture_words(const RaySpaceObject& object) const override {
+        const auto columns_of = [&](int width, int words) {
+            return object.views.size() * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(words);
+        };
+        return {columns_of(object.width, words_of(object.height, 8)),
+                columns_of(half_size(object.width), words_of(half_size(object.height), 4)),
+                columns_of(object.width, words_of(object.height, 32)), 0};
+    }
+    void add_pictures(const RaySpaceObject& object, const Placement& placement, WordAddress,
+                      ObjectImage& image) const override {
+        add_raw_pictures(object, placement, image.registers, image.segments);
+    }
+};
+
+class CodedLayout final : public LayoutOf2000 {
+    [[nodiscard]] Status has_pictures(const RaySpaceObject& object) const override {
+        return has_board_pictures(object);
+    }
+    [[nodiscard]] Words picture_words(const RaySpaceObject& object) const override {
+        return coded_words(*object.coded);
+    }
+    void add_pictures(const RaySpaceObject& object, const Placement& placement, WordAddress behind_tables,
+                      ObjectImage& image) const override {
+        add_coded_pictures(*object.coded, placement, behind_tables, image.registers, image.segments);
+    }
+};
+
+class ParallelLayout final : public ObjectLayout {
+public:
+    [[nodiscard]] Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const override {
+        if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
+        if (object.coded != nullptr && object.coded->profile != codec::Profile::kBoard) {
+            return Error{object.name + ": its pictures are of profile " + codec::name_of(object.coded->profile) +
+                         ", and the board unpacks those of profile board; encode it with --profile board or --profile "
+                         "raw"};
+        }
+        const bool coded = object.coded != nullptr;
+        if (Status status = coded ? has_board_pictures(object) : has_raw_pictures(object); !status) return status;
+        return fits_board(object, limits);
+    }
+    [[nodiscard]] Words words(const RaySpaceObject& object) const override { return parallel_object_words(object); }
+    [[nodiscard]] ObjectImage image(const RaySpaceObject& object, const Placement& placement) const override {
+        return parallel_object_image(object, placement);
+    }
+};
+
+}  // namespace
+
+const ObjectLayout& layout_of(BoardKind kind) {
+    static const RawLayout kRaw;
+    static const CodedLayout kCoded;
+    static const ParallelLayout kParallel;
+    switch (kind) {
+        case BoardKind::raw_pictures:
+            return kRaw;
+        case BoardKind::coded_pictures:
+            return kCoded;
+        case BoardKind::any_object:
+            break;
+    }
+    return kParallel;
 }
 
 }  // namespace rs::engine::model

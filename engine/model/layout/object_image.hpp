@@ -13,20 +13,6 @@ namespace rs::engine::model {
 
 inline constexpr int kAlphaBits = 2;
 
-// Fails where the board cannot hold or draw the object, with the reason and the remedy: a limit of fits_board, a shape
-// map, pictures that are not loaded, or not of the kind that the board holds (limits.coded_pictures).
-Status drawable(const RaySpaceObject& object, const BoardLimits& limits);
-
-// The object that the board really draws: alpha rounded to its 2 bits. Bit equality is with this one.
-RaySpaceObject with_board_alpha(RaySpaceObject object);
-
-// The object that a board with these limits really draws: with_board_alpha() where pictures are not compressed, else
-// the object itself.
-RaySpaceObject as_drawn_by_board(RaySpaceObject object, const BoardLimits& limits);
-
-// Words per region that the object takes.
-std::array<std::uint64_t, kObjectRegions> object_words(const RaySpaceObject& object, const BoardLimits& limits);
-
 // The numbers of its RS map.
 void set_map_registers(const RaySpaceObject& object, ObjectRegisters& registers);
 
@@ -38,7 +24,26 @@ struct ObjectImage {
     std::vector<MemorySegment> segments;
 };
 
-// `object` is drawable. Alpha of pictures that are not compressed is rounded to 2 bits.
-ObjectImage object_image(const RaySpaceObject& object, const Placement& placement, const BoardLimits& limits);
+// How boards of one kind hold objects. Pure; thread-safe.
+class ObjectLayout {
+public:
+    ObjectLayout() = default;
+    ObjectLayout(const ObjectLayout&) = delete;
+    ObjectLayout& operator=(const ObjectLayout&) = delete;
+    virtual ~ObjectLayout() = default;
+
+    // Fails where a board cannot hold or draw the object, with the reason and the remedy: a limit of fits_board, a
+    // shape map, pictures that are not loaded, or not of its kind.
+    [[nodiscard]] virtual Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const = 0;
+    // The object that is really drawn. Bit equality is with this one.
+    [[nodiscard]] virtual RaySpaceObject as_drawn(RaySpaceObject object) const { return object; }
+    // Of a drawable object: words per region that it takes, and what stands in them.
+    [[nodiscard]] virtual std::array<std::uint64_t, kObjectRegions> words(const RaySpaceObject& object) const = 0;
+    [[nodiscard]] virtual ObjectImage image(const RaySpaceObject& object, const Placement& placement) const = 0;
+};
+const ObjectLayout& layout_of(BoardKind kind);
+
+// Alpha rounded to 2 bits, as boards of BoardKind::raw_pictures hold it.
+RaySpaceObject with_board_alpha(RaySpaceObject object);
 
 }  // namespace rs::engine::model

@@ -10,7 +10,7 @@ namespace rs::engine::model {
 // Words per region. Region::flat_tiles also holds raw pictures.
 std::array<std::uint64_t, kObjectRegions> parallel_object_words(const RaySpaceObject& object);
 
-// `object` is drawable with limits.any_object.
+// `object` is drawable by such a board.
 ObjectImage parallel_object_image(const RaySpaceObject& object, const Placement& placement);
 
 }  // namespace rs::engine::model

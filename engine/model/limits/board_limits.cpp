@@ -22,9 +22,9 @@ BoardFootprint board_footprint(const RaySpaceObject& object, const BoardLimits& 
     const auto chroma_pixels =
         static_cast<std::uint64_t>(half_size(object.width)) * static_cast<std::uint64_t>(half_size(object.height));
     BoardFootprint footprint;
-    if (limits.any_object && object.coded == nullptr) {
+    if (limits.any_object() && object.coded == nullptr) {
         footprint.luma_bytes = 8 * pictures * model::raw_picture_words(object.width, object.height);
-    } else if (limits.coded_pictures) {
+    } else if (limits.unpacks()) {
         const codec::CodedPictures& coded = *object.coded;
         footprint.tile_bytes = 8 * (model::picture_words(coded, false) + model::picture_words(coded, true));
         footprint.tile_table_bytes = 8 * model::tile_table_words(coded);
@@ -37,7 +37,7 @@ BoardFootprint board_footprint(const RaySpaceObject& object, const BoardLimits& 
     for (const Ring& ring : object.rings) {
         footprint.map_bytes += ring.cells.size();
         footprint.lines_bytes += ring.views.size() * 16 * (1 + static_cast<std::uint64_t>(ring.planes));
-        if (!limits.any_object) continue;
+        if (!limits.any_object()) continue;
         footprint.lines_bytes += ring.views.size() * 16 * (1 + static_cast<std::uint64_t>(ring.planes));
         if (ring.shape.empty()) continue;
         const auto bands = static_cast<std::uint64_t>(ring.shape.bands);
@@ -63,7 +63,7 @@ Status fits_board(const RaySpaceObject& object, const BoardLimits& limits) {
             return over(object, "RS map side:", std::max(ring.x_cells, ring.u_cells), limits.map_side,
                         "encode it with fewer --cells");
         }
-        if (limits.any_object && ring.shape.bands > limits.shape_bands) {
+        if (limits.any_object() && ring.shape.bands > limits.shape_bands) {
             return over(object, "bands of height in its shape map:", ring.shape.bands, limits.shape_bands,
                         "encode it from smaller pictures, or with --raymap plane");
         }

@@ -16,6 +16,13 @@
 
 namespace rs::engine {
 
+// What objects a board holds.
+enum class BoardKind {
+    raw_pictures,    // Y, U, V and alpha in 2 bits; an RS map
+    coded_pictures,  // pictures of profile `board`, kept as they are; an RS map
+    any_object,      // either kind of pictures, alpha in 8 bits, with a shape map or without: the parallel board
+};
+
 struct BoardLimits {
     int objects = 20;
     int views_per_cycle = 15;
@@ -26,11 +33,11 @@ struct BoardLimits {
     int alpha_bits = 2;
     int image_buffer_side_px = 512;  // the largest reconstructed image, R, G, B and alpha, in two buffers
     std::uint64_t memory_bytes = std::uint64_t{1} << 30;
-    bool coded_pictures = false;  // pictures are those of profile `board`, kept as they are; else Y, U, V and alpha
-    // Objects of either kind of pictures, alpha in 8 bits, with a shape map or without: the parallel board. Then
-    // coded_pictures is true.
-    bool any_object = false;
+    BoardKind kind = BoardKind::raw_pictures;
     int shape_bands = 256;  // of a shape map
+    // The board has what unpacks pictures of profile `board`.
+    [[nodiscard]] bool unpacks() const { return kind != BoardKind::raw_pictures; }
+    [[nodiscard]] bool any_object() const { return kind == BoardKind::any_object; }
 };
 
 // Bytes of board memory that an object takes; planes of pictures and maps are stored without gaps.

@@ -28,13 +28,13 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("queue_cycles", c.queue_cycles, 1, 2);
     visit("no_progress_cycles", c.no_progress_cycles, 1000, 1'000'000'000);
     if (c.pipes > 0) visit("pipes", c.pipes, 1, kMostPipes);
-    visit("limits/objects", c.limits.objects, 1, c.limits.coded_pictures ? kCodedObjects : kPublishedObjects);
+    visit("limits/objects", c.limits.objects, 1, c.limits.unpacks() ? kCodedObjects : kPublishedObjects);
     visit("limits/views_per_cycle", c.limits.views_per_cycle, 1, 15);
     visit("limits/pictures_per_object", c.limits.pictures_per_object, 1, 120);
     visit("limits/picture_side_px", c.limits.picture_side_px, 1, 512);
     visit("limits/planes", c.limits.planes, 1, 12);
     visit("limits/map_side", c.limits.map_side, 1, 1024);
-    if (c.limits.any_object) visit("limits/shape_bands", c.limits.shape_bands, 1, 256);
+    if (c.limits.any_object()) visit("limits/shape_bands", c.limits.shape_bands, 1, 256);
     visit("limits/image_buffer_side_px", c.limits.image_buffer_side_px, 1, 512);
     visit("memory/bank_bits", c.memory.shape.bank_bits, 1, 4);
     visit("memory/row_bits", c.memory.shape.row_bits, 1, 14);
@@ -51,7 +51,7 @@ void for_each_number(Config& c, Visit&& visit) {
         visit(first, banks.first, 0, 15);
         visit(count, banks.count, 1, 16);
     };
-    if (c.limits.coded_pictures) {
+    if (c.limits.unpacks()) {
         visit_banks("memory/flat_tiles/first", "memory/flat_tiles/count", c.memory.regions.flat_tiles);
         visit_banks("memory/predicted_tiles/first", "memory/predicted_tiles/count", c.memory.regions.predicted_tiles);
         visit_banks("memory/tile_table/first", "memory/tile_table/count", c.memory.regions.tile_table);
@@ -91,7 +91,7 @@ std::string contradiction(const BoardConfig& c) {
     const MemoryRegions& r = c.memory.regions;
     const int banks = 1 << c.memory.shape.bank_bits;
     std::vector<int> owners(static_cast<std::size_t>(banks));
-    const auto of_objects = object_regions(r, c.limits.coded_pictures);
+    const auto of_objects = object_regions(r, c.limits.unpacks());
     for (const RegionBanks& region : {of_objects[0], of_objects[1], of_objects[2], of_objects[3], r.images}) {
         for (int b = region.first; b < region.first + region.count; ++b) {
             if (b >= banks) return "a memory region lies beyond the last of " + std::to_string(banks) + " banks";
@@ -170,7 +170,7 @@ BoardConfig prototype_2000() {
 BoardConfig compressed_2000() {
     BoardConfig config = prototype_2000();
     config.name = "compressed-2000";
-    config.limits.coded_pictures = true;
+    config.limits.kind = BoardKind::coded_pictures;
     config.limits.objects = kCodedObjects;
     config.memory.regions.tables = {7, 8};
     return config;
@@ -180,7 +180,7 @@ BoardConfig parallel() {
     BoardConfig config = compressed_2000();
     config.name = "parallel";
     config.pipes = 16;
-    config.limits.any_object = true;
+    config.limits.kind = BoardKind::any_object;
     config.memory.regions.flat_tiles = {0, 4};
     config.memory.regions.predicted_tiles = {4, 4};
     config.memory.regions.tile_table = {8, 1};
@@ -263,7 +263,7 @@ Result<BoardConfig> read_board_config(const std::string& name_or_path) {
 std::string board_config_json(const BoardConfig& config) {
     Json json = to_json(config);
     json["name"] = config.name;
-    json["base"] = config.pipes > 0 ? "parallel" : config.limits.coded_pictures ? "compressed-2000" : "prototype-2000";
+    json["base"] = config.pipes > 0 ? "parallel" : config.limits.unpacks() ? "compressed-2000" : "prototype-2000";
     return json.dump(2);
 }
 

@@ -22,7 +22,7 @@ TEST(CodedBoardFaults, EachBoardRefusesTheOthersObjectsAndNamesIt) {
     const RaySpaceObject coded = small_coded(1);
     const RaySpaceObject raw = rs::test::ring_object({.views = 6});
     const auto refusal = [](const BoardConfig& config, const RaySpaceObject& object) {
-        const Status status = drawable(object, config.limits);
+        const Status status = layout_of(config.limits.kind).drawable(object, config.limits);
         return status ? "" : status.error().message;
     };
     EXPECT_EQ(refusal(test::compressed(), coded), "");

@@ -22,7 +22,7 @@ void expect_right(Board& board, int slot, const RaySpaceObject& object) {
 }
 
 std::string refusal(const RaySpaceObject& object) {
-    const Status status = drawable(object, test::parallel().limits);
+    const Status status = layout_of(BoardKind::any_object).drawable(object, test::parallel().limits);
     return status ? "" : status.error().message;
 }
 
@@ -43,7 +43,8 @@ TEST(ParallelBoardFaults, RefusesWhatItCannotDrawAndSaysWhy) {
     rings.rings.push_back(rings.rings.front());
     EXPECT_NE(refusal(rings).find("rings of views: 2"), std::string::npos);
     // The boards of 2000 name this one.
-    const Status published = drawable(small_for_pipes(1, false), test::prototype().limits);
+    const Status published =
+        layout_of(BoardKind::raw_pictures).drawable(small_for_pipes(1, false), test::prototype().limits);
     EXPECT_NE(published.error().message.find("or use parallel"), std::string::npos);
     const RaySpaceObject object = small_for_pipes(1);
     Camera camera = test::upright_at(0.4, 3.5, 0, 0.9, 40, 40);
