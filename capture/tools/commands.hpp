@@ -13,6 +13,8 @@ namespace rs::capture {
 void add_board_command(CLI::App& app, std::function<Status()>& run);
 // Photographs of an object on a turntable, cut out and calibrated, as a capture set.
 void add_import_command(CLI::App& app, std::function<Status()>& run);
+// What a photometric file (IES, EULUMDAT) holds, as numbers and as a polar plot.
+void add_luminaire_command(CLI::App& app, std::function<Status()>& run);
 // A scene, traced from a ring of cameras or from given poses, as a capture set.
 void add_synth_command(CLI::App& app, std::function<Status()>& run);
 

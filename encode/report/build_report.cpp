@@ -3,6 +3,7 @@
 #include "encode/report/ring_plan.hpp"
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
+#include "rayspace/page/svg_parts.hpp"
 
 #include <numeric>
 

@@ -4,6 +4,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/page/line_plot.hpp"
+#include "rayspace/page/svg_parts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -48,7 +48,4 @@ std::string svg_of(const LinePlot& plot);
 // The same as a picture of its own: with its colours, on white.
 std::string standalone_svg_of(const LinePlot& plot);
 
-// "12.50": a point whatever the locale, as SVG takes it; "0" where it is not finite.
-std::string two_decimals(double value);
-
 }  // namespace rs

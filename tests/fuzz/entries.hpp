@@ -32,4 +32,7 @@ int fuzz_mtl(const std::uint8_t* data, std::size_t size);
 // The bytes as a photograph: JPEG or PNG, by how it begins.
 int fuzz_picture(const std::uint8_t* data, std::size_t size);
 
+// The bytes as a photometric file: IES, and EULUMDAT.
+int fuzz_luminaire(const std::uint8_t* data, std::size_t size);
+
 }  // namespace rs::fuzz

@@ -75,6 +75,9 @@ TEST(FuzzReplay, Vrml) {
     replay("vrml", fuzz::fuzz_vrml);
 }
 
+TEST(FuzzReplay, Luminaire) {
+    replay("luminaire", fuzz::fuzz_luminaire);
+}
 TEST(FuzzReplay, Gltf) {
     replay("gltf", fuzz::fuzz_gltf);
 }

@@ -27,6 +27,7 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"rayspace/output", {"rayspace/base", "rayspace/file", "rayspace/image", "rayspace/pictures", "rayspace/geometry"}},
     {"rayspace/page", {"rayspace/base", "rayspace/image", "rayspace/pictures"}},
     {"rayspace/models", {"rayspace/base", "rayspace/file"}},
+    {"rayspace/light", {"rayspace/base", "rayspace/file"}},
     {"rayspace/tool", {"rayspace/base", "rayspace/file"}},
 
     {"capture/calibration/model", {"rayspace/*"}},

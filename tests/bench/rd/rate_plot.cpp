@@ -2,6 +2,7 @@
 
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
+#include "rayspace/page/svg_parts.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,6 +6,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
+#include "rayspace/page/svg_parts.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
