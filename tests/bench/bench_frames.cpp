@@ -103,7 +103,7 @@ Scene room() {
     scene.lights = {
         {.colour = glm::vec3(0.6F), .ambient = glm::vec3(0.3F), .towards = glm::normalize(glm::dvec3(-1, -3, -2))},
         {.colour = glm::vec3(0.3F), .towards = glm::normalize(glm::dvec3(2, -1, -1))},
-        {.kind = compositor::LightKind::kPoint, .colour = glm::vec3(0.5F), .location = {0, 2.6, 0.5}}};
+        {.kind = LightKind::kPoint, .colour = glm::vec3(0.5F), .location = {0, 2.6, 0.5}}};
     const auto add = [&](const std::shared_ptr<const Mesh>& mesh, const glm::dmat4& where, const Material& material) {
         scene.geometry.push_back({mesh, material, where, {}});
     };

@@ -69,7 +69,7 @@ capture::SceneFile signpost() {
     add_block(object.scene, {0.95F, 0.25F, 0.2F}, {0.1F, 1.475F, -0.1F}, {0.1F, 0.2F, 0.75F});
     add_block(object.scene, {0.35F, 0.35F, 0.35F}, {0.35F, 0.425F, 0.2F}, {0.85F, 0.7F, 0.1F});
     object.scene.environment.pixels = Image<RgbaF>(8, 4, RgbaF{0.55F, 0.56F, 0.58F, 1});
-    object.scene.directional_lights.push_back({glm::normalize(glm::vec3(-0.5F, -0.8F, -0.7F)), glm::vec3(1.2F)});
+    object.scene.lights.push_back(directional_light(glm::normalize(glm::vec3(-0.5F, -0.8F, -0.7F)), glm::vec3(1.2F)));
     const Result<double> radius = capture::normalise_meshes(object.scene);
     RS_CHECK(radius.ok());
     object.object_radius = *radius;

@@ -46,16 +46,16 @@ struct LitPoint {
     glm::vec3 diffuse;
 };
 
-glm::vec3 from_light(const compositor::Light& light, const compositor::Material& material, const LitPoint& point) {
+glm::vec3 from_light(const Light& light, const compositor::Material& material, const LitPoint& point) {
     glm::vec3 to_light = -glm::vec3(light.towards);
     float strength = 1;
-    if (light.kind != compositor::LightKind::kDirectional) {
+    if (light.kind != LightKind::kDirectional) {
         const glm::vec3 way = glm::vec3(light.location) - point.place;
         const float d = glm::length(way);
         if (d > static_cast<float>(light.radius)) return glm::vec3(0);
         to_light = way / d;
         strength = 1 / std::max(glm::dot(light.attenuation, glm::vec3(1, d, d * d)), 1.0F);
-        if (light.kind == compositor::LightKind::kSpot) {
+        if (light.kind == LightKind::kSpot) {
             const double angle = std::acos(std::clamp(glm::dot(-glm::dvec3(to_light), light.towards), -1.0, 1.0));
             if (angle > light.cut_off_rad) return glm::vec3(0);
             if (angle > light.beam_width_rad) {
@@ -83,8 +83,7 @@ Result<std::shared_ptr<const TracedObject>> TracedObject::create(capture::Scene 
     if (!rays) return rays.error();
     object->rays_.emplace(std::move(*rays));
     const glm::vec3 diagonal = object->rays_->upper() - object->rays_->lower();
-    object->lights_.emplace(object->scene_, object->scene_.environment, object->rays_->lower() + 0.5F * diagonal,
-                            0.5F * glm::length(diagonal));
+    object->lights_.emplace(object->scene_, object->scene_.environment, 0.5F * glm::length(diagonal));
     object->models_ = capture::make_surface_models(object->scene_.materials);
     return std::shared_ptr<const TracedObject>(std::move(object));
 }

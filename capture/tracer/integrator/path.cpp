@@ -67,6 +67,7 @@ struct PathTracer::Shading {
     Surface surface;
     bool thin;  // light passes to the far side
     float step_off;
+    LightSet::Selection selection{};
 
     // Where rays in `direction` start. Opaque surfaces send all light from the near side, even what goes below the
     // facet but above the curved surface it stands for.
@@ -103,13 +104,14 @@ bool PathTracer::trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, 
         const glm::vec3 to_viewer = -segment.direction;
         const Frame frame(facing_normal(point.shading_normal, to_viewer));
         const SurfaceModel& model = models_[static_cast<std::size_t>(point.material)];
-        const Shading shading{
+        Shading shading{
             point, frame,
             Surface(model, surface_colour(scene_, material, point.uv), frame.to_local(to_viewer), !point.front_side),
             model.translucency > 0.0F, rays_.step_off()};
 
         const glm::vec2 choices = sampler.next_2d();
         if (!shading.surface.is_specular()) {
+            shading.selection = lights_.select(shading.start_of(point.geometric_normal, true));
             radiance += throughput * light_sample(shading, choices.y, sampler.next_2d());
         }
         SurfaceSample drawn;
@@ -134,14 +136,16 @@ bool PathTracer::trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, 
 
 glm::vec3 PathTracer::lights_on_the_way(const Segment& segment, float distance) const {
     glm::vec3 sum(0.0F);
-    for (std::size_t i = 0; i < lights_.rectangle_count(); ++i) {
-        const auto crossing = lights_.cross_rectangle(i, segment.origin, segment.direction, distance);
+    for (std::size_t i = 0; i < lights_.area_count(); ++i) {
+        const auto crossing = lights_.cross_area(i, segment.selection, segment.origin, segment.direction, distance);
         if (crossing) sum += crossing->radiance * (segment.specular ? 1.0F : mis_weight(segment.pdf, crossing->pdf));
     }
     if (distance == std::numeric_limits<float>::infinity() && !lights_.environment().is_black()) {
         const glm::vec3 radiance = lights_.environment().radiance(segment.direction);
         sum +=
-            radiance * (segment.specular ? 1.0F : mis_weight(segment.pdf, lights_.environment_pdf(segment.direction)));
+            radiance * (segment.specular
+                            ? 1.0F
+                            : mis_weight(segment.pdf, lights_.environment_pdf(segment.selection, segment.direction)));
     }
     return sum;
 }
@@ -151,12 +155,13 @@ glm::vec3 PathTracer::emission_of(const Material& material, const SurfacePoint& 
     const glm::vec3 emission = lights_.emission(point.material, point.uv);
     if (segment.specular || max_component(emission) <= 0.0F) return emission;
     const float cos_light = std::max(-glm::dot(point.geometric_normal, segment.direction), 1e-6F);
-    return emission * mis_weight(segment.pdf, lights_.emitter_pdf(point.material, point.distance, cos_light));
+    return emission *
+           mis_weight(segment.pdf, lights_.emitter_pdf(segment.selection, point.material, point.distance, cos_light));
 }
 
 glm::vec3 PathTracer::light_sample(const Shading& shading, float u_source, const glm::vec2& u) const {
     const glm::vec3 dark(0.0F);
-    const auto light = lights_.sample(shading.start_of(shading.point.geometric_normal, true), u_source, u);
+    const auto light = lights_.sample(shading.selection, u_source, u);
     if (!light) return dark;
     const glm::vec3 wi = shading.frame.to_local(light->direction);
     const Surface::Value value = shading.surface.evaluate(wi);
@@ -173,6 +178,7 @@ PathTracer::Segment PathTracer::segment_from(const Shading& shading, const Surfa
     segment.direction = glm::normalize(shading.frame.to_world(drawn.direction));
     segment.pdf = drawn.pdf;
     segment.specular = drawn.specular;
+    segment.selection = shading.selection;
     const bool near_side = drawn.direction.z > 0.0F;
     if (drawn.specular) {
         // A reflection must leave the facet and a refraction must enter it; interpolated normals may say otherwise near

@@ -5,8 +5,8 @@
 //     camera ray -> hit -> [ draw a light: visible? add ] -> draw a direction -> next hit or light -> ...
 //
 // Light that passes glass or is reflected by a mirror is found when the drawn directions meet the environment, a
-// rectangle light or an emissive mesh: with no competing light sample it counts in full, otherwise by its weight.
-// Directional and point lights are not seen through glass or in mirrors, for no drawn direction meets them.
+// area light or an emissive mesh: with no competing light sample it counts in full, otherwise by its weight.
+// Lights without an area are not seen through glass or in mirrors, for no drawn direction meets them.
 //
 // Radiance is not scaled by the squared index of refraction inside glass: all lights are outside, where it cancels.
 
@@ -38,6 +38,7 @@ private:
         float pdf = 0.0F;
         bool specular = true;  // no light sample could have given it
         bool seen_by_camera = true;
+        LightSet::Selection selection{};  // of the light sample at its beginning
     };
     struct Shading;
 

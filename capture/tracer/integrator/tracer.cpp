@@ -183,7 +183,7 @@ Result<Tracer> Tracer::create(Scene scene) {
     const glm::vec3 diagonal = state->rays->upper() - state->rays->lower();
     const float radius = state->rays->empty() ? 1.0F : 0.5F * glm::length(diagonal);
     Environment environment = std::exchange(state->scene.environment, Environment{});
-    state->lights.emplace(state->scene, std::move(environment), state->rays->lower() + 0.5F * diagonal, radius);
+    state->lights.emplace(state->scene, std::move(environment), radius);
     state->models = make_surface_models(state->scene.materials);
     return Tracer(std::move(state));
 }

@@ -18,67 +18,122 @@ float brightness_of(const Material& material, const std::vector<Texture>& textur
     return luminance(material.emission * mean_colour(textures[static_cast<std::size_t>(material.emission_texture)]));
 }
 
+// Of a luminaire, by looking at its web a degree at a time.
+float least_cos_of(const PhotometricWeb& web) {
+    constexpr int kTurns = 48;
+    for (int polar = 179; polar > 0; --polar) {
+        const double p = radians(polar);
+        for (int turn = 0; turn < kTurns; ++turn) {
+            const double t = 2 * kPi * turn / kTurns;
+            if (web.candela({std::sin(p) * std::cos(t), -std::cos(p), std::sin(p) * std::sin(t)}) > 0) {
+                return polar == 179 ? -1.0F : static_cast<float>(std::cos(radians(polar + 1.5)));
+            }
+        }
+    }
+    return -1.0F;
+}
+
 }  // namespace
 
-LightSet::LightSet(const Scene& scene, Environment environment, const glm::vec3& centre, float radius)
+LightSet::Cone LightSet::cone_of(const Light& light) {
+    if (light.kind == LightKind::kSpot) return {{}, static_cast<float>(std::cos(light.cut_off_rad)) - 1e-4F};
+    if (light.kind == LightKind::kLuminaire) return {{}, least_cos_of(light.luminaire->web)};
+    return {};
+}
+
+LightSet::LightSet(const Scene& scene, Environment environment, float radius)
     : scene_(scene), environment_turn_rad_(environment.turn_rad), environment_(std::move(environment)) {
-    const float floor_distance2 = std::max(radius * radius, 1e-12F);
-    const auto distance2 = [&](const glm::vec3& p) {
-        return std::max(glm::dot(p - centre, p - centre), floor_distance2);
-    };
-    const auto add = [&](SourceKind kind, std::size_t index, float irradiance) {
-        if (irradiance > 0.0F) sources_.push_back({kind, index, irradiance});
-    };
-
-    if (!environment_.is_black()) add(SourceKind::environment, 0, kPiF * environment_.mean_luminance());
-    directional_ = scene.directional_lights;
-    for (DirectionalLight& light : directional_) light.direction = glm::normalize(light.direction);
-    for (std::size_t i = 0; i < directional_.size(); ++i) {
-        add(SourceKind::directional, i, luminance(directional_[i].irradiance));
+    if (!environment_.is_black()) {
+        environment_source_ = sources_.size();
+        sources_.push_back({SourceKind::environment, 0, kPiF * environment_.mean_luminance()});
     }
-    points_ = scene.point_lights;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-        add(SourceKind::point, i, luminance(points_[i].intensity) / distance2(points_[i].position));
+    for (const Light& light : scene.lights) {
+        const bool area = light.kind == LightKind::kRectangle || light.kind == LightKind::kDisc;
+        float power = luminance(light.colour);
+        if (area) power *= static_cast<float>(area_of(light));
+        if (light.kind == LightKind::kLuminaire) {
+            power *= static_cast<float>(light.luminaire->web.peak_candela() / kLumensPerWatt);
+        }
+        if (!area && light.kind != LightKind::kLuminaire) power *= kPiF;
+        if (!(power > 0.0F)) continue;
+        still_.push_back(light);
+        if (area) {
+            areas_.emplace_back();
+            areas_.back().light = still_.size() - 1;
+            areas_.back().source = sources_.size();
+            sources_.push_back({SourceKind::area, areas_.size() - 1, power});
+        } else {
+            const bool distant = light.kind == LightKind::kDirectional;
+            sources_.push_back({distant ? SourceKind::distant : SourceKind::local, still_.size() - 1, power});
+        }
+        cones_.push_back(cone_of(light));
     }
-    for (std::size_t i = 0; i < scene.rectangle_lights.size(); ++i) {
-        const RectangleLight& light = scene.rectangle_lights[i];
-        const glm::vec3 cross = glm::cross(light.edge_u, light.edge_v);
-        const float area = glm::length(cross);
-        if (!(area > 0.0F)) continue;
-        const glm::vec3 middle = light.corner + 0.5F * (light.edge_u + light.edge_v);
-        rectangles_.push_back({light, cross / area, area, i});
-        add(SourceKind::rectangle, rectangles_.size() - 1, luminance(light.radiance) * area / distance2(middle));
-    }
+    lights_ = still_;
+    place_lights(0.0F);
     gather_emitters();
-    add(SourceKind::emitters, 0, static_cast<float>(emitter_power_) / floor_distance2);
-
-    float total = 0.0F;
-    for (const Source& source : sources_) total += source.probability;
-    const float even = 1.0F / static_cast<float>(std::max<std::size_t>(sources_.size(), 1));
-    for (Source& source : sources_) {
-        source.probability = 0.5F * (even + source.probability / total);
-        if (source.kind == SourceKind::environment) environment_probability_ = source.probability;
-        if (source.kind == SourceKind::emitters) emitter_probability_ = source.probability;
-        if (source.kind == SourceKind::rectangle) rectangles_[source.index].probability = source.probability;
+    if (emitter_power_ > 0) {
+        emitter_source_ = sources_.size();
+        const float floor_distance2 = std::max(radius * radius, 1e-12F);
+        sources_.push_back({SourceKind::emitters, 0, static_cast<float>(emitter_power_) / floor_distance2});
     }
 }
 
 void LightSet::turn(float angle_rad) {
-    const float c = std::cos(angle_rad);
-    const float s = std::sin(angle_rad);
-    const auto turned = [&](const glm::vec3& v) { return glm::vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x); };
     environment_.set_turn(environment_turn_rad_ + angle_rad);
-    for (std::size_t i = 0; i < directional_.size(); ++i) {
-        directional_[i].direction = turned(glm::normalize(scene_.directional_lights[i].direction));
+    place_lights(angle_rad);
+}
+
+void LightSet::place_lights(float turn_rad) {
+    for (std::size_t i = 0; i < still_.size(); ++i) {
+        lights_[i] = turned_about_y(still_[i], static_cast<double>(turn_rad));
+        cones_[i].towards =
+            glm::vec3(lights_[i].kind == LightKind::kLuminaire ? lights_[i].world_from_luminaire * glm::dvec3(0, -1, 0)
+                                                               : lights_[i].towards);
     }
-    for (std::size_t i = 0; i < points_.size(); ++i) points_[i].position = turned(scene_.point_lights[i].position);
-    for (Rectangle& rectangle : rectangles_) {
-        const RectangleLight& from = scene_.rectangle_lights[rectangle.index];
-        rectangle.light.corner = turned(from.corner);
-        rectangle.light.edge_u = turned(from.edge_u);
-        rectangle.light.edge_v = turned(from.edge_v);
-        rectangle.normal = glm::normalize(glm::cross(rectangle.light.edge_u, rectangle.light.edge_v));
+    for (Area& area : areas_) {
+        const Light& light = lights_[area.light];
+        area.middle = light.location;
+        area.half_u = light.half_u;
+        area.half_v = light.half_v;
+        const glm::vec3 cross = glm::cross(area.half_u, area.half_v);
+        area.parallelogram = glm::length(cross);
+        area.normal = cross / area.parallelogram;
+        area.radiance = light.colour;
+        area.area = static_cast<float>(area_of(light));
+        area.round = light.kind == LightKind::kDisc;
     }
+}
+
+float LightSet::estimate(const Source& source, const glm::vec3& position) const {
+    if (source.kind == SourceKind::area) {
+        const Area& area = areas_[source.index];
+        const glm::vec3 way = position - area.middle;
+        // The whole area shines to one side of its plane.
+        if (!(glm::dot(way, area.normal) > 0.0F)) return 0.0F;
+        return source.power / std::max(glm::dot(way, way), area.area);
+    }
+    if (source.kind != SourceKind::local) return source.power;
+    const Light& light = lights_[source.index];
+    const Cone& cone = cones_[source.index];
+    const glm::vec3 way = position - glm::vec3(light.location);
+    const float distance2 = glm::dot(way, way);
+    const float d = std::sqrt(distance2);
+    if (!(d > 0.0F) || d > static_cast<float>(light.radius)) return 0.0F;
+    if (glm::dot(way, cone.towards) < cone.least_cos * d) return 0.0F;
+    if (light.kind == LightKind::kLuminaire) return source.power / distance2;
+    return source.power / std::max(glm::dot(light.attenuation, glm::vec3(1.0F, d, distance2)), light.least_attenuation);
+}
+
+LightSet::Selection LightSet::select(const glm::vec3& position) const {
+    Selection selection{position};
+    int reaching = 0;
+    for (const Source& source : sources_) {
+        const float estimated = estimate(source, position);
+        selection.total += estimated;
+        reaching += estimated > 0.0F;
+    }
+    if (reaching > 0) selection.even = 1.0F / static_cast<float>(reaching);
+    return selection;
 }
 
 void LightSet::gather_emitters() {
@@ -101,32 +156,43 @@ void LightSet::gather_emitters() {
     for (Emitter& emitter : emitters_) emitter.cumulative /= static_cast<float>(emitter_power_);
 }
 
-std::optional<LightSample> LightSet::sample(const glm::vec3& position, float u_source, const glm::vec2& u) const {
-    if (sources_.empty()) return std::nullopt;
-    const Source* source = &sources_.front();
-    while (u_source >= source->probability && source != &sources_.back()) u_source -= (source++)->probability;
-    switch (source->kind) {
+std::optional<LightSample> LightSet::sample(const Selection& selection, float u_source, const glm::vec2& u) const {
+    if (!(selection.even > 0.0F)) return std::nullopt;
+    const Source* chosen = nullptr;
+    float chance = 0.0F;
+    for (const Source& source : sources_) {
+        const float probable = probability(selection, estimate(source, selection.position));
+        if (!(probable > 0.0F)) continue;
+        // The last that reaches takes what rounding leaves over.
+        if (chosen != nullptr) u_source -= chance;
+        chosen = &source;
+        chance = probable;
+        if (u_source < probable) break;
+    }
+    switch (chosen->kind) {
         case SourceKind::environment:
-            return sample_environment(source->probability, u);
-        case SourceKind::directional: {
-            const DirectionalLight& light = directional_[source->index];
-            return LightSample{-light.direction, std::numeric_limits<float>::infinity(), light.irradiance,
-                               source->probability, true};
-        }
-        case SourceKind::point: {
-            const PointLight& light = points_[source->index];
-            const glm::vec3 to_light = light.position - position;
-            const float distance2 = glm::dot(to_light, to_light);
-            if (!(distance2 > 0.0F)) return std::nullopt;
-            const float distance = std::sqrt(distance2);
-            return LightSample{to_light / distance, distance, light.intensity / distance2, source->probability, true};
-        }
-        case SourceKind::rectangle:
-            return sample_rectangle(rectangles_[source->index], position, u);
+            return sample_environment(chance, u);
+        case SourceKind::distant:
+        case SourceKind::local:
+            return sample_light(lights_[chosen->index], selection.position, chance);
+        case SourceKind::area:
+            return sample_area(areas_[chosen->index], selection.position, chance, u);
         case SourceKind::emitters:
-            return sample_emitter(position, std::min(u_source / source->probability, 0x1.fffffep-1F), u);
+            return sample_emitter(selection, std::min(u_source / chance, 0x1.fffffep-1F), u);
     }
     return std::nullopt;
+}
+
+std::optional<LightSample> LightSet::sample_light(const Light& light, const glm::vec3& position, float probability) {
+    const glm::vec3 irradiance = irradiance_at(light, position);
+    if (!(max_component(irradiance) > 0.0F)) return std::nullopt;
+    if (light.kind == LightKind::kDirectional) {
+        return LightSample{-glm::vec3(light.towards), std::numeric_limits<float>::infinity(), irradiance, probability,
+                           true};
+    }
+    const glm::vec3 to_light = glm::vec3(light.location) - position;
+    const float distance = glm::length(to_light);
+    return LightSample{to_light / distance, distance, irradiance, probability, true};
 }
 
 std::optional<LightSample> LightSet::sample_environment(float probability, const glm::vec2& u) const {
@@ -136,21 +202,24 @@ std::optional<LightSample> LightSet::sample_environment(float probability, const
                        probability * drawn.pdf, false};
 }
 
-std::optional<LightSample> LightSet::sample_rectangle(const Rectangle& rectangle, const glm::vec3& position,
-                                                      const glm::vec2& u) const {
-    const glm::vec3 to_light =
-        rectangle.light.corner + rectangle.light.edge_u * u.x + rectangle.light.edge_v * u.y - position;
+std::optional<LightSample> LightSet::sample_area(const Area& area, const glm::vec3& position, float probability,
+                                                 const glm::vec2& u) {
+    glm::vec2 at = 2.0F * u - 1.0F;
+    if (area.round) {
+        const float radius = std::sqrt(u.x);
+        at = radius * glm::vec2(std::cos(2.0F * kPiF * u.y), std::sin(2.0F * kPiF * u.y));
+    }
+    const glm::vec3 to_light = area.middle + area.half_u * at.x + area.half_v * at.y - position;
     const float distance2 = glm::dot(to_light, to_light);
     if (!(distance2 > 0.0F)) return std::nullopt;
     const float distance = std::sqrt(distance2);
     const glm::vec3 direction = to_light / distance;
-    const float cos_light = -glm::dot(direction, rectangle.normal);
+    const float cos_light = -glm::dot(direction, area.normal);
     if (cos_light <= 1e-6F) return std::nullopt;
-    return LightSample{direction, distance, rectangle.light.radiance,
-                       rectangle.probability * distance2 / (cos_light * rectangle.area), false};
+    return LightSample{direction, distance, area.radiance, probability * distance2 / (cos_light * area.area), false};
 }
 
-std::optional<LightSample> LightSet::sample_emitter(const glm::vec3& position, float u_emitter,
+std::optional<LightSample> LightSet::sample_emitter(const Selection& selection, float u_emitter,
                                                     const glm::vec2& u) const {
     const auto found = std::ranges::upper_bound(emitters_, u_emitter, {}, &Emitter::cumulative);
     const Emitter& emitter = found == emitters_.end() ? emitters_.back() : *found;
@@ -163,7 +232,7 @@ std::optional<LightSample> LightSet::sample_emitter(const glm::vec3& position, f
     const float root = std::sqrt(u.x);  // even over the triangle
     const float along_u = root * (1.0F - u.y);
     const float along_v = root * u.y;
-    const glm::vec3 to_light = corner + edge_u * along_u + edge_v * along_v - position;
+    const glm::vec3 to_light = corner + edge_u * along_u + edge_v * along_v - selection.position;
     const float distance2 = glm::dot(to_light, to_light);
     if (!(distance2 > 0.0F)) return std::nullopt;
     const float distance = std::sqrt(distance2);
@@ -177,7 +246,7 @@ std::optional<LightSample> LightSet::sample_emitter(const glm::vec3& position, f
         return std::nullopt;
     }
     return LightSample{direction, distance, emission(mesh.material, uv),
-                       emitter_pdf(mesh.material, distance, cos_light), false};
+                       emitter_pdf(selection, mesh.material, distance, cos_light), false};
 }
 
 glm::vec3 LightSet::emission(int material, const glm::vec2& uv) const {
@@ -187,27 +256,33 @@ glm::vec3 LightSet::emission(int material, const glm::vec2& uv) const {
     return of.emission * glm::vec3(texel.r, texel.g, texel.b);
 }
 
-float LightSet::emitter_pdf(int material, float distance, float cos_light) const {
-    // An emitter is drawn by area times brightness, so the density per area is brightness over the sum of them.
-    const float per_area = brightness_[static_cast<std::size_t>(material)] / static_cast<float>(emitter_power_);
-    return emitter_probability_ * per_area * distance * distance / cos_light;
+float LightSet::environment_pdf(const Selection& selection, const glm::vec3& direction) const {
+    if (!environment_source_) return 0.0F;
+    return probability(selection, sources_[*environment_source_].power) * environment_.pdf(direction);
 }
 
-std::optional<LightSet::Crossing> LightSet::cross_rectangle(std::size_t index, const glm::vec3& origin,
-                                                            const glm::vec3& direction, float max_distance) const {
-    const Rectangle& rectangle = rectangles_[index];
-    const float cos_light = -glm::dot(direction, rectangle.normal);
+float LightSet::emitter_pdf(const Selection& selection, int material, float distance, float cos_light) const {
+    // An emitter is drawn by area times brightness, so the density per area is brightness over the sum of them.
+    const float per_area = brightness_[static_cast<std::size_t>(material)] / static_cast<float>(emitter_power_);
+    return probability(selection, sources_[*emitter_source_].power) * per_area * distance * distance / cos_light;
+}
+
+std::optional<LightSet::Crossing> LightSet::cross_area(std::size_t index, const Selection& selection,
+                                                       const glm::vec3& origin, const glm::vec3& direction,
+                                                       float max_distance) const {
+    const Area& area = areas_[index];
+    const float cos_light = -glm::dot(direction, area.normal);
     if (cos_light <= 1e-6F) return std::nullopt;
-    const glm::vec3 from_corner = origin - rectangle.light.corner;
-    const float distance = glm::dot(from_corner, rectangle.normal) / cos_light;
+    const glm::vec3 from_middle = origin - area.middle;
+    const float distance = glm::dot(from_middle, area.normal) / cos_light;
     if (!(distance > 0.0F && distance < max_distance)) return std::nullopt;
-    const glm::vec3 p = from_corner + direction * distance;
-    // Coordinates along the edges, which need not be perpendicular.
-    const float s = glm::dot(glm::cross(p, rectangle.light.edge_v), rectangle.normal) / rectangle.area;
-    const float t = glm::dot(glm::cross(rectangle.light.edge_u, p), rectangle.normal) / rectangle.area;
-    if (!(s >= 0.0F && s <= 1.0F && t >= 0.0F && t <= 1.0F)) return std::nullopt;
-    return Crossing{rectangle.light.radiance,
-                    rectangle.probability * distance * distance / (cos_light * rectangle.area)};
+    const glm::vec3 p = from_middle + direction * distance;
+    // Coordinates along the halves, which need not be perpendicular.
+    const float s = glm::dot(glm::cross(p, area.half_v), area.normal) / area.parallelogram;
+    const float t = glm::dot(glm::cross(area.half_u, p), area.normal) / area.parallelogram;
+    if (area.round ? s * s + t * t > 1.0F : std::max(std::abs(s), std::abs(t)) > 1.0F) return std::nullopt;
+    const float chance = probability(selection, estimate(sources_[area.source], selection.position));
+    return Crossing{area.radiance, chance * distance * distance / (cos_light * area.area)};
 }
 
 }  // namespace rs::capture

@@ -2,12 +2,14 @@
 // All light sources of a scene: draws one for next-event estimation, and tells the densities that multiple importance
 // sampling needs when a path meets a source by itself.
 //
-// A source is drawn with probability 1/2 (1/n + its share of the estimated irradiance at the scene's centre). Radiance
-// samples carry the density over all sources, per steradian; of directional and point lights ("delta"), which no path
-// meets by itself, `radiance / pdf` is irradiance over the probability of the draw.
+// A source is drawn with probability 1/2 (1/n + its share of the estimated irradiance) where it is needed: n counts the
+// sources that may reach the place, so that a lamp among many is found where it shines. Radiance samples carry the
+// density over all sources, per steradian; of sources without an area ("delta"), which no path meets by itself,
+// `radiance / pdf` is irradiance over the probability of the draw.
 
 #include "capture/tracer/light/environment_map.hpp"
 #include "capture/tracer/scene/scene.hpp"
+#include "rayspace/light/light.hpp"
 
 #include <optional>
 #include <vector>
@@ -24,79 +26,103 @@ struct LightSample {
 
 class LightSet {
 public:
-    // `environment` takes the place of the scene's own. `centre` and `radius` bound the meshes. Refers to `scene`,
-    // which must stay where it is and unchanged.
-    LightSet(const Scene& scene, Environment environment, const glm::vec3& centre, float radius);
+    // `environment` takes the place of the scene's own; half the diagonal of the meshes' box is `radius`. Refers to
+    // `scene`, which must stay where it is and unchanged.
+    LightSet(const Scene& scene, Environment environment, float radius);
 
-    // Turns directional, point and rectangle lights and the environment about Y, from where they were at construction;
-    // positive angles take +Z to +X. Surfaces that shine stay.
+    // Turns the scene's lights and the environment about Y, from where they were at construction; positive angles take
+    // +Z to +X. Surfaces that shine stay.
     void turn(float angle_rad);
 
     [[nodiscard]] bool empty() const { return sources_.empty(); }
 
-    // Nothing where the drawn source does not light `position`. u_source picks the source, u the point on it.
-    [[nodiscard]] std::optional<LightSample> sample(const glm::vec3& position, float u_source,
+    // How sources are drawn at a place.
+    struct Selection {
+        glm::vec3 position{0.0F};
+        float total = 0.0F;  // of the estimates of all sources
+        float even = 0.0F;   // 1 / n; 0 where no source reaches
+    };
+    [[nodiscard]] Selection select(const glm::vec3& position) const;
+
+    // Nothing where the drawn source does not light the place. u_source picks the source, u the point on it.
+    [[nodiscard]] std::optional<LightSample> sample(const Selection& selection, float u_source,
                                                     const glm::vec2& u) const;
 
     [[nodiscard]] const EnvironmentMap& environment() const { return environment_; }
     // Density with which sample() gives this direction through the environment.
-    [[nodiscard]] float environment_pdf(const glm::vec3& direction) const {
-        return environment_probability_ > 0.0F ? environment_probability_ * environment_.pdf(direction) : 0.0F;
-    }
+    [[nodiscard]] float environment_pdf(const Selection& selection, const glm::vec3& direction) const;
 
     // Radiance of a point of material `material`, by its emission and the texture on it.
     [[nodiscard]] glm::vec3 emission(int material, const glm::vec2& uv) const;
     // Density with which sample() gives a point of an emissive triangle that is seen at `distance` under `cos_light`.
-    [[nodiscard]] float emitter_pdf(int material, float distance, float cos_light) const;
+    [[nodiscard]] float emitter_pdf(const Selection& selection, int material, float distance, float cos_light) const;
 
-    // Rectangle lights are not part of the ray-tracing scene; a path adds those its segments cross.
+    // Area lights are not part of the ray-tracing scene; a path adds those its segments cross.
     struct Crossing {
         glm::vec3 radiance;
         float pdf;  // with which sample() gives this direction through this light
     };
-    [[nodiscard]] std::size_t rectangle_count() const { return rectangles_.size(); }
-    [[nodiscard]] std::optional<Crossing> cross_rectangle(std::size_t index, const glm::vec3& origin,
-                                                          const glm::vec3& direction, float max_distance) const;
+    [[nodiscard]] std::size_t area_count() const { return areas_.size(); }
+    [[nodiscard]] std::optional<Crossing> cross_area(std::size_t index, const Selection& selection,
+                                                     const glm::vec3& origin, const glm::vec3& direction,
+                                                     float max_distance) const;
 
 private:
-    enum class SourceKind { environment, directional, point, rectangle, emitters };
+    enum class SourceKind { environment, distant, local, area, emitters };
     struct Source {
         SourceKind kind;
-        std::size_t index;  // of its kind
-        float probability;
+        std::size_t index;  // of lights_ or areas_
+        float power;        // estimated irradiance: at any place, or at distance 1 of what stands in the scene
     };
-    struct Rectangle {
-        RectangleLight light;
-        glm::vec3 normal;
-        float area;
-        std::size_t index;  // in the scene
-        float probability = 0.0F;
+    struct Area {
+        std::size_t light = 0;   // of lights_
+        std::size_t source = 0;  // of sources_
+        glm::vec3 middle{0.0F}, half_u{0.0F}, half_v{0.0F}, normal{0.0F};
+        glm::vec3 radiance{0.0F};
+        float parallelogram = 0.0F;  // of half_u and half_v
+        float area = 0.0F;
+        bool round = false;
     };
+    // Beyond this cone there is no light.
+    struct Cone {
+        glm::vec3 towards{0.0F};
+        float least_cos = -1.0F;
+    };
+
     struct Emitter {
         const Mesh* mesh;
         std::size_t triangle;
         float cumulative;  // share of the power of this and all emitters before it
     };
 
+    static Cone cone_of(const Light& light);
     void gather_emitters();
+    void place_lights(float turn_rad);
+    [[nodiscard]] float estimate(const Source& source, const glm::vec3& position) const;
+    [[nodiscard]] static float probability(const Selection& selection, float estimate) {
+        return estimate > 0.0F ? 0.5F * (selection.even + estimate / selection.total) : 0.0F;
+    }
     [[nodiscard]] std::optional<LightSample> sample_environment(float probability, const glm::vec2& u) const;
-    [[nodiscard]] std::optional<LightSample> sample_rectangle(const Rectangle& rectangle, const glm::vec3& position,
-                                                              const glm::vec2& u) const;
-    [[nodiscard]] std::optional<LightSample> sample_emitter(const glm::vec3& position, float u_emitter,
+    [[nodiscard]] static std::optional<LightSample> sample_light(const Light& light, const glm::vec3& position,
+                                                                 float probability);
+    [[nodiscard]] static std::optional<LightSample> sample_area(const Area& area, const glm::vec3& position,
+                                                                float probability, const glm::vec2& u);
+    [[nodiscard]] std::optional<LightSample> sample_emitter(const Selection& selection, float u_emitter,
                                                             const glm::vec2& u) const;
 
     const Scene& scene_;
     float environment_turn_rad_;  // at construction
     EnvironmentMap environment_;
-    std::vector<DirectionalLight> directional_;
-    std::vector<PointLight> points_;
-    std::vector<Rectangle> rectangles_;
+    std::vector<Light> lights_;  // those of the scene that shine, as they are turned now
+    std::vector<Light> still_;   // the same as they were at construction
+    std::vector<Cone> cones_;    // of lights_
+    std::vector<Area> areas_;
     std::vector<Emitter> emitters_;
     std::vector<float> brightness_;  // of each material: luminance of its emission, mean over the texture
     double emitter_power_ = 0;       // sum of area * brightness
-    float environment_probability_ = 0.0F;
-    float emitter_probability_ = 0.0F;
     std::vector<Source> sources_;
+    std::optional<std::size_t> environment_source_;
+    std::optional<std::size_t> emitter_source_;
 };
 
 }  // namespace rs::capture

@@ -73,26 +73,29 @@ void read_light(RecipeReader& reader, Scene& scene) {
     std::string type;
     reader.read("type", type);
     if (type == "directional") {
-        DirectionalLight light;
-        reader.read("direction", light.direction);
-        reader.read("irradiance", light.irradiance, 0, RecipeReader::kHuge);
-        if (!(glm::length(light.direction) > 0.0F)) reader.complain("direction", "must not be [0, 0, 0]");
-        scene.directional_lights.push_back(light);
+        glm::vec3 direction{0, -1, 0}, irradiance{1.0F};
+        reader.read("direction", direction);
+        reader.read("irradiance", irradiance, 0, RecipeReader::kHuge);
+        if (!(glm::length(direction) > 0.0F)) {
+            reader.complain("direction", "must not be [0, 0, 0]");
+        } else {
+            scene.lights.push_back(directional_light(direction, irradiance));
+        }
     } else if (type == "point") {
-        PointLight light;
-        reader.read("position", light.position);
-        reader.read("intensity", light.intensity, 0, RecipeReader::kHuge);
-        scene.point_lights.push_back(light);
+        glm::vec3 position{0.0F}, intensity{1.0F};
+        reader.read("position", position);
+        reader.read("intensity", intensity, 0, RecipeReader::kHuge);
+        scene.lights.push_back(point_light(position, intensity));
     } else if (type == "rectangle") {
-        RectangleLight light;
-        reader.read("corner", light.corner);
-        reader.read("edge_u", light.edge_u);
-        reader.read("edge_v", light.edge_v);
-        reader.read("radiance", light.radiance, 0, RecipeReader::kHuge);
-        if (!(glm::length(glm::cross(light.edge_u, light.edge_v)) > 0.0F)) {
+        glm::vec3 corner{0.0F}, edge_u{1, 0, 0}, edge_v{0, 0, 1}, radiance{1.0F};
+        reader.read("corner", corner);
+        reader.read("edge_u", edge_u);
+        reader.read("edge_v", edge_v);
+        reader.read("radiance", radiance, 0, RecipeReader::kHuge);
+        if (!(glm::length(glm::cross(edge_u, edge_v)) > 0.0F)) {
             reader.complain("edge_u and edge_v must span an area");
         }
-        scene.rectangle_lights.push_back(light);
+        scene.lights.push_back(rectangle_light(corner, edge_u, edge_v, radiance));
     } else {
         return reader.complain("type", "must be \"directional\", \"point\" or \"rectangle\"");
     }

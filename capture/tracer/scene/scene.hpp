@@ -4,6 +4,7 @@
 // Units and axes as in rayspace/base/conventions.hpp: Y up, the turntable's axis is Y. Colours are linear-light RGB.
 
 #include "rayspace/image/image.hpp"
+#include "rayspace/light/light.hpp"
 
 #include <glm/glm.hpp>
 
@@ -51,21 +52,6 @@ struct Texture {
     Image<RgbaF> pixels;  // alpha below 0.5 = a hole in the surface
 };
 
-struct DirectionalLight {
-    glm::vec3 direction{0, -1, 0};  // the way the light travels
-    glm::vec3 irradiance{1.0F};     // on a surface that faces it
-};
-struct PointLight {
-    glm::vec3 position{0.0F};
-    glm::vec3 intensity{1.0F};  // radiant intensity; irradiance = intensity / distance^2
-};
-struct RectangleLight {  // emits from the side that cross(edge_u, edge_v) points to; not seen by the camera
-    glm::vec3 corner{0.0F};
-    glm::vec3 edge_u{1, 0, 0};
-    glm::vec3 edge_v{0, 0, 1};
-    glm::vec3 radiance{1.0F};
-};
-
 // Latitude-longitude map: row 0 is +Y, the picture's middle column is -Z, u grows towards +X from there. Empty = black.
 struct Environment {
     Image<RgbaF> pixels;
@@ -78,9 +64,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
     std::vector<Texture> textures;
-    std::vector<DirectionalLight> directional_lights;
-    std::vector<PointLight> point_lights;
-    std::vector<RectangleLight> rectangle_lights;
+    std::vector<Light> lights;  // ambient parts count nothing here; areas are not seen by the camera
     Environment environment;
 };
 

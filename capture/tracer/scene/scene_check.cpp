@@ -75,21 +75,10 @@ bool pixels_are_light(const Image<RgbaF>& pixels) {
 }
 
 Problem check_lights(const Scene& scene) {
-    for (const DirectionalLight& light : scene.directional_lights) {
-        if (!finite(light.direction) || !(glm::length(light.direction) > 0.0F)) {
-            return "directional light: the direction must be finite and not (0, 0, 0)";
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        if (Status fine = check_light(scene.lights[i]); !fine) {
+            return "light " + std::to_string(i + 1) + ": " + fine.error().message;
         }
-        if (!is_light(light.irradiance)) return "directional light: irradiance must be finite and not negative";
-    }
-    for (const PointLight& light : scene.point_lights) {
-        if (!finite(light.position)) return "point light: the position must be finite";
-        if (!is_light(light.intensity)) return "point light: intensity must be finite and not negative";
-    }
-    for (const RectangleLight& light : scene.rectangle_lights) {
-        if (!finite(light.corner) || !finite(light.edge_u) || !finite(light.edge_v)) {
-            return "rectangle light: corner and edges must be finite";
-        }
-        if (!is_light(light.radiance)) return "rectangle light: radiance must be finite and not negative";
     }
     return std::nullopt;
 }

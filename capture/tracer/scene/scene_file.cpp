@@ -17,8 +17,7 @@ namespace {
 constexpr std::uint64_t kMaxRecipe_bytes = 16 << 20;
 
 bool is_lit(const Scene& scene) {
-    return !scene.environment.pixels.empty() || !scene.directional_lights.empty() || !scene.point_lights.empty() ||
-           !scene.rectangle_lights.empty() ||
+    return !scene.environment.pixels.empty() || !scene.lights.empty() ||
            // Lights painted on the object (pilot lamps, screens) light no scene.
            std::ranges::any_of(scene.materials, [](const Material& m) {
                return m.emission != glm::vec3(0.0F) && m.emission_texture < 0;
@@ -140,9 +139,7 @@ Result<SceneFile> load_recipe(const std::filesystem::path& path, const Generator
     file.scene.name = name;
     if (materials != nullptr) override_materials(*materials, errors, file.scene);
     if (lights != nullptr) {
-        file.scene.directional_lights.clear();
-        file.scene.point_lights.clear();
-        file.scene.rectangle_lights.clear();
+        file.scene.lights.clear();
         read_lights(*lights, errors, file.scene);
     }
     if (environment != nullptr) read_environment(*environment, path.parent_path(), errors, file.scene.environment);

@@ -30,7 +30,7 @@ Mesh floor_quad() {
 TEST(DirectionalLight, LambertSphereFollowsItsFormula) {
     Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.6F)));
     const glm::vec3 to_light = glm::normalize(glm::vec3(1, 2, 2));
-    scene.directional_lights.push_back({-to_light, glm::vec3(3.0F)});
+    scene.lights.push_back(directional_light(-to_light, glm::vec3(3.0F)));
     const Camera camera = front_camera(3.5, 36.0, 64);
     const Rendering rendering = render(std::move(scene), camera, direct_light(16));
     int compared = 0;
@@ -53,7 +53,7 @@ TEST(DirectionalLight, LambertSphereFollowsItsFormula) {
 TEST(DirectionalLight, CoarseSphereShowsNoFacetsAtTheTerminator) {
     // 320 triangles with smooth normals: the lit part must follow the smooth normal, not end at facet edges.
     Scene scene = scene_of(make_sphere(2), material_of(SurfaceKind::diffuse));
-    scene.directional_lights.push_back({{-1, 0, 0}, glm::vec3(kPiF)});
+    scene.lights.push_back(directional_light({-1, 0, 0}, glm::vec3(kPiF)));
     const Camera camera = front_camera(8.0, 15.0, 64);
     const Rendering rendering = render(std::move(scene), camera, direct_light(16));
     for (int x = 36; x < 56; ++x) {
@@ -66,7 +66,7 @@ TEST(PointLight, FallsOffWithTheSquareOfDistance) {
     double at_one = 0;
     for (const float distance : {1.0F, 2.0F, 5.0F}) {
         Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
-        scene.point_lights.push_back({{0, distance, 0}, glm::vec3(2.0F)});
+        scene.lights.push_back(point_light({0, distance, 0}, glm::vec3(2.0F)));
         const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(4)).picture).g;
         EXPECT_NEAR(mean, 0.5 / kPi * 2.0 / (distance * distance), 2e-3 * mean);
         if (distance == 1.0F) at_one = mean;
@@ -83,7 +83,7 @@ TEST(RectangleLight, GivesTheAnalyticFormFactor) {
     const double form_factor = 2 / kPi * (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb));
     Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse, glm::vec3(0.7F)));
     // cross(u, v) points down.
-    scene.rectangle_lights.push_back({{-1.5F, 1, -0.5F}, {3, 0, 0}, {0, 0, 1}, glm::vec3(4.0F)});
+    scene.lights.push_back(rectangle_light({-1.5F, 1, -0.5F}, {3, 0, 0}, {0, 0, 1}, glm::vec3(4.0F)));
     ASSERT_LT(glm::cross(glm::vec3(3, 0, 0), glm::vec3(0, 0, 1)).y, 0.0F);
     const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(1024)).picture).g;
     EXPECT_NEAR(mean, 0.7 * 4.0 * form_factor, 0.005 * mean);
@@ -91,10 +91,10 @@ TEST(RectangleLight, GivesTheAnalyticFormFactor) {
 
 TEST(RectangleLight, IsDarkFromBehindAndSeenInMirrorsOnly) {
     Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::mirror, glm::vec3(0.9F)));
-    scene.rectangle_lights.push_back({{-5, 3, -5}, {10, 0, 0}, {0, 0, 10}, glm::vec3(4.0F)});
+    scene.lights.push_back(rectangle_light({-5, 3, -5}, {10, 0, 0}, {0, 0, 10}, glm::vec3(4.0F)));
     const Camera camera = patch_camera();  // below the light, which is larger than what it sees
     EXPECT_NEAR(mean_radiance(render(scene, camera, direct_light(4)).picture).g, 0.9 * 4.0, 1e-4);
-    std::swap(scene.rectangle_lights[0].edge_u, scene.rectangle_lights[0].edge_v);
+    std::swap(scene.lights[0].half_u, scene.lights[0].half_v);
     EXPECT_EQ(mean_radiance(render(scene, camera, direct_light(4)).picture).g, 0.0);
 }
 
@@ -102,7 +102,7 @@ TEST(Emitter, LightsLikeARectangleOfTheSameSize) {
     // Directly above the patch and off to the side, so that light samples and hits by chance both matter.
     for (const float offset : {0.0F, 1.0F}) {
         Scene by_light = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
-        by_light.rectangle_lights.push_back({{offset - 0.5F, 0.6F, -0.5F}, {1, 0, 0}, {0, 0, 1}, glm::vec3(2.0F)});
+        by_light.lights.push_back(rectangle_light({offset - 0.5F, 0.6F, -0.5F}, {1, 0, 0}, {0, 0, 1}, glm::vec3(2.0F)));
         Scene by_mesh = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
         Material lamp = material_of(SurfaceKind::diffuse, glm::vec3(0.0F));
         lamp.emission = glm::vec3(2.0F);
@@ -142,7 +142,7 @@ double floor_radiance(Scene scene, int samples = 1024) {
 
 TEST(Emitter, DoesNotShineThroughItsHoles) {
     Scene half = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
-    half.rectangle_lights.push_back({{-0.5F, 0.6F, -0.5F}, {0.5F, 0, 0}, {0, 0, 1}, glm::vec3(2.0F)});
+    half.lights.push_back(rectangle_light({-0.5F, 0.6F, -0.5F}, {0.5F, 0, 0}, {0, 0, 1}, glm::vec3(2.0F)));
     const double expected = floor_radiance(std::move(half));
     EXPECT_GT(expected, 0.1);
     EXPECT_NEAR(floor_radiance(half_lamp_scene({1, 1, 1, 0}, false)), expected, 0.02 * expected);
@@ -157,8 +157,8 @@ TEST(Emitter, ShinesAsItsTextureIsPainted) {
         const float s = (static_cast<float>(i) + 0.5F) / kStrips;
         const float away = std::abs(s - 0.75F);
         const float radiance = 2.0F * 2.0F * std::min(away, 1.0F - away);
-        strips.rectangle_lights.push_back(
-            {{s - 0.5F - 0.5F / kStrips, 0.6F, -0.5F}, {1.0F / kStrips, 0, 0}, {0, 0, 1}, glm::vec3(radiance)});
+        strips.lights.push_back(rectangle_light({s - 0.5F - 0.5F / kStrips, 0.6F, -0.5F}, {1.0F / kStrips, 0, 0},
+                                                {0, 0, 1}, glm::vec3(radiance)));
     }
     const double expected = floor_radiance(std::move(strips));
     const double mean = floor_radiance(half_lamp_scene({0, 0, 0, 1}, true));

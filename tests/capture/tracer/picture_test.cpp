@@ -32,8 +32,8 @@ Scene busy_scene() {
     third.material = 2;
     scene.meshes.push_back(third);
     scene.environment = constant_environment(0.4F);
-    scene.point_lights.push_back({{2, 3, 2}, glm::vec3(5.0F)});
-    scene.rectangle_lights.push_back({{-2, 2, 2}, {1, 0, 0}, {0, 0, 1}, glm::vec3(4.0F)});
+    scene.lights.push_back(point_light({2, 3, 2}, glm::vec3(5.0F)));
+    scene.lights.push_back(rectangle_light({-2, 2, 2}, {1, 0, 0}, {0, 0, 1}, glm::vec3(4.0F)));
     return scene;
 }
 
@@ -64,7 +64,7 @@ TEST(Picture, SeedsAndCamerasHaveNoiseOfTheirOwn) {
     // A sphere looks the same from everywhere; only its noise differs.
     Scene sphere = scene_of(make_sphere(4), material_of(SurfaceKind::diffuse));
     sphere.environment = constant_environment(1.0F);
-    sphere.point_lights.push_back({{0, 3, 0}, glm::vec3(5.0F)});
+    sphere.lights.push_back(point_light({0, 3, 0}, glm::vec3(5.0F)));
     const Rendering front = render(sphere, camera, options);
     const Rendering side = render(sphere, look_at_camera({3.5, 0, 0}, {0, 0, 0}, radians(36.0), 32, 32), options);
     EXPECT_FALSE(same_bytes(front, side));
@@ -149,7 +149,7 @@ TEST(Picture, LightFallsThroughHoles) {
     scene.materials.push_back(material_of(SurfaceKind::diffuse));
     scene.meshes.push_back(make_quad({-5, -5, -1}, {10, 0, 0}, {0, 10, 0}));  // a wall behind
     scene.meshes.back().material = 1;
-    scene.directional_lights.push_back({{0, 0, -1}, glm::vec3(3.0F)});
+    scene.lights.push_back(directional_light({0, 0, -1}, glm::vec3(3.0F)));
     // From between screen and wall, where the screen hides nothing.
     const Camera camera = look_at_camera({0, 0, -0.2}, {0, 0, -1}, radians(60.0), 32, 32);
     RenderOptions options = with_depth(4);

@@ -120,12 +120,14 @@ TEST_F(SceneFileTest, ReadsEveryKey) {
     EXPECT_EQ(file->scene.environment.pixels(0, 0).g, 3.0F);
     EXPECT_EQ(file->scene.environment.scale, 0.5F);
     EXPECT_NEAR(file->scene.environment.turn_rad, kPi / 2, 1e-6);
-    ASSERT_EQ(file->scene.directional_lights.size(), 1U);
-    EXPECT_EQ(file->scene.directional_lights[0].irradiance, glm::vec3(3.0F));
-    ASSERT_EQ(file->scene.point_lights.size(), 1U);
-    EXPECT_EQ(file->scene.point_lights[0].intensity, glm::vec3(1, 2, 3));
-    ASSERT_EQ(file->scene.rectangle_lights.size(), 1U);
-    EXPECT_EQ(file->scene.rectangle_lights[0].radiance, glm::vec3(5.0F));
+    const std::vector<Light>& lights = file->scene.lights;
+    ASSERT_EQ(lights.size(), 3U);
+    EXPECT_EQ(lights[0].kind, LightKind::kDirectional);
+    EXPECT_NEAR(irradiance_at(lights[0], {}).r, 3, 1e-6);
+    EXPECT_EQ(lights[1].kind, LightKind::kPoint);
+    EXPECT_NEAR(irradiance_at(lights[1], lights[1].location + glm::dvec3(0, 2, 0)).b, 3.0 / 4, 1e-6);
+    EXPECT_EQ(lights[2].kind, LightKind::kRectangle);
+    EXPECT_EQ(lights[2].colour, glm::vec3(5.0F));
 }
 
 TEST_F(SceneFileTest, StudioAndConstantEnvironmentsNeedNoFile) {

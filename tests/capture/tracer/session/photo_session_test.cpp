@@ -230,9 +230,11 @@ TEST_F(PhotoSession, LightsStandStillInTheRoom) {
             EXPECT_LT(difference(picture_in(set / "photos" / view_file(i))), 1.0) << name << ", view " << i;
         }
     };
-    lit_by("directional", [](Scene& s) { s.directional_lights = {{{-1, -0.5F, -0.5F}, glm::vec3(2)}}; });
-    lit_by("point", [](Scene& s) { s.point_lights = {{{3, 1, 2}, glm::vec3(12)}}; });
-    lit_by("rectangle", [](Scene& s) { s.rectangle_lights = {{{3, 0, 2}, {-1, 0, 1}, {0, 1, 0}, glm::vec3(10)}}; });
+    lit_by("directional", [](Scene& s) { s.lights = {directional_light({-1, -0.5, -0.5}, glm::vec3(2))}; });
+    lit_by("point", [](Scene& s) { s.lights = {point_light({3, 1, 2}, glm::vec3(12))}; });
+    lit_by("rectangle", [](Scene& s) {
+        s.lights = {rectangle_light({3, 0, 2}, {-1, 0, 1}, {0, 1, 0}, glm::vec3(10))};
+    });
     lit_by("environment", [](Scene& s) {
         s.environment.pixels = Image<RgbaF>(8, 1, {0.02F, 0.02F, 0.02F, 1});
         s.environment.pixels(5, 0) = {3, 3, 3, 1};
