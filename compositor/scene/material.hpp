@@ -17,6 +17,10 @@ struct SceneTexture {
     bool modulates = false;  // multiplies the diffuse colour (grey pictures, glTF); else it replaces it
 };
 
+enum class AlphaUse { kNone = 0, kMask = 1, kBlend = 2 };
+// A picture whose alpha is nearly everywhere 0 or 255 cuts holes, with sharp edges and no order of drawing.
+AlphaUse alpha_use(const SceneTexture& texture);
+
 struct Material {
     glm::vec3 diffuse{0.8F};
     glm::vec3 specular{0};
@@ -28,5 +32,8 @@ struct Material {
     std::shared_ptr<const SceneTexture> texture;
     glm::mat3 texture_transform{1};  // of (s, t, 1)
 };
+
+// Whether other things shine through: such surfaces are drawn behind all others, the farthest first.
+bool is_blended(const Material& material);
 
 }  // namespace rs::compositor

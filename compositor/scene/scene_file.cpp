@@ -30,20 +30,13 @@ glm::vec3 colour(const JsonValue& value) {
     return {linear_from_srgb(srgb.r), linear_from_srgb(srgb.g), linear_from_srgb(srgb.b)};
 }
 
-glm::dvec3 take_direction(JsonObject& object, const char* key) {
-    const JsonValue value = object.take(key);
-    const glm::dvec3 direction = value.triple(-kFarthestCoordinate, kFarthestCoordinate);
-    if (glm::length(direction) < kSmallest) throw value.wrong("must be a direction, not 0, 0, 0");
-    return direction;
-}
-
 NodeTransform take_transform(JsonObject& node) {
     NodeTransform transform;
     if (node.has("translate")) transform.translation = take_position(node, "translate");
     if (node.has("scale")) transform.scale = node.take("scale").number(kSmallest, kFarthestCoordinate);
     if (node.has("rotate")) {
         JsonObject rotate(node.take("rotate"));
-        if (rotate.has("axis")) transform.axis = take_direction(rotate, "axis");
+        if (rotate.has("axis")) transform.axis = rotate.take("axis").direction();
         transform.angle_rad = radians(rotate.take("degrees").number(-36000, 36000));
         rotate.expect_all_taken();
     }
@@ -146,7 +139,7 @@ Floor read_floor(JsonObject object) {
 
 // One directional light, which brings the ambient light along.
 void read_lights(JsonObject object, Light& light) {
-    if (object.has("towards")) light.towards = glm::normalize(take_direction(object, "towards"));
+    if (object.has("towards")) light.towards = object.take("towards").direction();
     if (object.has("directional")) light.colour = glm::vec3(object.take("directional").triple(0, kBrightest));
     if (object.has("ambient")) light.ambient = glm::vec3(object.take("ambient").triple(0, kBrightest));
     object.expect_all_taken();

@@ -61,6 +61,14 @@ glm::dvec3 JsonValue::triple(double lowest, double highest) const {
     return {item(0).number(lowest, highest), item(1).number(lowest, highest), item(2).number(lowest, highest)};
 }
 
+glm::dvec3 JsonValue::direction() const {
+    constexpr double kLongest = 1e6;
+    constexpr double kShortestLength = 1e-6;
+    const glm::dvec3 direction = triple(-kLongest, kLongest);
+    if (glm::length(direction) < kShortestLength) throw wrong("must be a direction, not 0, 0, 0");
+    return glm::normalize(direction);
+}
+
 std::size_t JsonValue::list_size(std::size_t least, std::size_t most) const {
     if (!value_->is_array()) throw wrong("must be a list [ ... ]");
     if (value_->size() < least || value_->size() > most) {

@@ -27,6 +27,7 @@ public:
     [[nodiscard]] bool boolean() const;
     [[nodiscard]] std::string text() const;  // not empty, without zero characters
     [[nodiscard]] glm::dvec3 triple(double lowest, double highest) const;
+    [[nodiscard]] glm::dvec3 direction() const;  // three numbers, not all 0; given back with unit length
     // Refuses what is no list, or one of another length.
     std::size_t list_size(std::size_t least, std::size_t most) const;
     [[nodiscard]] JsonValue item(std::size_t i) const;

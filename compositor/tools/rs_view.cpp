@@ -1,10 +1,12 @@
 // rs-view: a scene with ray-space objects -> composited frames.
 
 #include "compositor/gl/context.hpp"
+#include "compositor/scene/lights_file.hpp"
 #include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/tools/asked_cameras.hpp"
 #include "compositor/tools/view_arguments.hpp"
+#include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/frame_times.hpp"
 #include "compositor/viewer/showroom.hpp"
@@ -40,6 +42,16 @@ Result<Scene> asked_scene(const ViewArguments& arguments) {
         Result<Scene> read = read_scene(arguments.scene);
         if (!read) return read.error();
         scene = std::move(*read);
+    }
+    if (!arguments.lights.empty()) {
+        Result<LightList> list = read_light_list(arguments.lights);
+        if (!list) return list.error();
+        if (list->replace) {
+            scene.lights.clear();
+            scene.navigation.headlight = false;
+            for (GeometryNode& node : scene.geometry) node.lights.clear();
+        }
+        scene.lights.insert(scene.lights.end(), list->lights.begin(), list->lights.end());
     }
     if (!arguments.path.empty()) {
         const Result<Scene> walk = read_scene(arguments.path);
@@ -123,6 +135,35 @@ Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::
     return write_png(arguments.output, *frame);
 }
 
+// Null for the raster renderer.
+Result<std::unique_ptr<TracedRenderer>> asked_tracer(const ViewArguments& arguments, const Scene& scene) {
+    if (arguments.renderer == "raster") return std::unique_ptr<TracedRenderer>();
+    auto tracer = TracedRenderer::create(scene, {.exposure_ev = arguments.exposure_ev});
+    if (!tracer) return Error{arguments.scene + ": " + tracer.error().message};
+    print_warnings(tracer->warnings());
+    return std::make_unique<TracedRenderer>(std::move(*tracer));
+}
+
+// By as many passes or seconds as were asked for, one pass at least.
+std::shared_ptr<const Image<Rgba8>> trace(TracedRenderer& tracer, const ViewArguments& arguments, const Camera& camera,
+                                          Progress& progress) {
+    constexpr int kUsualPasses = 64;
+    const int passes = arguments.passes > 0 ? arguments.passes : arguments.seconds > 0 ? 0 : kUsualPasses;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto late = [&] {
+        const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - begin;
+        return arguments.seconds > 0 && gone.count() >= arguments.seconds;
+    };
+    tracer.look(camera);
+    if (passes > 0) progress.start("tracing", passes);
+    do {
+        tracer.add_pass();
+        if (passes > 0) progress.advance();
+    } while ((passes == 0 || tracer.passes() < passes) && !late());
+    if (passes > 0) progress.finish();
+    return std::make_shared<const Image<Rgba8>>(tracer.picture());
+}
+
 Status run_view(ViewArguments arguments) {
     const Result<PixelSize> size = parse_size(arguments.size);
     if (!size) return size.error();
@@ -169,6 +210,8 @@ Status run_view(ViewArguments arguments) {
                      " frames do not fit one picture; give a folder or an .mp4 to -o"};
     }
 
+    Result<std::unique_ptr<TracedRenderer>> tracer = asked_tracer(arguments, *scene);
+    if (!tracer) return tracer.error();
     Result<gl::Context> context = gl::Context::create_surfaceless();
     if (!context) return context.error();
     const bool upright = arguments.upright || arguments.streaming || !drawer.tilted;
@@ -177,12 +220,14 @@ Status run_view(ViewArguments arguments) {
                                                                   .height = size->height,
                                                                   .samples = arguments.samples,
                                                                   .wire_frame = arguments.wire_frame,
+                                                                  .exposure_ev = arguments.exposure_ev,
                                                                   .object_depth = asked_depth(arguments),
                                                                   .object_samples = arguments.object_samples,
                                                                   .upright_pictures = upright,
                                                                   .time_parts = !arguments.stats.empty()});
     if (!compositor) return compositor.error();
     ProgressBar progress(arguments.quiet);
+    ProgressBar silent(true);
     FrameTimes times;
     const double frame_s = 1 / arguments.frames_per_second;
     const auto begin = std::chrono::steady_clock::now();
@@ -193,12 +238,18 @@ Status run_view(ViewArguments arguments) {
                 begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                             std::chrono::duration<double>(frame_s * static_cast<double>(times.frames()))));
         }
+        if (*tracer) {
+            const bool alone = cameras->size() == 1;
+            compositor->set_traced(trace(**tracer, arguments, camera, alone ? progress : silent));
+        }
         if (Status status = times.draw(*showroom, *compositor, camera, frame_s); !status) return status.error();
         print_warnings(showroom->take_warnings());
         missing = std::max(missing, compositor->statistics().nodes_missing);
         return compositor->picture();
     };
-    progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
+    if (!*tracer || cameras->size() > 1) {
+        progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
+    }
     if (Status status = write_frames(arguments, *kind, *cameras, compose, progress); !status) return status;
     progress.finish();
     if (waits && missing > 0) {
@@ -236,6 +287,25 @@ int main(int argc, char** argv) {
         ->type_name("NAME");
     app.add_option("--path", arguments.path, "walk along the camera path of a JSON scene file, in place of the scene's")
         ->type_name("FILE.json");
+    app.add_option("--renderer", arguments.renderer,
+                   "of the geometry, with -o: raster (OpenGL), or path: light traced, with shadows, areas, luminaires "
+                   "and what walls reflect. Objects and blended surfaces are put into the traced picture by depth")
+        ->type_name("raster|path")
+        ->check(CLI::IsMember({"raster", "path"}))
+        ->capture_default_str();
+    app.add_option("--lights", arguments.lights,
+                   "JSON list of lights, luminaires (IES, EULUMDAT) among them, beside the scene's or in their place "
+                   "(compositor/README.md)")
+        ->type_name("FILE.json");
+    CLI::Option* passes =
+        app.add_option("--passes", arguments.passes, "of --renderer path: rays through each pixel of a frame (64)")
+            ->check(CLI::Range(1, 65536));
+    app.add_option("--seconds", arguments.seconds, "in place of --passes: as many as fit, for each frame")
+        ->check(CLI::Range(0.01, 86400.0))
+        ->excludes(passes);
+    app.add_option("--exposure", arguments.exposure_ev, "stops by which lights are brighter (0)")
+        ->check(CLI::Range(-40.0, 40.0))
+        ->type_name("EV");
     app.add_flag("--wire-frame", arguments.wire_frame, "only the edges of the geometry's triangles");
     app.add_option("--object-depth", arguments.object_depth,
                    "how deep objects are: one plane each, or every pixel by itself, so that objects, and objects and "
@@ -282,6 +352,7 @@ int main(int argc, char** argv) {
         "  rs-view --object vase.rso -o shot.png\n"
         "  rs-view --object vase.rso@-1.2,0,0 --object lamp.rso@1.2,0,0,45,0.8 --orbit 120 -o turn.mp4\n"
         "  rs-view world.wrl -o world.png\n"
+        "  rs-view hall.wrl --renderer path --lights evening.json --passes 256 -o evening.png\n"
         "  rs-view room.json --eye 0,1.2,6 --at 0,0.8,0 --fov 45 --size 1920x1080 -o room.png");
     std::function<rs::Status()> run;
     app.callback([&] {
@@ -290,6 +361,9 @@ int main(int argc, char** argv) {
         }
         if (arguments.streaming && arguments.output.empty()) {
             throw CLI::ValidationError("--streaming is for -o; in a window objects always come while you walk");
+        }
+        if (arguments.renderer != "raster" && arguments.output.empty()) {
+            throw CLI::ValidationError("--renderer " + arguments.renderer + " needs -o; a window draws by raster");
         }
         if (headless && arguments.output.empty()) {
             throw CLI::ValidationError("--headless needs -o: the picture, video or folder to write");

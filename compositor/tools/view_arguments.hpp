@@ -28,6 +28,11 @@ struct ViewArguments {
     std::string object_depth = "plane";
     int object_samples = FrameOptions{}.object_samples;
     std::int64_t memory_mib = usual_memory_budget() >> 20;
+    std::string lights;
+    std::string renderer = "raster";
+    int passes = 0;
+    double seconds = 0;
+    double exposure_ev = 0;
     bool upright = false;
     bool streaming = false;
     bool wire_frame = false;

@@ -78,6 +78,33 @@ glm::vec3 irradiance_at(const Light& light, const glm::dvec3& position) {
     return kPiF * light.colour * static_cast<float>(strength);
 }
 
+Light punctual_of(const Light& light) {
+    if (!is_area(light) && light.kind != LightKind::kLuminaire) return light;
+    Light spot = point_light(light.location, light.colour);
+    spot.kind = LightKind::kSpot;
+    spot.everywhere = light.everywhere;
+    spot.name = light.name;
+    if (is_area(light)) {
+        spot.towards = glm::normalize(glm::cross(light.half_u, light.half_v));
+        // A cosine, by a straight line from the axis to the plane of the area.
+        spot.beam_width_rad = 0;
+        spot.cut_off_rad = kPi / 2;
+        spot.colour = light.colour * static_cast<float>(area_of(light) / kPi);
+        spot.least_attenuation = static_cast<float>(area_of(light) / kPi);
+        return spot;
+    }
+    const PhotometricWeb& web = light.luminaire->web;
+    spot.towards = light.world_from_luminaire * glm::dvec3(0, -1, 0);
+    const BeamSpread across = beam_spread(web, 0);
+    const BeamSpread along = beam_spread(web, 90);
+    // Half the intensity is left half-way from the axis to the cut-off.
+    const double half_beam = std::clamp(0.25 * (across.beam_rad + along.beam_rad), 0.01, kPi / 4);
+    spot.beam_width_rad = 0;
+    spot.cut_off_rad = 2 * half_beam;
+    spot.colour = light.colour * static_cast<float>(web.peak_candela() / (kLumensPerWatt * kPi));
+    return spot;
+}
+
 Light turned_about_y(const Light& light, double angle_rad) {
     const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), angle_rad, glm::dvec3(0, 1, 0)));
     Light turned = light;

@@ -66,6 +66,10 @@ double area_of(const Light& light);
 // between; 0 where none arrives. Areas give 0: they are no point.
 glm::vec3 irradiance_at(const Light& light, const glm::dvec3& position);
 
+// What comes nearest to the light among points, spots and directional lights, for renderers that know no others: areas
+// and luminaires become spots of the same intensity along their aim and about the same width, with no light behind.
+Light punctual_of(const Light& light);
+
 // The light turned about Y; positive angles take +Z to +X.
 Light turned_about_y(const Light& light, double angle_rad);
 

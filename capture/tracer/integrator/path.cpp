@@ -23,10 +23,10 @@ glm::vec3 facing_normal(const glm::vec3& normal, const glm::vec3& to_viewer) {
     return glm::normalize(normal + to_viewer * (kLeastCos - cos_viewer));
 }
 
-glm::vec3 surface_colour(const Scene& scene, const Material& material, const glm::vec2& uv) {
-    if (material.texture < 0) return material.colour;
-    const RgbaF texel = sample_texture(scene.textures[static_cast<std::size_t>(material.texture)], uv);
-    return material.colour * glm::vec3(texel.r, texel.g, texel.b);
+glm::vec3 surface_colour(const Scene& scene, const Material& material, const SurfacePoint& point) {
+    if (material.texture < 0) return material.colour * point.colour;
+    const RgbaF texel = sample_texture(scene.textures[static_cast<std::size_t>(material.texture)], point.uv);
+    return material.colour * point.colour * glm::vec3(texel.r, texel.g, texel.b);
 }
 
 // The glass that a path is inside of, the innermost last. Glass may overlap: what is left is the last entry of its
@@ -106,7 +106,7 @@ bool PathTracer::trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, 
         const SurfaceModel& model = models_[static_cast<std::size_t>(point.material)];
         Shading shading{
             point, frame,
-            Surface(model, surface_colour(scene_, material, point.uv), frame.to_local(to_viewer), !point.front_side),
+            Surface(model, surface_colour(scene_, material, point), frame.to_local(to_viewer), !point.front_side),
             model.translucency > 0.0F, rays_.step_off()};
 
         const glm::vec2 choices = sampler.next_2d();

@@ -126,6 +126,7 @@ bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, Su
     point.distance = query.ray.tfar;
     point.material = mesh.material;
     point.uv = interpolate_uv(mesh, query.hit.primID, query.hit.u, query.hit.v);
+    point.colour = interpolate_colour(mesh, query.hit.primID, query.hit.u, query.hit.v);
 
     const glm::vec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const float length = glm::length(cross);

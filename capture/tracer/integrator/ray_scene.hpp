@@ -23,6 +23,7 @@ struct SurfacePoint {
     glm::vec3 geometric_normal;
     glm::vec3 shading_normal;
     glm::vec2 uv;
+    glm::vec3 colour;  // of the vertices
     float distance;
     int material;
     bool front_side;  // the side that the triangle's winding calls the outer one

@@ -69,6 +69,26 @@ std::uint64_t picture_key(std::uint64_t seed, const Camera& camera) {
     return picture_key(seed, {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2]), glm::dvec3(m[3])});
 }
 
+RayPicture rays_of(const Camera& camera) {
+    return {camera.width, camera.height, camera.centre(), camera.forward(),
+            [camera](double x, double y) { return camera.ray(x, y); }};
+}
+
+// Axial, of the first surface through each pixel's centre.
+Image<float> first_depths(const RayPicture& rays, const PixelRectangle& visible, const RayScene& scene, int threads) {
+    Image<float> depths(rays.width, rays.height);
+    for_each_index(std::max(visible.y1 - visible.y0, 0), threads, [&](std::int64_t row) {
+        const int y = visible.y0 + static_cast<int>(row);
+        for (int x = visible.x0; x < visible.x1; ++x) {
+            const glm::dvec3 ray = glm::normalize(rays.ray(x + 0.5, y + 0.5));
+            SurfacePoint point;
+            if (!scene.intersect(glm::vec3(rays.centre), glm::vec3(ray), point)) continue;
+            depths(x, y) = static_cast<float>(glm::dot(glm::dvec3(point.position) - rays.centre, rays.forward));
+        }
+    });
+    return depths;
+}
+
 }  // namespace
 
 // What of a picture may show something, and what its noise is drawn from.
@@ -104,8 +124,7 @@ void Tracer::turn_lights(double angle_rad) {
 }
 
 Rendering Tracer::render(const Camera& camera, const RenderOptions& options, Progress* progress) const {
-    const RayPicture rays{camera.width, camera.height, camera.centre(), camera.forward(),
-                          [&camera](double x, double y) { return camera.ray(x, y); }};
+    const RayPicture rays = rays_of(camera);
     return render(rays, {visible_rectangle(camera, *state_->rays), picture_key(options.seed, camera)}, options,
                   progress);
 }
@@ -118,59 +137,83 @@ Rendering Tracer::render(const RayPicture& rays, const RenderOptions& options, P
 Rendering Tracer::render(const RayPicture& rays, const Frame& frame, const RenderOptions& options,
                          Progress* progress) const {
     RS_CHECK(options.samples_per_pixel >= 1 && options.samples_per_pixel <= 65536);
-    RS_CHECK(options.filter_radius_px > 0.0F && options.filter_radius_px <= 0.5F);
-    RS_CHECK(options.max_bounces >= 0);
+    Accumulation sum;
+    accumulate(rays, frame, options, options.samples_per_pixel, sum, progress, nullptr);
     Rendering rendering;
-    rendering.picture = Image<RgbaF>(rays.width, rays.height);
-    if (options.depth) rendering.depth = Image<float>(rays.width, rays.height);
+    rendering.picture = sum.mean();
+    if (options.depth) rendering.depth = first_depths(rays, frame.visible, *state_->rays, options.threads);
+    return rendering;
+}
+
+bool Tracer::accumulate(const Camera& camera, const RenderOptions& options, int count, Accumulation& into,
+                        Progress* progress, const std::atomic<bool>* stop) const {
+    const RayPicture rays = rays_of(camera);
+    return accumulate(rays, {visible_rectangle(camera, *state_->rays), picture_key(options.seed, camera)}, options,
+                      count, into, progress, stop);
+}
+
+bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const RenderOptions& options, int count,
+                        Accumulation& into, Progress* progress, const std::atomic<bool>* stop) const {
+    RS_CHECK(options.filter_radius_px > 0.0F && options.filter_radius_px <= 0.5F);
+    RS_CHECK(options.max_bounces >= 0 && count >= 1);
+    if (into.samples == 0) into.sum = Image<RgbaF>(rays.width, rays.height);
+    RS_CHECK(into.sum.width() == rays.width && into.sum.height() == rays.height);
+    Image<RgbaF> sum = into.sum;
 
     const PathTracer paths(state_->scene, *state_->rays, *state_->lights, state_->models, options.max_bounces);
     const PixelRectangle& visible = frame.visible;
     const glm::vec3 centre(rays.centre);
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);
 
-    const auto render_pixel = [&](int x, int y) {
+    const auto add_samples = [&](int x, int y) {
         const std::uint64_t pixel_key =
             mix_bits(frame.key ^ (static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x)));
-        glm::vec3 sum(0.0F);
-        int hits = 0;
-        for (int s = 0; s < options.samples_per_pixel; ++s) {
+        RgbaF& pixel = sum(x, y);
+        for (int s = into.samples; s < into.samples + count; ++s) {
             Sampler sampler(pixel_key, static_cast<std::uint32_t>(s));
             const glm::dvec2 offset = (glm::dvec2(sampler.next_2d()) - 0.5) * filter_width_px;
             const glm::vec3 direction(glm::normalize(rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)));
             glm::vec3 radiance;
             if (!paths.trace(centre, direction, sampler, radiance)) continue;
-            sum += radiance;
-            ++hits;
-        }
-        if (hits > 0) {
-            const glm::vec3 mean = sum / static_cast<float>(hits);
-            rendering.picture(x, y) = {mean.r, mean.g, mean.b,
-                                       static_cast<float>(hits) / static_cast<float>(options.samples_per_pixel)};
-        }
-        if (options.depth) {
-            const glm::dvec3 ray = glm::normalize(rays.ray(x + 0.5, y + 0.5));
-            SurfacePoint point;
-            if (state_->rays->intersect(centre, glm::vec3(ray), point)) {
-                rendering.depth(x, y) =
-                    static_cast<float>(glm::dot(glm::dvec3(point.position) - rays.centre, rays.forward));
-            }
+            pixel.r += radiance.r;
+            pixel.g += radiance.g;
+            pixel.b += radiance.b;
+            pixel.a += 1.0F;
         }
     };
-    const auto render_tile = [&](std::int64_t tile) {
+    const auto add_tile = [&](std::int64_t tile) {
+        if (stop != nullptr && *stop) return;
         const int across = tiles_along(rays.width);
         const int tile_x = static_cast<int>(tile % across) * kTileSide_px;
         const int tile_y = static_cast<int>(tile / across) * kTileSide_px;
         const int x1 = std::min(tile_x + kTileSide_px, visible.x1);
         const int y1 = std::min(tile_y + kTileSide_px, visible.y1);
         for (int y = std::max(tile_y, visible.y0); y < y1; ++y) {
-            for (int x = std::max(tile_x, visible.x0); x < x1; ++x) render_pixel(x, y);
+            for (int x = std::max(tile_x, visible.x0); x < x1; ++x) add_samples(x, y);
         }
         if (progress != nullptr) progress->advance(1);
     };
+    for_each_index(step_count(rays), options.threads, add_tile);
+    if (stop != nullptr && *stop) return false;
+    into.sum = std::move(sum);
+    into.samples += count;
+    return true;
+}
 
-    for_each_index(step_count(rays), options.threads, render_tile);
-    return rendering;
+Image<RgbaF> Accumulation::mean() const {
+    Image<RgbaF> mean(sum.width(), sum.height());
+    for (int y = 0; y < sum.height(); ++y) {
+        for (int x = 0; x < sum.width(); ++x) {
+            const RgbaF& s = sum(x, y);
+            if (s.a > 0.0F) mean(x, y) = {s.r / s.a, s.g / s.a, s.b / s.a, s.a / static_cast<float>(samples)};
+        }
+    }
+    return mean;
+}
+
+void Tracer::set_lights(std::vector<Light> lights) {
+    state_->scene.lights = std::move(lights);
+    state_->lights->set_lights(state_->scene.lights);
 }
 
 Result<Tracer> Tracer::create(Scene scene) {

@@ -12,8 +12,10 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace rs::capture {
 
@@ -30,6 +32,15 @@ struct Rendering {
     Image<RgbaF> picture;  // linear light, straight alpha = share of camera rays that hit a surface
     Image<float>
         depth;  // axial depth of the first surface through the pixel's centre, 0 = none; empty if not asked for
+};
+
+// A picture that gains samples: sums, so that passes of one sample each and one pass of as many give the same bits.
+struct Accumulation {
+    Image<RgbaF> sum;  // radiance of the camera rays that met a surface; alpha counts them
+    int samples = 0;   // of each pixel so far
+
+    // Linear light, straight alpha = share of camera rays that hit a surface.
+    [[nodiscard]] Image<RgbaF> mean() const;
 };
 
 class Tracer {
@@ -49,6 +60,15 @@ public:
                                    Progress* progress = nullptr) const;
     [[nodiscard]] static std::int64_t step_count(const RayPicture& rays);
 
+    // Adds `count` samples to each pixel, those that come after the ones it has; an empty accumulation begins anew. Of
+    // the options samples_per_pixel and depth count nothing. Advances `progress` by step_count(camera) steps. Once
+    // `stop` is true no further tile is begun and false is returned: the accumulation then is as it was.
+    bool accumulate(const Camera& camera, const RenderOptions& options, int count, Accumulation& into,
+                    Progress* progress = nullptr, const std::atomic<bool>* stop = nullptr) const;
+
+    // Other lights than the scene came with; they must be as check_light() wants them. Not while anything is drawn.
+    void set_lights(std::vector<Light> lights);
+
     // Turns the scene's lights and environment, but not surfaces that shine, about Y by `angle_rad` from where the
     // scene has them; positive angles take +Z to +X. Costs nothing. Not while render() runs.
     void turn_lights(double angle_rad);
@@ -58,6 +78,8 @@ private:
     struct Frame;
     [[nodiscard]] Rendering render(const RayPicture& rays, const Frame& frame, const RenderOptions& options,
                                    Progress* progress) const;
+    bool accumulate(const RayPicture& rays, const Frame& frame, const RenderOptions& options, int count,
+                    Accumulation& into, Progress* progress, const std::atomic<bool>* stop) const;
     explicit Tracer(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };

@@ -42,40 +42,56 @@ LightSet::Cone LightSet::cone_of(const Light& light) {
 }
 
 LightSet::LightSet(const Scene& scene, Environment environment, float radius)
-    : scene_(scene), environment_turn_rad_(environment.turn_rad), environment_(std::move(environment)) {
+    : scene_(scene),
+      environment_turn_rad_(environment.turn_rad),
+      environment_(std::move(environment)),
+      floor_distance2_(std::max(radius * radius, 1e-12F)) {
+    gather_emitters();
+    set_lights(scene.lights);
+}
+
+void LightSet::set_lights(const std::vector<Light>& lights) {
+    sources_.clear();
+    areas_.clear();
+    still_.clear();
+    cones_.clear();
+    environment_source_.reset();
+    emitter_source_.reset();
     if (!environment_.is_black()) {
         environment_source_ = sources_.size();
         sources_.push_back({SourceKind::environment, 0, kPiF * environment_.mean_luminance()});
     }
-    for (const Light& light : scene.lights) {
-        const bool area = light.kind == LightKind::kRectangle || light.kind == LightKind::kDisc;
-        float power = luminance(light.colour);
-        if (area) power *= static_cast<float>(area_of(light));
-        if (light.kind == LightKind::kLuminaire) {
-            power *= static_cast<float>(light.luminaire->web.peak_candela() / kLumensPerWatt);
-        }
-        if (!area && light.kind != LightKind::kLuminaire) power *= kPiF;
-        if (!(power > 0.0F)) continue;
-        still_.push_back(light);
-        if (area) {
-            areas_.emplace_back();
-            areas_.back().light = still_.size() - 1;
-            areas_.back().source = sources_.size();
-            sources_.push_back({SourceKind::area, areas_.size() - 1, power});
-        } else {
-            const bool distant = light.kind == LightKind::kDirectional;
-            sources_.push_back({distant ? SourceKind::distant : SourceKind::local, still_.size() - 1, power});
-        }
-        cones_.push_back(cone_of(light));
-    }
-    lights_ = still_;
-    place_lights(0.0F);
-    gather_emitters();
     if (emitter_power_ > 0) {
         emitter_source_ = sources_.size();
-        const float floor_distance2 = std::max(radius * radius, 1e-12F);
-        sources_.push_back({SourceKind::emitters, 0, static_cast<float>(emitter_power_) / floor_distance2});
+        sources_.push_back({SourceKind::emitters, 0, static_cast<float>(emitter_power_) / floor_distance2_});
     }
+    for (const Light& light : lights) add_light(light);
+    lights_ = still_;
+    place_lights(0.0F);
+}
+
+void LightSet::add_light(const Light& light) {
+    const bool area = light.kind == LightKind::kRectangle || light.kind == LightKind::kDisc;
+    float power = luminance(light.colour);
+    if (area) {
+        power *= static_cast<float>(area_of(light));
+    } else if (light.kind == LightKind::kLuminaire) {
+        power *= static_cast<float>(light.luminaire->web.peak_candela() / kLumensPerWatt);
+    } else {
+        power *= kPiF;
+    }
+    if (!(power > 0.0F)) return;
+    still_.push_back(light);
+    cones_.push_back(cone_of(light));
+    if (area) {
+        areas_.emplace_back();
+        areas_.back().light = still_.size() - 1;
+        areas_.back().source = sources_.size();
+        sources_.push_back({SourceKind::area, areas_.size() - 1, power});
+        return;
+    }
+    const bool distant = light.kind == LightKind::kDirectional;
+    sources_.push_back({distant ? SourceKind::distant : SourceKind::local, still_.size() - 1, power});
 }
 
 void LightSet::turn(float angle_rad) {

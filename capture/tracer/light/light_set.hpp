@@ -30,7 +30,10 @@ public:
     // `scene`, which must stay where it is and unchanged.
     LightSet(const Scene& scene, Environment environment, float radius);
 
-    // Turns the scene's lights and the environment about Y, from where they were at construction; positive angles take
+    // In place of those that were there.
+    void set_lights(const std::vector<Light>& lights);
+
+    // Turns the lights and the environment about Y, from where they were at construction; positive angles take
     // +Z to +X. Surfaces that shine stay.
     void turn(float angle_rad);
 
@@ -97,6 +100,7 @@ private:
 
     static Cone cone_of(const Light& light);
     void gather_emitters();
+    void add_light(const Light& light);
     void place_lights(float turn_rad);
     [[nodiscard]] float estimate(const Source& source, const glm::vec3& position) const;
     [[nodiscard]] static float probability(const Selection& selection, float estimate) {
@@ -113,6 +117,7 @@ private:
     const Scene& scene_;
     float environment_turn_rad_;  // at construction
     EnvironmentMap environment_;
+    float floor_distance2_;      // nearer, surfaces that shine are not thought to be brighter
     std::vector<Light> lights_;  // those of the scene that shine, as they are turned now
     std::vector<Light> still_;   // the same as they were at construction
     std::vector<Cone> cones_;    // of lights_

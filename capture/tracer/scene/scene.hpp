@@ -42,14 +42,17 @@ struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  // per vertex, unit length; empty = flat shading
     std::vector<glm::vec2> uvs;      // per vertex, (0, 0) = the texture's lower left corner; empty = none
+    std::vector<glm::vec3> colours;  // per vertex, linear; multiply the material's colour; empty = none
     std::vector<glm::uvec3> triangles;
     int material = 0;
 };
 
-// sRGB-decoded to linear when it was made; wraps around, bilinear.
+// sRGB-decoded to linear when it was made; bilinear.
 struct Texture {
     std::string name;
-    Image<RgbaF> pixels;  // alpha below 0.5 = a hole in the surface
+    Image<RgbaF> pixels;   // alpha below 0.5 = a hole in the surface
+    bool repeat_u = true;  // else the border goes on
+    bool repeat_v = true;
 };
 
 // Latitude-longitude map: row 0 is +Y, the picture's middle column is -Z, u grows towards +X from there. Empty = black.

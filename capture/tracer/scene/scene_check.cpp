@@ -33,6 +33,12 @@ Problem check_mesh(const Mesh& mesh, std::size_t material_count) {
     if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) {
         return name + "as many texture coordinates as vertices are needed, or none";
     }
+    if (!mesh.colours.empty() && mesh.colours.size() != mesh.positions.size()) {
+        return name + "as many colours as vertices are needed, or none";
+    }
+    for (const glm::vec3& colour : mesh.colours) {
+        if (!is_light(colour)) return name + "vertex colours must be finite and not negative";
+    }
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         if (!finite(mesh.positions[i])) return name + "vertex " + std::to_string(i) + " is not finite; repair the mesh";
         if (!mesh.normals.empty() && !finite(mesh.normals[i])) {

@@ -18,12 +18,20 @@ float repeat(float coordinate) {
     return fraction >= 0.0F && fraction < 1.0F ? fraction : 0.0F;
 }
 
+// Of a picture whose border goes on, half a pixel from its edge at the farthest.
+float place_of(float coordinate, bool repeats, int size) {
+    if (repeats) return repeat(coordinate);
+    const float half_px = 0.5F / static_cast<float>(size);
+    return coordinate > half_px ? std::min(coordinate, 1.0F - half_px) : half_px;
+}
+
 }  // namespace
 
 RgbaF sample_texture(const Texture& texture, const glm::vec2& uv) {
     const Image<RgbaF>& pixels = texture.pixels;
-    const float x = repeat(uv.x) * static_cast<float>(pixels.width()) - 0.5F;
-    const float y = (1.0F - repeat(uv.y)) * static_cast<float>(pixels.height()) - 0.5F;
+    const float x = place_of(uv.x, texture.repeat_u, pixels.width()) * static_cast<float>(pixels.width()) - 0.5F;
+    const float y =
+        (1.0F - place_of(uv.y, texture.repeat_v, pixels.height())) * static_cast<float>(pixels.height()) - 0.5F;
     const float left = std::floor(x);
     const float top = std::floor(y);
     const float fx = x - left;
@@ -43,8 +51,10 @@ RgbaF sample_texture(const Texture& texture, const glm::vec2& uv) {
 
 float sample_texture_alpha(const Texture& texture, const glm::vec2& uv) {
     const Image<RgbaF>& pixels = texture.pixels;
-    const int x = static_cast<int>(repeat(uv.x) * static_cast<float>(pixels.width()));
-    const int y = static_cast<int>((1.0F - repeat(uv.y)) * static_cast<float>(pixels.height()));
+    const int x =
+        static_cast<int>(place_of(uv.x, texture.repeat_u, pixels.width()) * static_cast<float>(pixels.width()));
+    const int y = static_cast<int>((1.0F - place_of(uv.y, texture.repeat_v, pixels.height())) *
+                                   static_cast<float>(pixels.height()));
     return pixels(std::min(x, pixels.width() - 1), std::min(y, pixels.height() - 1)).a;
 }
 
@@ -58,6 +68,12 @@ glm::vec2 interpolate_uv(const Mesh& mesh, std::size_t triangle, float u, float 
     if (mesh.uvs.empty()) return glm::vec2(0.0F);
     const glm::uvec3& t = mesh.triangles[triangle];
     return mesh.uvs[t.x] * (1.0F - u - v) + mesh.uvs[t.y] * u + mesh.uvs[t.z] * v;
+}
+
+glm::vec3 interpolate_colour(const Mesh& mesh, std::size_t triangle, float u, float v) {
+    if (mesh.colours.empty()) return glm::vec3(1.0F);
+    const glm::uvec3& t = mesh.triangles[triangle];
+    return mesh.colours[t.x] * (1.0F - u - v) + mesh.colours[t.y] * u + mesh.colours[t.z] * v;
 }
 
 bool has_holes(const Texture& texture) {

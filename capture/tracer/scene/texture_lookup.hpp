@@ -1,5 +1,5 @@
 #pragma once
-// Reads textures at surface coordinates: bilinear, repeating in both directions.
+// Reads textures at surface coordinates: bilinear.
 
 #include "capture/tracer/scene/scene.hpp"
 
@@ -17,6 +17,9 @@ glm::vec3 mean_colour(const Texture& texture);
 // The texture coordinate at corner 0 + u (corner 1 - corner 0) + v (corner 2 - corner 0) of a triangle; (0, 0) where
 // the mesh has none.
 glm::vec2 interpolate_uv(const Mesh& mesh, std::size_t triangle, float u, float v);
+
+// The vertices' colour there; 1 where the mesh has none.
+glm::vec3 interpolate_colour(const Mesh& mesh, std::size_t triangle, float u, float v);
 
 // True where some pixel is a hole (alpha below 0.5).
 bool has_holes(const Texture& texture);

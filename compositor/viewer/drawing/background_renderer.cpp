@@ -24,7 +24,7 @@ int append_stops(const std::vector<glm::vec3>& colours, const std::vector<double
 
 Result<BackgroundRenderer> BackgroundRenderer::create(const Background& background) {
     RS_CHECK(!background.sky.empty());
-    auto program = gl::Program::create("background", shaders::kBackgroundVertex, shaders::kBackgroundFragment);
+    auto program = gl::Program::create("background", shaders::kWholeFrameVertex, shaders::kBackgroundFragment);
     if (!program) return program.error();
     BackgroundRenderer renderer(std::move(*program));
     std::vector<glm::vec4> stops;

@@ -3,9 +3,18 @@
 
 namespace rs::compositor::shaders {
 
-inline constexpr const char* kBackgroundVertex = R"(#version 450 core
+inline constexpr const char* kWholeFrameVertex = R"(#version 450 core
 void main() {
     gl_Position = vec4((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1, 0.0, 1.0);
+})";
+
+// A picture with straight alpha, pixel by pixel.
+inline constexpr const char* kPictureFragment = R"(#version 450 core
+layout(binding = 1) uniform sampler2D picture;
+out vec4 result;
+void main() {
+    vec4 texel = texelFetch(picture, ivec2(gl_FragCoord.xy), 0);
+    result = vec4(texel.rgb * texel.a, texel.a);
 })";
 
 inline constexpr const char* kBackgroundFragment = R"(#version 450 core

@@ -1,6 +1,9 @@
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 
 #include "compositor/gl/draw.hpp"
+#include "compositor/gl/texture.hpp"
+#include "compositor/viewer/drawing/background_shaders.hpp"
+#include "compositor/viewer/drawing/raster_lights.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
 #include "compositor/viewer/views/engine_views.hpp"
 #include "engine/core/views/depth_picture.hpp"
@@ -47,14 +50,18 @@ Result<FrameCompositor::Frame> FrameCompositor::Frame::create(int width, int hei
     return Frame{std::move(*drawn), std::move(*resolved)};
 }
 
-Result<FrameCompositor> FrameCompositor::create(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::shared_ptr<engine::DataModule> engine,
                                                 std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options) {
+    Scene scene = lit_scene;
+    scene.lights = raster_lights(lit_scene, options.exposure_ev);
     auto background = BackgroundRenderer::create(scene.background);
     if (!background) return background.error();
     auto surfaces = SurfaceRenderer::create(scene);
     if (!surfaces) return surfaces.error();
     auto floor = gl::Program::create("floor", shaders::kFloorVertex, shaders::kFloorFragment);
     if (!floor) return floor.error();
+    auto traced = gl::Program::create("traced picture", shaders::kWholeFrameVertex, shaders::kPictureFragment);
+    if (!traced) return traced.error();
     auto objects = ObjectRenderer::create(nodes->size(), options.object_depth);
     if (!objects) return objects.error();
     auto placeholders = PlaceholderRenderer::create();
@@ -62,8 +69,8 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& scene, std::shared_
     auto frame = Frame::create(options.width, options.height, options.samples);
     if (!frame) return frame.error();
     return FrameCompositor(scene, std::move(engine), std::move(nodes),
-                           {std::move(*floor), std::move(*objects), std::move(*placeholders), std::move(*background),
-                            std::move(*surfaces), std::move(*frame)},
+                           {std::move(*floor), std::move(*traced), std::move(*objects), std::move(*placeholders),
+                            std::move(*background), std::move(*surfaces), std::move(*frame)},
                            options);
 }
 
@@ -144,6 +151,7 @@ Status FrameCompositor::draw(const Camera& camera) {
     const auto transparent = renderers_.surfaces.draw_opaque(view, wire_frame_);
     statistics_.geometry_in_view = renderers_.surfaces.nodes_in_view();
     if (floor_) draw_floor(view);
+    if (traced_) draw_traced(camera);
     gl::flush();
     statistics_.geometry_s = clock.lap();
 
@@ -235,6 +243,16 @@ std::optional<std::size_t> FrameCompositor::object_at(int x, int y) const {
         nearest_distance = view->plane_distance;
     }
     return nearest;
+}
+
+void FrameCompositor::draw_traced(const Camera& camera) {
+    RS_CHECK(traced_->width() == width() && traced_->height() == height());
+    renderers_.background.draw(camera);
+    const gl::Texture texture(width(), height());
+    texture.upload(traced_->view());
+    texture.bind(1);
+    gl::draw(renderers_.traced, rectangle_,
+             {.depth_test = false, .depth_write = false, .blending = gl::Blending::kOverPremultiplied});
 }
 
 void FrameCompositor::draw_floor(const FrameView& view) const {

@@ -38,6 +38,7 @@ struct FrameOptions {
     int height = 720;
     int samples = 4;          // per pixel, for the edges of geometry
     bool wire_frame = false;  // of the geometry, floor excepted
+    double exposure_ev = 0;   // the scene's lights are 2^_ times as bright; objects, background, unlit surfaces stay
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples =
         kUsualSamplesAcross;  // across a pixel, at most, where objects are far (object_view.hpp); from 1
@@ -93,6 +94,10 @@ public:
     [[nodiscard]] Image<Rgba8> picture() const { return renderers_.frame.shown().read_picture(); }
     void show_in_window(int width, int height) const { renderers_.frame.shown().show_in_window(width, height); }
 
+    // From now on `picture`, of the frame's size, stands for the background and all geometry that is not blended, which
+    // give their depth only; where its alpha is below 1, the background shows. nullptr: they are drawn again.
+    void set_traced(std::shared_ptr<const Image<Rgba8>> picture) { traced_ = std::move(picture); }
+
     // Of the last draw() or compose().
     [[nodiscard]] const FrameStatistics& statistics() const { return statistics_; }
     // Which ray-space node is seen at a pixel of the last frame.
@@ -119,6 +124,7 @@ private:
     };
     struct Renderers {
         gl::Program floor;
+        gl::Program traced;
         ObjectRenderer objects;
         PlaceholderRenderer placeholders;
         BackgroundRenderer background;
@@ -135,6 +141,7 @@ private:
     };
     [[nodiscard]] std::optional<ObjectView> view_of_node(std::size_t index, const Camera& camera) const;
     [[nodiscard]] std::vector<SeenNode> seen_nodes(const Camera& camera) const;
+    void draw_traced(const Camera& camera);
     void draw_floor(const FrameView& view) const;
     void upload(const SeenNode& node);
     void draw_object(const SeenNode& node) const;
@@ -156,6 +163,7 @@ private:
     ObjectDepth object_depth_;
     int object_samples_;
     bool upright_pictures_;
+    std::shared_ptr<const Image<Rgba8>> traced_;
     gl::VertexArray rectangle_;
     FrameStatistics statistics_;
 };

@@ -35,7 +35,7 @@ void main() {
 inline constexpr const char* kSurfaceFragment = R"(
 const int kLights = kDirectional + kPoints + kSpots;
 // Five for each light, directional ones first, then points, then spots:
-// colour; ambient, radius; location, cut-off angle; towards, beam width; attenuation
+// colour; ambient, radius; location, cut-off angle; towards, beam width; attenuation, the least of it
 uniform vec4 lights[5 * max(kLights, 1)];
 // diffuse, opacity; specular, exponent; emissive, ambient; ambient light of directional lights
 uniform vec4 material[4];
@@ -72,7 +72,7 @@ vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, v
         to_light = d > 0.0 ? way / d : n;
         // Selected, not returned from: branches cost more than what they save.
         strength = d > lights[first + 1].w ? 0.0 : 1.0;
-        if (kFading) strength /= max(dot(lights[first + 4].xyz, vec3(1.0, d, d * d)), 1.0);
+        if (kFading) strength /= max(dot(lights[first + 4].xyz, vec3(1.0, d, d * d)), lights[first + 4].w);
         if (is_spot) {
             float cut_off = lights[first + 2].w;
             float beam = lights[first + 3].w;

@@ -53,20 +53,7 @@ LightRow row_of(const Light& light) {
             {light.ambient, static_cast<float>(light.radius)},
             {glm::vec3(light.location), static_cast<float>(light.cut_off_rad)},
             {glm::vec3(light.towards), static_cast<float>(light.beam_width_rad)},
-            {light.attenuation, 0}};
-}
-
-AlphaUse alpha_use(const SceneTexture& texture) {
-    if (!texture.has_alpha) return AlphaUse::kNone;
-    std::size_t between = 0;
-    std::size_t not_opaque = 0;
-    const std::span<const Rgba8> pixels = texture.picture.pixels();
-    for (const Rgba8& pixel : pixels) {
-        between += pixel.a > 16 && pixel.a < 239;
-        not_opaque += pixel.a < 239;
-    }
-    if (not_opaque == 0) return AlphaUse::kNone;
-    return between * 20 > pixels.size() ? AlphaUse::kBlend : AlphaUse::kMask;
+            {light.attenuation, light.least_attenuation}};
 }
 
 MaterialRow row_of(const Material& material) {

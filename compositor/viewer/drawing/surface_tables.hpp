@@ -20,10 +20,6 @@ struct LightRow {
 };
 LightRow row_of(const Light& light);
 
-enum class AlphaUse { kNone = 0, kMask = 1, kBlend = 2 };
-// A picture whose alpha is nearly everywhere 0 or 255 cuts holes, with sharp edges and no order of drawing.
-AlphaUse alpha_use(const SceneTexture& texture);
-
 struct MaterialRow {
     glm::vec4 diffuse_opacity;
     glm::vec4 specular_exponent;

@@ -1,0 +1,39 @@
+#pragma once
+// A list of lights beside a scene, so that they can be exported and changed by themselves:
+//
+//     { "replace": true,                           the scene's own lights go (false)
+//       "lights": [
+//         { "kind": "luminaire", "file": "downlight.ies", "location": [0, 2.4, 0], "aim": [0, -1, 0], "turn_deg": 0 },
+//         { "kind": "rectangle", "location": [0, 2.4, 0], "aim": [0, -1, 0], "size": [1.2, 0.3], "lumens": 3000 },
+//         { "kind": "disc", "location": [0, 2, 1], "aim": [0, -1, 0], "size": 0.4, "radiance": [5, 5, 5] },
+//         { "kind": "point", "location": [0, 1, 0], "candela": 40 },
+//         { "kind": "spot", "location": [0, 2, 0], "aim": [0, -1, 0], "candela": 300, "beam_deg": 20, "cut_off_deg": 30
+//         }, { "kind": "directional", "aim": [-1, -2, 0], "lux": 20000 } ] }
+//
+// Each may have a "name" and a "colour" [r, g, b], a factor in linear light (1, 1, 1). Photometric numbers are divided
+// by kLumensPerWatt. "beam_deg" and "cut_off_deg" are full angles. "turn_deg" turns a luminaire about its aim,
+// counter-clockwise as seen looking along -aim; at 0 its plane C0 lies where +X is best seen, or +Z where it is aimed
+// along X. Files are named from the list's folder. Lengths are the scene's; luminaires and candela take them for
+// metres.
+
+#include "rayspace/base/result.hpp"
+#include "rayspace/light/light.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rs::compositor {
+
+struct LightList {
+    bool replace = false;
+    std::vector<Light> lights;
+};
+
+// Errors name file, key and remedy. Thread-safe.
+Result<LightList> read_light_list(const std::filesystem::path& path);
+
+// The part that needs no file but those that are named in it.
+Result<LightList> light_list_from_json(const std::string& text, const std::filesystem::path& path);
+
+}  // namespace rs::compositor

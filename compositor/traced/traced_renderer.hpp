@@ -1,0 +1,59 @@
+#pragma once
+// Draws a scene's geometry by light that is traced, a sample of each pixel at a time. What it leaves out (objects,
+// blended surfaces, background) the frame's compositor draws over and under it.
+//
+//     Scene -> traced_room -> Tracer -> passes -> mean -> exposure -> 8-bit sRGB, alpha where nothing was met
+//
+// The same camera and number of passes give the same bytes, however the passes are grouped and on however many threads.
+
+#include "capture/tracer/integrator/tracer.hpp"
+#include "compositor/scene/scene.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/camera.hpp"
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+namespace rs::compositor {
+
+struct TracedOptions {
+    double exposure_ev = 0;  // pictures are 2^_ times as bright
+    int max_bounces = 16;
+};
+
+// Move-only; one thread, but for `stop`.
+class TracedRenderer {
+public:
+    // Refuses scenes that the tracer cannot take (vertices that are not finite).
+    static Result<TracedRenderer> create(const Scene& scene, const TracedOptions& options);
+
+    // Begins a picture anew.
+    void look(const Camera& camera);
+    // One more sample of each pixel. False, with nothing changed, where `stop` became true before it was there.
+    bool add_pass(Progress* progress = nullptr, const std::atomic<bool>* stop = nullptr);
+    [[nodiscard]] std::int64_t steps_of_pass() const { return capture::Tracer::step_count(camera_); }
+    [[nodiscard]] int passes() const { return sum_.samples; }
+
+    // Linear light without exposure, straight alpha. There must have been a pass.
+    [[nodiscard]] Image<RgbaF> radiance() const { return sum_.mean(); }
+    // What a screen shows of it.
+    [[nodiscard]] Image<Rgba8> picture() const;
+
+    // What could not be taken along, for people.
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+private:
+    TracedRenderer(capture::Tracer tracer, const TracedOptions& options)
+        : tracer_(std::move(tracer)), options_(options) {}
+
+    capture::Tracer tracer_;
+    TracedOptions options_;
+    bool headlight_ = false;
+    std::vector<Light> lights_;  // without the headlight
+    std::vector<std::string> warnings_;
+    Camera camera_;
+    capture::Accumulation sum_;
+};
+
+}  // namespace rs::compositor
