@@ -112,6 +112,8 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
     VisitOptions options;
     options.wire_frame = arguments.wire_frame;
     options.samples = arguments.samples;
+    options.exposure_ev = arguments.exposure_ev;
+    options.traced = arguments.renderer != "raster";
     options.executor = executor;
     options.object_depth = asked_depth(arguments);
     options.object_samples = arguments.object_samples;
@@ -287,9 +289,11 @@ int main(int argc, char** argv) {
         ->type_name("NAME");
     app.add_option("--path", arguments.path, "walk along the camera path of a JSON scene file, in place of the scene's")
         ->type_name("FILE.json");
-    app.add_option("--renderer", arguments.renderer,
-                   "of the geometry, with -o: raster (OpenGL), or path: light traced, with shadows, areas, luminaires "
-                   "and what walls reflect. Objects and blended surfaces are put into the traced picture by depth")
+    app.add_option(
+           "--renderer", arguments.renderer,
+           "of the geometry: raster (OpenGL), or path: light traced, with shadows, areas, luminaires and what walls "
+           "reflect; in a window T changes between them. Objects and blended surfaces are put into the traced "
+           "picture by depth")
         ->type_name("raster|path")
         ->check(CLI::IsMember({"raster", "path"}))
         ->capture_default_str();
@@ -361,9 +365,6 @@ int main(int argc, char** argv) {
         }
         if (arguments.streaming && arguments.output.empty()) {
             throw CLI::ValidationError("--streaming is for -o; in a window objects always come while you walk");
-        }
-        if (arguments.renderer != "raster" && arguments.output.empty()) {
-            throw CLI::ValidationError("--renderer " + arguments.renderer + " needs -o; a window draws by raster");
         }
         if (headless && arguments.output.empty()) {
             throw CLI::ValidationError("--headless needs -o: the picture, video or folder to write");

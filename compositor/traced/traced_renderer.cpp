@@ -26,13 +26,17 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const TracedOp
     return renderer;
 }
 
-void TracedRenderer::look(const Camera& camera) {
-    camera_ = camera;
-    sum_ = {};
+void TracedRenderer::carry_headlight(const Camera& camera) {
     if (!headlight_) return;
     std::vector<Light> lights = lights_;
     lights.push_back(headlight_of(camera.forward()));
     tracer_.set_lights(std::move(lights));
+}
+
+void TracedRenderer::look(const Camera& camera) {
+    camera_ = camera;
+    sum_ = {};
+    carry_headlight(camera);
 }
 
 bool TracedRenderer::add_pass(Progress* progress, const std::atomic<bool>* stop) {
@@ -41,15 +45,40 @@ bool TracedRenderer::add_pass(Progress* progress, const std::atomic<bool>* stop)
     return tracer_.accumulate(camera_, options, 1, sum_, progress, stop);
 }
 
+std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera, int side,
+                                                           const std::atomic<bool>* stop) {
+    carry_headlight(camera);
+    Camera coarse = camera;
+    coarse.width = (camera.width + side - 1) / side;
+    coarse.height = (camera.height + side - 1) / side;
+    coarse.fl_x /= side;
+    coarse.fl_y /= side;
+    coarse.cx /= side;
+    coarse.cy /= side;
+    capture::RenderOptions options;
+    options.max_bounces = options_.max_bounces;
+    capture::Accumulation sum;
+    if (!tracer_.accumulate(coarse, options, 1, sum, nullptr, stop)) return std::nullopt;
+    const Image<Rgba8> small = shown(sum.mean());
+    Image<Rgba8> picture(camera.width, camera.height);
+    for (int y = 0; y < camera.height; ++y) {
+        for (int x = 0; x < camera.width; ++x) picture(x, y) = small(x / side, y / side);
+    }
+    return picture;
+}
+
 Image<Rgba8> TracedRenderer::picture() const {
-    Image<RgbaF> mean = sum_.mean();
+    return shown(sum_.mean());
+}
+
+Image<Rgba8> TracedRenderer::shown(Image<RgbaF> radiance) const {
     const auto brighter = static_cast<float>(std::exp2(options_.exposure_ev));
-    for (RgbaF& pixel : mean.pixels()) {
+    for (RgbaF& pixel : radiance.pixels()) {
         pixel.r *= brighter;
         pixel.g *= brighter;
         pixel.b *= brighter;
     }
-    return capture::to_srgb8(mean);
+    return capture::to_srgb8(radiance);
 }
 
 }  // namespace rs::compositor

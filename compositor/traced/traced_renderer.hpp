@@ -12,6 +12,7 @@
 #include "rayspace/geometry/camera.hpp"
 
 #include <atomic>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ public:
     [[nodiscard]] std::int64_t steps_of_pass() const { return capture::Tracer::step_count(camera_); }
     [[nodiscard]] int passes() const { return sum_.samples; }
 
+    // The camera's picture with one sample for each side x side pixels, without which look() goes on. Nothing where
+    // `stop` became true.
+    std::optional<Image<Rgba8>> coarse_picture(const Camera& camera, int side, const std::atomic<bool>* stop = nullptr);
+
     // Linear light without exposure, straight alpha. There must have been a pass.
     [[nodiscard]] Image<RgbaF> radiance() const { return sum_.mean(); }
     // What a screen shows of it.
@@ -46,6 +51,9 @@ public:
 private:
     TracedRenderer(capture::Tracer tracer, const TracedOptions& options)
         : tracer_(std::move(tracer)), options_(options) {}
+
+    void carry_headlight(const Camera& camera);
+    [[nodiscard]] Image<Rgba8> shown(Image<RgbaF> radiance) const;
 
     capture::Tracer tracer_;
     TracedOptions options_;

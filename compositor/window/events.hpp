@@ -27,6 +27,7 @@ enum class Key {
     kHelp,               // F1, H
     kPanel,              // tab
     kWireFrame,          // F
+    kTrace,              // T
     kScreenshot,         // P
     kRecord,             // R
     kQuit,               // escape

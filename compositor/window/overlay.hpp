@@ -23,6 +23,8 @@ struct PanelState {
     bool show_panel = true;
     bool show_help = false;
     bool wire_frame = false;
+    bool traced = false;  // the view stands still and refines
+    int passes = 0;       // of it
     bool recording = false;
     NavigationMode mode = NavigationMode::kWalk;
     double speed = 1;  // scene units a second

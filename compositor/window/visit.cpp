@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <thread>
+#include <utility>
 
 namespace rs::compositor {
 namespace {
 
 constexpr double kTravelSeconds = 1;
 constexpr double kNewsSeconds = 3;
+constexpr std::chrono::milliseconds kPauseWhileTracing(10);
 constexpr std::size_t kFramesCounted = 31;
 constexpr double kRecordedFrames_per_s = 30;
 
@@ -31,6 +34,9 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
       compositor_(std::move(compositor)),
       overlay_(std::make_unique<Overlay>(window_)),
       options_(options),
+      make_tracer_([scene, exposure_ev = options.exposure_ev] {
+          return TracedRenderer::create(scene, {.exposure_ev = exposure_ev});
+      }),
       last_(std::chrono::steady_clock::now()) {
     navigation_.speed = scene.navigation.speed;
     if (const BoundingBox bounds = bounds_of(scene); !bounds.empty()) middle_ = bounds.middle();
@@ -42,6 +48,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
     panel_.mode = mode_of(scene.navigation);
     panel_.speed = navigation_.speed;
     panel_.wire_frame = options.wire_frame;
+    panel_.traced = options.traced;
     panel_.executor = options.executor;
     panel_.device = window_.context().device_name();
     tell("press H for help");
@@ -59,6 +66,7 @@ Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, 
                                                                  {.width = size.x,
                                                                   .height = size.y,
                                                                   .samples = options.samples,
+                                                                  .exposure_ev = options.exposure_ev,
                                                                   .object_depth = options.object_depth,
                                                                   .object_samples = options.object_samples,
                                                                   .upright_pictures = true});
@@ -128,6 +136,9 @@ Status Visit::obey(Key command) {
         case Key::kWireFrame:
             panel_.wire_frame = !panel_.wire_frame;
             break;
+        case Key::kTrace:
+            panel_.traced = !panel_.traced;
+            break;
         case Key::kScreenshot:
             panel_.take_screenshot = true;
             break;
@@ -141,6 +152,35 @@ Status Visit::obey(Key command) {
             break;
     }
     return {};
+}
+
+bool Visit::refine(const Camera& here) {
+    if (!panel_.traced) {
+        if (refined_) refinement_->end();
+        const bool was_traced = std::exchange(refined_, std::nullopt).has_value();
+        if (was_traced) compositor_.set_traced(nullptr);
+        return true;
+    }
+    if (!refinement_) refinement_.emplace(make_tracer_);
+    if (const std::optional<Error> failed = refinement_->failure()) {
+        panel_.traced = false;
+        refined_.reset();
+        tell(failed->message);
+        return true;
+    }
+    const bool elsewhere = !refined_ || refined_->width != here.width || refined_->height != here.height;
+    if (elsewhere) {
+        refined_ = here;
+        compositor_.set_traced(nullptr);
+        refinement_->begin(here);
+        panel_.passes = 0;
+        return true;
+    }
+    const std::optional<Refinement::Step> step = refinement_->take();
+    if (!step) return false;
+    panel_.passes = step->passes;
+    compositor_.set_traced(step->picture);
+    return true;
 }
 
 Status Visit::take_pictures() {
@@ -206,6 +246,27 @@ void Visit::hear_showroom() {
     tell(warnings.back());
 }
 
+// True where an object was turned.
+bool Visit::move(double seconds) {
+    navigation_.speed = panel_.speed;
+    const NavigationInput movement = input_.movement(seconds);
+    if (panel_.traced) {
+        travel_.reset();
+    } else if (travel_) {
+        travel_->t += seconds / kTravelSeconds;
+        visitor_ = between(travel_->from, travel_->to, travel_->t);
+        if (travel_->t >= 1) travel_.reset();
+    } else {
+        visitor_ = moved(visitor_, panel_.mode, movement, navigation_);
+    }
+    if (panel_.picked < 0) return false;
+    const auto picked = static_cast<std::size_t>(panel_.picked);
+    const bool turned = turns_rad_[picked] != panel_.turn_rad;
+    turns_rad_[picked] = panel_.turn_rad;
+    compositor_.turn_object(picked, panel_.turn_rad);
+    return turned;
+}
+
 Result<bool> Visit::step(std::optional<double> seconds) {
     const auto now = std::chrono::steady_clock::now();
     const double passed = seconds.value_or(std::chrono::duration<double>(now - last_).count());
@@ -228,25 +289,19 @@ Result<bool> Visit::step(std::optional<double> seconds) {
         if (video_) panel_.recording = false;  // a video has one size
     }
 
-    navigation_.speed = panel_.speed;
-    const NavigationInput movement = input_.movement(passed);
-    if (travel_) {
-        travel_->t += passed / kTravelSeconds;
-        visitor_ = between(travel_->from, travel_->to, travel_->t);
-        if (travel_->t >= 1) travel_.reset();
-    } else {
-        visitor_ = moved(visitor_, panel_.mode, movement, navigation_);
-    }
+    const bool turned = move(passed);
     compositor_.set_wire_frame(panel_.wire_frame);
-    if (panel_.picked >= 0) {
-        const auto picked = static_cast<std::size_t>(panel_.picked);
-        turns_rad_[picked] = panel_.turn_rad;
-        compositor_.turn_object(picked, panel_.turn_rad);
-    }
     const std::optional<glm::dvec3> destination = travel_ ? std::optional(travel_->to.eye) : std::nullopt;
     if (Status status = showroom_->update(visitor_.eye, passed, destination); !status) return status.error();
     hear_showroom();
-    if (Status status = compositor_.draw(camera()); !status) return status.error();
+    const Camera here = camera();
+    // A view that stands still is drawn again when it is better, or something in it may have changed.
+    const bool changed = refine(here) || turned || !showroom_->settled();
+    if (changed) {
+        if (Status status = compositor_.draw(here); !status) return status.error();
+    } else {
+        std::this_thread::sleep_for(kPauseWhileTracing);
+    }
     if (const auto click = input_.click()) pick(*click);
     if (Status status = take_pictures(); !status) return status.error();
     if (Status status = record(); !status) return status.error();

@@ -4,6 +4,7 @@
 // For the main thread only. The scene is read before; objects come while the visit goes on.
 
 #include "compositor/scene/scene.hpp"
+#include "compositor/traced/refinement.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/viewer/views/navigation.hpp"
@@ -30,6 +31,8 @@ struct VisitOptions {
     bool wire_frame = false;
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = FrameOptions{}.object_samples;
+    double exposure_ev = 0;
+    bool traced = false;                                        // from the beginning
     std::string executor = "software core";                     // of the engine, for the panel
     std::function<void(const std::vector<std::string>&)> warn;  // of objects that cannot be shown; may be empty
 };
@@ -57,7 +60,10 @@ private:
     Status obey(Key command);
     void go_to_viewpoint(std::size_t number);
     void begin_travel(const Visitor& to);
+    bool move(double seconds);
     void pick(const glm::dvec2& at_px);
+    // Whether there is a new picture to show.
+    bool refine(const Camera& here);
     Status take_pictures();
     Status record();
     void refresh_panel(double seconds);
@@ -85,6 +91,9 @@ private:
     std::size_t viewpoint_ = 0;
     std::vector<double> turns_rad_;  // [object]
     std::vector<double> frame_seconds_;
+    std::optional<Refinement> refinement_;
+    std::optional<Camera> refined_;  // what is traced now
+    std::function<Result<TracedRenderer>()> make_tracer_;
     std::optional<VideoWriter> video_;
     int shots_ = 0;
     double news_seconds_ = 0;

@@ -23,7 +23,7 @@ std::string name_of_file(int room, int number) {
     return std::to_string(room) + "-" + std::to_string(number);
 }
 
-std::int64_t room_for(int objects) {
+std::int64_t bytes_for(int objects) {
     return objects * SlowSource::object_bytes() + SlowSource::reading_bytes();
 }
 
@@ -85,7 +85,7 @@ protected:
 };
 
 TEST_F(Walk, ABudgetOfTwoRoomsHasEveryRoomReadBeforeItIsEntered) {
-    const std::int64_t budget = room_for(2 * test::kObjectsInRoom);
+    const std::int64_t budget = bytes_for(2 * test::kObjectsInRoom);
     make(budget);
     double seen_from = 0;
     std::size_t room = 0;
@@ -114,7 +114,7 @@ TEST_F(Walk, ABudgetOfTwoRoomsHasEveryRoomReadBeforeItIsEntered) {
 }
 
 TEST_F(Walk, StandingInADoorTheRoomsDoNotTakeTurns) {
-    make(room_for(test::kObjectsInRoom));
+    make(bytes_for(test::kObjectsInRoom));
     stay(-test::kRoomSide + 0.1);
     const int loads = showroom_->statistics().loads;
     for (int n = 0; n < 40; ++n) stay(-test::kRoomSide + (n % 2 == 0 ? 0.1 : -0.1));
@@ -127,7 +127,7 @@ TEST_F(Walk, StandingInADoorTheRoomsDoNotTakeTurns) {
 TEST_F(Walk, APlaceholderFadesIntoItsObject) {
     test::SlowSourceOptions options;
     options.reading = std::chrono::milliseconds(20);
-    make(room_for(48), options);
+    make(bytes_for(48), options);
     step(-1);
     const ShownNode& node = (*showroom_->nodes())[0];
     EXPECT_FALSE(node.object);
@@ -153,7 +153,7 @@ TEST_F(Walk, APlaceholderFadesIntoItsObject) {
 TEST_F(Walk, WhatCannotBeReadIsLeftOut) {
     test::SlowSourceOptions options;
     options.broken = {name_of_file(0, 3)};
-    make(room_for(48), options);
+    make(bytes_for(48), options);
     stay(-1);
     step(-1, 1);
     EXPECT_THAT(showroom_->take_warnings(), ElementsAre("0-3: is broken; shown without this object"));
@@ -172,7 +172,7 @@ TEST_F(Walk, ARequiredObjectThatCannotBeReadIsAnError) {
     scene.objects.push_back(node);
     test::SlowSourceOptions options;
     options.gone = {"gone"};
-    Showroom showroom(scene, {.memory_bytes = room_for(1), .waits = true}, nullptr,
+    Showroom showroom(scene, {.memory_bytes = bytes_for(1), .waits = true}, nullptr,
                       std::make_unique<SlowSource>(log_, options));
     const Status status = showroom.update({0, 0, 0}, 0);
     ASSERT_FALSE(status);
@@ -182,7 +182,7 @@ TEST_F(Walk, ARequiredObjectThatCannotBeReadIsAnError) {
 TEST_F(Walk, WaitingFramesAreComplete) {
     test::SlowSourceOptions options;
     options.reading = std::chrono::milliseconds(1);
-    make(room_for(2 * test::kObjectsInRoom), options, true);
+    make(bytes_for(2 * test::kObjectsInRoom), options, true);
     for (double z = -1; z > -test::kRooms * test::kRoomSide; z -= 2) {
         step(z);
         EXPECT_THAT(there(*showroom_, test::room_at(z)), Each(true)) << z;

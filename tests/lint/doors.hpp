@@ -113,8 +113,8 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"compositor/viewer",
      {"rayspace/*", "compositor/scene", "compositor/viewer/residency", "compositor/viewer/drawing", "engine/driver"}},
     {"compositor/window",
-     {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/viewer", "compositor/viewer/views",
-      "compositor/viewer/drawing"}},
+     {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/traced", "compositor/viewer",
+      "compositor/viewer/views", "compositor/viewer/drawing"}},
     {"compositor/tools", {"rayspace/*", "compositor/*", "engine/core/definition", "engine/executors"}},
 };
 

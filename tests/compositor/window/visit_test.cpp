@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 
 namespace rs::compositor {
@@ -147,6 +148,25 @@ TEST_F(VisitInWindow, PicturesAreTakenHome) {
     press(Key::kRecord);
     ASSERT_TRUE(step());
     EXPECT_TRUE(std::filesystem::exists(work_ / "recording-1.mp4"));
+}
+
+TEST_F(VisitInWindow, TTracesTheLightAndHoldsTheViewStill) {
+    const int red_before = red_pixels();
+    const Image<Rgba8> raster = visit_->picture();
+    press(Key::kTrace);
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (visit_->panel().passes < 2 && std::chrono::steady_clock::now() < patience) ASSERT_TRUE(step(0.001));
+    ASSERT_GE(visit_->panel().passes, 2);
+    EXPECT_NE(visit_->picture(), raster);          // the wall is lit by other means,
+    EXPECT_NEAR(red_pixels(), red_before, 20);     // the drum stands before it as it did,
+    const glm::dvec3 eye = visit_->visitor().eye;  // and nobody moves.
+    visit_->window().inject(KeyEvent{Key::kForward, true});
+    ASSERT_TRUE(step(1));
+    EXPECT_EQ(visit_->visitor().eye, eye);
+    visit_->window().inject(KeyEvent{Key::kForward, false});
+    press(Key::kTrace);
+    ASSERT_TRUE(step(0.001));
+    EXPECT_EQ(visit_->picture(), raster);
 }
 
 TEST_F(VisitInWindow, SwitchesSwitchAndEscapeLeaves) {

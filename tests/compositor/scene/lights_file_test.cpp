@@ -1,0 +1,110 @@
+// Lists of lights beside a scene.
+
+#include "compositor/scene/lights_file.hpp"
+
+#include "rayspace/file/file_output.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rs::compositor {
+namespace {
+
+Light only(const std::string& light, const std::filesystem::path& file = "lights.json") {
+    const auto list = light_list_from_json("{\"lights\": [" + light + "]}", file);
+    EXPECT_TRUE(list) << (list ? "" : list.error().message);
+    return list && list->lights.size() == 1 ? list->lights[0] : Light{};
+}
+
+TEST(LightList, PunctualLightsGiveWhatTheirNumbersSay) {
+    const Light sun = only(R"({"kind": "directional", "aim": [0, -3, 0], "lux": 17900, "colour": [1, 0.5, 0]})");
+    EXPECT_NEAR(irradiance_at(sun, {}).r, 100, 1e-3);
+    EXPECT_NEAR(irradiance_at(sun, {}).g, 50, 1e-3);
+    const Light bulb = only(R"({"kind": "point", "location": [0, 2, 0], "candela": 179, "name": "bulb"})");
+    EXPECT_EQ(bulb.name, "bulb");
+    EXPECT_NEAR(irradiance_at(bulb, {0, 0, 0}).r, 0.25, 1e-6);
+    EXPECT_NEAR(irradiance_at(bulb, {0, 1.9, 0}).r, 100, 1e-3);  // near, too
+    const Light spot = only(
+        R"({"kind": "spot", "location": [0, 2, 0], "aim": [0, -1, 0], "candela": 179, "beam_deg": 20, "cut_off_deg": 40})");
+    EXPECT_NEAR(irradiance_at(spot, {2 * std::tan(radians(9.9)), 0, 0}).r, 0.25 * std::pow(std::cos(radians(9.9)), 2),
+                1e-5);
+    EXPECT_NEAR(irradiance_at(spot, {2 * std::tan(radians(15)), 0, 0}).r, 0.125 * std::pow(std::cos(radians(15)), 2),
+                1e-5);
+    EXPECT_EQ(irradiance_at(spot, {2 * std::tan(radians(20.1)), 0, 0}).r, 0);
+}
+
+TEST(LightList, AreasShineToTheirAimWithTheirLumens) {
+    for (const char* aim : {"[0, -1, 0]", "[1, 0, 0]", "[0.3, 0.2, -0.7]"}) {
+        const Light panel = only(std::string(R"({"kind": "rectangle", "location": [0, 2, 0], "size": [1.2, 0.3], )") +
+                                 R"("lumens": 3580, "turn_deg": 30, "aim": )" + aim + "}");
+        EXPECT_NEAR(area_of(panel), 0.36, 1e-9);
+        EXPECT_NEAR(panel.colour.r * kPi * 0.36, 20, 1e-4);
+        const Light spot = punctual_of(panel);
+        glm::dvec3 towards(0, -1, 0);
+        if (aim[1] == '1') towards = {1, 0, 0};
+        if (aim[1] == '0' && aim[2] == '.') towards = glm::normalize(glm::dvec3(0.3, 0.2, -0.7));
+        EXPECT_LT(glm::distance(glm::normalize(glm::cross(panel.half_u, panel.half_v)), towards), 1e-9) << aim;
+        EXPECT_LT(glm::distance(spot.towards, towards), 1e-9);
+        // Far away the panel is a point on its axis.
+        EXPECT_NEAR(irradiance_at(spot, panel.location + 10.0 * towards).r, 20 / kPi / 100, 1e-5);
+    }
+    EXPECT_NEAR(
+        area_of(only(R"({"kind": "disc", "location": [0, 0, 0], "aim": [0, 1, 0], "size": 2, "radiance": [1, 1, 1]})")),
+        kPi, 1e-9);
+}
+
+TEST(LightList, LuminairesAreTurnedAboutTheirAim) {
+    const test::TemporaryFolder scratch;
+    // 179 cd down; in plane 0 100, in plane 90 200, at 45 degrees.
+    ASSERT_TRUE(write_file(scratch / "lamp.ies",
+                           "TILT=NONE\n1 -1 1 3 2 1 2 0 0 0 1 1 9\n0 45 90\n0 90\n179 100 0\n179 200 0\n"));
+    const std::string head = R"({"kind": "luminaire", "file": "lamp.ies", "location": [0, 1, 0])";
+    const auto list = scratch / "lights.json";
+    const Light down = only(head + "}", list);
+    EXPECT_NEAR(irradiance_at(down, {0, 0, 0}).r, 1, 1e-6);
+    EXPECT_NEAR(irradiance_at(down, {1, 0, 0}).r, 100 / 179.0 / 2, 1e-6);
+    EXPECT_NEAR(irradiance_at(down, {0, 0, -1}).r, 200 / 179.0 / 2, 1e-6);
+    const Light turned = only(head + R"(, "turn_deg": 90})", list);
+    EXPECT_NEAR(irradiance_at(turned, {0, 0, -1}).r, 100 / 179.0 / 2, 1e-6);
+    EXPECT_NEAR(irradiance_at(turned, {1, 0, 0}).r, 200 / 179.0 / 2, 1e-6);
+    const Light aside = only(head + R"(, "aim": [1, 0, 0]})", list);
+    EXPECT_NEAR(irradiance_at(aside, {1, 1, 0}).r, 1, 1e-6);
+    EXPECT_EQ(irradiance_at(aside, {-2, 1, 0}).r, 0);
+    EXPECT_NEAR(glm::determinant(aside.world_from_luminaire), 1, 1e-12);
+    // The spot of it is as bright straight ahead, and reaches no farther back.
+    const Light spot = punctual_of(down);
+    EXPECT_LT(glm::distance(spot.towards, glm::dvec3(0, -1, 0)), 1e-12);
+    EXPECT_NEAR(irradiance_at(spot, {0, 0, 0}).r, 200 / 179.0, 1e-5);  // its peak's
+    EXPECT_EQ(irradiance_at(spot, {0, 2, 0}).r, 0);
+}
+
+TEST(LightList, ErrorsNameFileKeyAndRemedy) {
+    const auto message = [](const std::string& lights) {
+        const auto list = light_list_from_json("{\"lights\": [" + lights + "]}", "a.json");
+        return list ? std::string("read") : list.error().message;
+    };
+    EXPECT_EQ(message(R"({"kind": "candle"})"),
+              "a.json: lights[0].kind: must be directional, point, spot, rectangle, disc or luminaire");
+    EXPECT_NE(message(R"({"kind": "point", "location": [0, 0, 0]})").find("lights[0]: candela is missing"),
+              std::string::npos);
+    EXPECT_NE(
+        message(R"({"kind": "directional", "aim": [0, 0, 0], "lux": 1})").find("lights[0].aim: must be a direction"),
+        std::string::npos);
+    EXPECT_NE(message(R"({"kind": "point", "location": [0, 0, 0], "candela": 1, "size": 2})")
+                  .find("'size' that means nothing here"),
+              std::string::npos);
+    EXPECT_NE(message(R"({"kind": "luminaire", "location": [0, 0, 0], "file": "none.ies"})")
+                  .find("lights[0].file: none.ies: cannot be opened"),
+              std::string::npos);
+    EXPECT_NE(
+        message(
+            R"({"kind": "spot", "location": [0,0,0], "aim": [0,1,0], "candela": 1, "beam_deg": 9, "cut_off_deg": 5})")
+            .find("must not be below beam_deg"),
+        std::string::npos);
+    EXPECT_EQ(message(""), "read");
+}
+
+}  // namespace
+}  // namespace rs::compositor

@@ -1,0 +1,220 @@
+// Rooms by traced light, against formulas and against themselves.
+
+#include "compositor/traced/refinement.hpp"
+#include "compositor/traced/traced_room.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace rs::compositor {
+namespace {
+
+GeometryNode box_node(const glm::dvec3& size, const glm::dvec3& at, const glm::vec3& diffuse) {
+    GeometryNode node;
+    node.mesh = std::make_shared<const Mesh>(box_mesh(size));
+    node.material.diffuse = diffuse;
+    node.world_from_node[3] = glm::dvec4(at, 1);
+    return node;
+}
+
+// A white floor, a red block on it, a lamp above.
+Scene small_room() {
+    Scene scene;
+    scene.lights = {point_light({1, 3, 1}, glm::vec3(9))};
+    scene.geometry = {box_node({20, 0.2, 20}, {0, -0.1, 0}, glm::vec3(0.6F)),
+                      box_node({1, 1, 1}, {0, 0.5, 0}, {0.7F, 0.1F, 0.1F})};
+    return scene;
+}
+
+Camera looking_from(const glm::dvec3& eye, const glm::dvec3& at, int side) {
+    const glm::dvec3 back = glm::normalize(eye - at);
+    const glm::dvec3 right =
+        glm::normalize(glm::cross(std::abs(back.y) > 0.99 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0), back));
+    Camera camera;
+    camera.width = camera.height = side;
+    camera.fl_x = camera.fl_y = side;
+    camera.cx = camera.cy = side / 2.0;
+    camera.world_from_camera = glm::dmat4(glm::dvec4(right, 0), glm::dvec4(glm::cross(back, right), 0),
+                                          glm::dvec4(back, 0), glm::dvec4(eye, 1));
+    return camera;
+}
+
+Result<TracedRenderer> renderer_of(const Scene& scene, double exposure_ev = 0) {
+    return TracedRenderer::create(scene, {.exposure_ev = exposure_ev});
+}
+
+TEST(TracedRoom, LightsShineAsTheRasterFormulaHasThem) {
+    // A white matte surface shows colour * attenuation * cos of each punctual light, and what walls reflect besides:
+    // here a single wall, which reflects nothing onto itself.
+    Scene scene;
+    scene.geometry = {box_node({40, 0.2, 40}, {0, -0.1, 0}, glm::vec3(0.5F))};
+    Light vrml;  // as VRML97 has it
+    vrml.kind = LightKind::kPoint;
+    vrml.location = {0, 2, 0};
+    vrml.colour = {0.8F, 0.4F, 0.2F};
+    vrml.attenuation = {0, 0.5F, 0.25F};
+    for (const double out : {0.0, 1.0, 3.0}) {
+        scene.lights = {vrml};
+        auto renderer = renderer_of(scene);
+        ASSERT_TRUE(renderer) << renderer.error().message;
+        renderer->look(looking_from({out, 1, 0}, {out, 0, 0}, 3));
+        for (int pass = 0; pass < 4; ++pass) ASSERT_TRUE(renderer->add_pass());
+        const double d = std::sqrt(4 + out * out);
+        const double expected = 0.5 / std::max(0.5 * d + 0.25 * d * d, 1.0) * 2 / d;
+        const RgbaF shown = renderer->radiance()(1, 1);
+        EXPECT_NEAR(shown.r, 0.8 * expected, 0.03 * expected);
+        EXPECT_NEAR(shown.b, 0.2 * expected, 0.03 * expected);
+    }
+}
+
+TEST(TracedRoom, TakesWhatItCanAndCountsTheRest) {
+    Scene scene = small_room();
+    scene.geometry[1].material.opacity = 0.5F;
+    scene.geometry.push_back(scene.geometry[0]);
+    auto lines = std::make_shared<Mesh>(*scene.geometry[0].mesh);
+    lines->topology = Topology::kLines;
+    scene.geometry[2].mesh = lines;
+    scene.lights.push_back(scene.lights[0]);
+    scene.lights.back().everywhere = false;
+    scene.floor = Floor{};
+    const TracedRoom room = traced_room(scene);
+    EXPECT_EQ(room.left_to_raster, 2);
+    EXPECT_EQ(room.without_own_lights, 1);
+    EXPECT_EQ(room.scene.lights.size(), 1U);
+    ASSERT_EQ(room.scene.meshes.size(), 2U);  // the white box and the floor
+    const capture::Mesh& floor = room.scene.meshes[1];
+    const glm::uvec3 t = floor.triangles[5];
+    EXPECT_GT(glm::cross(floor.positions[t.y] - floor.positions[t.x], floor.positions[t.z] - floor.positions[t.x]).y,
+              0);
+}
+
+TEST(TracedRoom, MaterialsBecomeSurfaces) {
+    Scene scene = small_room();
+    scene.geometry[0].material.lit = false;
+    scene.geometry[1].material.specular = glm::vec3(0.5F);
+    scene.geometry[1].material.shininess = 0.5F;
+    const TracedRoom room = traced_room(scene);
+    EXPECT_EQ(room.scene.materials[0].emission, glm::vec3(0.6F));
+    EXPECT_EQ(room.scene.materials[0].colour, glm::vec3(0));
+    EXPECT_EQ(room.scene.materials[1].kind, capture::SurfaceKind::glossy);
+    EXPECT_NEAR(room.scene.materials[1].roughness * room.scene.materials[1].roughness, std::sqrt(2.0 / 66), 1e-6);
+}
+
+TEST(TracedRenderer, PassesGiveTheSameBitsInAnyNumberOfThreads) {
+    const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 33);
+    const auto traced = [&](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        auto renderer = renderer_of(small_room());
+        EXPECT_TRUE(renderer);
+        renderer->look(camera);
+        for (int pass = 0; pass < 7; ++pass) EXPECT_TRUE(renderer->add_pass());
+        return renderer->radiance();
+    };
+    const Image<RgbaF> one = traced(1);
+    const Image<RgbaF> four = traced(4);
+    // And as one picture of seven samples.
+    TracedRoom room = traced_room(small_room());
+    auto tracer = capture::Tracer::create(std::move(room.scene));
+    ASSERT_TRUE(tracer);
+    capture::RenderOptions options;
+    options.samples_per_pixel = 7;
+    const Image<RgbaF> whole = tracer->render(camera, options).picture;
+    for (int y = 0; y < 33; ++y) {
+        for (int x = 0; x < 33; ++x) {
+            ASSERT_EQ(one(x, y), four(x, y));
+            ASSERT_EQ(one(x, y), whole(x, y));
+        }
+    }
+}
+
+TEST(TracedRenderer, ExposureCountsInStops) {
+    const Camera camera = looking_from({0, 5, 0.1}, {0, 0, 0}, 9);
+    auto plain = renderer_of(small_room(), -2);
+    auto brighter = renderer_of(small_room(), -1);
+    ASSERT_TRUE(plain && brighter);
+    for (TracedRenderer* renderer : {&*plain, &*brighter}) {
+        renderer->look(camera);
+        ASSERT_TRUE(renderer->add_pass());
+    }
+    EXPECT_EQ(plain->radiance()(1, 1), brighter->radiance()(1, 1));
+    const auto linear = [](std::uint8_t code) { return std::pow((code / 255.0 + 0.055) / 1.055, 2.4); };
+    EXPECT_NEAR(linear(brighter->picture()(1, 1).g) / linear(plain->picture()(1, 1).g), 2, 0.1);
+}
+
+TEST(TracedRenderer, TheHeadlightIsCarriedWhereNothingElseShines) {
+    Scene scene = small_room();
+    scene.lights.clear();
+    scene.navigation.headlight = true;
+    const Camera camera = looking_from({0, 5, 0.1}, {0, 0, 0}, 5);
+    const auto brightness = [&] {
+        auto renderer = renderer_of(scene);
+        EXPECT_TRUE(renderer);
+        renderer->look(camera);
+        EXPECT_TRUE(renderer->add_pass());
+        return renderer->radiance()(0, 0).g;
+    };
+    EXPECT_NEAR(brightness(), 0.6, 0.02);
+    scene.geometry[1].material.emissive = glm::vec3(1e-3F);
+    EXPECT_LT(brightness(), 0.01);
+}
+
+// Pictures come from coarse to fine, whatever the time they take, and begin() drops the old view.
+TEST(Refinement, GoesFromCoarseToFineAndBeginsAnew) {
+    Refinement refinement([] { return renderer_of(small_room()); });
+    const auto wait_for = [&](int passes) {
+        const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+        std::shared_ptr<const Image<Rgba8>> picture;
+        while (std::chrono::steady_clock::now() < patience) {
+            if (const auto step = refinement.take()) {
+                picture = step->picture;
+                if (step->passes >= passes) return picture;
+            }
+            std::this_thread::yield();
+        }
+        return picture;
+    };
+    const Camera first = looking_from({3, 2, 4}, {0, 0.4, 0}, 50);
+    const Camera second = looking_from({0, 5, 0.1}, {0, 0, 0}, 20);
+    refinement.begin(first);
+    const auto early = wait_for(0);
+    ASSERT_NE(early, nullptr);
+    EXPECT_EQ(early->width(), 50);
+    ASSERT_NE(wait_for(3), nullptr);
+    refinement.begin(second);
+    const auto other = wait_for(1);
+    ASSERT_NE(other, nullptr);
+    EXPECT_EQ(other->width(), 20);
+    refinement.end();
+    EXPECT_FALSE(refinement.failure());
+}
+
+TEST(Refinement, AGridIsTheMiddleOfItsPixels) {
+    auto renderer = renderer_of(small_room());
+    ASSERT_TRUE(renderer);
+    const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 50);
+    const auto coarse = renderer->coarse_picture(camera, 16);
+    ASSERT_TRUE(coarse);
+    EXPECT_EQ(coarse->width(), 50);
+    for (int y = 0; y < 50; ++y) {
+        for (int x = 0; x < 50; ++x) ASSERT_EQ((*coarse)(x, y), (*coarse)(x / 16 * 16, y / 16 * 16));
+    }
+    std::atomic<bool> stop{true};
+    EXPECT_FALSE(renderer->coarse_picture(camera, 4, &stop));
+}
+
+TEST(Refinement, SaysWhyThereAreNoPictures) {
+    Refinement refinement([]() -> Result<TracedRenderer> { return Error{"no tracer today"}; });
+    refinement.begin(looking_from({3, 2, 4}, {0, 0.4, 0}, 50));
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (!refinement.failure() && std::chrono::steady_clock::now() < patience) std::this_thread::yield();
+    ASSERT_TRUE(refinement.failure());
+    EXPECT_EQ(refinement.failure()->message, "no tracer today");
+    EXPECT_FALSE(refinement.take());
+}
+
+}  // namespace
+}  // namespace rs::compositor
