@@ -2,7 +2,7 @@
 // The cameras that the command line asks for.
 
 #include "compositor/scene/scene.hpp"
-#include "compositor/tools/view_arguments.hpp"
+#include "compositor/tools/view_options.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/tool/tool_main.hpp"

@@ -1,5 +1,6 @@
 #include "compositor/traced/traced_renderer.hpp"
 
+#include "capture/tracer/integrator/light_probe.hpp"
 #include "compositor/traced/traced_room.hpp"
 
 #include <algorithm>
@@ -17,6 +18,7 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const TracedOp
     auto tracer = capture::Tracer::create(std::move(room.scene));
     if (!tracer) return tracer.error();
     TracedRenderer renderer(std::move(*tracer), options);
+    renderer.background_ = scene.background;
     renderer.headlight_ = scene.navigation.headlight && !shines;
     renderer.lights_ = std::move(lights);
     if (room.without_own_lights > 0) {
@@ -65,6 +67,22 @@ std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera,
         for (int x = 0; x < camera.width; ++x) picture(x, y) = small(x / side, y / side);
     }
     return picture;
+}
+
+Image<RgbaF> TracedRenderer::probe(const glm::dvec3& place, int samples, Progress& progress) const {
+    const capture::LightProbeOptions options{.samples_per_pixel = samples, .max_bounces = options_.max_bounces};
+    progress.start("probing", capture::light_probe_steps(options));
+    Image<RgbaF> map = capture::light_probe(tracer_, place, options, &progress);
+    progress.finish();
+    for (int y = 0; y < map.height(); ++y) {
+        for (int x = 0; x < map.width(); ++x) {
+            RgbaF& p = map(x, y);
+            const glm::dvec3 direction = capture::probe_direction(x + 0.5, y + 0.5, map.width());
+            const glm::vec3 behind = (1.0F - p.a) * background_colour(background_, direction);
+            p = {p.r * p.a + behind.r, p.g * p.a + behind.g, p.b * p.a + behind.b, 1};
+        }
+    }
+    return map;
 }
 
 Image<Rgba8> TracedRenderer::picture() const {

@@ -40,6 +40,9 @@ public:
     // `stop` became true.
     std::optional<Image<Rgba8>> coarse_picture(const Camera& camera, int side, const std::atomic<bool>* stop = nullptr);
 
+    // What reaches a place, as capture::light_probe() has it, with the scene's background behind all.
+    [[nodiscard]] Image<RgbaF> probe(const glm::dvec3& place, int samples, Progress& progress) const;
+
     // Linear light without exposure, straight alpha. There must have been a pass.
     [[nodiscard]] Image<RgbaF> radiance() const { return sum_.mean(); }
     // What a screen shows of it.
@@ -57,6 +60,7 @@ private:
 
     capture::Tracer tracer_;
     TracedOptions options_;
+    Background background_;
     bool headlight_ = false;
     std::vector<Light> lights_;  // without the headlight
     std::vector<std::string> warnings_;

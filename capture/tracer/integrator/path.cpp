@@ -87,14 +87,14 @@ bool PathTracer::trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, 
     for (int bounce = 0;; ++bounce) {
         SurfacePoint point;
         const bool hit = rays_.intersect(segment.origin, segment.direction, point);
-        if (bounce == 0 && !hit) return false;
         if (const Material* medium = media.innermost(); hit && medium != nullptr) {
             throughput *= glm::pow(medium->colour, glm::vec3(point.distance));
         }
-        if (bounce > 0)
+        if (bounce > 0 || see_lights_) {
             radiance +=
                 throughput * lights_on_the_way(segment, hit ? point.distance : std::numeric_limits<float>::infinity());
-        if (!hit) return true;
+        }
+        if (!hit) return bounce > 0 || max_component(radiance) > 0.0F;
 
         const Material& material = scene_.materials[static_cast<std::size_t>(point.material)];
         radiance += throughput * emission_of(material, point, segment);

@@ -23,11 +23,16 @@ class PathTracer {
 public:
     // Refers to all of them. Thread-safe.
     PathTracer(const Scene& scene, const RayScene& rays, const LightSet& lights,
-               const std::vector<SurfaceModel>& models, int max_bounces)
-        : scene_(scene), rays_(rays), lights_(lights), models_(models), max_bounces_(max_bounces) {}
+               const std::vector<SurfaceModel>& models, int max_bounces, bool see_lights = false)
+        : scene_(scene),
+          rays_(rays),
+          lights_(lights),
+          models_(models),
+          max_bounces_(max_bounces),
+          see_lights_(see_lights) {}
 
-    // False where the ray meets no surface; then `radiance` is 0: the camera sees neither environment nor lights
-    // directly. `direction` has unit length.
+    // False where the ray meets nothing; then `radiance` is 0. The camera sees environment and area lights themselves
+    // only where it is to `see_lights`. `direction` has unit length.
     bool trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, glm::vec3& radiance) const;
 
 private:
@@ -53,6 +58,7 @@ private:
     const LightSet& lights_;
     const std::vector<SurfaceModel>& models_;
     int max_bounces_;
+    bool see_lights_;
 };
 
 }  // namespace rs::capture

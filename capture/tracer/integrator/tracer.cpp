@@ -160,7 +160,8 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
     RS_CHECK(into.sum.width() == rays.width && into.sum.height() == rays.height);
     Image<RgbaF> sum = into.sum;
 
-    const PathTracer paths(state_->scene, *state_->rays, *state_->lights, state_->models, options.max_bounces);
+    const PathTracer paths(state_->scene, *state_->rays, *state_->lights, state_->models, options.max_bounces,
+                           options.see_lights);
     const PixelRectangle& visible = frame.visible;
     const glm::vec3 centre(rays.centre);
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);
@@ -209,6 +210,15 @@ Image<RgbaF> Accumulation::mean() const {
         }
     }
     return mean;
+}
+
+const std::vector<Light>& Tracer::lights() const {
+    return state_->scene.lights;
+}
+
+bool Tracer::sees(const glm::dvec3& place, const glm::dvec3& direction, double distance) const {
+    constexpr double kJustShort = 1 - 1e-4;
+    return !state_->rays->occluded(glm::vec3(place), glm::vec3(direction), static_cast<float>(distance * kJustShort));
 }
 
 void Tracer::set_lights(std::vector<Light> lights) {

@@ -25,7 +25,8 @@ struct RenderOptions {
     int max_bounces = 16;           // surfaces that a path may visit after the first
     float filter_radius_px = 0.5F;  // box filter, (0, 0.5]: a picture shows no blur of its own
     bool depth = false;
-    int threads = 0;  // 0 = as many as the processor has
+    bool see_lights = false;  // area lights and the environment stand in the picture themselves
+    int threads = 0;          // 0 = as many as the processor has
 };
 
 struct Rendering {
@@ -68,6 +69,10 @@ public:
 
     // Other lights than the scene came with; they must be as check_light() wants them. Not while anything is drawn.
     void set_lights(std::vector<Light> lights);
+
+    [[nodiscard]] const std::vector<Light>& lights() const;  // of the scene, not turned
+    // Whether nothing stands between a place and what is `distance` away in a direction of unit length.
+    [[nodiscard]] bool sees(const glm::dvec3& place, const glm::dvec3& direction, double distance) const;
 
     // Turns the scene's lights and environment, but not surfaces that shine, about Y by `angle_rad` from where the
     // scene has them; positive angles take +Z to +X. Costs nothing. Not while render() runs.

@@ -1,8 +1,10 @@
 #pragma once
-// What was asked of rs-view.
+// What was asked of rs-view, and the options that ask for it.
 
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
+
+#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <string>
@@ -30,6 +32,7 @@ struct ViewArguments {
     std::int64_t memory_mib = usual_memory_budget() >> 20;
     std::string lights;
     std::string renderer = "raster";
+    std::string probe;
     int passes = 0;
     double seconds = 0;
     double exposure_ev = 0;
@@ -38,5 +41,8 @@ struct ViewArguments {
     bool wire_frame = false;
     bool quiet = false;
 };
+
+// `headless` is the flag, which means no more than that `output` must be there.
+void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless);
 
 }  // namespace rs::compositor

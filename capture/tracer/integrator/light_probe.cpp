@@ -1,0 +1,65 @@
+#include "capture/tracer/integrator/light_probe.hpp"
+
+#include "rayspace/base/check.hpp"
+#include "rayspace/base/conventions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rs::capture {
+namespace {
+
+RayPicture all_directions(const glm::dvec3& place, int width) {
+    return {width, width / 2, place, {0, 0, -1}, [width](double x, double y) { return probe_direction(x, y, width); }};
+}
+
+// Of a pixel in this row.
+double solid_angle(int y, int width) {
+    const double step = kPi / (width / 2);
+    return (std::cos(y * step) - std::cos((y + 1) * step)) * 2 * kPi / width;
+}
+
+void add_light(const Light& light, const Tracer& tracer, const glm::dvec3& place, Image<RgbaF>& map) {
+    const glm::vec3 irradiance = irradiance_at(light, place);
+    if (irradiance == glm::vec3(0)) return;
+    const glm::dvec3 way = light.kind == LightKind::kDirectional ? -light.towards : light.location - place;
+    const double distance = glm::length(way);
+    const glm::dvec3 direction = way / distance;
+    const double reach = light.kind == LightKind::kDirectional ? std::numeric_limits<double>::infinity() : distance;
+    if (!tracer.sees(place, direction, reach)) return;
+    const int width = map.width();
+    const double turns = 0.5 + std::atan2(direction.x, -direction.z) / (2 * kPi);
+    const double polar = std::acos(std::clamp(direction.y, -1.0, 1.0)) / kPi;
+    const int x = std::clamp(static_cast<int>(turns * width), 0, width - 1);
+    const int y = std::clamp(static_cast<int>(polar * map.height()), 0, map.height() - 1);
+    const glm::vec3 radiance = irradiance / static_cast<float>(solid_angle(y, width));
+    RgbaF& pixel = map(x, y);
+    pixel = {pixel.r * pixel.a + radiance.r, pixel.g * pixel.a + radiance.g, pixel.b * pixel.a + radiance.b, 1};
+}
+
+}  // namespace
+
+glm::dvec3 probe_direction(double x, double y, int width) {
+    const double phi = 2 * kPi * (x / width - 0.5);
+    const double polar = kPi * y / (width / 2);
+    return {std::sin(polar) * std::sin(phi), std::cos(polar), -std::sin(polar) * std::cos(phi)};
+}
+
+std::int64_t light_probe_steps(const LightProbeOptions& options) {
+    return Tracer::step_count(all_directions({}, options.width));
+}
+
+Image<RgbaF> light_probe(const Tracer& tracer, const glm::dvec3& place, const LightProbeOptions& options,
+                         Progress* progress) {
+    RS_CHECK(options.width >= 2 && options.width % 2 == 0);
+    RenderOptions render;
+    render.samples_per_pixel = options.samples_per_pixel;
+    render.max_bounces = options.max_bounces;
+    render.see_lights = true;
+    Image<RgbaF> map = tracer.render(all_directions(place, options.width), render, progress).picture;
+    for (const Light& light : tracer.lights()) add_light(light, tracer, place, map);
+    return map;
+}
+
+}  // namespace rs::capture
