@@ -139,9 +139,11 @@ Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::
 }
 
 // Null for the raster renderer.
-Result<std::unique_ptr<TracedRenderer>> asked_tracer(const ViewArguments& arguments, const Scene& scene) {
+Result<std::unique_ptr<TracedRenderer>> asked_tracer(const ViewArguments& arguments, const Scene& scene,
+                                                     Showroom& showroom) {
     if (arguments.renderer == "raster") return std::unique_ptr<TracedRenderer>();
-    auto tracer = TracedRenderer::create(scene, {.exposure_ev = arguments.exposure_ev});
+    if (const Status status = showroom.wait_for_all({0, 0, 0}); !status) return status.error();
+    auto tracer = TracedRenderer::create(scene, showroom.placed(), {.exposure_ev = arguments.exposure_ev});
     if (!tracer) return Error{arguments.scene + ": " + tracer.error().message};
     print_warnings(tracer->warnings());
     return std::make_unique<TracedRenderer>(std::move(*tracer));
@@ -175,7 +177,7 @@ Status run_probe(const ViewArguments& arguments) {
     const Result<Scene> scene = asked_scene(arguments);
     if (!scene) return scene.error();
     print_warnings(scene->warnings);
-    const auto tracer = TracedRenderer::create(*scene, {});
+    const auto tracer = TracedRenderer::create(*scene, {}, {});
     if (!tracer) return Error{arguments.scene + ": " + tracer.error().message};
     print_warnings(tracer->warnings());
     ProgressBar progress(arguments.quiet);
@@ -229,7 +231,7 @@ Status run_view(ViewArguments arguments) {
                      " frames do not fit one picture; give a folder or an .mp4 to -o"};
     }
 
-    Result<std::unique_ptr<TracedRenderer>> tracer = asked_tracer(arguments, *scene);
+    Result<std::unique_ptr<TracedRenderer>> tracer = asked_tracer(arguments, *scene, *showroom);
     if (!tracer) return tracer.error();
     Result<gl::Context> context = gl::Context::create_surfaceless();
     if (!context) return context.error();

@@ -1,6 +1,7 @@
 #include "compositor/traced/traced_renderer.hpp"
 
 #include "capture/tracer/integrator/light_probe.hpp"
+#include "compositor/traced/object_rays.hpp"
 #include "compositor/traced/traced_room.hpp"
 
 #include <algorithm>
@@ -9,8 +10,13 @@
 
 namespace rs::compositor {
 
-Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const TracedOptions& options) {
+Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vector<PlacedObject>& objects,
+                                              const TracedOptions& options) {
     TracedRoom room = traced_room(scene);
+    const auto darker = static_cast<float>(std::exp2(-options.exposure_ev));
+    for (const PlacedObject& object : objects) {
+        room.scene.primitives.push_back(std::make_shared<const ObjectRays>(object, darker));
+    }
     std::vector<Light> lights = room.scene.lights;
     const bool shines = !lights.empty() || std::ranges::any_of(room.scene.materials, [](const auto& material) {
         return material.emission != glm::vec3(0);

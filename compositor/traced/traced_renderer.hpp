@@ -8,6 +8,7 @@
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "compositor/scene/scene.hpp"
+#include "compositor/viewer/residency/placed_object.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
 
@@ -26,8 +27,10 @@ struct TracedOptions {
 // Move-only; one thread, but for `stop`.
 class TracedRenderer {
 public:
-    // Refuses scenes that the tracer cannot take (vertices that are not finite).
-    static Result<TracedRenderer> create(const Scene& scene, const TracedOptions& options);
+    // Refuses scenes that the tracer cannot take (vertices that are not finite). Objects throw shadows and stand in
+    // what walls reflect; the camera does not see them.
+    static Result<TracedRenderer> create(const Scene& scene, const std::vector<PlacedObject>& objects,
+                                         const TracedOptions& options);
 
     // Begins a picture anew.
     void look(const Camera& camera);

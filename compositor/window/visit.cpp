@@ -34,8 +34,8 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
       compositor_(std::move(compositor)),
       overlay_(std::make_unique<Overlay>(window_)),
       options_(options),
-      make_tracer_([scene, exposure_ev = options.exposure_ev] {
-          return TracedRenderer::create(scene, {.exposure_ev = exposure_ev});
+      make_tracer_([scene, exposure_ev = options.exposure_ev](const std::vector<PlacedObject>& objects) {
+          return TracedRenderer::create(scene, objects, {.exposure_ev = exposure_ev});
       }),
       last_(std::chrono::steady_clock::now()) {
     navigation_.speed = scene.navigation.speed;
@@ -161,7 +161,12 @@ bool Visit::refine(const Camera& here) {
         if (was_traced) compositor_.set_traced(nullptr);
         return true;
     }
-    if (!refinement_) refinement_.emplace(make_tracer_);
+    // Objects come and go while one walks; what is traced has those that were there when it began.
+    if (!refined_ && (!refinement_ || traced_objects_ != showroom_->placed().size())) {
+        std::vector<PlacedObject> objects = showroom_->placed();
+        traced_objects_ = objects.size();
+        refinement_.emplace([make = make_tracer_, there = std::move(objects)] { return make(there); });
+    }
     if (const std::optional<Error> failed = refinement_->failure()) {
         panel_.traced = false;
         refined_.reset();

@@ -93,7 +93,8 @@ private:
     std::vector<double> frame_seconds_;
     std::optional<Refinement> refinement_;
     std::optional<Camera> refined_;  // what is traced now
-    std::function<Result<TracedRenderer>()> make_tracer_;
+    std::function<Result<TracedRenderer>(const std::vector<PlacedObject>&)> make_tracer_;
+    std::size_t traced_objects_ = 0;
     std::optional<VideoWriter> video_;
     int shots_ = 0;
     double news_seconds_ = 0;

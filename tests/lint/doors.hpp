@@ -103,7 +103,9 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
 
     {"compositor/gl", {"rayspace/*"}},
     {"compositor/scene", {"rayspace/*"}},
-    {"compositor/traced", {"rayspace/*", "compositor/scene", "capture/tracer/scene", "capture/tracer/integrator"}},
+    {"compositor/traced",
+     {"rayspace/*", "compositor/scene", "compositor/viewer/residency", "capture/tracer/scene",
+      "capture/tracer/integrator", "engine/core/definition"}},
     {"compositor/viewer/residency", {"rayspace/*", "compositor/scene", "engine/core/fast", "engine/driver"}},
     {"compositor/viewer/views",
      {"rayspace/*", "compositor/scene", "compositor/viewer/residency", "engine/core/definition", "engine/driver"}},

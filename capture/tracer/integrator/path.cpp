@@ -87,6 +87,14 @@ bool PathTracer::trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, 
     for (int bounce = 0;; ++bounce) {
         SurfacePoint point;
         const bool hit = rays_.intersect(segment.origin, segment.direction, point);
+        if (bounce > 0 || see_lights_) {
+            const float reach = hit ? point.distance : std::numeric_limits<float>::infinity();
+            if (const auto shown = rays_.ask_primitives(segment.origin, segment.direction, reach)) {
+                // It is drawn by no light sample, so it counts in full; of the light that passes before it, too.
+                radiance += throughput * (shown->radiance + lights_on_the_way(segment, shown->distance));
+                return true;
+            }
+        }
         if (const Material* medium = media.innermost(); hit && medium != nullptr) {
             throughput *= glm::pow(medium->colour, glm::vec3(point.distance));
         }

@@ -28,6 +28,74 @@ struct CutoutFilter {
     }
 };
 
+namespace {
+
+// Embree asks for the primitives' boxes, and for what a ray meets in one. The answer travels in the context.
+struct PrimitiveQuery {
+    RTCIntersectContext context{};
+    std::optional<RayPrimitive::Answer> nearest{};
+};
+
+void box_of(const RTCBoundsFunctionArguments* arguments) {
+    const auto& primitive = *static_cast<const RayPrimitive*>(arguments->geometryUserPtr);
+    const RayPrimitive::Box box = primitive.bounds();
+    *arguments->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
+}
+
+std::optional<RayPrimitive::Answer> ask(const void* user, const RTCRay& ray) {
+    auto answer = static_cast<const RayPrimitive*>(user)->answer({ray.org_x, ray.org_y, ray.org_z},
+                                                                 {ray.dir_x, ray.dir_y, ray.dir_z});
+    if (answer && !(answer->distance > ray.tnear && answer->distance < ray.tfar)) answer.reset();
+    return answer;
+}
+
+void intersect_primitive(const RTCIntersectFunctionNArguments* arguments) {
+    auto& hit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+    const auto answer = ask(arguments->geometryUserPtr, hit.ray);
+    if (!answer) return;
+    hit.ray.tfar = answer->distance;
+    hit.hit.geomID = arguments->geomID;
+    hit.hit.primID = arguments->primID;
+    reinterpret_cast<PrimitiveQuery*>(arguments->context)->nearest = answer;
+}
+
+void occlude_primitive(const RTCOccludedFunctionNArguments* arguments) {
+    auto& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
+    if (ask(arguments->geometryUserPtr, ray)) ray.tfar = -std::numeric_limits<float>::infinity();
+}
+
+}  // namespace
+
+void RayScene::add_primitives() {
+    if (scene_->primitives.empty()) return;
+    primitives_.reset(rtcNewScene(device_.get()));
+    for (const auto& primitive : scene_->primitives) {
+        RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(geometry, 1);
+        rtcSetGeometryUserData(geometry, const_cast<RayPrimitive*>(primitive.get()));
+        rtcSetGeometryBoundsFunction(geometry, box_of, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, intersect_primitive);
+        rtcSetGeometryOccludedFunction(geometry, occlude_primitive);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(primitives_.get(), geometry);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(primitives_.get());
+}
+
+std::optional<RayPrimitive::Answer> RayScene::ask_primitives(const glm::vec3& origin, const glm::vec3& direction,
+                                                             float distance) const {
+    if (!primitives_) return std::nullopt;
+    PrimitiveQuery query;
+    rtcInitIntersectContext(&query.context);
+    RTCRayHit hit{};
+    hit.ray = {origin.x,    origin.y, origin.z, 0.0F,        direction.x, direction.y,
+               direction.z, 0.0F,     distance, 0xFFFFFFFFU, 0,           0};
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(primitives_.get(), &query.context, &hit);
+    return query.nearest;
+}
+
 void RayScene::Release::operator()(RTCDeviceTy* device) const {
     rtcReleaseDevice(device);
 }
@@ -93,6 +161,7 @@ Result<RayScene> RayScene::build(const Scene& scene) {
         rtcReleaseGeometry(geometry);
     }
     rtcCommitScene(result.embree_scene_.get());
+    result.add_primitives();
     if (rtcGetDeviceError(result.device_.get()) != RTC_ERROR_NONE) {
         return Error{"ray tracing: Embree could not build its acceleration structure; use smaller meshes"};
     }
@@ -158,6 +227,7 @@ bool RayScene::occluded(const glm::vec3& origin, const glm::vec3& direction, flo
     RTCRay ray{origin.x,    origin.y, origin.z, 0.0F,        direction.x, direction.y,
                direction.z, 0.0F,     distance, 0xFFFFFFFFU, 0,           0};
     rtcOccluded1(embree_scene_.get(), &context, &ray);
+    if (ray.tfar >= 0.0F && primitives_) rtcOccluded1(primitives_.get(), &context, &ray);
     return ray.tfar < 0.0F;
 }
 

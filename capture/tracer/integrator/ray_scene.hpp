@@ -6,6 +6,7 @@
 #include "rayspace/base/result.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 struct RTCDeviceTy;
@@ -37,7 +38,10 @@ public:
 
     // The nearest hit beyond `origin`; `direction` has unit length. Thread-safe, as is occluded().
     bool intersect(const glm::vec3& origin, const glm::vec3& direction, SurfacePoint& point) const;
-    // Anything between origin and origin + direction * distance.
+    // What a primitive answers that is nearer than `distance`.
+    [[nodiscard]] std::optional<RayPrimitive::Answer> ask_primitives(const glm::vec3& origin,
+                                                                     const glm::vec3& direction, float distance) const;
+    // Anything between origin and origin + direction * distance, primitives included.
     [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float distance) const;
 
     [[nodiscard]] const glm::vec3& lower() const { return lower_; }  // of all vertices that triangles use
@@ -49,6 +53,7 @@ public:
 private:
     RayScene() = default;
     static Result<RayScene> build(const Scene& scene);
+    void add_primitives();
 
     struct Cutout {
         const Mesh* mesh;
@@ -62,7 +67,8 @@ private:
     const Scene* scene_ = nullptr;
     std::unique_ptr<RTCDeviceTy, Release> device_;
     std::unique_ptr<RTCSceneTy, Release> embree_scene_;
-    std::vector<std::unique_ptr<Cutout>> cutouts_;  // fixed addresses: Embree keeps pointers to them
+    std::unique_ptr<RTCSceneTy, Release> primitives_;  // null where there are none
+    std::vector<std::unique_ptr<Cutout>> cutouts_;     // fixed addresses: Embree keeps pointers to them
     glm::vec3 lower_{1.0F};
     glm::vec3 upper_{-1.0F};
     float step_off_ = 0.0F;

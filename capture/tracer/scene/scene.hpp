@@ -9,6 +9,8 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +64,28 @@ struct Environment {
     float turn_rad = 0.0F;  // about Y
 };
 
+// What is no mesh but answers rays by itself: a ray-space object. It shines with what it answers, whatever the light on
+// it, and hides what is behind. Called from several threads at once.
+class RayPrimitive {
+public:
+    struct Answer {
+        float distance;      // from the origin, > 0
+        glm::vec3 radiance;  // towards the origin
+    };
+    struct Box {
+        glm::vec3 lower, upper;
+    };
+
+    RayPrimitive() = default;
+    RayPrimitive(const RayPrimitive&) = delete;
+    RayPrimitive& operator=(const RayPrimitive&) = delete;
+    virtual ~RayPrimitive() = default;
+    // Holds whatever it may answer.
+    [[nodiscard]] virtual Box bounds() const = 0;
+    // The first that the ray meets, or nothing. `direction` has unit length.
+    [[nodiscard]] virtual std::optional<Answer> answer(const glm::vec3& origin, const glm::vec3& direction) const = 0;
+};
+
 struct Scene {
     std::string name;
     std::vector<Mesh> meshes;
@@ -69,6 +93,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<Light> lights;  // ambient parts count nothing here; areas are not seen by the camera
     Environment environment;
+    std::vector<std::shared_ptr<const RayPrimitive>> primitives;  // not seen by the camera itself
 };
 
 }  // namespace rs::capture

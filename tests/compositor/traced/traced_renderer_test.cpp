@@ -44,7 +44,7 @@ Camera looking_from(const glm::dvec3& eye, const glm::dvec3& at, int side) {
 }
 
 Result<TracedRenderer> renderer_of(const Scene& scene, double exposure_ev = 0) {
-    return TracedRenderer::create(scene, {.exposure_ev = exposure_ev});
+    return TracedRenderer::create(scene, {}, {.exposure_ev = exposure_ev});
 }
 
 TEST(TracedRoom, LightsShineAsTheRasterFormulaHasThem) {
