@@ -72,6 +72,56 @@ TEST_F(View, AModelIsShownWhole) {
 }
 
 // Of a scene the rest is shown; what the command line asks for must be there.
+// A white floor under a lamp, and a board between the two that only traced light respects.
+constexpr const char* kShadedFloor =
+    "#VRML V2.0 utf8\nViewpoint { position 0 6 0 orientation 1 0 0 -1.5708 }\n"
+    "Shape { appearance DEF white Appearance { material Material { diffuseColor 1 1 1 } } geometry Box { size 20 .1 20 "
+    "} }\n"
+    "Transform { translation 2 3 0 children Shape { appearance USE white geometry Box { size 1 .1 1 } } }\n";
+constexpr const char* kLamp =
+    R"({"replace": true, "lights": [{"kind": "luminaire", "file": "lamp.ies", "location": [4, 6, 0]}]})";
+
+TEST_F(View, LightIsTracedWhereThatIsAskedFor) {
+    write("hall.wrl", kShadedFloor);
+    write("lamp.ies", "TILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1 9\n0 180\n0\n9000 9000\n");
+    write("evening.json", kLamp);
+    const std::vector<std::string> base = {in("hall.wrl"), "--lights", in("evening.json")};
+    const auto brightness = [&](const std::string& name, std::vector<std::string> more) {
+        std::vector<std::string> arguments = base;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        arguments.insert(arguments.end(), {"-o", in(name)});
+        run_ = view(arguments);
+        const auto picture = run_.exit_code == 0 ? read_picture(in(name)) : Result<Image<Rgba8>>(Error{run_.err});
+        return picture ? static_cast<int>((*picture)(32, 24).g) : -1;
+    };
+    const int raster = brightness("raster.png", {});
+    if (raster < 0 && run_.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run_.err;
+    ASSERT_GT(raster, 60) << run_.err;  // the middle lies in the board's shadow
+    const int traced = brightness("traced.png", {"--renderer", "path", "--passes", "8"});
+    EXPECT_GE(traced, 0) << run_.err;
+    EXPECT_LT(traced, raster / 2);
+    EXPECT_GE(brightness("brief.png", {"--renderer", "path", "--seconds", "0.1"}), 0) << run_.err;
+
+    std::vector<std::string> probe = base;
+    probe.insert(probe.end(), {"--probe=0,1,0", "--passes", "2", "-o", in("probe.exr")});
+    ASSERT_EQ(view(probe).exit_code, 0);
+    const auto info = read_picture_info(in("probe.exr"));
+    ASSERT_TRUE(info);
+    EXPECT_EQ(info->width, 512);
+}
+
+TEST_F(View, ListsOfLightsThatMakeNoSenseAreRefused) {
+    write("hall.wrl", kShadedFloor);
+    write("evening.json", R"({"lights": [{"kind": "luminaire", "file": "none.ies", "location": [0, 1, 0]}]})");
+    const test::ToolRun run = view({in("hall.wrl"), "--lights", in("evening.json"), "-o", in("x.png")});
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_EQ(run.err, "rs-view: error: " + in("evening.json") + ": lights[0].file: " + in("none.ies") +
+                           ": cannot be opened: No such file or directory\n");
+    EXPECT_FALSE(std::filesystem::exists(in("x.png")));
+    EXPECT_EQ(view({in("hall.wrl"), "--probe=0,1,0", "-o", in("x.png")}).exit_code, 2);
+    EXPECT_EQ(view({in("hall.wrl"), "--passes", "2", "--seconds", "1", "-o", in("x.png")}).exit_code, 2);
+}
+
 TEST_F(View, AnObjectThatIsNotThereIsLeftOut) {
     write("hall.wrl", std::string(kWorld) + "RaySpace { url \"gone.rso\" }\nRaySpace { url \"gone.rso\" }\n");
     const test::ToolRun run = view({in("hall.wrl"), "-o", in("shot.png")});

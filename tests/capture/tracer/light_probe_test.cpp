@@ -99,7 +99,7 @@ TEST(LightProbe, LightsAnObjectAsTheRoomDoes) {
         }
         ASSERT_GT(count, 900);
         const double psnr = 10 * std::log10(255.0 * 255.0 * count / squares);
-        RecordProperty("psnr", std::to_string(psnr));
+        RecordProperty(kind == SurfaceKind::diffuse ? "diffuse_db" : "glossy_db", std::to_string(psnr));
         EXPECT_GT(psnr, 30) << (kind == SurfaceKind::diffuse ? "diffuse" : "glossy");
     }
 }
