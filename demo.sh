@@ -95,6 +95,8 @@ show_room() {
     step "showroom: $view" "$OUT/showroom-$view.png" \
       "$BIN/rs-view" "$world/showroom.wrl" --viewpoint "$view" -o "$OUT/showroom-$view.png"
   done
+  step "showroom: evening, traced" "$OUT/showroom-evening.png" "$BIN/rs-view" "$world/showroom.wrl" --viewpoint table \
+    --lights "$world/evening.json" --exposure 3 --renderer path --passes 64 --size 800x450 -o "$OUT/showroom-evening.png"
   step "showroom: walk" "$OUT/showroom-walk.mp4" "$BIN/rs-view" "$world/showroom.wrl" \
     --path "$world/showroom-walk.json" --size "$WALK_SIZE" -o "$OUT/showroom-walk.mp4"
 }
@@ -112,7 +114,7 @@ else
     from_set "$name"
   done
   show_room
-  LOOK="showroom-walk.mp4, showroom-shop.png and showroom-museum.png, the contact sheets and the orbit videos"
+  LOOK="showroom-walk.mp4, showroom-shop.png, showroom-museum.png and showroom-evening.png, the contact sheets and the orbit videos"
 fi
 
 printf '\n%-34s %9s  %7s  %s\n' "step" "time" "size" "file"

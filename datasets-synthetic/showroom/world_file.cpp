@@ -1,5 +1,6 @@
 #include "datasets-synthetic/showroom/world_file.hpp"
 
+#include "datasets-synthetic/showroom/evening.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -192,6 +193,8 @@ Status write_world(const World& world, const std::filesystem::path& output, cons
     }
     if (Status status = write_text(name + ".wrl", vrml_text(world, objects)); !status) return status;
     if (Status status = write_text(name + "-walk.json", walk_text(world)); !status) return status;
+    if (Status status = write_text("evening.json", evening_lights(world)); !status) return status;
+    if (Status status = write_text(kDownlightFile, downlight_ies()); !status) return status;
     return staged->commit();
 }
 

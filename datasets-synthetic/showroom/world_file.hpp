@@ -16,8 +16,8 @@ std::string vrml_text(const World& world, const std::string& objects);
 // {"camera": {"path": [{"eye", "at"} ...], "frames", "closed", "fov_degrees"}}, as scenes in JSON have it.
 std::string walk_text(const World& world);
 
-// The folder OUTPUT with NAME.wrl, NAME-walk.json and the textures. What stands there is replaced only where it is such
-// a folder (StagedFolder).
+// The folder OUTPUT with NAME.wrl, NAME-walk.json, evening.json with its luminaire and the textures. What stands there
+// is replaced only where it is such a folder (StagedFolder).
 Status write_world(const World& world, const std::filesystem::path& output, const std::string& name,
                    const std::string& objects);
 

@@ -40,14 +40,17 @@ int main(int argc, char** argv) {
         "Writes a shop and a museum room (VRML97, textures, a way through them) that show the procedural objects",
         "rs-showroom");
     Options options;
-    app.add_option("-o,--output", options.output, "Folder to write: showroom.wrl, showroom-walk.json, textures")
+    app.add_option("-o,--output", options.output,
+                   "Folder to write: showroom.wrl, showroom-walk.json, evening.json, textures")
         ->required();
     app.add_option("--objects", options.objects,
                    "Folder of vase.rso, flower.rso, doll.rso, lamp.rso, lattice.rso and blocks.rso, as seen from the "
                    "folder that is written")
         ->capture_default_str();
     app.add_flag("--small", options.small, "Textures of a quarter of the resolution");
-    app.footer("Example: rs-showroom -o showroom && rs-view showroom/showroom.wrl --viewpoint museum -o museum.png");
+    app.footer(
+        "Examples:\n  rs-showroom -o showroom && rs-view showroom/showroom.wrl --viewpoint museum -o museum.png\n"
+        "  rs-view showroom/showroom.wrl --lights showroom/evening.json --exposure 3 --renderer path -o evening.png");
     std::function<rs::Status()> run;
     app.callback([&] { run = [&] { return run_showroom(options); }; });
     return rs::tool_main(app, argc, argv, run);

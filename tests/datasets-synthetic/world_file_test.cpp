@@ -48,7 +48,7 @@ TEST(WorldFile, IsTheSameEveryTime) {
         EXPECT_TRUE(text_of(entry.path()) == text_of(folder / "second" / name)) << name;
         ++files;
     }
-    EXPECT_EQ(files, small_showroom().textures.size() + 2);
+    EXPECT_EQ(files, small_showroom().textures.size() + 4);
 }
 
 TEST(WorldFile, NamesWhatIsThere) {
