@@ -2,6 +2,7 @@
 
 #include "compositor/scene/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 
 #include <cmath>
 #include <map>
@@ -57,6 +58,21 @@ public:
         if (object.has("name")) light.name = object.take("name").text();
         object.expect_all_taken();
         if (Status fine = check_light(light); !fine) throw object.wrong(fine.error().message);
+        return light;
+    }
+
+    [[nodiscard]] EnvironmentLight read_environment(JsonObject object) const {
+        const JsonValue file = object.take("file");
+        Result<Image<RgbaF>> pixels = read_radiance(folder_ / file.text());
+        if (!pixels) throw file.wrong(pixels.error().message);
+        EnvironmentLight light;
+        light.pixels = std::make_shared<const Image<RgbaF>>(std::move(*pixels));
+        if (object.has("scale")) light.scale = static_cast<float>(object.take("scale").number(0, kStrongest));
+        if (object.has("turn_deg")) {
+            light.turn_rad = static_cast<float>(radians(object.take("turn_deg").number(-36000, 36000)));
+        }
+        if (object.has("seen")) light.seen = object.take("seen").boolean();
+        object.expect_all_taken();
         return light;
     }
 
@@ -130,10 +146,11 @@ Result<LightList> light_list_from_json(const std::string& text, const std::files
         JsonObject top(JsonValue(json, path.string(), ""));
         LightList list;
         if (top.has("replace")) list.replace = top.take("replace").boolean();
+        ListReader reader(path.parent_path());
         const JsonValue lights = top.take("lights");
         const std::size_t count = lights.list_size(0, kMostLights);
-        ListReader reader(path.parent_path());
         for (std::size_t i = 0; i < count; ++i) list.lights.push_back(reader.read(JsonObject(lights.item(i))));
+        if (top.has("environment")) list.environment = reader.read_environment(JsonObject(top.take("environment")));
         top.expect_all_taken();
         return list;
     } catch (const MalformedJson& malformed) {

@@ -8,18 +8,22 @@
 //         { "kind": "disc", "location": [0, 2, 1], "aim": [0, -1, 0], "size": 0.4, "radiance": [5, 5, 5] },
 //         { "kind": "point", "location": [0, 1, 0], "candela": 40 },
 //         { "kind": "spot", "location": [0, 2, 0], "aim": [0, -1, 0], "candela": 300, "beam_deg": 20, "cut_off_deg": 30
-//         }, { "kind": "directional", "aim": [-1, -2, 0], "lux": 20000 } ] }
+//         }, { "kind": "directional", "aim": [-1, -2, 0], "lux": 20000 } ],
+//       "environment": { "file": "sky.hdr", "scale": 1, "turn_deg": 0, "seen": true } }
 //
 // Each may have a "name" and a "colour" [r, g, b], a factor in linear light (1, 1, 1). Photometric numbers are divided
 // by kLumensPerWatt. "beam_deg" and "cut_off_deg" are full angles. "turn_deg" turns a luminaire about its aim,
 // counter-clockwise as seen looking along -aim; at 0 its plane C0 lies where +X is best seen, or +Z where it is aimed
-// along X. Files are named from the list's folder. Lengths are the scene's; luminaires and candela take them for
-// metres.
+// along X. An environment is a picture as EnvironmentLight wants it; "seen" (false) puts it behind everything where
+// light is traced. Files are named from the list's folder. Lengths are the scene's; luminaires and candela take them
+// for metres.
 
+#include "compositor/scene/surroundings.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/light/light.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +32,7 @@ namespace rs::compositor {
 struct LightList {
     bool replace = false;
     std::vector<Light> lights;
+    std::optional<EnvironmentLight> environment;
 };
 
 // Errors name file, key and remedy. Thread-safe.

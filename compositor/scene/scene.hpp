@@ -58,6 +58,7 @@ struct Scene {
     std::vector<Light> lights{{.colour = glm::vec3(0.75F),
                                .ambient = glm::vec3(0.4F),
                                .towards = glm::normalize(glm::dvec3(-0.45, -1, -0.6))}};
+    std::optional<EnvironmentLight> environment;
     std::vector<GeometryNode> geometry;
     std::vector<RaySpaceNode> objects;
     std::vector<Room> rooms;

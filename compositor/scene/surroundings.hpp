@@ -29,6 +29,15 @@ struct Background {
 // Of sky and ground, looking along `direction` in scene coordinates, of any length but 0.
 glm::vec3 background_colour(const Background& background, const glm::dvec3& direction);
 
+// Light from all around, far away: a latitude-longitude map whose middle column is -Z and whose row 0 is +Y, u growing
+// towards +X. Traced renderers take it as it is; raster as its mean.
+struct EnvironmentLight {
+    std::shared_ptr<const Image<RgbaF>> pixels;  // not null; linear light, finite, not negative
+    float scale = 1;
+    float turn_rad = 0;  // about Y
+    bool seen = false;   // stands behind everything, where it is traced
+};
+
 enum class FogKind { kLinear, kExponential };
 struct Fog {
     FogKind kind = FogKind::kLinear;

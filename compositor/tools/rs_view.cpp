@@ -53,6 +53,7 @@ Result<Scene> asked_scene(const ViewArguments& arguments) {
             for (GeometryNode& node : scene.geometry) node.lights.clear();
         }
         scene.lights.insert(scene.lights.end(), list->lights.begin(), list->lights.end());
+        scene.environment = std::move(list->environment);
     }
     if (!arguments.path.empty()) {
         const Result<Scene> walk = read_scene(arguments.path);

@@ -18,13 +18,16 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
         room.scene.primitives.push_back(std::make_shared<const ObjectRays>(object, darker));
     }
     std::vector<Light> lights = room.scene.lights;
-    const bool shines = !lights.empty() || std::ranges::any_of(room.scene.materials, [](const auto& material) {
-        return material.emission != glm::vec3(0);
-    });
+    const bool shines = !lights.empty() || scene.environment ||
+                        std::ranges::any_of(room.scene.materials,
+                                            [](const auto& material) { return material.emission != glm::vec3(0); });
     auto tracer = capture::Tracer::create(std::move(room.scene));
     if (!tracer) return tracer.error();
     TracedRenderer renderer(std::move(*tracer), options);
     renderer.background_ = scene.background;
+    renderer.render_.max_bounces = options.max_bounces;
+    renderer.render_.see_areas = true;
+    renderer.render_.see_environment = scene.environment && scene.environment->seen;
     renderer.headlight_ = scene.navigation.headlight && !shines;
     renderer.lights_ = std::move(lights);
     if (room.without_own_lights > 0) {
@@ -48,9 +51,7 @@ void TracedRenderer::look(const Camera& camera) {
 }
 
 bool TracedRenderer::add_pass(Progress* progress, const std::atomic<bool>* stop) {
-    capture::RenderOptions options;
-    options.max_bounces = options_.max_bounces;
-    return tracer_.accumulate(camera_, options, 1, sum_, progress, stop);
+    return tracer_.accumulate(camera_, render_, 1, sum_, progress, stop);
 }
 
 std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera, int side,
@@ -63,10 +64,8 @@ std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera,
     coarse.fl_y /= side;
     coarse.cx /= side;
     coarse.cy /= side;
-    capture::RenderOptions options;
-    options.max_bounces = options_.max_bounces;
     capture::Accumulation sum;
-    if (!tracer_.accumulate(coarse, options, 1, sum, nullptr, stop)) return std::nullopt;
+    if (!tracer_.accumulate(coarse, render_, 1, sum, nullptr, stop)) return std::nullopt;
     const Image<Rgba8> small = shown(sum.mean());
     Image<Rgba8> picture(camera.width, camera.height);
     for (int y = 0; y < camera.height; ++y) {

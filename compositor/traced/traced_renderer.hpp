@@ -63,6 +63,7 @@ private:
 
     capture::Tracer tracer_;
     TracedOptions options_;
+    capture::RenderOptions render_;
     Background background_;
     bool headlight_ = false;
     std::vector<Light> lights_;  // without the headlight

@@ -141,6 +141,10 @@ TracedRoom traced_room(const Scene& scene) {
         room.scene.meshes.push_back(std::move(mesh));
     }
     if (scene.floor) add_floor(*scene.floor, room.scene);
+    if (scene.environment) {
+        const EnvironmentLight& light = *scene.environment;
+        room.scene.environment = {*light.pixels, light.scale, light.turn_rad};
+    }
     for (const Light& light : scene.lights) {
         if (light.everywhere) {
             room.scene.lights.push_back(light);

@@ -7,6 +7,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -106,6 +107,18 @@ Result<Image<RgbaF>> read_picture_linear(const fs::path& path) {
     if (Status regular = check_input(path); !regular) return regular.error();
     const auto backend = backend_for(path);
     return backend ? (*backend)->read_picture_linear(path.string()) : backend.error();
+}
+
+Result<Image<RgbaF>> read_radiance(const fs::path& path) {
+    Result<Image<RgbaF>> picture = read_picture_linear(path);
+    if (!picture) return picture;
+    for (RgbaF& p : picture->pixels()) {
+        if (!std::isfinite(p.r) || !std::isfinite(p.g) || !std::isfinite(p.b)) {
+            return Error{path.string() + " has pixels that are not finite; repair it"};
+        }
+        p = {std::max(p.r, 0.0F), std::max(p.g, 0.0F), std::max(p.b, 0.0F), 1.0F};
+    }
+    return picture;
 }
 
 Result<Image<float>> read_channel(const fs::path& path) {

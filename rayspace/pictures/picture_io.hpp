@@ -42,6 +42,10 @@ Result<Image<Rgba8>> read_picture(const std::filesystem::path& path);
 // Linear-light float RGBA, alpha straight: EXR and HDR as they are, 8- and 16-bit files through the sRGB curve.
 Result<Image<RgbaF>> read_picture_linear(const std::filesystem::path& path);
 
+// A picture of light itself, such as an environment: the same, opaque, every value finite and not negative. What is not
+// finite is an error; below 0 (panorama tools that sharpened) it becomes 0.
+Result<Image<RgbaF>> read_radiance(const std::filesystem::path& path);
+
 // One-channel float picture, such as a depth channel written by write_exr_channel; the channel "Z" or else the first.
 Result<Image<float>> read_channel(const std::filesystem::path& path);
 

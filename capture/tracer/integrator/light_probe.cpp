@@ -16,7 +16,7 @@ RayPicture all_directions(const glm::dvec3& place, int width) {
 
 // Of a pixel in this row.
 double solid_angle(int y, int width) {
-    const double step = kPi / (width / 2);
+    const double step = 2 * kPi / width;
     return (std::cos(y * step) - std::cos((y + 1) * step)) * 2 * kPi / width;
 }
 
@@ -42,7 +42,7 @@ void add_light(const Light& light, const Tracer& tracer, const glm::dvec3& place
 
 glm::dvec3 probe_direction(double x, double y, int width) {
     const double phi = 2 * kPi * (x / width - 0.5);
-    const double polar = kPi * y / (width / 2);
+    const double polar = 2 * kPi * y / width;
     return {std::sin(polar) * std::sin(phi), std::cos(polar), -std::sin(polar) * std::cos(phi)};
 }
 
@@ -56,7 +56,8 @@ Image<RgbaF> light_probe(const Tracer& tracer, const glm::dvec3& place, const Li
     RenderOptions render;
     render.samples_per_pixel = options.samples_per_pixel;
     render.max_bounces = options.max_bounces;
-    render.see_lights = true;
+    render.see_areas = true;
+    render.see_environment = true;
     Image<RgbaF> map = tracer.render(all_directions(place, options.width), render, progress).picture;
     for (const Light& light : tracer.lights()) add_light(light, tracer, place, map);
     return map;

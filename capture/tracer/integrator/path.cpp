@@ -87,21 +87,19 @@ bool PathTracer::trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, 
     for (int bounce = 0;; ++bounce) {
         SurfacePoint point;
         const bool hit = rays_.intersect(segment.origin, segment.direction, point);
-        if (bounce > 0 || see_lights_) {
-            const float reach = hit ? point.distance : std::numeric_limits<float>::infinity();
+        const float reach = hit ? point.distance : std::numeric_limits<float>::infinity();
+        if (bounce > 0) {
             if (const auto shown = rays_.ask_primitives(segment.origin, segment.direction, reach)) {
                 // It is drawn by no light sample, so it counts in full; of the light that passes before it, too.
-                radiance += throughput * (shown->radiance + lights_on_the_way(segment, shown->distance));
+                radiance += throughput * (shown->radiance + areas_on_the_way(segment, shown->distance));
                 return true;
             }
         }
         if (const Material* medium = media.innermost(); hit && medium != nullptr) {
             throughput *= glm::pow(medium->colour, glm::vec3(point.distance));
         }
-        if (bounce > 0 || see_lights_) {
-            radiance +=
-                throughput * lights_on_the_way(segment, hit ? point.distance : std::numeric_limits<float>::infinity());
-        }
+        if (bounce > 0 || seen_.areas) radiance += throughput * areas_on_the_way(segment, reach);
+        if (!hit && (bounce > 0 || seen_.environment)) radiance += throughput * environment_behind(segment);
         if (!hit) return bounce > 0 || max_component(radiance) > 0.0F;
 
         const Material& material = scene_.materials[static_cast<std::size_t>(point.material)];
@@ -142,20 +140,19 @@ bool PathTracer::trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, 
     }
 }
 
-glm::vec3 PathTracer::lights_on_the_way(const Segment& segment, float distance) const {
+glm::vec3 PathTracer::areas_on_the_way(const Segment& segment, float distance) const {
     glm::vec3 sum(0.0F);
     for (std::size_t i = 0; i < lights_.area_count(); ++i) {
         const auto crossing = lights_.cross_area(i, segment.selection, segment.origin, segment.direction, distance);
         if (crossing) sum += crossing->radiance * (segment.specular ? 1.0F : mis_weight(segment.pdf, crossing->pdf));
     }
-    if (distance == std::numeric_limits<float>::infinity() && !lights_.environment().is_black()) {
-        const glm::vec3 radiance = lights_.environment().radiance(segment.direction);
-        sum +=
-            radiance * (segment.specular
-                            ? 1.0F
-                            : mis_weight(segment.pdf, lights_.environment_pdf(segment.selection, segment.direction)));
-    }
     return sum;
+}
+
+glm::vec3 PathTracer::environment_behind(const Segment& segment) const {
+    if (lights_.environment().is_black()) return glm::vec3(0.0F);
+    const float pdf = lights_.environment_pdf(segment.selection, segment.direction);
+    return lights_.environment().radiance(segment.direction) * (segment.specular ? 1.0F : mis_weight(segment.pdf, pdf));
 }
 
 glm::vec3 PathTracer::emission_of(const Material& material, const SurfacePoint& point, const Segment& segment) const {

@@ -19,20 +19,21 @@
 
 namespace rs::capture {
 
+// By the camera itself.
+struct Seen {
+    bool areas = false;
+    bool environment = false;
+};
+
 class PathTracer {
 public:
     // Refers to all of them. Thread-safe.
     PathTracer(const Scene& scene, const RayScene& rays, const LightSet& lights,
-               const std::vector<SurfaceModel>& models, int max_bounces, bool see_lights = false)
-        : scene_(scene),
-          rays_(rays),
-          lights_(lights),
-          models_(models),
-          max_bounces_(max_bounces),
-          see_lights_(see_lights) {}
+               const std::vector<SurfaceModel>& models, int max_bounces, Seen seen = {})
+        : scene_(scene), rays_(rays), lights_(lights), models_(models), max_bounces_(max_bounces), seen_(seen) {}
 
     // False where the ray meets nothing; then `radiance` is 0. The camera sees environment and area lights themselves
-    // only where it is to `see_lights`. `direction` has unit length.
+    // only where they are `seen`; primitives it never sees. `direction` has unit length.
     bool trace(glm::vec3 origin, glm::vec3 direction, Sampler& sampler, glm::vec3& radiance) const;
 
 private:
@@ -47,7 +48,8 @@ private:
     };
     struct Shading;
 
-    [[nodiscard]] glm::vec3 lights_on_the_way(const Segment& segment, float distance) const;
+    [[nodiscard]] glm::vec3 areas_on_the_way(const Segment& segment, float distance) const;
+    [[nodiscard]] glm::vec3 environment_behind(const Segment& segment) const;
     [[nodiscard]] glm::vec3 emission_of(const Material& material, const SurfacePoint& point,
                                         const Segment& segment) const;
     [[nodiscard]] glm::vec3 light_sample(const Shading& shading, float u_source, const glm::vec2& u) const;
@@ -58,7 +60,7 @@ private:
     const LightSet& lights_;
     const std::vector<SurfaceModel>& models_;
     int max_bounces_;
-    bool see_lights_;
+    Seen seen_;
 };
 
 }  // namespace rs::capture

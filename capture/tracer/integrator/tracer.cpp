@@ -123,10 +123,14 @@ void Tracer::turn_lights(double angle_rad) {
     state_->lights->turn(static_cast<float>(angle_rad));
 }
 
+Tracer::Frame Tracer::frame_of(const Camera& camera, const RenderOptions& options) const {
+    const bool anywhere = options.see_areas || options.see_environment;
+    return {anywhere ? PixelRectangle{0, 0, camera.width, camera.height} : visible_rectangle(camera, *state_->rays),
+            picture_key(options.seed, camera)};
+}
+
 Rendering Tracer::render(const Camera& camera, const RenderOptions& options, Progress* progress) const {
-    const RayPicture rays = rays_of(camera);
-    return render(rays, {visible_rectangle(camera, *state_->rays), picture_key(options.seed, camera)}, options,
-                  progress);
+    return render(rays_of(camera), frame_of(camera, options), options, progress);
 }
 
 Rendering Tracer::render(const RayPicture& rays, const RenderOptions& options, Progress* progress) const {
@@ -147,9 +151,7 @@ Rendering Tracer::render(const RayPicture& rays, const Frame& frame, const Rende
 
 bool Tracer::accumulate(const Camera& camera, const RenderOptions& options, int count, Accumulation& into,
                         Progress* progress, const std::atomic<bool>* stop) const {
-    const RayPicture rays = rays_of(camera);
-    return accumulate(rays, {visible_rectangle(camera, *state_->rays), picture_key(options.seed, camera)}, options,
-                      count, into, progress, stop);
+    return accumulate(rays_of(camera), frame_of(camera, options), options, count, into, progress, stop);
 }
 
 bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const RenderOptions& options, int count,
@@ -161,7 +163,7 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
     Image<RgbaF> sum = into.sum;
 
     const PathTracer paths(state_->scene, *state_->rays, *state_->lights, state_->models, options.max_bounces,
-                           options.see_lights);
+                           {options.see_areas, options.see_environment});
     const PixelRectangle& visible = frame.visible;
     const glm::vec3 centre(rays.centre);
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);

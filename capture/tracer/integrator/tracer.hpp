@@ -25,8 +25,10 @@ struct RenderOptions {
     int max_bounces = 16;           // surfaces that a path may visit after the first
     float filter_radius_px = 0.5F;  // box filter, (0, 0.5]: a picture shows no blur of its own
     bool depth = false;
-    bool see_lights = false;  // area lights and the environment stand in the picture themselves
-    int threads = 0;          // 0 = as many as the processor has
+    // What stands in the picture itself; else it is seen in reflections and through glass only.
+    bool see_areas = false;
+    bool see_environment = false;
+    int threads = 0;  // 0 = as many as the processor has
 };
 
 struct Rendering {
@@ -81,6 +83,7 @@ public:
 private:
     struct State;
     struct Frame;
+    [[nodiscard]] Frame frame_of(const Camera& camera, const RenderOptions& options) const;
     [[nodiscard]] Rendering render(const RayPicture& rays, const Frame& frame, const RenderOptions& options,
                                    Progress* progress) const;
     bool accumulate(const RayPicture& rays, const Frame& frame, const RenderOptions& options, int count,

@@ -19,15 +19,6 @@ constexpr std::array<std::pair<const char*, SurfaceKind>, 5> kSurfaceKinds{{{"di
                                                                             {"mirror", SurfaceKind::mirror},
                                                                             {"glass", SurfaceKind::glass}}};
 
-// Camera files of cheap panorama tools have negative pixels where they sharpened; the rest of a bad pixel is an error.
-bool clean_pixels(Image<RgbaF>& pixels) {
-    for (RgbaF& p : pixels.pixels()) {
-        if (!std::isfinite(p.r) || !std::isfinite(p.g) || !std::isfinite(p.b)) return false;
-        p = {std::max(p.r, 0.0F), std::max(p.g, 0.0F), std::max(p.b, 0.0F), 1.0F};
-    }
-    return true;
-}
-
 void read_environment_file(RecipeReader& reader, const std::filesystem::path& folder, Environment& environment) {
     std::string file;
     reader.read("file", file);
@@ -36,10 +27,8 @@ void read_environment_file(RecipeReader& reader, const std::filesystem::path& fo
     if (!std::filesystem::is_regular_file(path, ignored)) {
         return reader.complain("file", path.string() + " is not there; put it there");
     }
-    Result<Image<RgbaF>> pixels = read_picture_linear(path);
+    Result<Image<RgbaF>> pixels = read_radiance(path);
     if (!pixels) return reader.complain("file", pixels.error().message);
-    if (!clean_pixels(*pixels))
-        return reader.complain("file", path.string() + " has pixels that are not finite; repair it");
     environment.pixels = std::move(pixels).value();
 }
 

@@ -15,6 +15,30 @@ glm::dvec3 flux_of(const Light& light) {
     return colour * (kPi * area_of(light));
 }
 
+// Radiance, over all directions.
+glm::vec3 mean_of(const EnvironmentLight& light) {
+    const Image<RgbaF>& pixels = *light.pixels;
+    glm::dvec3 sum(0);
+    double weights = 0;
+    for (int y = 0; y < pixels.height(); ++y) {
+        const double weight = std::sin(kPi * (y + 0.5) / pixels.height());
+        for (int x = 0; x < pixels.width(); ++x) {
+            const RgbaF& p = pixels(x, y);
+            sum += weight * glm::dvec3(p.r, p.g, p.b);
+        }
+        weights += weight * pixels.width();
+    }
+    return glm::vec3(sum / weights) * light.scale;
+}
+
+Light ambient_light(const char* name, const glm::vec3& radiance) {
+    Light light;
+    light.name = name;
+    light.colour = glm::vec3(0);
+    light.ambient = radiance;
+    return light;
+}
+
 }  // namespace
 
 std::vector<Light> raster_lights(const Scene& scene, double exposure_ev) {
@@ -28,13 +52,11 @@ std::vector<Light> raster_lights(const Scene& scene, double exposure_ev) {
     if (!box.empty() && glm::length(flux) > 0) {
         const glm::dvec3 size = box.highest - box.lowest;
         const double surface = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
-        Light reflected;
-        reflected.name = "reflected";
-        reflected.colour = glm::vec3(0);
         // Irradiance over pi is what a white surface shows whose material reflects ambient light in full.
-        reflected.ambient = glm::vec3(flux * kReflectance / ((1 - kReflectance) * std::max(surface, 1e-6) * kPi));
-        lights.push_back(reflected);
+        lights.push_back(ambient_light(
+            "reflected", glm::vec3(flux * kReflectance / ((1 - kReflectance) * std::max(surface, 1e-6) * kPi))));
     }
+    if (scene.environment) lights.push_back(ambient_light("environment", mean_of(*scene.environment)));
     const auto brighter = static_cast<float>(std::exp2(exposure_ev));
     for (Light& light : lights) {
         light.colour *= brighter;

@@ -2,12 +2,19 @@
 
 #include "compositor/scene/lights_file.hpp"
 
+#include "datasets-synthetic/showroom/evening.hpp"
+#include "datasets-synthetic/showroom/showroom.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
 
 namespace rs::compositor {
 namespace {
@@ -78,6 +85,55 @@ TEST(LightList, LuminairesAreTurnedAboutTheirAim) {
     EXPECT_LT(glm::distance(spot.towards, glm::dvec3(0, -1, 0)), 1e-12);
     EXPECT_NEAR(irradiance_at(spot, {0, 0, 0}).r, 200 / 179.0, 1e-5);  // its peak's
     EXPECT_EQ(irradiance_at(spot, {0, 2, 0}).r, 0);
+}
+
+TEST(LightList, TheShowroomsEveningIsOne) {
+    synthetic::ShowroomOptions small;
+    small.texture_scale = 0.05F;
+    const synthetic::World world = synthetic::make_showroom(small);
+    const test::TemporaryFolder scratch;
+    ASSERT_TRUE(write_file(scratch / synthetic::kDownlightFile, synthetic::downlight_ies()));
+    ASSERT_TRUE(write_file(scratch / "evening.json", synthetic::evening_lights(world)));
+    const auto list = read_light_list(scratch / "evening.json");
+    ASSERT_TRUE(list) << list.error().message;
+    EXPECT_TRUE(list->replace);
+    EXPECT_GT(list->lights.size(), 12U);
+    EXPECT_NEAR(list->lights[0].luminaire->web.lumens(), 560, 1.5);
+    for (const Light& light : list->lights) {
+        EXPECT_TRUE(std::ranges::any_of(world.rooms, [&](const synthetic::Room& room) {
+            const glm::vec3 place(light.location);
+            return glm::all(glm::lessThan(room.low, place)) && glm::all(glm::lessThan(place, room.high));
+        })) << "a lamp hangs outside";
+    }
+}
+
+TEST(LightList, AnEnvironmentIsAPicture) {
+    const test::TemporaryFolder scratch;
+    Image<RgbaF> sky(8, 4, {0.5F, -1, 3, 1});
+    ASSERT_TRUE(write_exr(scratch / "sky.exr", sky));
+    const auto list_of = [&](const std::string& environment) {
+        return light_list_from_json(R"({"lights": [], "environment": )" + environment + "}", scratch / "a.json");
+    };
+    const auto list = list_of(R"({"file": "sky.exr", "scale": 2, "turn_deg": 90, "seen": true})");
+    ASSERT_TRUE(list) << list.error().message;
+    ASSERT_TRUE(list->environment);
+    EXPECT_EQ((*list->environment->pixels)(3, 2), (RgbaF{0.5F, 0, 3, 1}));
+    EXPECT_EQ(list->environment->scale, 2);
+    EXPECT_NEAR(list->environment->turn_rad, kPi / 2, 1e-6);
+    EXPECT_TRUE(list->environment->seen);
+    sky(1, 1).g = std::numeric_limits<float>::quiet_NaN();
+    ASSERT_TRUE(write_exr(scratch / "bad.exr", sky));
+    for (const auto& [environment, wrong] :
+         std::vector<std::pair<std::string, std::string>>{{R"({"file": "bad.exr"})", "environment.file"},
+                                                          {R"({"file": "bad.exr"})", "not finite"},
+                                                          {R"({"file": "none.exr"})", "none.exr"},
+                                                          {R"({"scale": 1})", "file"},
+                                                          {R"({"file": "sky.exr", "scale": -1})", "environment.scale"},
+                                                          {R"({"file": "sky.exr", "turn": 1})", "turn"}}) {
+        const auto refused = list_of(environment);
+        ASSERT_FALSE(refused) << environment;
+        EXPECT_NE(refused.error().message.find(wrong), std::string::npos) << refused.error().message;
+    }
 }
 
 TEST(LightList, ErrorsNameFileKeyAndRemedy) {

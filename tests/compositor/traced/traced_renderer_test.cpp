@@ -104,6 +104,51 @@ TEST(TracedRoom, MaterialsBecomeSurfaces) {
     EXPECT_NEAR(room.scene.materials[1].roughness * room.scene.materials[1].roughness, std::sqrt(2.0 / 66), 1e-6);
 }
 
+TEST(TracedRenderer, AreasAreSeenFromTheSideTheyShineTo) {
+    Scene scene = small_room();
+    scene.lights = {rectangle_light({-1, 4, -1}, {2, 0, 0}, {0, 0, 2}, glm::vec3(3))};
+    ASSERT_LT(glm::cross(scene.lights[0].half_u, scene.lights[0].half_v).y, 0);
+    auto renderer = renderer_of(scene);
+    ASSERT_TRUE(renderer);
+    renderer->look(looking_from({0, 2, 0}, {0, 5, 0}, 5));
+    ASSERT_TRUE(renderer->add_pass());
+    EXPECT_EQ(renderer->radiance()(2, 2), (RgbaF{3, 3, 3, 1}));
+    renderer->look(looking_from({0, 7, 0.01}, {0, 4, 0}, 5));  // the floor's light passes
+    ASSERT_TRUE(renderer->add_pass());
+    EXPECT_LT(renderer->radiance()(2, 2).r, 1.5F);
+}
+
+TEST(TracedRenderer, AnEvenEnvironmentLightsEverySideAlike) {
+    Scene scene;
+    scene.lights.clear();
+    scene.geometry = {box_node({1, 1, 1}, {0, 0, 0}, {0.7F, 0.5F, 0.1F})};
+    EnvironmentLight sky;
+    sky.pixels = std::make_shared<const Image<RgbaF>>(4, 2, RgbaF{1, 2, 4, 1});
+    sky.scale = 0.5F;
+    for (const bool seen : {false, true}) {
+        sky.seen = seen;
+        scene.environment = sky;
+        auto renderer = renderer_of(scene);
+        ASSERT_TRUE(renderer);
+        for (const glm::dvec3& eye : {glm::dvec3(0, 0, 1.2), glm::dvec3(0, 1.2, 0), glm::dvec3(-0.62, -0.62, 0.2)}) {
+            renderer->look(looking_from(eye, {0, 0, 0}, 9));
+            for (int pass = 0; pass < 64; ++pass) ASSERT_TRUE(renderer->add_pass());
+            const Image<RgbaF> shown_pixels = renderer->radiance();  // all of them of the box
+            RgbaF shown{};
+            for (const RgbaF& p : shown_pixels.pixels()) {
+                ASSERT_EQ(p.a, 1);
+                shown = {shown.r + p.r / 81, shown.g + p.g / 81, shown.b + p.b / 81, 1};
+            }
+            EXPECT_NEAR(shown.r, 0.35, 0.005 * 0.35);
+            EXPECT_NEAR(shown.g, 0.5, 0.005 * 0.5);
+            EXPECT_NEAR(shown.b, 0.2, 0.005 * 0.2);
+        }
+        renderer->look(looking_from({0, 0, 3}, {0, 0, 9}, 3));
+        ASSERT_TRUE(renderer->add_pass());
+        EXPECT_EQ(renderer->radiance()(1, 1), (seen ? RgbaF{0.5F, 1, 2, 1} : RgbaF{0, 0, 0, 0}));
+    }
+}
+
 TEST(TracedRenderer, PassesGiveTheSameBitsInAnyNumberOfThreads) {
     const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 33);
     const auto traced = [&](std::size_t threads) {
