@@ -98,6 +98,14 @@ ObjectDepth asked_depth(const ViewArguments& arguments) {
     return arguments.object_depth == "pixel" ? ObjectDepth::kPixel : ObjectDepth::kPlane;
 }
 
+// Nothing: raster.
+std::optional<TracedMethod> asked_method(const ViewArguments& arguments) {
+    for (const NamedMethod& named : kTracedMethods) {
+        if (arguments.renderer == named.name) return named.method;
+    }
+    return std::nullopt;
+}
+
 void print_warnings(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings)
         std::fprintf(stderr, "rs-view: warning: %s\n", printable(warning).c_str());
@@ -115,7 +123,9 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
     options.wire_frame = arguments.wire_frame;
     options.samples = arguments.samples;
     options.exposure_ev = arguments.exposure_ev;
-    options.traced = arguments.renderer != "raster";
+    const auto traced = asked_method(arguments);
+    options.traced = traced.has_value();
+    options.method = traced.value_or(TracedMethod::kPath);
     options.executor = executor;
     options.object_depth = asked_depth(arguments);
     options.object_samples = arguments.object_samples;
@@ -142,9 +152,11 @@ Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::
 // Null for the raster renderer.
 Result<std::unique_ptr<TracedRenderer>> asked_tracer(const ViewArguments& arguments, const Scene& scene,
                                                      Showroom& showroom) {
-    if (arguments.renderer == "raster") return std::unique_ptr<TracedRenderer>();
+    const auto method = asked_method(arguments);
+    if (!method) return std::unique_ptr<TracedRenderer>();
     if (const Status status = showroom.wait_for_all({0, 0, 0}); !status) return status.error();
-    auto tracer = TracedRenderer::create(scene, showroom.placed(), {.exposure_ev = arguments.exposure_ev});
+    auto tracer =
+        TracedRenderer::create(scene, showroom.placed(), {.method = *method, .exposure_ev = arguments.exposure_ev});
     if (!tracer) return Error{arguments.scene + ": " + tracer.error().message};
     print_warnings(tracer->warnings());
     return std::make_unique<TracedRenderer>(std::move(*tracer));

@@ -26,11 +26,13 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         ->type_name("FILE.json");
     app.add_option(
            "--renderer", arguments.renderer,
-           "of the geometry: raster (OpenGL), or path: light traced, with shadows, areas, luminaires and what walls "
-           "reflect; in a window T changes between them. Objects and blended surfaces are put into the traced "
-           "picture by depth")
-        ->type_name("raster|path")
-        ->check(CLI::IsMember({"raster", "path"}))
+           "of the geometry: raster (OpenGL); whitted: traced direct light with hard shadows and mirrors; radiosity: "
+           "and "
+           "what walls reflect, by virtual lights, smooth early; path: all light, grainy at first, true at last. In a "
+           "window T changes between raster and traced. Objects and blended surfaces are put into the traced picture "
+           "by depth")
+        ->type_name("raster|whitted|radiosity|path")
+        ->check(CLI::IsMember({"raster", "whitted", "radiosity", "path"}))
         ->capture_default_str();
     app.add_option("--lights", arguments.lights,
                    "JSON list of lights, luminaires (IES, EULUMDAT) among them, beside the scene's or in their place "
@@ -41,7 +43,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
                    "\"environment\" of a recipe of rs-capture synth as it will stand there")
         ->type_name("X,Y,Z");
     CLI::Option* passes =
-        app.add_option("--passes", arguments.passes, "of --renderer path: rays through each pixel of a frame (64)")
+        app.add_option("--passes", arguments.passes, "of a traced picture: rays through each pixel of a frame (64)")
             ->check(CLI::Range(1, 65536));
     app.add_option("--seconds", arguments.seconds, "in place of --passes: as many as fit, for each frame")
         ->check(CLI::Range(0.01, 86400.0))

@@ -25,10 +25,10 @@ Refinement::~Refinement() {
     thread_.join();
 }
 
-void Refinement::begin(const Camera& camera) {
+void Refinement::begin(const Camera& camera, TracedMethod method) {
     {
         const std::lock_guard lock(mutex_);
-        wanted_ = camera;
+        wanted_ = View{camera, method};
         newest_.reset();
         stop_ = true;
     }
@@ -67,15 +67,16 @@ void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
             return;
         }
         for (;;) {
-            Camera camera;
+            View view;
             {
                 std::unique_lock lock(mutex_);
                 changed_.wait(lock, [this] { return leaving_ || wanted_; });
                 if (leaving_) return;
-                camera = *std::exchange(wanted_, std::nullopt);
+                view = *std::exchange(wanted_, std::nullopt);
                 stop_ = false;
             }
-            refine(*made, camera);
+            made->set_method(view.method);
+            refine(*made, view.camera);
         }
     } catch (const std::exception& thrown) {
         const std::lock_guard lock(mutex_);

@@ -27,7 +27,7 @@ public:
     ~Refinement();  // waits for what is under way, a tile or two
 
     // Drops what was begun before.
-    void begin(const Camera& camera);
+    void begin(const Camera& camera, TracedMethod method = TracedMethod::kPath);
     void end();
 
     struct Step {
@@ -46,7 +46,11 @@ private:
 
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::optional<Camera> wanted_;  // not yet begun
+    struct View {
+        Camera camera;
+        TracedMethod method;
+    };
+    std::optional<View> wanted_;  // not yet begun
     std::optional<Step> newest_;
     std::optional<Error> failure_;
     bool leaving_ = false;

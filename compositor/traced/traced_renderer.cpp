@@ -1,6 +1,7 @@
 #include "compositor/traced/traced_renderer.hpp"
 
 #include "capture/tracer/integrator/light_probe.hpp"
+#include "compositor/scene/raster_lights.hpp"
 #include "compositor/traced/object_rays.hpp"
 #include "compositor/traced/traced_room.hpp"
 
@@ -9,6 +10,18 @@
 #include <utility>
 
 namespace rs::compositor {
+
+namespace {
+
+glm::vec3 ambient_of(const Scene& scene) {
+    glm::vec3 ambient = reflected_light(scene);
+    for (const Light& light : scene.lights) {
+        if (light.everywhere) ambient += light.ambient;
+    }
+    return ambient;
+}
+
+}  // namespace
 
 Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                               const TracedOptions& options) {
@@ -25,6 +38,8 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
     if (!tracer) return tracer.error();
     TracedRenderer renderer(std::move(*tracer), options);
     renderer.background_ = scene.background;
+    renderer.render_.method = options.method;
+    renderer.render_.ambient = ambient_of(scene);
     renderer.render_.max_bounces = options.max_bounces;
     renderer.render_.see_areas = true;
     renderer.render_.see_environment = scene.environment && scene.environment->seen;

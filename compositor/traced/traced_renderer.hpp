@@ -12,6 +12,7 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
 
+#include <array>
 #include <atomic>
 #include <optional>
 #include <string>
@@ -19,7 +20,18 @@
 
 namespace rs::compositor {
 
+using TracedMethod = capture::RenderMethod;
+struct NamedMethod {
+    const char* name;
+    TracedMethod method;
+};
+// In the order from quick to true.
+inline constexpr std::array kTracedMethods{NamedMethod{"whitted", TracedMethod::kWhitted},
+                                           NamedMethod{"radiosity", TracedMethod::kRadiosity},
+                                           NamedMethod{"path", TracedMethod::kPath}};
+
 struct TracedOptions {
+    TracedMethod method = TracedMethod::kPath;
     double exposure_ev = 0;  // pictures are 2^_ times as bright
     int max_bounces = 16;
 };
@@ -32,6 +44,8 @@ public:
     static Result<TracedRenderer> create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                          const TracedOptions& options);
 
+    // For pictures that begin after this.
+    void set_method(TracedMethod method) { render_.method = method; }
     // Begins a picture anew.
     void look(const Camera& camera);
     // One more sample of each pixel. False, with nothing changed, where `stop` became true before it was there.

@@ -93,7 +93,13 @@ void draw_switches(PanelState& state) {
     ImGui::Checkbox("wire frame", &state.wire_frame);
     ImGui::SameLine();
     ImGui::Checkbox("traced light", &state.traced);
-    if (state.traced) ImGui::Text("%d samples a pixel", state.passes);
+    if (state.traced) {
+        for (const NamedMethod& named : kTracedMethods) {
+            if (ImGui::RadioButton(named.name, state.method == named.method)) state.method = named.method;
+            ImGui::SameLine();
+        }
+        ImGui::Text("%d samples a pixel", state.passes);
+    }
     ImGui::SameLine();
     ImGui::Checkbox("record", &state.recording);
     ImGui::SameLine();

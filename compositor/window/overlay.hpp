@@ -1,6 +1,7 @@
 #pragma once
 // What lies over the picture in a window: a panel of figures and switches, help, and a line of news. Dear ImGui.
 
+#include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/views/navigation.hpp"
 #include "compositor/window/window.hpp"
 
@@ -24,7 +25,8 @@ struct PanelState {
     bool show_help = false;
     bool wire_frame = false;
     bool traced = false;  // the view stands still and refines
-    int passes = 0;       // of it
+    TracedMethod method = TracedMethod::kPath;
+    int passes = 0;  // of it
     bool recording = false;
     NavigationMode mode = NavigationMode::kWalk;
     double speed = 1;  // scene units a second

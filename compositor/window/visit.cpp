@@ -49,6 +49,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
     panel_.speed = navigation_.speed;
     panel_.wire_frame = options.wire_frame;
     panel_.traced = options.traced;
+    panel_.method = options.method;
     panel_.executor = options.executor;
     panel_.device = window_.context().device_name();
     tell("press H for help");
@@ -173,11 +174,13 @@ bool Visit::refine(const Camera& here) {
         tell(failed->message);
         return true;
     }
-    const bool elsewhere = !refined_ || refined_->width != here.width || refined_->height != here.height;
-    if (elsewhere) {
+    const bool otherwise =
+        !refined_ || refined_->width != here.width || refined_->height != here.height || refined_by_ != panel_.method;
+    if (otherwise) {
         refined_ = here;
+        refined_by_ = panel_.method;
         compositor_.set_traced(nullptr);
-        refinement_->begin(here);
+        refinement_->begin(here, panel_.method);
         panel_.passes = 0;
         return true;
     }

@@ -32,7 +32,8 @@ struct VisitOptions {
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = FrameOptions{}.object_samples;
     double exposure_ev = 0;
-    bool traced = false;                                        // from the beginning
+    bool traced = false;  // from the beginning
+    TracedMethod method = TracedMethod::kPath;
     std::string executor = "software core";                     // of the engine, for the panel
     std::function<void(const std::vector<std::string>&)> warn;  // of objects that cannot be shown; may be empty
 };
@@ -93,6 +94,7 @@ private:
     std::vector<double> frame_seconds_;
     std::optional<Refinement> refinement_;
     std::optional<Camera> refined_;  // what is traced now
+    TracedMethod refined_by_ = TracedMethod::kPath;
     std::function<Result<TracedRenderer>(const std::vector<PlacedObject>&)> make_tracer_;
     std::size_t traced_objects_ = 0;
     std::optional<VideoWriter> video_;

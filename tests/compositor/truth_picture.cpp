@@ -83,7 +83,8 @@ Result<std::shared_ptr<const TracedObject>> TracedObject::create(capture::Scene 
     if (!rays) return rays.error();
     object->rays_.emplace(std::move(*rays));
     const glm::vec3 diagonal = object->rays_->upper() - object->rays_->lower();
-    object->lights_.emplace(object->scene_, object->scene_.environment, 0.5F * glm::length(diagonal));
+    object->lights_.emplace(object->scene_, object->scene_.environment,
+                            capture::LightSet::Extent{.radius = 0.5F * glm::length(diagonal)});
     object->models_ = capture::make_surface_models(object->scene_.materials);
     return std::shared_ptr<const TracedObject>(std::move(object));
 }
@@ -150,7 +151,8 @@ TruthPicture TruthScene::render(const Camera& camera, const TruthOptions& option
     std::vector<compositor::Similarity> from_world;
     for (const TracedNode& node : nodes_) {
         const TracedObject& object = *node.object;
-        tracers.emplace_back(object.scene(), object.rays(), object.lights(), object.models(), kMaxBounces);
+        tracers.emplace_back(capture::LightTransport(object.scene(), object.rays(), object.lights(), object.models()),
+                             kMaxBounces);
         from_world.push_back(node.world_from_object.inverse());
     }
 

@@ -37,6 +37,8 @@ public:
         return {to_unit(x), to_unit(y)};
     }
 
+    [[nodiscard]] std::uint32_t sample() const { return reverse_bits(reversed_sample_); }
+
 private:
     static constexpr std::uint32_t reverse_bits(std::uint32_t x) {
         x = __builtin_bswap32(x);

@@ -77,6 +77,15 @@ Surface::Value Surface::evaluate(const glm::vec3& wi) const {
     return {};
 }
 
+glm::vec3 Surface::sent(const glm::vec3& out) const {
+    if (is_specular()) return glm::vec3(0.0F);
+    if (model_.kind == SurfaceKind::diffuse) {
+        return colour_ * ((out.z > 0.0F ? 1.0F - model_.translucency : model_.translucency) / kPiF);
+    }
+    if (out.z <= 0.0F) return glm::vec3(0.0F);
+    return Surface(model_, colour_, out, leaving_).evaluate(wo_).f_cos / std::max(wo_.z, 1e-4F);
+}
+
 bool Surface::sample(float u_lobe, const glm::vec2& u, SurfaceSample& drawn) const {
     if (is_specular()) return sample_specular(u_lobe, drawn);
     if (model_.kind == SurfaceKind::diffuse) {
@@ -96,20 +105,45 @@ bool Surface::sample(float u_lobe, const glm::vec2& u, SurfaceSample& drawn) con
     return true;
 }
 
+SurfaceSample Surface::reflected(const glm::vec3& weight) const {
+    return {reflect_about_normal(wo_), weight, 0.0F, true};
+}
+
+float Surface::index_step() const {
+    return leaving_ ? 1.0F / model_.ior : model_.ior;
+}
+
+SurfaceSample Surface::refracted(const glm::vec3& weight) const {
+    const float eta = index_step();
+    const float cos_refracted = std::sqrt(std::max(0.0F, 1.0F - (1.0F - wo_.z * wo_.z) / (eta * eta)));
+    return {{-wo_.x / eta, -wo_.y / eta, -cos_refracted}, weight, 0.0F, true};
+}
+
 bool Surface::sample_specular(float u_lobe, SurfaceSample& drawn) const {
-    drawn.specular = true;
-    drawn.pdf = 0.0F;
-    drawn.direction = reflect_about_normal(wo_);
     if (model_.kind == SurfaceKind::mirror) {
-        drawn.weight = colour_;
+        drawn = reflected(colour_);
         return true;
     }
-    const float eta = leaving_ ? 1.0F / model_.ior : model_.ior;  // index behind the surface over index before it
-    drawn.weight = glm::vec3(1.0F);  // what is drawn by its own probability needs no factor
-    if (u_lobe < fresnel_dielectric(wo_.z, eta)) return true;
-    const float cos_refracted = std::sqrt(std::max(0.0F, 1.0F - (1.0F - wo_.z * wo_.z) / (eta * eta)));
-    drawn.direction = {-wo_.x / eta, -wo_.y / eta, -cos_refracted};
+    // What is drawn by its own probability needs no factor.
+    const bool back = u_lobe < fresnel_dielectric(wo_.z, index_step());
+    drawn = back ? reflected(glm::vec3(1.0F)) : refracted(glm::vec3(1.0F));
     return true;
+}
+
+std::vector<SurfaceSample> Surface::specular_ways() const {
+    switch (model_.kind) {
+        case SurfaceKind::mirror:
+            return {reflected(colour_)};
+        case SurfaceKind::metal:
+            return {reflected(fresnel_schlick(wo_.z, colour_))};
+        case SurfaceKind::glass: {
+            const float back = fresnel_dielectric(wo_.z, index_step());
+            if (back >= 1.0F) return {reflected(glm::vec3(1.0F))};
+            return {reflected(glm::vec3(back)), refracted(glm::vec3(1.0F - back))};
+        }
+        default:
+            return {};
+    }
 }
 
 }  // namespace rs::capture

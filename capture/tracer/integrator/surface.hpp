@@ -44,6 +44,11 @@ public:
         return model_.kind == SurfaceKind::mirror || model_.kind == SurfaceKind::glass;
     }
 
+    // Whether what was drawn goes on inside of glass, or leaves it.
+    [[nodiscard]] bool passes(const SurfaceSample& drawn) const {
+        return model_.kind == SurfaceKind::glass && drawn.direction.z < 0.0F;
+    }
+
     struct Value {
         glm::vec3 f_cos{0.0F};
         float pdf = 0.0F;  // with which sample() draws wi
@@ -51,11 +56,23 @@ public:
     // All zero for specular kinds.
     [[nodiscard]] Value evaluate(const glm::vec3& wi) const;
 
+    // Every direction in which a mirror, glass or a metal taken for a mirror sends a ray, with the share of light; none
+    // of other kinds.
+    [[nodiscard]] std::vector<SurfaceSample> specular_ways() const;
+    [[nodiscard]] const glm::vec3& colour() const { return colour_; }
+
+    // Light that came from wo and goes to `out` instead: f, without a cosine, as a viewer at `out` has it.
+    [[nodiscard]] glm::vec3 sent(const glm::vec3& out) const;
+
     // False where the path ends here.
     [[nodiscard]] bool sample(float u_lobe, const glm::vec2& u, SurfaceSample& drawn) const;
 
 private:
     [[nodiscard]] bool sample_specular(float u_lobe, SurfaceSample& drawn) const;
+    [[nodiscard]] SurfaceSample reflected(const glm::vec3& weight) const;
+    [[nodiscard]] SurfaceSample refracted(const glm::vec3& weight) const;
+    // Of refraction behind the surface over that before it.
+    [[nodiscard]] float index_step() const;
 
     const SurfaceModel& model_;
     glm::vec3 colour_;

@@ -1,6 +1,8 @@
 #include "capture/tracer/integrator/tracer.hpp"
 
 #include "capture/tracer/integrator/path.hpp"
+#include "capture/tracer/integrator/radiosity.hpp"
+#include "capture/tracer/integrator/whitted.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/parallel.hpp"
@@ -129,6 +131,23 @@ Tracer::Frame Tracer::frame_of(const Camera& camera, const RenderOptions& option
             picture_key(options.seed, camera)};
 }
 
+std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& transport, const RayPicture& picture,
+                                                          std::uint64_t key, const RenderOptions& options, int first,
+                                                          int count) const {
+    constexpr int kWhittedDepth = 8;
+    switch (options.method) {
+        case RenderMethod::kRadiosity:
+            return std::make_unique<RadiosityTracer>(transport, RadiosityOptions{.max_bounces = options.max_bounces},
+                                                     picture, key, first, count);
+        case RenderMethod::kWhitted:
+            return std::make_unique<WhittedTracer>(transport, IrradianceMap(transport.lights().environment()),
+                                                   options.ambient, std::min(options.max_bounces, kWhittedDepth));
+        case RenderMethod::kPath:
+            break;
+    }
+    return std::make_unique<PathTracer>(transport, options.max_bounces);
+}
+
 Rendering Tracer::render(const Camera& camera, const RenderOptions& options, Progress* progress) const {
     return render(rays_of(camera), frame_of(camera, options), options, progress);
 }
@@ -162,8 +181,10 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
     RS_CHECK(into.sum.width() == rays.width && into.sum.height() == rays.height);
     Image<RgbaF> sum = into.sum;
 
-    const PathTracer paths(state_->scene, *state_->rays, *state_->lights, state_->models, options.max_bounces,
-                           {options.see_areas, options.see_environment});
+    const LightTransport transport(state_->scene, *state_->rays, *state_->lights, state_->models,
+                                   {options.see_areas, options.see_environment});
+    const std::unique_ptr<const Integrator> integrator =
+        make_integrator(transport, rays, frame.key, options, into.samples, count);
     const PixelRectangle& visible = frame.visible;
     const glm::vec3 centre(rays.centre);
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);
@@ -177,7 +198,7 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
             const glm::dvec2 offset = (glm::dvec2(sampler.next_2d()) - 0.5) * filter_width_px;
             const glm::vec3 direction(glm::normalize(rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)));
             glm::vec3 radiance;
-            if (!paths.trace(centre, direction, sampler, radiance)) continue;
+            if (!integrator->trace(centre, direction, sampler, radiance)) continue;
             pixel.r += radiance.r;
             pixel.g += radiance.g;
             pixel.b += radiance.b;
@@ -236,9 +257,11 @@ Result<Tracer> Tracer::create(Scene scene) {
     if (!rays) return rays.error();
     state->rays = std::move(rays).value();
     const glm::vec3 diagonal = state->rays->upper() - state->rays->lower();
-    const float radius = state->rays->empty() ? 1.0F : 0.5F * glm::length(diagonal);
+    LightSet::Extent extent;
+    if (!state->rays->empty())
+        extent = {0.5F * (state->rays->upper() + state->rays->lower()), 0.5F * glm::length(diagonal)};
     Environment environment = std::exchange(state->scene.environment, Environment{});
-    state->lights.emplace(state->scene, std::move(environment), radius);
+    state->lights.emplace(state->scene, std::move(environment), extent);
     state->models = make_surface_models(state->scene.materials);
     return Tracer(std::move(state));
 }

@@ -19,7 +19,14 @@
 
 namespace rs::capture {
 
+enum class RenderMethod {
+    kPath,       // path.hpp
+    kRadiosity,  // radiosity.hpp; each sample of all pixels is a pass
+    kWhitted,    // whitted.hpp
+};
+
 struct RenderOptions {
+    RenderMethod method = RenderMethod::kPath;
     int samples_per_pixel = 64;  // 1..65536; powers of two are stratified best
     std::uint64_t seed = 1;
     int max_bounces = 16;           // surfaces that a path may visit after the first
@@ -28,7 +35,8 @@ struct RenderOptions {
     // What stands in the picture itself; else it is seen in reflections and through glass only.
     bool see_areas = false;
     bool see_environment = false;
-    int threads = 0;  // 0 = as many as the processor has
+    glm::vec3 ambient{0.0F};  // whitted: what stands for light that surfaces reflect, as the radiance of white matter
+    int threads = 0;          // 0 = as many as the processor has
 };
 
 struct Rendering {
@@ -45,6 +53,9 @@ struct Accumulation {
     // Linear light, straight alpha = share of camera rays that hit a surface.
     [[nodiscard]] Image<RgbaF> mean() const;
 };
+
+class Integrator;
+class LightTransport;
 
 class Tracer {
 public:
@@ -88,6 +99,10 @@ private:
                                    Progress* progress) const;
     bool accumulate(const RayPicture& rays, const Frame& frame, const RenderOptions& options, int count,
                     Accumulation& into, Progress* progress, const std::atomic<bool>* stop) const;
+    [[nodiscard]] std::unique_ptr<const Integrator> make_integrator(const LightTransport& transport,
+                                                                    const RayPicture& picture, std::uint64_t key,
+                                                                    const RenderOptions& options, int first,
+                                                                    int count) const;
     explicit Tracer(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };

@@ -41,11 +41,11 @@ LightSet::Cone LightSet::cone_of(const Light& light) {
     return {};
 }
 
-LightSet::LightSet(const Scene& scene, Environment environment, float radius)
+LightSet::LightSet(const Scene& scene, Environment environment, const Extent& extent)
     : scene_(scene),
       environment_turn_rad_(environment.turn_rad),
       environment_(std::move(environment)),
-      floor_distance2_(std::max(radius * radius, 1e-12F)) {
+      extent_{extent.centre, std::max(extent.radius, 1e-6F)} {
     gather_emitters();
     set_lights(scene.lights);
 }
@@ -63,11 +63,13 @@ void LightSet::set_lights(const std::vector<Light>& lights) {
     }
     if (emitter_power_ > 0) {
         emitter_source_ = sources_.size();
-        sources_.push_back({SourceKind::emitters, 0, static_cast<float>(emitter_power_) / floor_distance2_});
+        sources_.push_back(
+            {SourceKind::emitters, 0, static_cast<float>(emitter_power_) / (extent_.radius * extent_.radius)});
     }
     for (const Light& light : lights) add_light(light);
     lights_ = still_;
     place_lights(0.0F);
+    sum_flux();
 }
 
 void LightSet::add_light(const Light& light) {
@@ -159,6 +161,7 @@ void LightSet::gather_emitters() {
     for (const Mesh& mesh : scene_.meshes) {
         const float brightness = brightness_[static_cast<std::size_t>(mesh.material)];
         if (!(brightness > 0.0F)) continue;
+        gather_glow(mesh);
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
             const glm::uvec3& t = mesh.triangles[i];
             const glm::vec3 corner = mesh.positions[t.x];
@@ -239,6 +242,22 @@ std::optional<LightSample> LightSet::sample_emitter(const Selection& selection, 
                                                     const glm::vec2& u) const {
     const auto found = std::ranges::upper_bound(emitters_, u_emitter, {}, &Emitter::cumulative);
     const Emitter& emitter = found == emitters_.end() ? emitters_.back() : *found;
+    const EmitterPoint point = point_on(emitter, u);
+    if (point.hole) return std::nullopt;
+    const int material = emitter.mesh->material;
+    const glm::vec3 to_light = point.position - selection.position;
+    const float distance2 = glm::dot(to_light, to_light);
+    if (!(distance2 > 0.0F)) return std::nullopt;
+    const float distance = std::sqrt(distance2);
+    const glm::vec3 direction = to_light / distance;
+    float cos_light = -glm::dot(direction, point.normal);
+    if (scene_.materials[static_cast<std::size_t>(material)].two_sided) cos_light = std::abs(cos_light);
+    if (cos_light <= 1e-6F) return std::nullopt;
+    return LightSample{direction, distance, emission(material, point.uv),
+                       emitter_pdf(selection, material, distance, cos_light), false};
+}
+
+LightSet::EmitterPoint LightSet::point_on(const Emitter& emitter, const glm::vec2& u) const {
     const Mesh& mesh = *emitter.mesh;
     const Material& material = scene_.materials[static_cast<std::size_t>(mesh.material)];
     const glm::uvec3& t = mesh.triangles[emitter.triangle];
@@ -248,21 +267,11 @@ std::optional<LightSample> LightSet::sample_emitter(const Selection& selection, 
     const float root = std::sqrt(u.x);  // even over the triangle
     const float along_u = root * (1.0F - u.y);
     const float along_v = root * u.y;
-    const glm::vec3 to_light = corner + edge_u * along_u + edge_v * along_v - selection.position;
-    const float distance2 = glm::dot(to_light, to_light);
-    if (!(distance2 > 0.0F)) return std::nullopt;
-    const float distance = std::sqrt(distance2);
-    const glm::vec3 direction = to_light / distance;
-    float cos_light = -glm::dot(direction, glm::normalize(glm::cross(edge_u, edge_v)));
-    if (material.two_sided) cos_light = std::abs(cos_light);
-    if (cos_light <= 1e-6F) return std::nullopt;
     const glm::vec2 uv = interpolate_uv(mesh, emitter.triangle, along_u, along_v);
-    if (material.texture >= 0 && !mesh.uvs.empty() &&
-        sample_texture_alpha(scene_.textures[static_cast<std::size_t>(material.texture)], uv) < kHoleAlpha) {
-        return std::nullopt;
-    }
-    return LightSample{direction, distance, emission(mesh.material, uv),
-                       emitter_pdf(selection, mesh.material, distance, cos_light), false};
+    const bool hole =
+        material.texture >= 0 && !mesh.uvs.empty() &&
+        sample_texture_alpha(scene_.textures[static_cast<std::size_t>(material.texture)], uv) < kHoleAlpha;
+    return {corner + edge_u * along_u + edge_v * along_v, glm::normalize(glm::cross(edge_u, edge_v)), uv, hole};
 }
 
 glm::vec3 LightSet::emission(int material, const glm::vec2& uv) const {

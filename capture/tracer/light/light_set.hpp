@@ -8,9 +8,11 @@
 // `radiance / pdf` is irradiance over the probability of the draw.
 
 #include "capture/tracer/light/environment_map.hpp"
+#include "capture/tracer/light/photon.hpp"
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/light/light.hpp"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -26,9 +28,13 @@ struct LightSample {
 
 class LightSet {
 public:
-    // `environment` takes the place of the scene's own; half the diagonal of the meshes' box is `radius`. Refers to
-    // `scene`, which must stay where it is and unchanged.
-    LightSet(const Scene& scene, Environment environment, float radius);
+    // A sphere around all meshes.
+    struct Extent {
+        glm::vec3 centre{0.0F};
+        float radius = 1.0F;
+    };
+    // `environment` takes the place of the scene's own. Refers to `scene`, which must stay where it is and unchanged.
+    LightSet(const Scene& scene, Environment environment, const Extent& extent);
 
     // In place of those that were there.
     void set_lights(const std::vector<Light>& lights);
@@ -50,6 +56,15 @@ public:
     // Nothing where the drawn source does not light the place. u_source picks the source, u the point on it.
     [[nodiscard]] std::optional<LightSample> sample(const Selection& selection, float u_source,
                                                     const glm::vec2& u) const;
+
+    // One of the photons that all sources send into the scene, drawn by about their flux; the mean of what such photons
+    // carry is what arrives. Nothing where this one carries nothing. There must be a source.
+    [[nodiscard]] std::optional<Photon> emit(float u_source, const glm::vec2& u_place,
+                                             const glm::vec2& u_direction) const;
+
+    // Each source but the environment as one point that stands for all of it: areas, and each mesh that shines, by
+    // their middle. `radiance / pdf` is irradiance.
+    void visit_middles(const glm::vec3& position, const std::function<void(const LightSample&)>& visit) const;
 
     [[nodiscard]] const EnvironmentMap& environment() const { return environment_; }
     // Density with which sample() gives this direction through the environment.
@@ -92,14 +107,31 @@ private:
         float least_cos = -1.0F;
     };
 
+    // A mesh that shines, for those who take it for a point.
+    struct Glow {
+        glm::vec3 middle{0.0F};
+        glm::vec3 mean_normal{0.0F};  // times the area; short where the mesh is closed
+        glm::vec3 emission{0.0F};     // mean
+        float area = 0.0F;
+        float radius = 0.0F;  // around the middle
+        bool two_sided = false;
+    };
+
     struct Emitter {
         const Mesh* mesh;
         std::size_t triangle;
         float cumulative;  // share of the power of this and all emitters before it
     };
 
+    struct EmitterPoint {
+        glm::vec3 position, normal;
+        glm::vec2 uv;
+        bool hole;
+    };
+
     static Cone cone_of(const Light& light);
     void gather_emitters();
+    void gather_glow(const Mesh& mesh);
     void add_light(const Light& light);
     void place_lights(float turn_rad);
     [[nodiscard]] float estimate(const Source& source, const glm::vec3& position) const;
@@ -114,18 +146,29 @@ private:
     [[nodiscard]] std::optional<LightSample> sample_emitter(const Selection& selection, float u_emitter,
                                                             const glm::vec2& u) const;
 
+    [[nodiscard]] EmitterPoint point_on(const Emitter& emitter, const glm::vec2& u) const;
+    [[nodiscard]] float flux_of(const Source& source) const;
+    void sum_flux();
+    [[nodiscard]] Photon emit_distant(const glm::vec3& direction, const glm::vec3& irradiance,
+                                      const glm::vec2& u) const;
+    [[nodiscard]] static std::optional<Photon> emit_local(const Light& light, float chance, const glm::vec2& u);
+    [[nodiscard]] std::optional<Photon> emit_emitter(float u_emitter, float chance, const glm::vec2& u_place,
+                                                     const glm::vec2& u_direction) const;
+
     const Scene& scene_;
     float environment_turn_rad_;  // at construction
     EnvironmentMap environment_;
-    float floor_distance2_;      // nearer, surfaces that shine are not thought to be brighter
+    Extent extent_;              // nearer than its radius, surfaces that shine are not thought to be brighter
     std::vector<Light> lights_;  // those of the scene that shine, as they are turned now
     std::vector<Light> still_;   // the same as they were at construction
     std::vector<Cone> cones_;    // of lights_
     std::vector<Area> areas_;
     std::vector<Emitter> emitters_;
+    std::vector<Glow> glows_;
     std::vector<float> brightness_;  // of each material: luminance of its emission, mean over the texture
     double emitter_power_ = 0;       // sum of area * brightness
     std::vector<Source> sources_;
+    std::vector<float> flux_;  // share of this and all sources before it
     std::optional<std::size_t> environment_source_;
     std::optional<std::size_t> emitter_source_;
 };

@@ -3,7 +3,7 @@
 #include "compositor/gl/draw.hpp"
 #include "compositor/gl/texture.hpp"
 #include "compositor/viewer/drawing/background_shaders.hpp"
-#include "compositor/viewer/drawing/raster_lights.hpp"
+#include "compositor/scene/raster_lights.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
 #include "compositor/viewer/views/engine_views.hpp"
 #include "engine/core/views/depth_picture.hpp"

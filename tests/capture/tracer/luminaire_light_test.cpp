@@ -66,18 +66,23 @@ TEST(LuminaireLight, LightsTheFloorByTheInverseSquareLaw) {
 }
 
 // What a sphere's wall gets beyond the direct light: flux * r / (4 pi R^2 (1 - r)), whatever the web.
-void expect_sphere_is_filled(const std::shared_ptr<const Luminaire>& luminaire) {
+void expect_sphere_is_filled(const std::shared_ptr<const Luminaire>& luminaire, RenderMethod method) {
+    SCOPED_TRACE(method == RenderMethod::kPath ? "path" : "radiosity");
     const double albedo = 0.5, radius = 1;
     Scene scene = scene_of(make_sphere(6), material_of(SurfaceKind::diffuse, glm::vec3(albedo)));
     scene.lights.push_back(light_of(luminaire, {0, 0, 0}));
     // All directions alike: equal steps of height and turn.
-    RayPicture rays{256, 128, glm::dvec3(0), {0, 0, -1}, [](double x, double y) {
-                        const double h = 1 - 2 * y / 128, turn = 2 * kPi * x / 256,
+    // Noise of virtual lights is the same all over a picture, so that passes count there, and pixels elsewhere.
+    const bool radiosity = method == RenderMethod::kRadiosity;
+    const int side = radiosity ? 8 : 128;
+    RayPicture rays{2 * side, side, glm::dvec3(0), {0, 0, -1}, [side](double x, double y) {
+                        const double h = 1 - 2 * y / side, turn = kPi * x / side,
                                      across = std::sqrt(std::max(1 - h * h, 0.0));
                         return glm::dvec3(across * std::cos(turn), h, across * std::sin(turn));
                     }};
     RenderOptions options;
-    options.samples_per_pixel = 16;
+    options.method = method;
+    options.samples_per_pixel = radiosity ? 512 : 16;
     options.max_bounces = 24;
     auto tracer = Tracer::create(std::move(scene));
     ASSERT_TRUE(tracer) << tracer.error().message;
@@ -89,7 +94,8 @@ void expect_sphere_is_filled(const std::shared_ptr<const Luminaire>& luminaire) 
 }
 
 TEST(LuminaireLight, FillsASphereAsItsFluxSays) {
-    expect_sphere_is_filled(lopsided());
+    expect_sphere_is_filled(lopsided(), RenderMethod::kPath);
+    expect_sphere_is_filled(lopsided(), RenderMethod::kRadiosity);
 }
 
 TEST(LuminaireLightRealData, FillsASphereAsItsFluxSays) {
@@ -98,7 +104,9 @@ TEST(LuminaireLightRealData, FillsASphereAsItsFluxSays) {
         SCOPED_TRACE(i);
         auto read = read_luminaire(folder / (std::to_string(i) + ".IES"));
         ASSERT_TRUE(read) << read.error().message;
-        expect_sphere_is_filled(std::make_shared<const Luminaire>(std::move(read).value()));
+        const auto luminaire = std::make_shared<const Luminaire>(std::move(read).value());
+        expect_sphere_is_filled(luminaire, RenderMethod::kPath);
+        expect_sphere_is_filled(luminaire, RenderMethod::kRadiosity);
     }
 }
 
@@ -120,7 +128,7 @@ TEST(LightSetProperty, DrawsAreUnbiasedWhereverTheyAreNeeded) {
     disc.half_u = {0.3, 0, 0};
     disc.half_v = {0, 0, 0.3};
     scene.lights.push_back(disc);
-    const LightSet lights(scene, {}, 10.0F);
+    const LightSet lights(scene, {}, {glm::vec3(0), 10.0F});
     rs::test::Random random(3);
     for (int place = 0; place < 40; ++place) {
         const glm::vec3 position(random.real(-3, 3), random.real(-0.9, 3.5), random.real(-3, 3));

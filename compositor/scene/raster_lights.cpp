@@ -1,4 +1,4 @@
-#include "compositor/viewer/drawing/raster_lights.hpp"
+#include "compositor/scene/raster_lights.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,21 +41,22 @@ Light ambient_light(const char* name, const glm::vec3& radiance) {
 
 }  // namespace
 
+glm::vec3 reflected_light(const Scene& scene) {
+    glm::dvec3 flux(0);
+    for (const Light& light : scene.lights) flux += flux_of(light);
+    const BoundingBox box = bounds_of(scene);
+    if (box.empty() || !(glm::length(flux) > 0)) return glm::vec3(0);
+    const glm::dvec3 size = box.highest - box.lowest;
+    const double surface = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+    // Irradiance over pi is what a white surface shows whose material reflects ambient light in full.
+    return glm::vec3(flux * kReflectance / ((1 - kReflectance) * std::max(surface, 1e-6) * kPi));
+}
+
 std::vector<Light> raster_lights(const Scene& scene, double exposure_ev) {
     std::vector<Light> lights;
-    glm::dvec3 flux(0);
-    for (const Light& light : scene.lights) {
-        lights.push_back(punctual_of(light));
-        flux += flux_of(light);
-    }
-    const BoundingBox box = bounds_of(scene);
-    if (!box.empty() && glm::length(flux) > 0) {
-        const glm::dvec3 size = box.highest - box.lowest;
-        const double surface = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
-        // Irradiance over pi is what a white surface shows whose material reflects ambient light in full.
-        lights.push_back(ambient_light(
-            "reflected", glm::vec3(flux * kReflectance / ((1 - kReflectance) * std::max(surface, 1e-6) * kPi))));
-    }
+    for (const Light& light : scene.lights) lights.push_back(punctual_of(light));
+    const glm::vec3 reflected = reflected_light(scene);
+    if (reflected != glm::vec3(0)) lights.push_back(ambient_light("reflected", reflected));
     if (scene.environment) lights.push_back(ambient_light("environment", mean_of(*scene.environment)));
     const auto brighter = static_cast<float>(std::exp2(exposure_ev));
     for (Light& light : lights) {

@@ -1,0 +1,75 @@
+#pragma once
+// Instant radiosity, a pass of virtual lights at a time (A. Keller, "Instant Radiosity", SIGGRAPH 1997).
+//
+//     photons from the lights -> a virtual light wherever one meets a surface that is not specular
+//     camera ray -> mirrors, glass -> surface: light samples for direct light, all virtual lights for the rest
+//
+// Photons leave lights drawn by their flux and die by roulette over what surfaces absorb. Virtual lights that bring the
+// view little are few but strong: one is kept with the probability min(c / mean c + 0.05, 1), c being what it brings to
+// some points that the camera sees, and its power is divided by that (I. Georgiev, P. Slusallek, "Simple and Robust
+// Iterative Importance Sampling of Virtual Point Lights", Eurographics 2010). Near a virtual light the geometry term is
+// bounded by kBound sqrt(pass + 1) over the square of the scene's radius. The bound grows with the passes, so the
+// bright spots of corners never come, and the mean of the passes goes to what a path tracer finds.
+//
+// Left out is the light of primitives that reaches the camera over more than one surface.
+
+#include "capture/tracer/integrator/ray_picture.hpp"
+#include "capture/tracer/integrator/transport.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rs::capture {
+
+struct RadiosityOptions {
+    int max_bounces = 16;     // as RenderOptions has it
+    int lights_of_pass = 24;  // that are kept, about
+    bool importance = true;   // else all are kept
+};
+
+class RadiosityTracer final : public Integrator {
+public:
+    // Makes ready for the samples first <= s < first + count of a picture; each is a pass of its own. The same `key`
+    // and sample give the same virtual lights.
+    RadiosityTracer(const LightTransport& transport, const RadiosityOptions& options, const RayPicture& picture,
+                    std::uint64_t key, int first, int count);
+
+    bool trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+               glm::vec3& radiance) const override;
+
+    // Of the passes that are ready.
+    [[nodiscard]] std::size_t light_count() const;
+
+private:
+    using Vertex = LightTransport::Vertex;
+    struct VirtualLight {
+        Vertex vertex;   // seen from where the photon came
+        glm::vec3 flux;  // that arrives
+        int depth;       // surfaces that the photon has met, this one included
+    };
+    struct CameraPoint {
+        Vertex vertex;
+        glm::vec3 throughput;
+    };
+    using VirtualLights = std::vector<VirtualLight>;
+
+    void find_camera_points(const RayPicture& picture, std::uint64_t key);
+    void plan_photons(std::uint64_t key);
+    void follow_photon(Sampler& sampler, VirtualLights& lights) const;
+    [[nodiscard]] VirtualLights lights_of(std::uint64_t key, int pass) const;
+    // What the camera points get, visibility included; luminance.
+    [[nodiscard]] float importance_of(const VirtualLight& light, float bound) const;
+    [[nodiscard]] glm::vec3 light_from(const VirtualLight& light, const Vertex& vertex, float bound) const;
+    [[nodiscard]] float bound_of(int pass) const;
+
+    LightTransport transport_;
+    RadiosityOptions options_;
+    int first_;
+    float radius2_;  // of the scene, squared
+    int photons_ = 1;
+    float mean_importance_ = 0.0F;  // 0: all are kept
+    std::vector<CameraPoint> camera_points_;
+    std::vector<VirtualLights> passes_;
+};
+
+}  // namespace rs::capture

@@ -1,0 +1,123 @@
+#include "capture/tracer/integrator/transport.hpp"
+
+#include "capture/tracer/light/directions.hpp"
+#include "capture/tracer/scene/texture_lookup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace rs::capture {
+
+namespace {
+
+// Interpolated normals may face away from the viewer near silhouettes: the normal is bent just far enough to face them.
+glm::vec3 facing_normal(const glm::vec3& normal, const glm::vec3& to_viewer) {
+    constexpr float kLeastCos = 0.01F;
+    const float cos_viewer = glm::dot(normal, to_viewer);
+    if (cos_viewer >= kLeastCos) return normal;
+    return glm::normalize(normal + to_viewer * (kLeastCos - cos_viewer));
+}
+
+glm::vec3 surface_colour(const Scene& scene, const Material& material, const SurfacePoint& point) {
+    if (material.texture < 0) return material.colour * point.colour;
+    const RgbaF texel = sample_texture(scene.textures[static_cast<std::size_t>(material.texture)], point.uv);
+    return material.colour * point.colour * glm::vec3(texel.r, texel.g, texel.b);
+}
+
+}  // namespace
+
+LightTransport::Vertex LightTransport::vertex_at(const SurfacePoint& point, const glm::vec3& direction) const {
+    const Material& material = material_of(point);
+    const glm::vec3 to_viewer = -direction;
+    const Frame frame(facing_normal(point.shading_normal, to_viewer));
+    return {
+        point, frame,
+        Surface(model_of(point), surface_colour(scene_, material, point), frame.to_local(to_viewer), !point.front_side),
+        model_of(point).translucency > 0.0F, rays_.step_off()};
+}
+
+LightTransport::Met LightTransport::meet(const Segment& segment, const MediumStack& media, glm::vec3& throughput,
+                                         glm::vec3& radiance, SurfacePoint& point) const {
+    const bool hit = rays_.intersect(segment.origin, segment.direction, point);
+    const float reach = hit ? point.distance : std::numeric_limits<float>::infinity();
+    if (!segment.of_camera) {
+        if (const auto shown = rays_.ask_primitives(segment.origin, segment.direction, reach)) {
+            // It is drawn by no light sample, so it counts in full; of the light that passes before it, too.
+            radiance += throughput * (shown->radiance + areas_on_the_way(segment, shown->distance));
+            return Met::kLight;
+        }
+    }
+    if (hit) throughput *= media.passed(point.distance);
+    if (!segment.of_camera || seen_.areas) radiance += throughput * areas_on_the_way(segment, reach);
+    if (!hit) {
+        if (!segment.of_camera || seen_.environment) radiance += throughput * environment_behind(segment);
+        return max_component(radiance) > 0.0F ? Met::kLight : Met::kNothing;
+    }
+    radiance += throughput * emission_of(point, segment);
+    const Material& material = material_of(point);
+    const bool not_there = !point.front_side && !material.two_sided && material.kind != SurfaceKind::glass;
+    return not_there ? Met::kLight : Met::kSurface;
+}
+
+glm::vec3 LightTransport::areas_on_the_way(const Segment& segment, float distance) const {
+    glm::vec3 sum(0.0F);
+    for (std::size_t i = 0; i < lights_.area_count(); ++i) {
+        const auto crossing = lights_.cross_area(i, segment.selection, segment.origin, segment.direction, distance);
+        if (crossing) sum += crossing->radiance * (segment.specular ? 1.0F : weight_of(segment, crossing->pdf));
+    }
+    return sum;
+}
+
+glm::vec3 LightTransport::environment_behind(const Segment& segment) const {
+    if (lights_.environment().is_black()) return glm::vec3(0.0F);
+    const float pdf = lights_.environment_pdf(segment.selection, segment.direction);
+    return lights_.environment().radiance(segment.direction) * (segment.specular ? 1.0F : weight_of(segment, pdf));
+}
+
+glm::vec3 LightTransport::emission_of(const SurfacePoint& point, const Segment& segment) const {
+    const Material& material = material_of(point);
+    if (max_component(material.emission) <= 0.0F || (!point.front_side && !material.two_sided)) return glm::vec3(0.0F);
+    const glm::vec3 emission = lights_.emission(point.material, point.uv);
+    if (segment.specular || max_component(emission) <= 0.0F) return emission;
+    const float cos_light = std::max(-glm::dot(point.geometric_normal, segment.direction), 1e-6F);
+    return emission *
+           weight_of(segment, lights_.emitter_pdf(segment.selection, point.material, point.distance, cos_light));
+}
+
+glm::vec3 LightTransport::light_sample(const Vertex& vertex, float u_source, const glm::vec2& u, int count) const {
+    const glm::vec3 dark(0.0F);
+    const auto light = lights_.sample(vertex.selection, u_source, u);
+    if (!light) return dark;
+    const glm::vec3 wi = vertex.frame.to_local(light->direction);
+    const Surface::Value value = vertex.surface.evaluate(wi);
+    if (max_component(value.f_cos) <= 0.0F) return dark;
+    const glm::vec3 start = vertex.start_of(light->direction, wi.z > 0.0F);
+    // Just short of the light, which may be a surface itself.
+    if (rays_.occluded(start, light->direction, light->distance * (1.0F - 1e-4F))) return dark;
+    const auto samples = static_cast<float>(count);
+    const float weight = light->delta ? 1.0F : mis_weight(samples * light->pdf, value.pdf);
+    return value.f_cos * light->radiance * (weight / (samples * light->pdf));
+}
+
+LightTransport::Segment LightTransport::segment_from(const Vertex& vertex, const SurfaceSample& drawn,
+                                                     int light_samples) const {
+    Segment segment;
+    segment.direction = glm::normalize(vertex.frame.to_world(drawn.direction));
+    segment.pdf = drawn.pdf;
+    segment.specular = drawn.specular;
+    segment.selection = vertex.selection;
+    segment.light_samples = light_samples;
+    const bool near_side = drawn.direction.z > 0.0F;
+    if (drawn.specular) {
+        // A reflection must leave the facet and a refraction must enter it; interpolated normals may say otherwise near
+        // silhouettes, where the direction is mirrored at the facet.
+        const float cos_facet = glm::dot(vertex.point.geometric_normal, segment.direction);
+        if ((cos_facet > 0.0F) != near_side) segment.direction -= 2.0F * cos_facet * vertex.point.geometric_normal;
+    }
+    segment.origin = vertex.start_of(segment.direction, near_side);
+    return segment;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,44 @@
+#pragma once
+// Ray tracing as T. Whitted has it ("An Improved Illumination Model for Shaded Display", CACM 23(6), 1980): direct
+// light with hard shadows, mirrors and glass to a depth of 8, and nothing at random.
+//
+//     direct       each light from one point: areas and surfaces that shine from their middle
+//     environment  cosine-convolved, without shadows; seen in mirrors and through glass as it is
+//     the rest     a constant, `ambient`
+//     metal        a mirror of its colour, whatever its roughness, with the highlights of lights without an area
+//
+// Rays whose light would come to less than 1/256 of the picture's are not followed.
+
+#include "capture/tracer/integrator/transport.hpp"
+#include "capture/tracer/light/irradiance_map.hpp"
+
+#include <utility>
+
+namespace rs::capture {
+
+class WhittedTracer final : public Integrator {
+public:
+    WhittedTracer(const LightTransport& transport, IrradianceMap irradiance, const glm::vec3& ambient, int max_depth)
+        : transport_(transport), irradiance_(std::move(irradiance)), ambient_(ambient), max_depth_(max_depth) {}
+
+    bool trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+               glm::vec3& radiance) const override;
+
+private:
+    struct Ray {
+        LightTransport::Segment segment;
+        glm::vec3 throughput{1.0F};
+        MediumStack media{};
+        int depth = 0;
+    };
+    bool follow(Ray ray, glm::vec3& radiance) const;
+    [[nodiscard]] glm::vec3 matte_light(const LightTransport::Vertex& vertex) const;
+    [[nodiscard]] glm::vec3 light_of(const LightTransport::Vertex& vertex, const LightSample& light) const;
+
+    LightTransport transport_;
+    IrradianceMap irradiance_;
+    glm::vec3 ambient_;
+    int max_depth_;
+};
+
+}  // namespace rs::capture

@@ -1,0 +1,141 @@
+// The half of LightSet that follows light from its sources.
+#include "capture/tracer/light/directions.hpp"
+#include "capture/tracer/light/light_set.hpp"
+#include "capture/tracer/scene/texture_lookup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rs::capture {
+
+namespace {
+
+// Evenly within the cone about +z whose cosine is at least `least_cos`.
+glm::vec3 cone_direction(const glm::vec2& u, float least_cos) {
+    const float z = 1.0F - u.x * (1.0F - least_cos);
+    const float r = std::sqrt(std::max(0.0F, 1.0F - z * z));
+    return {r * std::cos(2.0F * kPiF * u.y), r * std::sin(2.0F * kPiF * u.y), z};
+}
+
+glm::vec2 disc_point(const glm::vec2& u) {
+    const float r = std::sqrt(u.x);
+    return r * glm::vec2(std::cos(2.0F * kPiF * u.y), std::sin(2.0F * kPiF * u.y));
+}
+
+float least_cos_of(const Light& light) {
+    return light.kind == LightKind::kSpot ? static_cast<float>(std::cos(std::min(light.cut_off_rad, kPi))) : -1.0F;
+}
+
+}  // namespace
+
+float LightSet::flux_of(const Source& source) const {
+    const float disc = kPiF * extent_.radius * extent_.radius;
+    switch (source.kind) {
+        case SourceKind::environment:
+        case SourceKind::distant:
+            return source.power * disc;
+        case SourceKind::area:
+            return source.power * kPiF;
+        case SourceKind::emitters:
+            return static_cast<float>(emitter_power_) * kPiF;
+        case SourceKind::local:
+            break;
+    }
+    const Light& light = lights_[source.index];
+    if (light.kind == LightKind::kLuminaire) {
+        return luminance(light.colour) * static_cast<float>(light.luminaire->web.lumens() / kLumensPerWatt);
+    }
+    // Of its axis, at a distance that is usual in the scene.
+    const double d = std::min(static_cast<double>(extent_.radius), light.radius) / 2;
+    const double falloff =
+        std::max(glm::dot(glm::dvec3(light.attenuation), {1, d, d * d}), static_cast<double>(light.least_attenuation));
+    return source.power * (1.0F - least_cos_of(light)) * 2.0F * kPiF * static_cast<float>(d * d / falloff);
+}
+
+void LightSet::sum_flux() {
+    flux_.clear();
+    float sum = 0.0F;
+    for (const Source& source : sources_) flux_.push_back(sum += flux_of(source));
+    for (float& share : flux_) share /= sum;
+}
+
+std::optional<Photon> LightSet::emit(float u_source, const glm::vec2& u_place, const glm::vec2& u_direction) const {
+    const auto found = std::ranges::upper_bound(flux_, u_source);
+    const auto chosen = static_cast<std::size_t>(std::min(found, flux_.end() - 1) - flux_.begin());
+    const float below = chosen > 0 ? flux_[chosen - 1] : 0.0F;
+    const float chance = flux_[chosen] - below;
+    if (!(chance > 0.0F)) return std::nullopt;
+    const Source& source = sources_[chosen];
+    switch (source.kind) {
+        case SourceKind::environment: {
+            const EnvironmentMap::Sample drawn = environment_.sample(u_direction);
+            if (!(drawn.pdf > 0.0F)) return std::nullopt;
+            return emit_distant(-drawn.direction, environment_.radiance(drawn.direction) / (drawn.pdf * chance),
+                                u_place);
+        }
+        case SourceKind::distant: {
+            const Light& light = lights_[source.index];
+            return emit_distant(light.towards, light.colour * (kPiF / chance), u_place);
+        }
+        case SourceKind::area: {
+            const Area& area = areas_[source.index];
+            const glm::vec2 at = area.round ? disc_point(u_place) : 2.0F * u_place - 1.0F;
+            return Photon{area.middle + area.half_u * at.x + area.half_v * at.y,
+                          Frame(area.normal).to_world(cosine_direction(u_direction)), area.normal,
+                          area.radiance * (kPiF * area.area / chance)};
+        }
+        case SourceKind::emitters:
+            return emit_emitter(std::min((u_source - below) / chance, 0x1.fffffep-1F), chance, u_place, u_direction);
+        case SourceKind::local:
+            return emit_local(lights_[source.index], chance, u_direction);
+    }
+    return std::nullopt;
+}
+
+// From a disc before the scene, which covers it.
+Photon LightSet::emit_distant(const glm::vec3& direction, const glm::vec3& irradiance, const glm::vec2& u) const {
+    const glm::vec2 at = disc_point(u) * extent_.radius;
+    const Frame frame(direction);
+    return {extent_.centre - direction * (2.0F * extent_.radius) + frame.tangent * at.x + frame.bitangent * at.y,
+            direction, glm::vec3(0.0F), irradiance * (kPiF * extent_.radius * extent_.radius)};
+}
+
+std::optional<Photon> LightSet::emit_local(const Light& light, float chance, const glm::vec2& u) {
+    Photon photon{};
+    photon.origin = glm::vec3(light.location);
+    photon.point = &light;
+    if (light.kind == LightKind::kLuminaire) {
+        const glm::dvec3 direction = light.luminaire->web.sample(glm::dvec2(u));
+        const double pdf = light.luminaire->web.pdf(direction);
+        if (!(pdf > 0)) return std::nullopt;
+        photon.direction = glm::vec3(light.world_from_luminaire * direction);
+        photon.inverse_pdf = static_cast<float>(1 / pdf) / chance;
+        return photon;
+    }
+    const float least_cos = least_cos_of(light);
+    const Frame frame(light.kind == LightKind::kSpot ? glm::vec3(light.towards) : glm::vec3(0, 0, 1));
+    photon.direction = frame.to_world(cone_direction(u, least_cos));
+    photon.inverse_pdf = 2.0F * kPiF * (1.0F - least_cos) / chance;
+    return photon;
+}
+
+std::optional<Photon> LightSet::emit_emitter(float u_emitter, float chance, const glm::vec2& u_place,
+                                             const glm::vec2& u_direction) const {
+    const auto found = std::ranges::upper_bound(emitters_, u_emitter, {}, &Emitter::cumulative);
+    const Emitter& emitter = found == emitters_.end() ? emitters_.back() : *found;
+    const EmitterPoint point = point_on(emitter, u_place);
+    if (point.hole) return std::nullopt;
+    const int material = emitter.mesh->material;
+    const bool both = scene_.materials[static_cast<std::size_t>(material)].two_sided;
+    glm::vec2 u = u_direction;
+    glm::vec3 normal = point.normal;
+    if (both) {
+        if (u.x >= 0.5F) normal = -normal;
+        u.x = std::min(2.0F * (u.x < 0.5F ? u.x : u.x - 0.5F), 0x1.fffffep-1F);
+    }
+    const float pdf = brightness_[static_cast<std::size_t>(material)] / static_cast<float>(emitter_power_) * chance;
+    return Photon{point.position, Frame(normal).to_world(cosine_direction(u)), normal,
+                  emission(material, point.uv) * ((both ? 2.0F : 1.0F) * kPiF / pdf)};
+}
+
+}  // namespace rs::capture
