@@ -5,6 +5,7 @@
 #include "rayspace/file/input_file.hpp"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/IOStream.hpp>
@@ -23,6 +24,8 @@
 namespace rs {
 
 namespace {
+
+constexpr float kCreaseAngle_deg = 60.0F;
 
 class MemoryFile : public Assimp::IOStream {
 public:
@@ -161,6 +164,7 @@ ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes
         importer.UnregisterLoader(other);
         delete other;  // ours once it is not registered
     }
+    importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseAngle_deg);
     auto* const files = new ModelFiles(cap_bytes);
     importer.SetIOHandler(files);
     return *files;

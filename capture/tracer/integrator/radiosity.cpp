@@ -9,7 +9,7 @@ namespace rs::capture {
 
 namespace {
 
-constexpr float kBound = 16.0F;
+constexpr float kBound = 8.0F;
 constexpr int kCameraPoints = 64;
 constexpr int kPilotPhotons = 64;  // at a time
 constexpr int kPilotLights = 32;   // that bring something
@@ -41,7 +41,7 @@ RadiosityTracer::RadiosityTracer(const LightTransport& transport, const Radiosit
                                  const RayPicture& picture, std::uint64_t key, int first, int count)
     : transport_(transport), options_(options), first_(first) {
     const glm::vec3 diagonal = transport.rays().upper() - transport.rays().lower();
-    radius2_ = std::max(glm::dot(diagonal, diagonal) / 4, 1e-12F);
+    bound_ = kBound / std::max(glm::dot(diagonal, diagonal) / 4, 1e-12F);
     passes_.resize(static_cast<std::size_t>(count));
     if (transport_.lights().empty()) return;
     if (options_.importance) find_camera_points(picture, key);
@@ -55,10 +55,6 @@ std::size_t RadiosityTracer::light_count() const {
     std::size_t count = 0;
     for (const VirtualLights& lights : passes_) count += lights.size();
     return count;
-}
-
-float RadiosityTracer::bound_of(int pass) const {
-    return kBound * std::sqrt(static_cast<float>(pass) + 1.0F) / radius2_;
 }
 
 void RadiosityTracer::find_camera_points(const RayPicture& picture, std::uint64_t key) {
@@ -99,7 +95,7 @@ void RadiosityTracer::plan_photons(std::uint64_t key) {
             follow_photon(sampler, found);
         }
         for (const VirtualLight& light : found) {
-            importance.push_back(importance_of(light, bound_of(0)));
+            importance.push_back(importance_of(light));
             sum += static_cast<double>(importance.back());
             useful += importance.back() > 0.0F;
         }
@@ -163,7 +159,7 @@ RadiosityTracer::VirtualLights RadiosityTracer::lights_of(std::uint64_t key, int
             light.flux /= static_cast<float>(photons_);
             if (mean_importance_ > 0.0F) {
                 // The pilot's photons were whole.
-                const float importance = importance_of(light, bound_of(pass)) * static_cast<float>(photons_);
+                const float importance = importance_of(light) * static_cast<float>(photons_);
                 const float chance = std::min(importance / mean_importance_ + kLeastKept, 1.0F);
                 if (!(sampler.next_2d().x < chance)) continue;
                 light.flux /= chance;
@@ -174,15 +170,15 @@ RadiosityTracer::VirtualLights RadiosityTracer::lights_of(std::uint64_t key, int
     return kept;
 }
 
-float RadiosityTracer::importance_of(const VirtualLight& light, float bound) const {
+float RadiosityTracer::importance_of(const VirtualLight& light) const {
     float sum = 0.0F;
     for (const CameraPoint& point : camera_points_) {
-        sum += luminance(point.throughput * light_from(light, point.vertex, bound));
+        sum += luminance(point.throughput * light_from(light, point.vertex));
     }
     return sum;
 }
 
-glm::vec3 RadiosityTracer::light_from(const VirtualLight& light, const Vertex& vertex, float bound) const {
+glm::vec3 RadiosityTracer::light_from(const VirtualLight& light, const Vertex& vertex) const {
     const glm::vec3 dark(0.0F);
     const Vertex& from = light.vertex;
     const glm::vec3 way = from.point.position - vertex.point.position;
@@ -201,7 +197,7 @@ glm::vec3 RadiosityTracer::light_from(const VirtualLight& light, const Vertex& v
     // `here` holds a cosine that the geometry term is bounded with.
     float geometry = std::abs(cos_facet) / distance2;
     const float with_cosine = geometry * std::abs(wi.z);
-    if (with_cosine > bound) geometry *= bound / with_cosine;
+    if (with_cosine > bound_) geometry *= bound_ / with_cosine;
 
     const glm::vec3 start = vertex.start_of(direction, wi.z > 0.0F);
     const glm::vec3 end = from.start_of(-direction, true);
@@ -214,22 +210,27 @@ glm::vec3 RadiosityTracer::light_from(const VirtualLight& light, const Vertex& v
 bool RadiosityTracer::trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
                             glm::vec3& radiance) const {
     using Met = LightTransport::Met;
-    const int pass = static_cast<int>(sampler.sample());
-    const VirtualLights& lights = passes_[static_cast<std::size_t>(pass - first_)];
-    const float bound = bound_of(pass);
+    const VirtualLights& lights = passes_[sampler.sample() - static_cast<std::uint32_t>(first_)];
     radiance = glm::vec3(0.0F);
     glm::vec3 throughput(1.0F);
     LightTransport::Segment segment = LightTransport::camera_segment(origin, direction);
     MediumStack media;
 
-    bool gathered = false;  // where the segment begins: virtual lights stand for what it would find on a surface
+    // Where virtual lights stand for what the segment would find on a surface, up to their bound: the cosine at its
+    // beginning; else 0.
+    float gathered_cos = 0.0F;
     for (int bounce = 0;; ++bounce) {
         SurfacePoint point;
         const Met met = transport_.meet(segment, media, throughput, radiance, point);
         if (met != Met::kSurface || bounce == options_.max_bounces) return bounce > 0 || met != Met::kNothing;
         Vertex vertex = transport_.vertex_at(point, segment.direction);
         const bool specular = vertex.surface.is_specular();
-        if (gathered && !specular) return true;
+        if (gathered_cos > 0.0F && !specular) {
+            // The rest goes on as a path, by roulette.
+            const float cos_facet = std::abs(glm::dot(point.geometric_normal, segment.direction));
+            const float geometry = gathered_cos * cos_facet / (point.distance * point.distance);
+            if (!(geometry > bound_) || sampler.next_2d().x < bound_ / geometry) return true;
+        }
 
         if (!specular) {
             transport_.select_lights(vertex);
@@ -239,13 +240,13 @@ bool RadiosityTracer::trace(const glm::vec3& origin, const glm::vec3& direction,
                 arrived += transport_.light_sample(vertex, source, sampler.next_2d(), kLightSamples);
             }
             for (const VirtualLight& light : lights) {
-                if (bounce + light.depth < options_.max_bounces) arrived += light_from(light, vertex, bound);
+                if (bounce + light.depth < options_.max_bounces) arrived += light_from(light, vertex);
             }
             radiance += throughput * arrived;
         }
-        gathered = !specular;
         SurfaceSample drawn;
         if (!vertex.surface.sample(sampler.next_2d().x, sampler.next_2d(), drawn)) return true;
+        gathered_cos = specular ? 0.0F : std::abs(drawn.direction.z);
         throughput *= drawn.weight;
         segment = transport_.segment_from(vertex, drawn, kLightSamples);
         if (vertex.surface.passes(drawn)) media.cross(transport_.material_of(point), point.front_side);

@@ -7,9 +7,11 @@
 // Photons leave lights drawn by their flux and die by roulette over what surfaces absorb. Virtual lights that bring the
 // view little are few but strong: one is kept with the probability min(c / mean c + 0.05, 1), c being what it brings to
 // some points that the camera sees, and its power is divided by that (I. Georgiev, P. Slusallek, "Simple and Robust
-// Iterative Importance Sampling of Virtual Point Lights", Eurographics 2010). Near a virtual light the geometry term is
-// bounded by kBound sqrt(pass + 1) over the square of the scene's radius. The bound grows with the passes, so the
-// bright spots of corners never come, and the mean of the passes goes to what a path tracer finds.
+// Iterative Importance Sampling of Virtual Point Lights", Eurographics 2010).
+//
+// Near a virtual light the geometry term is bounded, so that no bright spots stand in corners. What that cuts off is
+// found by paths, which go on from a surface only where the term exceeds the bound (T. Kollig, A. Keller, "Illumination
+// in the Presence of Weak Singularities", MCQMC 2004). So the mean of the passes goes to what a path tracer finds.
 //
 // Left out is the light of primitives that reaches the camera over more than one surface.
 
@@ -58,14 +60,13 @@ private:
     void follow_photon(Sampler& sampler, VirtualLights& lights) const;
     [[nodiscard]] VirtualLights lights_of(std::uint64_t key, int pass) const;
     // What the camera points get, visibility included; luminance.
-    [[nodiscard]] float importance_of(const VirtualLight& light, float bound) const;
-    [[nodiscard]] glm::vec3 light_from(const VirtualLight& light, const Vertex& vertex, float bound) const;
-    [[nodiscard]] float bound_of(int pass) const;
+    [[nodiscard]] float importance_of(const VirtualLight& light) const;
+    [[nodiscard]] glm::vec3 light_from(const VirtualLight& light, const Vertex& vertex) const;
 
     LightTransport transport_;
     RadiosityOptions options_;
     int first_;
-    float radius2_;  // of the scene, squared
+    float bound_;  // of the geometry term, cosines over squared distance
     int photons_ = 1;
     float mean_importance_ = 0.0F;  // 0: all are kept
     std::vector<CameraPoint> camera_points_;

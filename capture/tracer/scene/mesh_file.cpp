@@ -23,7 +23,6 @@ namespace rs::capture {
 namespace {
 
 constexpr std::uint64_t kMaxModelFile_bytes = std::uint64_t{4} << 30;
-constexpr float kCreaseAngle_deg = 60.0F;
 
 glm::vec3 to_vec(const aiVector3D& v) {
     return {v.x, v.y, v.z};
@@ -109,7 +108,6 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
         Assimp::Importer importer;
         const ModelFiles& files = read_models_only(importer, kMaxModelFile_bytes);
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-        importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseAngle_deg);
         if (plain_ply.empty()) {
             importer.ReadFile(path.string(), 0);
         } else {

@@ -62,7 +62,7 @@ glm::dvec3 mean_of(const Image<RgbaF>& picture, int x0, int y0, int x1, int y1) 
     return sum / static_cast<double>((x1 - x0) * (y1 - y0));
 }
 
-// Of the whole, and of each quarter, where the bound of corners still counts.
+// Of the whole and of each quarter.
 void expect_same_light(const Scene& scene) {
     const Image<RgbaF> path = picture_of(scene, RenderMethod::kPath, 2048);
     const Image<RgbaF> radiosity = picture_of(scene, RenderMethod::kRadiosity, 256);
@@ -74,10 +74,10 @@ void expect_same_light(const Scene& scene) {
                 << "channel " << c << " from " << x0 << ", " << y0;
         }
     };
-    compare(0, 0, 16, 16, 0.025);
+    compare(0, 0, 16, 16, 0.02);
     for (int quarter = 0; quarter < 4; ++quarter) {
         const int x = quarter % 2 * 8, y = quarter / 2 * 8;
-        compare(x, y, x + 8, y + 8, 0.05);
+        compare(x, y, x + 8, y + 8, 0.04);
     }
 }
 

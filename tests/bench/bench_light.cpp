@@ -1,0 +1,142 @@
+// How near the renderers of traced light come to a converged path-traced picture, after a time or a number of passes.
+//
+//     bench_light SCENE --eye X,Y,Z --at X,Y,Z [--fov DEG] [--size WxH] [--lights L.json] [--exposure EV]
+//                 [--reference PASSES] [--seconds S] [--passes N]
+//
+// The reference is traced first, with random numbers of its own. Then each renderer gets S seconds, and if asked N
+// passes. "mean" is over that of the reference, "error" the root of the mean squared difference of luminance over the
+// reference's mean, "dB" the PSNR of the 8-bit pictures. Nothing else should run beside it.
+
+#include "capture/tracer/light/directions.hpp"
+#include "compositor/scene/lights_file.hpp"
+#include "compositor/scene/scene_file.hpp"
+#include "compositor/traced/traced_renderer.hpp"
+#include "rayspace/tool/tool_main.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+namespace rs::compositor {
+namespace {
+
+struct Arguments {
+    std::string scene, lights, eye, at, size = "480x300";
+    double fov_deg = 50;
+    double exposure_ev = 0;
+    double seconds = 15;
+    int reference = 1024;
+    int passes = 0;
+};
+
+struct Picture {
+    Image<RgbaF> radiance;
+    Image<Rgba8> shown;
+};
+
+double luminance_of(const RgbaF& p) {
+    return p.a > 0 ? static_cast<double>(capture::luminance({p.r, p.g, p.b})) : 0;
+}
+
+void print_row(const char* name, const TracedRenderer& renderer, double seconds, const Picture& reference) {
+    const Image<RgbaF> radiance = renderer.radiance();
+    double sum = 0, reference_sum = 0, squares = 0;
+    for (int y = 0; y < radiance.height(); ++y) {
+        for (int x = 0; x < radiance.width(); ++x) {
+            const double a = luminance_of(radiance(x, y)), b = luminance_of(reference.radiance(x, y));
+            sum += a;
+            reference_sum += b;
+            squares += (a - b) * (a - b);
+        }
+    }
+    const double pixels = static_cast<double>(radiance.width()) * radiance.height();
+    double difference = 0;
+    const Image<Rgba8> shown = renderer.picture();
+    for (int y = 0; y < shown.height(); ++y) {
+        for (int x = 0; x < shown.width(); ++x) {
+            const Rgba8 a = shown(x, y), b = reference.shown(x, y);
+            for (const int d : {a.r - b.r, a.g - b.g, a.b - b.b}) difference += static_cast<double>(d) * d;
+        }
+    }
+    std::printf("%-10s %7.2f s %6d passes  mean %6.4f  error %6.2f %%  %5.2f dB\n", name, seconds, renderer.passes(),
+                sum / reference_sum, 100 * std::sqrt(squares / pixels) / (reference_sum / pixels),
+                10 * std::log10(255.0 * 255.0 * 3 * pixels / std::max(difference, 1e-9)));
+}
+
+Result<Scene> read_lit_scene(const Arguments& arguments) {
+    Result<Scene> scene = read_scene(arguments.scene);
+    if (!scene || arguments.lights.empty()) return scene;
+    Result<LightList> list = read_light_list(arguments.lights);
+    if (!list) return list.error();
+    if (list->replace) scene->lights.clear();
+    scene->lights.insert(scene->lights.end(), list->lights.begin(), list->lights.end());
+    scene->environment = std::move(list->environment);
+    return scene;
+}
+
+Status run(const Arguments& arguments) {
+    const Result<Scene> scene = read_lit_scene(arguments);
+    if (!scene) return scene.error();
+    const auto size = parse_size(arguments.size);
+    if (!size) return size.error();
+    const auto eye = parse_triple(arguments.eye, "--eye"), at = parse_triple(arguments.at, "--at");
+    if (!eye) return eye.error();
+    if (!at) return at.error();
+    const Camera camera = look_at_camera({eye->x, eye->y, eye->z}, {at->x, at->y, at->z}, radians(arguments.fov_deg),
+                                         size->width, size->height);
+    auto renderer = TracedRenderer::create(*scene, {}, {.exposure_ev = arguments.exposure_ev});
+    if (!renderer) return renderer.error();
+    // A hair's breadth aside, so that its noise is not that of the others.
+    Camera aside = camera;
+    aside.world_from_camera[3].x += 1e-7;
+    ProgressBar progress(false);
+    progress.start("reference", arguments.reference);
+    renderer->look(aside);
+    while (renderer->passes() < arguments.reference) {
+        renderer->add_pass();
+        progress.advance();
+    }
+    progress.finish();
+    const Picture reference{renderer->radiance(), renderer->picture()};
+
+    const auto trace = [&](const NamedMethod& named, double seconds, int passes) {
+        renderer->set_method(named.method);
+        renderer->look(camera);
+        const auto begin = std::chrono::steady_clock::now();
+        double gone = 0;
+        do {
+            renderer->add_pass();
+            gone = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        } while (passes > 0 ? renderer->passes() < passes : gone < seconds);
+        print_row(named.name, *renderer, gone, reference);
+    };
+    for (const NamedMethod& named : kTracedMethods) trace(named, arguments.seconds, 0);
+    if (arguments.passes > 0) {
+        for (const NamedMethod& named : kTracedMethods) trace(named, 0, arguments.passes);
+    }
+    return {};
+}
+
+}  // namespace
+}  // namespace rs::compositor
+
+int main(int argc, char** argv) {
+    using namespace rs::compositor;
+    CLI::App app("Renderers of traced light against a converged picture", "bench_light");
+    Arguments arguments;
+    app.add_option("scene", arguments.scene, "scene file")->required();
+    app.add_option("--lights", arguments.lights, "list of lights");
+    app.add_option("--eye", arguments.eye, "X,Y,Z")->required();
+    app.add_option("--at", arguments.at, "X,Y,Z")->required();
+    app.add_option("--fov", arguments.fov_deg, "horizontal, degrees")->capture_default_str();
+    app.add_option("--size", arguments.size, "WxH")->capture_default_str();
+    app.add_option("--exposure", arguments.exposure_ev, "EV")->capture_default_str();
+    app.add_option("--reference", arguments.reference, "passes of the reference")->capture_default_str();
+    app.add_option("--seconds", arguments.seconds, "for each renderer")->capture_default_str();
+    app.add_option("--passes", arguments.passes, "and as many passes, if given");
+    std::function<rs::Status()> action;
+    app.callback([&] { action = [&] { return run(arguments); }; });
+    return rs::tool_main(app, argc, argv, action);
+}
