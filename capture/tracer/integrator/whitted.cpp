@@ -1,7 +1,5 @@
 #include "capture/tracer/integrator/whitted.hpp"
 
-#include <utility>
-
 namespace rs::capture {
 
 namespace {
@@ -39,7 +37,7 @@ bool WhittedTracer::follow(Ray ray, glm::vec3& radiance) const {
         next.segment = transport_.segment_from(vertex, way);
         if (vertex.surface.passes(way)) next.media.cross(transport_.material_of(point), point.front_side);
         ++next.depth;
-        follow(std::move(next), radiance);
+        follow(next, radiance);
     }
     return true;
 }

@@ -32,10 +32,12 @@ std::vector<Patch> patches_of(const EnvironmentMap& environment) {
         for (int column = 0; column < 2 * kSkyRows; ++column) {
             const float left = static_cast<float>(column) * step;
             glm::vec3 sum(0.0F);
-            for (int look = 0; look < kLooks * kLooks; ++look) {
-                const float u = (static_cast<float>(look % kLooks) + 0.5F) / kLooks;
-                const float v = (static_cast<float>(look / kLooks) + 0.5F) / kLooks;
-                sum += environment.radiance(direction_of(top + v * step, left + u * step));
+            for (int look_row = 0; look_row < kLooks; ++look_row) {
+                const float v = (static_cast<float>(look_row) + 0.5F) / kLooks;
+                for (int look_column = 0; look_column < kLooks; ++look_column) {
+                    const float u = (static_cast<float>(look_column) + 0.5F) / kLooks;
+                    sum += environment.radiance(direction_of(top + v * step, left + u * step));
+                }
             }
             patches.push_back(
                 {direction_of(top + 0.5F * step, left + 0.5F * step), sum * (solid_angle / (kLooks * kLooks))});
