@@ -6,6 +6,7 @@
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/tools/asked_cameras.hpp"
 #include "compositor/tools/view_options.hpp"
+#include "compositor/tools/view_tiles.hpp"
 #include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/frame_times.hpp"
@@ -153,7 +154,7 @@ Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::
 Result<std::unique_ptr<TracedRenderer>> asked_tracer(const ViewArguments& arguments, const Scene& scene,
                                                      Showroom& showroom) {
     const auto method = asked_method(arguments);
-    if (!method) return std::unique_ptr<TracedRenderer>();
+    if (!method || !arguments.tiles.empty()) return std::unique_ptr<TracedRenderer>();
     if (const Status status = showroom.wait_for_all({0, 0, 0}); !status) return status.error();
     auto tracer =
         TracedRenderer::create(scene, showroom.placed(), {.method = *method, .exposure_ev = arguments.exposure_ev});
@@ -182,6 +183,18 @@ std::shared_ptr<const Image<Rgba8>> trace(TracedRenderer& tracer, const ViewArgu
     return std::make_shared<const Image<Rgba8>>(tracer.picture());
 }
 
+// A piece of one frame's traced picture.
+Status run_tile(const ViewArguments& arguments, const Scene& scene, Showroom& showroom,
+                const std::vector<Camera>& cameras) {
+    const Result<TileRequest> tile = parse_tile(arguments.tile, cameras);
+    if (!tile) return tile.error();
+    const Result<std::unique_ptr<TracedRenderer>> tracer = asked_tracer(arguments, scene, showroom);
+    if (!tracer) return tracer.error();
+    (*tracer)->set_part(tile->place);
+    ProgressBar progress(arguments.quiet);
+    return write_tile(arguments, *tile, *trace(**tracer, arguments, cameras[tile->frame], progress));
+}
+
 // The map of what reaches a place.
 Status run_probe(const ViewArguments& arguments) {
     constexpr int kUsualSamples = 256;
@@ -206,7 +219,7 @@ Status run_view(ViewArguments arguments) {
     print_warnings(scene->warnings);
     std::optional<Window> window;
     bool in_place_of_window = false;
-    if (arguments.output.empty()) {
+    if (arguments.output.empty() && arguments.plan.empty()) {
         Result<Window> opened = open_window(arguments, *size);
         if (opened) {
             window.emplace(std::move(*opened));
@@ -218,7 +231,8 @@ Status run_view(ViewArguments arguments) {
         }
     }
     const bool in_window = window.has_value();
-    const Result<OutputKind> kind = in_window ? OutputKind::picture : output_kind(arguments.output);
+    const bool plans = !arguments.plan.empty();
+    const Result<OutputKind> kind = in_window || plans ? OutputKind::picture : output_kind(arguments.output);
     if (!kind) return kind.error();
     Result<std::unique_ptr<engine::Executor>> board = asked_executor(arguments);
     if (!board) return board.error();
@@ -235,10 +249,12 @@ Status run_view(ViewArguments arguments) {
     };
     Result<std::vector<Camera>> cameras = asked_cameras(arguments, *scene, objects_to_frame, *size);
     if (!cameras) return cameras.error();
+    if (plans) return write_plan(arguments, *cameras);
     if (in_place_of_window) cameras->erase(cameras->begin() + 1, cameras->end());
     if (in_window) {
         return run_visit(std::move(*window), arguments, *scene, std::move(showroom), drawer.name, cameras->front());
     }
+    if (!arguments.tile.empty()) return run_tile(arguments, *scene, *showroom, *cameras);
     if (*kind == OutputKind::picture && cameras->size() != 1) {
         return Error{arguments.output + ": " + std::to_string(cameras->size()) +
                      " frames do not fit one picture; give a folder or an .mp4 to -o"};
@@ -271,6 +287,11 @@ Status run_view(ViewArguments arguments) {
             std::this_thread::sleep_until(
                 begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                             std::chrono::duration<double>(frame_s * static_cast<double>(times.frames()))));
+        }
+        if (!arguments.tiles.empty()) {
+            Result<Image<Rgba8>> traced = read_tiles(arguments, static_cast<std::size_t>(times.frames()), camera);
+            if (!traced) return traced.error();
+            compositor->set_traced(std::make_shared<const Image<Rgba8>>(std::move(*traced)));
         }
         if (*tracer) {
             const bool alone = cameras->size() == 1;
@@ -316,6 +337,13 @@ int main(int argc, char** argv) {
         }
         if (!arguments.probe.empty() && rs::lower_case_extension(arguments.output) != ".exr") {
             throw CLI::ValidationError("--probe needs -o FILE.exr, the map to write");
+        }
+        if (!arguments.tile.empty() && rs::lower_case_extension(arguments.output) != ".png") {
+            throw CLI::ValidationError("--tile needs -o FILE.png, the tile to write");
+        }
+        const bool in_pieces = !arguments.tile.empty() || !arguments.tiles.empty();
+        if (in_pieces && (arguments.renderer == "raster" || arguments.seconds > 0)) {
+            throw CLI::ValidationError("--tile and --tiles are of a --renderer that traces, by --passes");
         }
         run = [&] { return arguments.probe.empty() ? run_view(arguments) : run_probe(arguments); };
     });

@@ -42,6 +42,15 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
                    "in place of a view: what light reaches X,Y,Z, as an .exr map that lights an object in "
                    "\"environment\" of a recipe of rs-capture synth as it will stand there")
         ->type_name("X,Y,Z");
+    app.add_option("--tile", arguments.tile,
+                   "in place of a view: of frame F of the traced picture W x H pixels from (X, Y), as a .png, for "
+                   "--tiles (rs-farm render does all of it)")
+        ->type_name("F:X,Y,WxH");
+    app.add_option("--tiles", arguments.tiles, "take the traced pictures from this folder of tiles F-X-Y.png")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory);
+    app.add_option("--plan", arguments.plan, "in place of a view: how many frames of which size it would be, as JSON")
+        ->type_name("FILE.json");
     CLI::Option* passes =
         app.add_option("--passes", arguments.passes, "of a traced picture: rays through each pixel of a frame (64)")
             ->check(CLI::Range(1, 65536));

@@ -33,6 +33,9 @@ struct ViewArguments {
     std::string lights;
     std::string renderer = "raster";
     std::string probe;
+    std::string plan;
+    std::string tile;
+    std::string tiles;
     int passes = 0;
     double seconds = 0;
     double exposure_ev = 0;

@@ -54,6 +54,8 @@ public:
 
     // For pictures that begin after this.
     void set_method(TracedMethod method) { render_.method = method; }
+    // Only these pixels of pictures that begin after this are traced; they have the bytes that they have in whole ones.
+    void set_part(const capture::PixelRectangle& part) { render_.part = part; }
     // Begins a picture anew.
     void look(const Camera& camera);
     // One more sample of each pixel. False, with nothing changed, where `stop` became true before it was there.

@@ -60,6 +60,10 @@ private:
     std::filesystem::path temporary_;
 };
 
+// Gives a finished file, or a folder that a StagedFolder has finished, another name on the same file system, with the
+// checks and in the way of commit(): whatever stood at `to` is replaced whole, or stays.
+Status move_into_place(const std::filesystem::path& from, const std::filesystem::path& to);
+
 // Removes every temporary file and folder of this process that is not committed yet. For the moment before a process is
 // ended from outside (interruption.hpp): whoever still writes to them will fail. Thread-safe.
 void remove_staged_output();

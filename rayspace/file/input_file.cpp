@@ -112,6 +112,18 @@ Status check_keeps_inputs(const fs::path& output) {
     return Error{output.string() + ": is an input (" + named + ") and would be replaced; give another name"};
 }
 
+std::vector<fs::path> noted_inputs() {
+    std::vector<fs::path> paths;
+    const std::lock_guard lock(inputs().mutex);
+    for (const auto& [file, noted] : inputs().files) {
+        struct stat now {};
+        // Temporaries of this process may have been read and be gone.
+        if (noted.written || ::stat(noted.path.c_str(), &now) != 0) continue;
+        if (std::pair(now.st_dev, now.st_ino) == file) paths.push_back(fs::absolute(noted.path));
+    }
+    return paths;
+}
+
 void note_written(const fs::path& path) {
     struct stat info {};
     if (::stat(path.c_str(), &info) == 0) note(info, path, true);

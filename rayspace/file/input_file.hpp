@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace rs {
 
@@ -24,6 +25,9 @@ void keep_inputs();
 // An error where `output` is one of these files, by whatever name, or a folder that holds one; always fine before
 // keep_inputs().
 Status check_keeps_inputs(const std::filesystem::path& output);
+
+// What was noted as an input and is still there, absolute, in no order.
+std::vector<std::filesystem::path> noted_inputs();
 
 // `path` was written by this process.
 void note_written(const std::filesystem::path& path);

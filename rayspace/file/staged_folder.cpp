@@ -134,6 +134,25 @@ StagedFolder::~StagedFolder() {
     forget(temporary_);
 }
 
+Status move_into_place(const fs::path& from, const fs::path& to) {
+    if (Status parent = check_parent(to); !parent) return parent;
+    std::error_code ignored;
+    const bool folder = fs::is_directory(from, ignored);
+    if (folder) {
+        if (Status replaceable = check_replaceable(to); !replaceable) return replaceable;
+    } else if (fs::exists(to, ignored) && !fs::is_regular_file(to, ignored)) {
+        return Error{to.string() + ": is there already and is no file; remove it or choose another name"};
+    }
+    if (Status kept = check_keeps_inputs(to); !kept) return kept;
+    const bool exchanged = folder && fs::exists(fs::symlink_status(to, ignored));
+    if (const int error = put_in_place(from, to, exchanged); error != 0) {
+        return failure(to, "cannot be put in place", error);
+    }
+    sync_folder_of(to);
+    if (exchanged) remove_quietly(from);
+    return {};
+}
+
 Status StagedFolder::commit() {
     RS_CHECK(!temporary_.empty());
     // Somebody may have filled the folder since create().

@@ -2,13 +2,16 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
+#include "rayspace/file/input_list.hpp"
 #include "rayspace/tool/interruption.hpp"
 
 #include <charconv>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <system_error>
 
@@ -60,6 +63,15 @@ bool take(std::string_view& text, char expected) {
     return true;
 }
 
+// For whoever started the tool and wants to know (input_list.hpp).
+Status list_inputs() {
+    const char* const list = std::getenv(kInputListVariable);
+    if (list == nullptr) return {};
+    const Result<std::vector<InputStamp>> stamps = input_stamps();
+    if (!stamps) return stamps.error();
+    return write_file(list, input_list_text(*stamps));
+}
+
 }  // namespace
 
 int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run) {
@@ -82,6 +94,7 @@ int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run
     try {
         const Status status = run();
         if (!status) return fail(app, status.error().message);
+        if (const Status listed = list_inputs(); !listed) return fail(app, listed.error().message);
     } catch (const std::bad_alloc&) {
         return fail(app, "out of memory");
     } catch (const std::system_error& refused) {

@@ -78,6 +78,10 @@ TEST(FuzzReplay, Vrml) {
 TEST(FuzzReplay, Luminaire) {
     replay("luminaire", fuzz::fuzz_luminaire);
 }
+
+TEST(FuzzReplay, Manifest) {
+    replay("manifest", fuzz::fuzz_manifest);
+}
 TEST(FuzzReplay, Gltf) {
     replay("gltf", fuzz::fuzz_gltf);
 }

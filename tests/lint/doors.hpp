@@ -117,6 +117,10 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"compositor/window",
      {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/traced", "compositor/viewer",
       "compositor/viewer/views", "compositor/viewer/drawing"}},
+    // Items, ranks and messages: it knows neither MPI nor what the work is.
+    {"compositor/farm/schedule", {"rayspace/base", "rayspace/file"}},
+    {"compositor/farm/mpi", {"rayspace/base", "compositor/farm/schedule"}},
+    {"compositor/farm/work", {"rayspace/*", "compositor/farm/schedule"}},
     {"compositor/tools", {"rayspace/*", "compositor/*", "engine/core/definition", "engine/executors"}},
 };
 

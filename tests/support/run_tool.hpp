@@ -25,10 +25,10 @@ inline std::string quoted(const std::string& argument) {
     return result + "'";
 }
 
-// `scratch` is a folder for what the tool prints.
-inline ToolRun run_tool(const std::filesystem::path& scratch, const std::string& tool,
-                        const std::vector<std::string>& arguments) {
-    std::string command = quoted(std::string(RAYSPACE_TOOLS_DIR) + "/" + tool);
+// `scratch` is a folder for what the program prints.
+inline ToolRun run_program(const std::filesystem::path& scratch, const std::string& program,
+                           const std::vector<std::string>& arguments) {
+    std::string command = quoted(program);
     for (const std::string& argument : arguments) command += " " + quoted(argument);
     const auto out = scratch / "stdout.txt";
     const auto err = scratch / "stderr.txt";
@@ -43,6 +43,11 @@ inline ToolRun run_tool(const std::filesystem::path& scratch, const std::string&
     run.out = text(out);
     run.err = text(err);
     return run;
+}
+
+inline ToolRun run_tool(const std::filesystem::path& scratch, const std::string& tool,
+                        const std::vector<std::string>& arguments) {
+    return run_program(scratch, std::string(RAYSPACE_TOOLS_DIR) + "/" + tool, arguments);
 }
 
 }  // namespace rs::test

@@ -27,10 +27,9 @@ int tiles_along(int pixels) {
     return (pixels + kTileSide_px - 1) / kTileSide_px;
 }
 
-// The pixels [x0, x1) x [y0, y1) that can show anything.
-struct PixelRectangle {
-    int x0, y0, x1, y1;
-};
+PixelRectangle overlap(const PixelRectangle& a, const PixelRectangle& b) {
+    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
 
 PixelRectangle visible_rectangle(const Camera& camera, const RayScene& rays) {
     const PixelRectangle whole{0, 0, camera.width, camera.height};
@@ -192,7 +191,7 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
                                    {options.see_areas, options.see_environment});
     const std::unique_ptr<const Integrator> integrator =
         make_integrator(transport, rays, frame.key, options, into.samples, count);
-    const PixelRectangle& visible = frame.visible;
+    const PixelRectangle visible = options.part ? overlap(frame.visible, *options.part) : frame.visible;
     const glm::vec3 centre(rays.centre);
     const bool blurred = state_->rays->blurred();
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);

@@ -26,6 +26,11 @@ enum class RenderMethod {
     kWhitted,    // whitted.hpp
 };
 
+// Pixels [x0, x1) x [y0, y1).
+struct PixelRectangle {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
 struct RenderOptions {
     RenderMethod method = RenderMethod::kPath;
     int samples_per_pixel = 64;  // 1..65536; powers of two are stratified best
@@ -38,6 +43,8 @@ struct RenderOptions {
     bool see_environment = false;
     glm::vec3 ambient{0.0F};  // whitted: what stands for light that surfaces reflect, as the radiance of white matter
     int threads = 0;          // 0 = as many as the processor has
+    std::optional<PixelRectangle> part;  // of accumulate(): other pixels get no samples; these have the bits they have
+                                         // without it
 };
 
 struct Rendering {
