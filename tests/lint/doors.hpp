@@ -54,8 +54,10 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"datasets-synthetic/shapes", {"rayspace/*", "capture/tracer/scene"}},
     {"datasets-synthetic/objects", {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/shapes"}},
     {"datasets-synthetic/showroom", {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/shapes"}},
+    {"datasets-synthetic/street",
+     {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/shapes", "datasets-synthetic/showroom"}},
     {"datasets-synthetic", {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/objects"}},
-    {"datasets-synthetic/tools", {"rayspace/*", "datasets-synthetic/showroom"}},
+    {"datasets-synthetic/tools", {"rayspace/*", "datasets-synthetic/showroom", "datasets-synthetic/street"}},
 
     {"encode/set", {"rayspace/*"}},
     {"encode/raymap", {"rayspace/*", "encode/set"}},
@@ -114,9 +116,13 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
       "engine/core/views", "engine/driver"}},
     {"compositor/viewer",
      {"rayspace/*", "compositor/scene", "compositor/viewer/residency", "compositor/viewer/drawing", "engine/driver"}},
+    {"compositor/sequence", {"rayspace/*", "compositor/scene"}},
+    {"compositor/playback",
+     {"rayspace/*", "compositor/scene", "compositor/sequence", "compositor/traced", "compositor/viewer",
+      "compositor/viewer/residency", "compositor/viewer/views", "compositor/viewer/drawing"}},
     {"compositor/window",
-     {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/traced", "compositor/viewer",
-      "compositor/viewer/views", "compositor/viewer/drawing"}},
+     {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/sequence", "compositor/playback",
+      "compositor/traced", "compositor/viewer", "compositor/viewer/views", "compositor/viewer/drawing"}},
     {"compositor/tools", {"rayspace/*", "compositor/*", "engine/core/definition", "engine/executors"}},
 };
 
