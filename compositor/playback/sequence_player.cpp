@@ -2,9 +2,24 @@
 
 #include "compositor/viewer/views/framing.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace rs::compositor {
+
+namespace {
+
+// Takes what a frame does not show out of sight: small, below everything.
+glm::dmat4 nowhere_in(const Scene& scene) {
+    constexpr double kSmall = 1e-6;
+    const BoundingBox box = bounds_of(scene);
+    glm::dmat4 matrix(kSmall);
+    matrix[3] =
+        glm::dvec4(box.empty() ? glm::dvec3(0) : glm::dvec3(box.middle().x, box.lowest.y - 1, box.middle().z), 1);
+    return matrix;
+}
+
+}  // namespace
 
 std::optional<Weather> weather_of(const Sequence& sequence, const PlayerOptions& options) {
     return options.weather ? options.weather : sequence.weather;
@@ -38,9 +53,8 @@ Result<SequencePlayer> SequencePlayer::create(std::shared_ptr<const Sequence> se
     auto compositor = FrameCompositor::create(scene, showroom->engine(), showroom->nodes(), options.frame);
     if (!compositor) return compositor.error();
     SequencePlayer player(std::move(sequence), std::move(showroom), std::move(*compositor), options);
-    player.scene_.lights = scene.lights;
-    player.scene_.background = scene.background;
-    player.scene_.fog = scene.fog;
+    player.nowhere_ = nowhere_in(scene);
+    player.scene_ = scene;
     return player;
 }
 
@@ -70,19 +84,37 @@ Status SequencePlayer::draw(std::size_t number, const Camera& camera) {
     return compositor_.draw(camera);
 }
 
-Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
-    Scene scene = scene_at(*sequence_, number);
-    scene.lights = scene_.lights;
+Status SequencePlayer::make_tracer() {
     std::vector<PlacedObject> objects;
     for (const ShownNode& node : *showroom_->nodes()) {
         if (node.object && !node.hidden) objects.push_back(*node.object);
     }
-    auto tracer =
-        TracedRenderer::create(scene, objects, {.method = *options_.method, .exposure_ev = options_.frame.exposure_ev});
+    auto tracer = TracedRenderer::create(scene_, objects,
+                                         {.method = *options_.method, .exposure_ev = options_.frame.exposure_ev});
     if (!tracer) return tracer.error();
-    tracer->look(camera);
-    for (int pass = 0; pass < options_.passes; ++pass) tracer->add_pass();
-    compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer->picture()));
+    if (tracers_made_++ == 0) {
+        for (const std::string& warning : tracer->warnings()) warnings_.push_back(warning);
+    }
+    tracer_.emplace(std::move(*tracer));
+    return {};
+}
+
+Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
+    // Ray-space objects stand where they are in a tracer.
+    const MovedSlots moved = moved_slots(*sequence_, number);
+    if (!tracer_ || !moved.objects.empty()) {
+        if (Status status = make_tracer(); !status) return status;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    for (std::size_t slot = 0; slot < sequence_->slots.size(); ++slot) {
+        const auto id = static_cast<std::uint32_t>(slot);
+        // What is drawn by raster alone has no part in it.
+        static_cast<void>(tracer_->move(id, moved.geometry[slot].value_or(nowhere_)));
+    }
+    tracer_->look(camera);
+    commit_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    for (int pass = 0; pass < options_.passes; ++pass) tracer_->add_pass();
+    compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer_->picture()));
     return {};
 }
 

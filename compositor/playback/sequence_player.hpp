@@ -48,20 +48,30 @@ public:
 
     [[nodiscard]] std::size_t frames() const { return sequence_->frames.size(); }
     [[nodiscard]] const FrameCompositor& compositor() const { return compositor_; }
+    // Trees over triangles built for traced frames since create() began: none after the first, unless ray-space objects
+    // move.
+    [[nodiscard]] int tracers_made() const { return tracers_made_; }
+    // Seconds that moving everything and building the tree over it took, in the last traced frame.
+    [[nodiscard]] double commit_s() const { return commit_s_; }
     // Of objects that cannot be shown, each told once.
     std::vector<std::string> take_warnings();
 
 private:
     SequencePlayer(std::shared_ptr<const Sequence> sequence, std::unique_ptr<Showroom> showroom,
                    FrameCompositor compositor, const PlayerOptions& options);
+    Status make_tracer();
     Status trace(std::size_t number, const Camera& camera);
 
     std::shared_ptr<const Sequence> sequence_;
     Scene scene_;  // in its weather
+    std::optional<TracedRenderer> tracer_;
+    glm::dmat4 nowhere_{1.0};  // for what a frame does not show
     PlayerOptions options_;
     std::unique_ptr<Showroom> showroom_;
     FrameCompositor compositor_;
     std::vector<std::string> warnings_;
+    int tracers_made_ = 0;
+    double commit_s_ = 0;
 };
 
 }  // namespace rs::compositor

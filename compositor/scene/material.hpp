@@ -40,6 +40,8 @@ struct Material {
     std::shared_ptr<const SceneTexture> texture;
     glm::mat3 texture_transform{1};        // of (s, t, 1)
     std::optional<PhongTerms> phong = {};  // else made of `ambient` and `shininess` (phong_terms)
+
+    bool operator==(const Material&) const = default;
 };
 PhongTerms phong_terms(const Material& material);
 

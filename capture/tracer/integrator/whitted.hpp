@@ -21,7 +21,7 @@ public:
     WhittedTracer(const LightTransport& transport, IrradianceMap irradiance, const glm::vec3& ambient, int max_depth)
         : transport_(transport), irradiance_(std::move(irradiance)), ambient_(ambient), max_depth_(max_depth) {}
 
-    bool trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+    bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
 
 private:
