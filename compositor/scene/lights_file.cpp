@@ -5,6 +5,7 @@
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <utility>
@@ -43,9 +44,12 @@ public:
             object.has("colour") ? glm::vec3(object.take("colour").triple(0, kStrongest)) : glm::vec3(1);
         if (kind == "directional") {
             light = directional_light(object.take("aim").direction(), watts(object, "lux") * colour);
+            if (object.has("ambient")) light.ambient = glm::vec3(object.take("ambient").triple(0, kStrongest));
         } else if (kind == "point" || kind == "spot") {
             const glm::dvec3 location = object.take("location").triple(-kMostDistant, kMostDistant);
-            light = point_light(location, watts(object, "candela") * colour);
+            light = object.has("intensity") ? fading_light(object, location, colour)
+                                            : point_light(location, watts(object, "candela") * colour);
+            if (object.has("reach")) light.radius = object.take("reach").number(kShortest, kMostDistant);
             if (kind == "spot") read_cone(object, light);
         } else if (kind == "rectangle" || kind == "disc") {
             read_area(object, kind == "disc", colour, light);
@@ -79,6 +83,20 @@ public:
 private:
     static float watts(JsonObject& object, const char* key) {
         return static_cast<float>(object.take(key).number(0, kStrongest) / kLumensPerWatt);
+    }
+
+    // Phong's E and f(r) = min(1 / (c0 + c1 r + c2 r^2), 1).
+    static Light fading_light(JsonObject& object, const glm::dvec3& location, const glm::vec3& colour) {
+        Light light;
+        light.kind = LightKind::kPoint;
+        light.location = location;
+        light.colour = glm::vec3(object.take("intensity").triple(0, kStrongest)) * colour;
+        light.radius = std::numeric_limits<double>::infinity();
+        if (!object.has("attenuation")) return light;
+        const JsonValue attenuation = object.take("attenuation");
+        light.attenuation = glm::vec3(attenuation.triple(0, kStrongest));
+        if (light.attenuation == glm::vec3(0)) throw attenuation.wrong("is nowhere above 0; give [1, 0, 0]");
+        return light;
     }
 
     static void read_cone(JsonObject& object, Light& light) {

@@ -11,12 +11,14 @@
 //         }, { "kind": "directional", "aim": [-1, -2, 0], "lux": 20000 } ],
 //       "environment": { "file": "sky.hdr", "scale": 1, "turn_deg": 0, "seen": true } }
 //
-// Each may have a "name" and a "colour" [r, g, b], a factor in linear light (1, 1, 1). Photometric numbers are divided
-// by kLumensPerWatt. "beam_deg" and "cut_off_deg" are full angles. "turn_deg" turns a luminaire about its aim,
-// counter-clockwise as seen looking along -aim; at 0 its plane C0 lies where +X is best seen, or +Z where it is aimed
-// along X. An environment is a picture as EnvironmentLight wants it; "seen" (false) puts it behind everything where
-// light is traced. Files are named from the list's folder. Lengths are the scene's; luminaires and candela take them
-// for metres.
+// Points and spots may have, in place of candela, "intensity": [r, g, b] and "attenuation": [c0, c1, c2], which fall
+// off as min(1 / (c0 + c1 d + c2 d^2), 1) ([1, 0, 0]), and a "reach" beyond which there is no light; directional ones
+// "ambient": [r, g, b], what they add everywhere in raster. Each may have a "name" and a "colour" [r, g, b], a factor
+// in linear light (1, 1, 1). Photometric numbers are divided by kLumensPerWatt. "beam_deg" and "cut_off_deg" are full
+// angles. "turn_deg" turns a luminaire about its aim, counter-clockwise as seen looking along -aim; at 0 its plane C0
+// lies where +X is best seen, or +Z where it is aimed along X. An environment is a picture as EnvironmentLight wants
+// it; "seen" (false) puts it behind everything where light is traced. Files are named from the list's folder. Lengths
+// are the scene's; luminaires and candela take them for metres.
 
 #include "compositor/scene/surroundings.hpp"
 #include "rayspace/base/result.hpp"

@@ -54,7 +54,22 @@ struct Room {
     BoundingBox box;  // in scene coordinates; empty where nothing is known of it
 };
 
+// How lights and surfaces make a colour.
+enum class Shading {
+    // ISO/IEC 14772-1, 4.14.4: the highlight about the half vector, ambient light from each light.
+    kVrml,
+    // B. T. Phong, Illumination for Computer Generated Pictures, 1975, with one ambient light A, the sum of that of all
+    // directional lights: emissive + kd sum f E (N.I) + ks sum f E (I.Os)^g + ka A, where Os is the direction towards
+    // the viewer reflected by the surface and f = min(1 / (c0 + c1 r + c2 r^2), 1).
+    kPhong
+};
+
+// What weather leaves on surfaces that look up.
+enum class Cover { kNone = 0, kWet = 1, kSnow = 2 };
+
 struct Scene {
+    Shading shading = Shading::kVrml;  // of raster
+    Cover cover = Cover::kNone;        // of raster
     Background background;
     std::optional<Floor> floor;
     std::vector<Light> lights{{.colour = glm::vec3(0.75F),

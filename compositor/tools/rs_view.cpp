@@ -5,6 +5,7 @@
 #include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/tools/asked_cameras.hpp"
+#include "compositor/tools/sequence_run.hpp"
 #include "compositor/tools/view_options.hpp"
 #include "compositor/tools/view_tiles.hpp"
 #include "compositor/traced/traced_renderer.hpp"
@@ -326,6 +327,12 @@ int main(int argc, char** argv) {
     add_view_options(app, arguments, headless);
     std::function<rs::Status()> run;
     app.callback([&] {
+        check_sequence_options(arguments);
+        arguments.frames_per_second_given = app.count("--fps") > 0;
+        if (!arguments.sequences.empty()) {
+            run = [&] { return arguments.output.empty() ? run_sequence_window(arguments) : run_sequences(arguments); };
+            return;
+        }
         if (arguments.scene.empty() && arguments.objects.empty()) {
             throw CLI::ValidationError("nothing to show; give a scene file or --object FILE.rso");
         }

@@ -3,6 +3,49 @@
 #include "engine/executors/executor_table.hpp"
 
 namespace rs::compositor {
+namespace {
+
+void add_sequence_options(CLI::App& app, ViewArguments& arguments) {
+    CLI::Option* sequence =
+        app.add_option("--sequence", arguments.sequences,
+                       "in place of SCENE: maps whose anim/out/frames.json names a base scene and an extended OBJ for "
+                       "each frame (compositor/README.md), drawn by Phong's formula; -o takes .mp4, .jpg, .png or a "
+                       "folder of pictures. Several go into a folder, each as NAME/sequence.mp4 and NAME/snapshot.jpg")
+            ->type_name("FOLDER")
+            ->expected(1, 100000);
+    app.add_option("--weather", arguments.weather,
+                   "of a sequence, in place of its own: words from rain, snow and fog, with commas")
+        ->type_name("rain|snow|fog,...")
+        ->needs(sequence);
+    app.add_option("--seed", arguments.seed, "of the weather: the same gives the same drops and flakes")
+        ->check(CLI::Range(0, 1000000000))
+        ->needs(sequence)
+        ->capture_default_str();
+    app.add_option("--visibility", arguments.visibility, "in fog, metres: the distance at which nothing else is seen")
+        ->check(CLI::Range(1.0, 100000.0))
+        ->needs(sequence)
+        ->capture_default_str();
+    app.add_option("--frame", arguments.frame, "of a sequence, from 0: which one a .jpg or .png shows")
+        ->needs(sequence)
+        ->capture_default_str();
+    app.add_option("--convert", arguments.convert,
+                   "a command that makes a sequence's files of another format: {in} is what --sequence names, {out} "
+                   "the folder (or OBJ) to make. Run without a shell")
+        ->type_name("'CMD {in} {out}'")
+        ->needs(sequence);
+}
+
+}  // namespace
+
+void check_sequence_options(const ViewArguments& arguments) {
+    if (arguments.sequences.empty()) return;
+    if (!arguments.scene.empty() || !arguments.objects.empty() || !arguments.probe.empty()) {
+        throw CLI::ValidationError("--sequence takes the place of SCENE, --object and --probe; give one of them");
+    }
+    if (arguments.sequences.size() > 1 && arguments.output.empty()) {
+        throw CLI::ValidationError("several sequences need -o: the folder to write");
+    }
+}
 
 void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
     app.add_option("SCENE", arguments.scene,
@@ -98,6 +141,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
     app.add_flag("--streaming", arguments.streaming,
                  "with -o: walk in real time, objects come when they are read, as a visitor sees it; else every frame "
                  "waits for its objects");
+    add_sequence_options(app, arguments);
     app.add_flag("-q,--quiet", arguments.quiet, "no progress bar");
     app.footer(
         "Lengths are in the scene's units; an object of scale 1 has radius 1. Y is up.\n"
@@ -108,6 +152,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         "  rs-view world.wrl -o world.png\n"
         "  rs-view hall.wrl --renderer path --lights evening.json --passes 256 -o evening.png\n"
         "  rs-view hall.wrl --lights evening.json --probe 0,0.9,0 -o evening.exr\n"
+        "  rs-view --sequence maps/street --weather rain -o street.mp4\n"
         "  rs-view room.json --eye 0,1.2,6 --at 0,0.8,0 --fov 45 --size 1920x1080 -o room.png");
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What was asked of rs-view, and the options that ask for it.
 
+#include "compositor/scene/weather.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 
@@ -43,7 +44,19 @@ struct ViewArguments {
     bool streaming = false;
     bool wire_frame = false;
     bool quiet = false;
+
+    // Sequences.
+    std::vector<std::string> sequences;
+    std::string weather;
+    std::uint32_t seed = 1;
+    double visibility = Weather{}.visibility;
+    std::size_t frame = 0;  // of a picture
+    std::string convert;
+    bool frames_per_second_given = false;
 };
+
+// Throws CLI::ValidationError where options do not go together.
+void check_sequence_options(const ViewArguments& arguments);
 
 // `headless` is the flag, which means no more than that `output` must be there.
 void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless);

@@ -30,6 +30,9 @@ enum class Key {
     kTrace,              // T
     kScreenshot,         // P
     kRecord,             // R
+    kPlay,               // K
+    kFrameBack,          // comma
+    kFrameOn,            // full stop
     kQuit,               // escape
 };
 

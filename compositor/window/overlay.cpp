@@ -34,6 +34,7 @@ constexpr std::array kHelp = {
     HelpLine{"F", "wire frame"},
     HelpLine{"T", "trace the light, and back"},
     HelpLine{"P  R", "screenshot, record"},
+    HelpLine{"K  , .", "sequences: play, a frame back, on"},
     HelpLine{"tab", "this panel"},
     HelpLine{"H", "this help"},
     HelpLine{"escape", "leave"},
@@ -114,6 +115,7 @@ void draw_panel(PanelState& state) {
     if (ImGui::Begin("panel", nullptr, kPlain)) {
         draw_figures(state);
         draw_switches(state);
+        if (state.playback != nullptr) state.playback->draw_controls();
         draw_objects(state);
         if (state.picked >= 0 && state.picked < static_cast<int>(state.objects.size())) {
             auto turn = static_cast<float>(degrees(state.turn_rad));

@@ -3,6 +3,7 @@
 
 #include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/views/navigation.hpp"
+#include "compositor/window/playback.hpp"
 #include "compositor/window/window.hpp"
 
 #include <string>
@@ -44,9 +45,10 @@ struct PanelState {
     double budget_mib = 0;  // that they may take
     std::string device;
     std::vector<ObjectLine> objects;
-    int picked = -1;      // of `objects`
-    double turn_rad = 0;  // by which the visitor has turned it
-    std::string news;     // empty: none
+    int picked = -1;               // of `objects`
+    double turn_rad = 0;           // by which the visitor has turned it
+    std::string news;              // empty: none
+    Playback* playback = nullptr;  // of a sequence
 };
 
 // Stands between a window and its owner's drawing; one a process. Destroyed before the window.

@@ -52,6 +52,8 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
     panel_.method = options.method;
     panel_.executor = options.executor;
     panel_.device = window_.context().device_name();
+    if (options.sequence) playback_.emplace(options.sequence, options.weather);
+    panel_.playback = playback_ ? &*playback_ : nullptr;
     tell("press H for help");
 }
 
@@ -77,6 +79,9 @@ Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, 
 }
 
 Camera Visit::camera() const {
+    if (playback_) {
+        if (const auto camera = playback_->camera(compositor_.width(), compositor_.height())) return *camera;
+    }
     const Viewpoint here = viewpoint_of(visitor_, options_.viewpoints[viewpoint_]);
     return camera_at(here, compositor_.width(), compositor_.height());
 }
@@ -143,6 +148,15 @@ Status Visit::obey(Key command) {
         case Key::kScreenshot:
             panel_.take_screenshot = true;
             break;
+        case Key::kPlay:
+            if (playback_) playback_->toggle();
+            break;
+        case Key::kFrameBack:
+        case Key::kFrameOn:
+            if (!playback_) break;
+            playback_->stop();
+            playback_->step(command == Key::kFrameOn ? 1 : -1);
+            break;
         case Key::kRecord:
             panel_.recording = !panel_.recording;
             break;
@@ -166,6 +180,12 @@ bool Visit::refine(const Camera& here) {
     if (!refined_ && (!refinement_ || traced_objects_ != showroom_->placed().size())) {
         std::vector<PlacedObject> objects = showroom_->placed();
         traced_objects_ = objects.size();
+        if (playback_) {
+            make_tracer_ = [scene = playback_->scene(),
+                            exposure_ev = options_.exposure_ev](const std::vector<PlacedObject>& shown) {
+                return TracedRenderer::create(scene, shown, {.exposure_ev = exposure_ev});
+            };
+        }
         refinement_.emplace([make = make_tracer_, there = std::move(objects)] { return make(there); });
     }
     if (const std::optional<Error> failed = refinement_->failure()) {
@@ -191,7 +211,34 @@ bool Visit::refine(const Camera& here) {
     return true;
 }
 
+// Whether another frame of the sequence is shown.
+Result<bool> Visit::play(double seconds) {
+    if (!playback_) return false;
+    if (panel_.traced && !playback_->saving()) playback_->stop();
+    if (playback_->saved_all()) {
+        playback_->end_saving();
+        panel_.recording = false;
+    }
+    if (playback_->saving()) {
+        panel_.traced = false;
+        panel_.recording = true;
+    }
+    const bool other = playback_->advance(seconds);
+    if (!other) return false;
+    if (Status status = playback_->show(compositor_, *showroom_); !status) return status.error();
+    if (refined_) compositor_.set_traced(nullptr);
+    refined_.reset();
+    refinement_.reset();
+    return true;
+}
+
 Status Visit::take_pictures() {
+    if (playback_ && playback_->take_jpeg()) {
+        constexpr int kQuality = 92;
+        const std::filesystem::path path = free_name(options_.pictures, "screenshot", ".jpg", shots_);
+        const Status written = write_jpeg(path, compositor_.picture(), kQuality);
+        tell(written ? path.string() : written.error().message);
+    }
     if (!panel_.take_screenshot) return {};
     panel_.take_screenshot = false;
     const std::filesystem::path path = free_name(options_.pictures, "screenshot", ".png", shots_);
@@ -204,8 +251,8 @@ Status Visit::record() {
     if (panel_.recording && !video_) {
         int number = 0;
         const std::filesystem::path path = free_name(options_.pictures, "recording", ".mp4", number);
-        Result<VideoWriter> video =
-            VideoWriter::open(path, compositor_.width(), compositor_.height(), kRecordedFrames_per_s);
+        const double rate = playback_ && playback_->saving() ? playback_->frames_per_second() : kRecordedFrames_per_s;
+        Result<VideoWriter> video = VideoWriter::open(path, compositor_.width(), compositor_.height(), rate);
         if (!video) {
             panel_.recording = false;
             tell(video.error().message);
@@ -298,13 +345,22 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     }
 
     const bool turned = move(passed);
+    const Result<bool> played = play(passed);
+    if (!played) return played.error();
+    if (playback_) {
+        const std::string folder = playback_->take_folder();
+        if (!folder.empty() && options_.open) {
+            options_.open(folder);
+            return false;
+        }
+    }
     compositor_.set_wire_frame(panel_.wire_frame);
     const std::optional<glm::dvec3> destination = travel_ ? std::optional(travel_->to.eye) : std::nullopt;
     if (Status status = showroom_->update(visitor_.eye, passed, destination); !status) return status.error();
     hear_showroom();
     const Camera here = camera();
     // A view that stands still is drawn again when it is better, or something in it may have changed.
-    const bool changed = refine(here) || turned || !showroom_->settled();
+    const bool changed = refine(here) || turned || *played || !showroom_->settled();
     if (changed) {
         if (Status status = compositor_.draw(here); !status) return status.error();
     } else {

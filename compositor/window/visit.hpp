@@ -9,6 +9,7 @@
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/viewer/views/navigation.hpp"
 #include "compositor/window/overlay.hpp"
+#include "compositor/window/playback.hpp"
 #include "compositor/window/visitor_input.hpp"
 #include "compositor/window/window.hpp"
 #include "rayspace/base/result.hpp"
@@ -34,7 +35,10 @@ struct VisitOptions {
     double exposure_ev = 0;
     bool traced = false;  // from the beginning
     TracedMethod method = TracedMethod::kPath;
-    std::string executor = "software core";                     // of the engine, for the panel
+    std::string executor = "software core";    // of the engine, for the panel
+    std::shared_ptr<const Sequence> sequence;  // to be played, in this weather
+    std::optional<Weather> weather;
+    std::function<void(const std::string&)> open;               // another sequence is wanted; the visit ends
     std::function<void(const std::vector<std::string>&)> warn;  // of objects that cannot be shown; may be empty
 };
 
@@ -65,6 +69,7 @@ private:
     void pick(const glm::dvec2& at_px);
     // Whether there is a new picture to show.
     bool refine(const Camera& here);
+    Result<bool> play(double seconds);
     Status take_pictures();
     Status record();
     void refresh_panel(double seconds);
@@ -97,6 +102,7 @@ private:
     TracedMethod refined_by_ = TracedMethod::kPath;
     std::function<Result<TracedRenderer>(const std::vector<PlacedObject>&)> make_tracer_;
     std::size_t traced_objects_ = 0;
+    std::optional<Playback> playback_;
     std::optional<VideoWriter> video_;
     int shots_ = 0;
     double news_seconds_ = 0;

@@ -45,6 +45,9 @@ constexpr std::array kBindings = {
     Binding{GLFW_KEY_T, Key::kTrace},
     Binding{GLFW_KEY_P, Key::kScreenshot},
     Binding{GLFW_KEY_R, Key::kRecord},
+    Binding{GLFW_KEY_K, Key::kPlay},
+    Binding{GLFW_KEY_COMMA, Key::kFrameBack},
+    Binding{GLFW_KEY_PERIOD, Key::kFrameOn},
     Binding{GLFW_KEY_ESCAPE, Key::kQuit},
 };
 

@@ -75,6 +75,10 @@ TEST(FuzzReplay, Vrml) {
     replay("vrml", fuzz::fuzz_vrml);
 }
 
+TEST(FuzzReplay, Sequence) {
+    replay("sequence", fuzz::fuzz_sequence);
+}
+
 TEST(FuzzReplay, Luminaire) {
     replay("luminaire", fuzz::fuzz_luminaire);
 }

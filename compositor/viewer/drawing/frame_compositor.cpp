@@ -2,8 +2,8 @@
 
 #include "compositor/gl/draw.hpp"
 #include "compositor/gl/texture.hpp"
-#include "compositor/viewer/drawing/background_shaders.hpp"
 #include "compositor/scene/raster_lights.hpp"
+#include "compositor/viewer/drawing/background_shaders.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
 #include "compositor/viewer/views/engine_views.hpp"
 #include "engine/core/views/depth_picture.hpp"
@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace rs::compositor {
@@ -58,6 +59,8 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::sha
     if (!background) return background.error();
     auto surfaces = SurfaceRenderer::create(scene);
     if (!surfaces) return surfaces.error();
+    auto weather = WeatherRenderer::create(scene);
+    if (!weather) return weather.error();
     auto floor = gl::Program::create("floor", shaders::kFloorVertex, shaders::kFloorFragment);
     if (!floor) return floor.error();
     auto traced = gl::Program::create("traced picture", shaders::kWholeFrameVertex, shaders::kPictureFragment);
@@ -70,7 +73,7 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::sha
     if (!frame) return frame.error();
     return FrameCompositor(scene, std::move(engine), std::move(nodes),
                            {std::move(*floor), std::move(*traced), std::move(*objects), std::move(*placeholders),
-                            std::move(*background), std::move(*surfaces), std::move(*frame)},
+                            std::move(*background), std::move(*surfaces), std::move(*weather), std::move(*frame)},
                            options);
 }
 
@@ -112,7 +115,7 @@ Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {
 
 std::optional<ObjectView> FrameCompositor::view_of_node(std::size_t index, const Camera& camera) const {
     const ShownNode& node = (*nodes_)[index];
-    if (!node.object) return std::nullopt;
+    if (!node.object || node.hidden) return std::nullopt;
     PlacedObject placed = *node.object;
     const double angle = placed.world_from_object.mirrors() ? -turns_rad_[index] : turns_rad_[index];
     placed.world_from_object = placed.world_from_object * NodeTransform{.angle_rad = angle}.parent_from_node();
@@ -183,7 +186,7 @@ void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparen
     for (const SeenNode& node : nodes) blended.push_back({node.view.plane_distance, nullptr, &node, nullptr});
     for (std::size_t i = 0; i < nodes_->size(); ++i) {
         const auto& placeholder = (*nodes_)[i].placeholder;
-        if (!placeholder || !may_be_seen(bounds_of(*placeholder), view)) continue;
+        if (!placeholder || (*nodes_)[i].hidden || !may_be_seen(bounds_of(*placeholder), view)) continue;
         statistics_.nodes[i].missing = !(*nodes_)[i].object;
         statistics_.nodes_missing += statistics_.nodes[i].missing ? 1 : 0;
         const double distance = glm::distance(placeholder->world_from_object.translation, view.camera.centre());
@@ -191,11 +194,19 @@ void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparen
     }
     std::stable_sort(blended.begin(), blended.end(),
                      [](const Blended& a, const Blended& b) { return a.distance > b.distance; });
+    // What falls is drawn by distance between them, for objects leave no depth.
+    double beyond = std::numeric_limits<double>::infinity();
+    const auto fall = [&](double nearest) {
+        if (weather_ && nearest < beyond) renderers_.weather.draw(*weather_, weather_seconds_, view, nearest, beyond);
+        beyond = std::min(beyond, nearest);
+    };
     for (const Blended& item : blended) {
+        if (item.node != nullptr || item.placeholder != nullptr) fall(item.distance);
         if (item.surface != nullptr) renderers_.surfaces.draw_transparent(*item.surface, view, wire_frame_);
         if (item.node != nullptr) draw_object(*item.node);
         if (item.placeholder != nullptr) renderers_.placeholders.draw(*item.placeholder, view);
     }
+    fall(0);
 }
 
 Status FrameCompositor::resize(int width, int height) {

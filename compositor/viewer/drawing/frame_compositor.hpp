@@ -19,6 +19,7 @@
 #include "compositor/viewer/drawing/placeholder_renderer.hpp"
 #include "compositor/viewer/drawing/shown_parts.hpp"
 #include "compositor/viewer/drawing/surface_renderer.hpp"
+#include "compositor/viewer/drawing/weather_renderer.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
 #include "compositor/viewer/views/object_view.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
@@ -94,6 +95,19 @@ public:
     [[nodiscard]] Image<Rgba8> picture() const { return renderers_.frame.shown().read_picture(); }
     void show_in_window(int width, int height) const { renderers_.frame.shown().show_in_window(width, height); }
 
+    // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Its mesh stays where it is.
+    Status move_geometry(std::size_t index, const std::optional<glm::dmat4>& world_from_node) {
+        return renderers_.surfaces.move(index, world_from_node);
+    }
+    // Meshes and pictures of geometry given to the driver since create() began: none after it.
+    [[nodiscard]] int uploads() const { return renderers_.surfaces.uploads(); }
+    // What falls in the next frame, `seconds` after the sequence's beginning; nothing: it is dry. The weather's fog and
+    // what it leaves on surfaces are the scene's (in_weather).
+    void set_weather(const std::optional<Weather>& weather, double seconds) {
+        weather_ = weather;
+        weather_seconds_ = seconds;
+    }
+
     // From now on `picture`, of the frame's size, stands for the background and all geometry that is not blended, which
     // give their depth only; where its alpha is below 1, the background shows. nullptr: they are drawn again.
     void set_traced(std::shared_ptr<const Image<Rgba8>> picture) { traced_ = std::move(picture); }
@@ -129,6 +143,7 @@ private:
         PlaceholderRenderer placeholders;
         BackgroundRenderer background;
         SurfaceRenderer surfaces;
+        WeatherRenderer weather;
         Frame frame;
     };
     FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
@@ -164,6 +179,8 @@ private:
     int object_samples_;
     bool upright_pictures_;
     std::shared_ptr<const Image<Rgba8>> traced_;
+    std::optional<Weather> weather_;
+    double weather_seconds_ = 0;
     gl::VertexArray rectangle_;
     FrameStatistics statistics_;
 };

@@ -3,6 +3,8 @@
 //
 //   colour = fog * (1 - f) + f * (emissive + sum over lights: attenuation * spot * (ambient + diffuse + specular))
 //
+// or Phong's (Shading::kPhong), where the ambient term is the material's own.
+//
 // A shader for every kind of surface (surface_renderer.hpp): what kinds differ in are constants at its head, so that
 // loops over lights are unrolled and what a surface does not have costs nothing. Drawn on a CPU that is several times
 // faster than asking at every pixel.
@@ -42,6 +44,7 @@ uniform vec4 material[4];
 layout(binding = 0) uniform sampler2D surface_picture;
 uniform vec3 eye;
 uniform vec3 headlight;      // its direction of travel
+uniform vec3 cover_light;    // ambient light on snow
 uniform vec3 fog;
 uniform float fog_visibility;
 in vec3 place_in_world;
@@ -50,15 +53,23 @@ in vec2 place_on_texture;
 in vec4 vertex_colour;
 out vec4 result;
 
+// What the surface reflects as a highlight: its material's, or the water's on it.
+vec3 specular = material[1].rgb;
+float exponent = material[1].w;
+
 // Directions towards the eye and the light have unit length: of the one halfway, (to_light + to_eye) / |to_light + to_eye|,
 // only what it has in common with the normal is needed.
 vec3 reflected(vec3 diffuse, vec3 n, vec3 to_eye, float eye_facing, vec3 to_light, vec3 colour) {
     float facing = dot(n, to_light);
     vec3 sum = diffuse * max(facing, 0.0);
-    if (kShiny) {
+    if (kPhong && kShiny) {
+        // (to the light) . (to the eye, reflected)
+        float along = 2.0 * facing * eye_facing - dot(to_light, to_eye);
+        sum += specular * (facing > 0.0 && along > 0.0 ? pow(along, exponent) : 0.0);
+    } else if (kShiny) {
         float along = (facing + eye_facing) * inversesqrt(max(2.0 + 2.0 * dot(to_light, to_eye), 1e-12));
-        float gloss = pow(max(along, 1e-20), material[1].w);
-        sum += material[1].rgb * (facing > 0.0 ? gloss : 0.0);
+        float gloss = pow(max(along, 1e-20), exponent);
+        sum += specular * (facing > 0.0 ? gloss : 0.0);
     }
     return sum * colour;
 }
@@ -81,12 +92,12 @@ vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, v
             strength = angle > cut_off ? 0.0 : strength * within;
         }
     }
-    vec3 ambient = has_place ? lights[first + 1].rgb * diffuse * material[2].w : vec3(0.0);
+    vec3 ambient = has_place && !kPhong ? lights[first + 1].rgb * diffuse * material[2].w : vec3(0.0);
     return strength * (ambient + reflected(diffuse, n, to_eye, eye_facing, to_light, lights[first].rgb));
 }
 
-vec3 lit(vec3 diffuse, vec3 n, vec3 to_eye) {
-    vec3 sum = material[2].rgb + material[3].rgb * diffuse * material[2].w;
+vec3 lit(vec3 diffuse, vec3 ambient, vec3 n, vec3 to_eye) {
+    vec3 sum = material[2].rgb + ambient;
     float eye_facing = dot(n, to_eye);
     if (kHeadlight) sum += reflected(diffuse, n, to_eye, eye_facing, -headlight, vec3(1.0));
     for (int i = 0; i < kDirectional; ++i) sum += from_light(5 * i, false, false, diffuse, n, to_eye, eye_facing);
@@ -102,9 +113,11 @@ vec3 lit(vec3 diffuse, vec3 n, vec3 to_eye) {
 void main() {
     vec3 diffuse = kColours ? vertex_colour.rgb : material[0].rgb;
     float opacity = material[0].w;
+    vec3 shade = vec3(1.0);  // of the picture
     if (kPicture != 0) {
         vec4 texel = texture(surface_picture, place_on_texture);
         diffuse = kPicture == 2 ? diffuse * texel.rgb : texel.rgb;
+        if (kPhong) shade = texel.rgb;
         if (kPictureAlpha == 1 && texel.a < 0.5) discard;
         if (kPictureAlpha == 2) opacity = kPicture == 2 ? opacity * texel.a : texel.a;
     }
@@ -112,7 +125,20 @@ void main() {
     vec3 to_eye = eye - place_in_world;
     if (kLit && normal_in_world != vec3(0.0)) {
         vec3 n = normalize(normal_in_world) * (gl_FrontFacing ? 1.0 : -1.0);
-        colour = lit(diffuse, n, normalize(to_eye));
+        vec3 ambient = kPhong ? material[3].rgb * shade : material[3].rgb * diffuse * material[2].w;
+        if (kCover == 1) {  // wet: darker, and it mirrors lights
+            float up = smoothstep(0.6, 0.95, n.y);
+            diffuse *= 1.0 - 0.45 * up;
+            ambient *= 1.0 - 0.45 * up;
+            specular = mix(specular, vec3(0.35), up);
+            exponent = mix(exponent, 90.0, up);
+        } else if (kCover == 2) {
+            float up = smoothstep(0.35, 0.75, n.y);
+            diffuse = mix(diffuse, vec3(0.86), up);
+            ambient = mix(ambient, vec3(0.86) * cover_light, up);
+            specular *= 1.0 - up;
+        }
+        colour = lit(diffuse, ambient, n, normalize(to_eye));
     }
     if (kFog != 0) {
         float d = length(to_eye);

@@ -28,6 +28,9 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
     kind.picture = !node.material.texture ? 0 : node.material.texture->modulates ? 2 : 1;
     kind.picture_alpha = alpha;
     kind.colours = node.mesh->has_colours;
+    kind.phong = scene.shading == Shading::kPhong;
+    kind.cover = kind.lit ? scene.cover : Cover::kNone;
+    kind.shiny |= kind.cover == Cover::kWet;
     if (scene.fog) kind.fog = scene.fog->kind == FogKind::kLinear ? 1 : 2;
     return kind;
 }
@@ -39,7 +42,9 @@ std::string constants_of(const SurfaceKind& kind) {
            shaders::shader_constant("kLit", kind.lit) + shaders::shader_constant("kShiny", kind.shiny) +
            shaders::shader_constant("kPicture", kind.picture) +
            shaders::shader_constant("kPictureAlpha", static_cast<int>(kind.picture_alpha)) +
-           shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kFog", kind.fog);
+           shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kFog", kind.fog) +
+           shaders::shader_constant("kPhong", kind.phong) +
+           shaders::shader_constant("kCover", static_cast<int>(kind.cover));
 }
 
 namespace {
@@ -90,71 +95,104 @@ public:
         return found->second;
     }
 
-    Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind) {
-        auto& made = programs_[kind];
-        if (!made) {
-            auto program =
-                gl::Program::create("surface", shaders::kSurfaceVertex, constants_of(kind) + shaders::kSurfaceFragment);
-            if (!program) return program.error();
-            made = std::make_shared<const gl::Program>(std::move(*program));
-        }
-        return made;
-    }
-    [[nodiscard]] std::vector<std::shared_ptr<const gl::Program>> programs() const {
-        std::vector<std::shared_ptr<const gl::Program>> all;
-        for (const auto& [kind, program] : programs_) all.push_back(program);
-        return all;
-    }
+    [[nodiscard]] int count() const { return static_cast<int>(meshes_.size() + pictures_.size()); }
 
 private:
-    std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;
     std::map<const Mesh*, std::shared_ptr<const gl::VertexArray>> meshes_;
     std::map<const SceneTexture*, std::shared_ptr<const gl::Texture>> pictures_;
     std::map<const SceneTexture*, AlphaUse> alphas_;
 };
 
+// What moves comes near to other lights in each frame: a dark one more, so that few kinds of shaders are needed.
+void pad(SurfaceKind& kind, std::vector<LightRow>& rows) {
+    const auto padded = [](int count) { return count < 3 ? count : count + (count % 2); };
+    const LightRow dark{glm::vec4(0), glm::vec4(0), glm::vec4(0, 0, 0, 1), glm::vec4(0, 0, -1, 0), {1, 0, 0, 1}};
+    const int points = padded(kind.points);
+    const int spots = padded(kind.spots);
+    rows.insert(rows.begin() + kind.directional + kind.points, static_cast<std::size_t>(points - kind.points), dark);
+    rows.resize(rows.size() + static_cast<std::size_t>(spots - kind.spots), dark);
+    kind.points = points;
+    kind.spots = spots;
+}
+
 }  // namespace
 
+Result<std::shared_ptr<const gl::Program>> SurfaceRenderer::program(const SurfaceKind& kind) {
+    const auto known = programs_.find(kind);
+    if (known != programs_.end()) return known->second;
+    auto made = gl::Program::create("surface", shaders::kSurfaceVertex, constants_of(kind) + shaders::kSurfaceFragment);
+    if (!made) return made.error();
+    return programs_.emplace(kind, std::make_shared<const gl::Program>(std::move(*made))).first->second;
+}
+
+// Bounds, lights and the shader for where the node is now.
+Status SurfaceRenderer::put(Item& item) {
+    const GeometryNode& node = scene_.geometry[item.node];
+    item.bounds = item.bounds_in_node.moved(item.world_from_node);
+    const SurfaceLights lights =
+        node.moving ? lights_near(scene_, node, item.bounds) : lights_of(scene_, node, item.bounds);
+    SurfaceKind kind = kind_of(scene_, node, item.alpha, lights.lights);
+    item.lights = rows_of(scene_, lights.lights);
+    if (node.moving && kind.lit) pad(kind, item.lights);
+    auto made = program(kind);
+    if (!made) return made.error();
+    item.program = std::move(*made);
+    const glm::vec3 reflected = kind.phong ? phong_terms(node.material).ambient * lights.ambient : lights.ambient;
+    item.material.ambient_light = glm::vec4(reflected, 0);
+    item.mirrored = glm::determinant(glm::dmat3(item.world_from_node)) < 0;
+    return {};
+}
+
 Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
-    SurfaceRenderer renderer;
-    renderer.fog_ = scene.fog;
-    renderer.headlight_ = scene.navigation.headlight;
+    SurfaceRenderer renderer(scene);
+    for (const Light& light : scene.lights) {
+        if (light.kind == LightKind::kDirectional && light.everywhere) renderer.ambient_light_ += light.ambient;
+    }
     Uploads uploads;
-    for (const GeometryNode& node : scene.geometry) {
+    renderer.item_of_node_.resize(scene.geometry.size());
+    for (std::size_t i = 0; i < scene.geometry.size(); ++i) {
+        const GeometryNode& node = scene.geometry[i];
         if (node.mesh->indices.empty()) continue;
         Item item;
+        item.node = i;
         item.mesh = uploads.mesh(node.mesh);
         item.world_from_node = node.world_from_node;
-        item.bounds = bounds_of(*node.mesh).moved(node.world_from_node);
-        AlphaUse alpha = AlphaUse::kNone;
+        item.bounds_in_node = bounds_of(*node.mesh);
         if (node.material.texture) {
             item.picture = uploads.picture(*node.material.texture);
-            alpha = uploads.alpha(*node.material.texture);
+            item.alpha = uploads.alpha(*node.material.texture);
         }
-        const SurfaceLights lights = lights_of(scene, node, item.bounds);
-        auto program = uploads.program(kind_of(scene, node, alpha, lights.lights));
-        if (!program) return program.error();
-        item.program = std::move(*program);
-        item.material = row_of(node.material);
-        item.material.ambient_light = glm::vec4(lights.ambient, 0);
-        item.lights = rows_of(scene, lights.lights);
+        item.material = row_of(node.material, scene.shading);
+        if (const Status status = renderer.put(item); !status) return status.error();
         item.texture_transform = node.material.texture_transform;
-        item.transparent = node.material.opacity < 1 || alpha == AlphaUse::kBlend;
+        item.transparent = node.material.opacity < 1 || item.alpha == AlphaUse::kBlend;
         item.two_sided = node.mesh->two_sided;
-        item.mirrored = glm::determinant(glm::dmat3(node.world_from_node)) < 0;
+        renderer.item_of_node_[i] = renderer.items_.size();
         renderer.items_.push_back(std::move(item));
     }
-    renderer.programs_ = uploads.programs();
+    renderer.uploads_ = uploads.count();
     return renderer;
 }
 
+Status SurfaceRenderer::move(std::size_t node, const std::optional<glm::dmat4>& world_from_node) {
+    RS_CHECK(node < scene_.geometry.size() && scene_.geometry[node].moving);
+    if (!item_of_node_[node]) return {};
+    Item& item = items_[*item_of_node_[node]];
+    item.hidden = !world_from_node;
+    if (item.hidden || *world_from_node == item.world_from_node) return {};
+    item.world_from_node = *world_from_node;
+    return put(item);
+}
+
 void SurfaceRenderer::set_frame(const FrameView& view) const {
-    for (const auto& program : programs_) {
+    const auto& fog = scene_.fog;
+    for (const auto& [kind, program] : programs_) {
         if (program->uses("eye")) program->set("eye", glm::vec3(view.camera.centre()));
         if (program->uses("headlight")) program->set("headlight", glm::vec3(view.camera.forward()));
-        if (!fog_) continue;
-        if (program->uses("fog")) program->set("fog", fog_->colour);
-        if (program->uses("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog_->visibility));
+        if (program->uses("cover_light")) program->set("cover_light", ambient_light_);
+        if (!fog) continue;
+        if (program->uses("fog")) program->set("fog", fog->colour);
+        if (program->uses("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog->visibility));
     }
 }
 
@@ -182,7 +220,7 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
     std::vector<std::size_t> opaque;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
-        if (!may_be_seen(item.bounds, view)) continue;
+        if (item.hidden || !may_be_seen(item.bounds, view)) continue;
         ++nodes_in_view_;
         if (item.transparent) {
             transparent.push_back({i, glm::distance(item.bounds.middle(), view.camera.centre())});

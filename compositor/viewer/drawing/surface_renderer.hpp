@@ -14,6 +14,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,8 @@ struct SurfaceKind {
     AlphaUse picture_alpha = AlphaUse::kNone;
     bool colours = false;  // of its own at the corners
     int fog = 0;           // 0 none, 1 linear, 2 exponential
+    bool phong = false;    // by Phong's formula
+    Cover cover = Cover::kNone;
     auto operator<=>(const SurfaceKind&) const = default;
 };
 
@@ -58,6 +61,14 @@ public:
     std::vector<Transparent> draw_opaque(const FrameView& view, bool wire_frame);
     void draw_transparent(const Transparent& item, const FrameView& view, bool wire_frame) const;
 
+    // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Only its numbers change, unless
+    // lights reach it in a number for which there is no shader yet.
+    Status move(std::size_t node, const std::optional<glm::dmat4>& world_from_node);
+
+    // Meshes and pictures that were given to the driver since create() began, and shaders.
+    [[nodiscard]] int uploads() const { return uploads_; }
+    [[nodiscard]] int shaders_made() const { return static_cast<int>(programs_.size()); }
+
     // Of the last draw_opaque(): geometry nodes that the frustum let pass.
     [[nodiscard]] int nodes_in_view() const { return nodes_in_view_; }
 
@@ -74,15 +85,23 @@ private:
         bool transparent = false;
         bool two_sided = true;
         bool mirrored = false;  // by its matrix
+        bool hidden = false;
+        std::size_t node = 0;  // of the scene
+        BoundingBox bounds_in_node;
+        AlphaUse alpha = AlphaUse::kNone;
     };
-    SurfaceRenderer() = default;
+    explicit SurfaceRenderer(const Scene& scene) : scene_(scene) {}
+    Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind);
+    Status put(Item& item);
     void set_frame(const FrameView& view) const;
     void draw(const Item& item, const FrameView& view, gl::DrawState state) const;
 
-    std::vector<std::shared_ptr<const gl::Program>> programs_;  // one for each kind of surface that there is
+    Scene scene_;
+    std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;  // one for each kind of surface that there is
     std::vector<Item> items_;
-    std::optional<Fog> fog_;
-    bool headlight_ = false;
+    std::vector<std::optional<std::size_t>> item_of_node_;
+    glm::vec3 ambient_light_{0};  // of all directional lights that shine everywhere
+    int uploads_ = 0;
     int nodes_in_view_ = 0;
 };
 

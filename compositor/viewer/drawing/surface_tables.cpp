@@ -56,14 +56,23 @@ LightRow row_of(const Light& light) {
             {light.attenuation, light.least_attenuation}};
 }
 
-MaterialRow row_of(const Material& material) {
+MaterialRow row_of(const Material& material, Shading shading) {
+    if (shading == Shading::kPhong) {
+        return {{material.diffuse, material.opacity},
+                {material.specular, phong_terms(material).exponent},
+                {material.emissive, 0},
+                {}};
+    }
     return {{material.diffuse, material.opacity},
             {material.specular, material.shininess * 128},
             {material.emissive, material.ambient},
             {}};
 }
 
-SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world) {
+namespace {
+
+std::vector<std::uint32_t> lights_that_reach(const Scene& scene, const GeometryNode& node,
+                                             const BoundingBox& box_in_world) {
     std::vector<std::uint32_t> reaching = node.lights;
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
@@ -73,9 +82,23 @@ SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const Boun
             reaching.push_back(i);
         }
     }
+    return reaching;
+}
+
+}  // namespace
+
+SurfaceLights lights_near(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world) {
+    SurfaceLights found{lights_that_reach(scene, node, box_in_world), glm::vec3(0)};
+    for (const std::uint32_t i : found.lights) {
+        if (scene.lights[i].kind == LightKind::kDirectional) found.ambient += scene.lights[i].ambient;
+    }
+    return found;
+}
+
+SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world) {
     SurfaceLights found;
     const SurfaceInWorld surface(node);
-    for (const std::uint32_t i : reaching) {
+    for (const std::uint32_t i : lights_that_reach(scene, node, box_in_world)) {
         const Light& light = scene.lights[i];
         const bool directional = light.kind == LightKind::kDirectional;
         if (directional) found.ambient += light.ambient;

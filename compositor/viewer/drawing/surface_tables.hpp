@@ -24,9 +24,10 @@ struct MaterialRow {
     glm::vec4 diffuse_opacity;
     glm::vec4 specular_exponent;
     glm::vec4 emissive_ambient;
-    glm::vec4 ambient_light{0};  // of all directional lights that reach it; w unused
+    // Of all directional lights that reach it; in Phong's formula what is reflected of it. w unused.
+    glm::vec4 ambient_light{0};
 };
-MaterialRow row_of(const Material& material);
+MaterialRow row_of(const Material& material, Shading shading);
 
 struct SurfaceLights {
     std::vector<std::uint32_t> lights;  // of Scene::lights, that may be reflected somewhere on the surface
@@ -36,6 +37,9 @@ struct SurfaceLights {
 // box. Of a surface that is seen from its front only, lights that shine on its back everywhere are left out: a wall has
 // few lights, and a shader asks each of them at every pixel.
 SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world);
+
+// Of a node that moves: as lights_of(), but no light is left out for shining on its back.
+SurfaceLights lights_near(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world);
 
 // Their rows, directional ones first, then points, then spots.
 std::vector<LightRow> rows_of(const Scene& scene, const std::vector<std::uint32_t>& lights);
