@@ -32,8 +32,8 @@ struct VisitOptions {
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = FrameOptions{}.object_samples;
     double exposure_ev = 0;
-    bool traced = false;  // from the beginning
-    TracedMethod method = TracedMethod::kPath;
+    bool traced = false;                                        // from the beginning
+    TracedOptions tracing{};                                    // with the exposure above
     std::string executor = "software core";                     // of the engine, for the panel
     std::function<void(const std::vector<std::string>&)> warn;  // of objects that cannot be shown; may be empty
 };
