@@ -31,6 +31,8 @@ struct Material {
     bool lit = true;         // else it shows `diffuse` as it is
     std::shared_ptr<const SceneTexture> texture;
     glm::mat3 texture_transform{1};  // of (s, t, 1)
+
+    bool operator==(const Material&) const = default;
 };
 
 // Whether other things shine through: such surfaces are drawn behind all others, the farthest first.

@@ -33,6 +33,8 @@ struct GeometryNode {
     Material material;
     glm::dmat4 world_from_node{1.0};    // affine, with an inverse
     std::vector<std::uint32_t> lights;  // those of Scene::lights that shine here only, besides those everywhere
+    // Nodes that may be moved, all of the same number together; nothing: it stands still (TracedRenderer::move).
+    std::optional<std::uint32_t> moving = {};
 };
 
 // An object made of pictures. In the node's coordinates the unit is the object radius and Y the turntable's axis.

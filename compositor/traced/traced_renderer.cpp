@@ -1,6 +1,7 @@
 #include "compositor/traced/traced_renderer.hpp"
 
 #include "capture/tracer/integrator/light_probe.hpp"
+#include "capture/tracer/scene/scene_check.hpp"
 #include "compositor/scene/raster_lights.hpp"
 #include "compositor/traced/object_rays.hpp"
 #include "compositor/traced/traced_room.hpp"
@@ -64,6 +65,7 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
     renderer.render_.toon.brightness = darker;  // tones are tones, however bright the lights are
     renderer.render_.see_areas = true;
     renderer.render_.see_environment = scene.environment && scene.environment->seen;
+    renderer.moving_ = std::move(room.moving);
     renderer.headlight_ = scene.navigation.headlight && !shines;
     renderer.lights_ = std::move(lights);
     if (room.without_own_lights > 0) {
@@ -73,7 +75,24 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
     return renderer;
 }
 
-void TracedRenderer::carry_headlight(const Camera& camera) {
+bool TracedRenderer::move(std::uint32_t id, const glm::dmat4& moved, const std::optional<glm::dmat4>& at_close) {
+    std::vector<std::pair<std::size_t, capture::Instance>> wanted;
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+        if (moving_[i].id != id) continue;
+        capture::Instance placed;
+        placed.world_from_part = moved * moving_[i].world_from_node;
+        if (at_close) placed.at_close = *at_close * moving_[i].world_from_node;
+        if (!capture::check_placement(placed)) return false;
+        wanted.emplace_back(i, placed);
+    }
+    for (const auto& [i, placed] : wanted) {
+        if (!tracer_.move(i, placed.world_from_part, placed.at_close)) return false;
+    }
+    return !wanted.empty();
+}
+
+void TracedRenderer::begin(const Camera& camera) {
+    tracer_.commit();
     if (!headlight_) return;
     std::vector<Light> lights = lights_;
     lights.push_back(headlight_of(camera.forward()));
@@ -89,7 +108,7 @@ capture::RenderOptions TracedRenderer::render_options(const Camera& camera) cons
 void TracedRenderer::look(const Camera& camera) {
     camera_ = camera;
     sum_ = {};
-    carry_headlight(camera);
+    begin(camera);
 }
 
 bool TracedRenderer::add_pass(Progress* progress, const std::atomic<bool>* stop) {
@@ -98,7 +117,7 @@ bool TracedRenderer::add_pass(Progress* progress, const std::atomic<bool>* stop)
 
 std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera, int side,
                                                            const std::atomic<bool>* stop) {
-    carry_headlight(camera);
+    begin(camera);
     Camera coarse = camera;
     coarse.width = (camera.width + side - 1) / side;
     coarse.height = (camera.height + side - 1) / side;

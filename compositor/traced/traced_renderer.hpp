@@ -8,12 +8,14 @@
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "compositor/scene/scene.hpp"
+#include "compositor/traced/traced_room.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
 
 #include <array>
 #include <atomic>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +58,12 @@ public:
     static Result<TracedRenderer> create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                          const TracedOptions& options);
 
+    // Takes the nodes of this number (GeometryNode::moving) from where the scene has them to `moved` times there; with
+    // `at_close`, they move on to that while the shutter is open, and pictures show it. Seen in pictures that begin
+    // after this. False, with nothing changed, where no node has the number, or a matrix has no inverse or is not
+    // finite.
+    bool move(std::uint32_t id, const glm::dmat4& moved, const std::optional<glm::dmat4>& at_close = {});
+
     // For pictures that begin after this.
     void set_method(TracedMethod method) { render_.method = method; }
     // Begins a picture anew.
@@ -84,7 +92,7 @@ private:
     TracedRenderer(capture::Tracer tracer, const TracedOptions& options)
         : tracer_(std::move(tracer)), options_(options) {}
 
-    void carry_headlight(const Camera& camera);
+    void begin(const Camera& camera);
     [[nodiscard]] capture::RenderOptions render_options(const Camera& camera) const;
     [[nodiscard]] Image<Rgba8> shown(Image<RgbaF> radiance) const;
 
@@ -92,6 +100,7 @@ private:
     TracedOptions options_;
     capture::RenderOptions render_;
     Background background_;
+    std::vector<TracedRoom::Moving> moving_;  // of each of the tracer's instances
     bool headlight_ = false;
     std::vector<Light> lights_;  // without the headlight
     std::vector<std::string> warnings_;

@@ -8,7 +8,8 @@
 
 namespace rs::capture {
 
-RayScene::Bundle RayScene::distances(const std::array<glm::vec3, kBundle>& origins, const glm::vec3& direction) const {
+RayScene::Bundle RayScene::distances(const std::array<glm::vec3, kBundle>& origins, const glm::vec3& direction,
+                                     float time) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -21,12 +22,14 @@ RayScene::Bundle RayScene::distances(const std::array<glm::vec3, kBundle>& origi
         query.ray.dir_x[i] = direction.x;
         query.ray.dir_y[i] = direction.y;
         query.ray.dir_z[i] = direction.z;
+        query.ray.time[i] = time;
         query.ray.tfar[i] = std::numeric_limits<float>::infinity();
         query.ray.mask[i] = 0xFFFFFFFFU;
         query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect8(valid.data(), embree_scene_.get(), &context, &query);
+    rtcIntersect8(valid.data(), still_->embree(), &context, &query);
+    if (moving_) rtcIntersect8(valid.data(), moving_->embree(), &context, &query);
     Bundle found;
     for (std::size_t i = 0; i < kBundle; ++i) {
         found[i] =

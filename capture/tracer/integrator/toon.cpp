@@ -50,9 +50,9 @@ void ToonTracer::find_sky() {
     everywhere_ += least;
 }
 
-bool ToonTracer::trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+bool ToonTracer::trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                        glm::vec3& radiance) const {
-    const bool met = WhittedTracer::trace(origin, direction, sampler, radiance);
+    const bool met = WhittedTracer::trace(origin, direction, time, sampler, radiance);
     radiance = glm::min(radiance, glm::vec3(style_.brightness));
     return met;
 }
@@ -80,7 +80,8 @@ float ToonTracer::intensity(const LightTransport::Vertex& vertex, Sampler& sampl
         const float received = cosine > 0.0F ? (1.0F - through) * cosine : -through * cosine;
         if (!(received > 0.0F)) return;
         const glm::vec3 start = vertex.start_of(direction, cosine > 0.0F);
-        if (!transport().rays().occluded(start, direction, distance * (1.0F - 1e-4F))) lit += strength * received;
+        if (!transport().rays().occluded(start, direction, distance * (1.0F - 1e-4F), vertex.point.time))
+            lit += strength * received;
     };
     if (of_sky_ > 0.0F) add(of_sky_, sky_, kFarAway);
     const glm::vec3 place = vertex.start_of(vertex.point.geometric_normal, true);

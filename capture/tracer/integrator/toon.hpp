@@ -24,7 +24,7 @@ public:
     ToonTracer(const LightTransport& transport, IrradianceMap irradiance, const glm::vec3& ambient, int max_depth,
                ToonStyle style);
 
-    bool trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+    bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
 
 protected:

@@ -52,13 +52,13 @@ bool ToonEdges::near_edge(const SurfacePoint& point, const glm::vec3& direction)
             diameter.origins[static_cast<std::size_t>(i + kSteps)] = origin;
             if (i != 0) origins[static_cast<std::size_t>(i + kSteps - (i > 0 ? 1 : 0))] = origin;
         }
-        const RayScene::Bundle depths = rays_.distances(origins, direction);
+        const RayScene::Bundle depths = rays_.distances(origins, direction, point.time);
         std::copy_n(depths.begin(), kSteps, diameter.depths.begin());
         std::copy_n(depths.begin() + kSteps, kSteps, diameter.depths.begin() + kSteps + 1);
         diameter.depths[kSteps] = before;
         diameter.slope = glm::dot(point.geometric_normal, way) / cos_ray;
         const Extent extent = extent_of(diameter);
-        if (extent.ends || has_crease(diameter, extent, direction)) return true;
+        if (extent.ends || has_crease(diameter, extent, {direction, point.time})) return true;
     }
     return false;
 }
@@ -89,7 +89,7 @@ int ToonEdges::reach_of(const Diameter& diameter, int side, bool& ends) const {
     return kSteps;
 }
 
-bool ToonEdges::has_crease(const Diameter& diameter, const Extent& extent, const glm::vec3& direction) const {
+bool ToonEdges::has_crease(const Diameter& diameter, const Extent& extent, const Ray& ray) const {
     const auto rise = [&](int i) {
         return diameter.depths[static_cast<std::size_t>(i + 1)] - diameter.depths[static_cast<std::size_t>(i)];
     };
@@ -99,17 +99,16 @@ bool ToonEdges::has_crease(const Diameter& diameter, const Extent& extent, const
             const float a = rise(i), b = rise(i + gap);
             // The angle between (h, a) and (h, b), without its tangent.
             const float sine = spacing_ * std::abs(b - a), cosine = spacing_ * spacing_ + a * b;
-            if (sine * cos_angle_ > cosine * sin_angle_ && normals_turn(diameter, i, i + gap + 1, direction))
-                return true;
+            if (sine * cos_angle_ > cosine * sin_angle_ && normals_turn(diameter, i, i + gap + 1, ray)) return true;
         }
     }
     return false;
 }
 
-bool ToonEdges::normals_turn(const Diameter& diameter, int first, int last, const glm::vec3& direction) const {
+bool ToonEdges::normals_turn(const Diameter& diameter, int first, int last, const Ray& ray) const {
     SurfacePoint here, there;
-    if (!rays_.intersect(diameter.origins[static_cast<std::size_t>(first)], direction, here) ||
-        !rays_.intersect(diameter.origins[static_cast<std::size_t>(last)], direction, there)) {
+    if (!rays_.intersect(diameter.origins[static_cast<std::size_t>(first)], ray.direction, ray.time, here) ||
+        !rays_.intersect(diameter.origins[static_cast<std::size_t>(last)], ray.direction, ray.time, there)) {
         return false;
     }
     return glm::dot(here.shading_normal, there.shading_normal) < cos_angle_;

@@ -29,6 +29,10 @@ public:
 
 private:
     static constexpr int kSteps = 4;  // from the middle to the disc's rim
+    struct Ray {
+        glm::vec3 direction;
+        float time;
+    };
     struct Diameter {
         std::array<glm::vec3, 2 * kSteps + 1> origins;
         std::array<float, 2 * kSteps + 1> depths;
@@ -42,8 +46,8 @@ private:
     [[nodiscard]] Extent extent_of(const Diameter& diameter) const;
     // How many steps it goes on to one side, -1 or 1.
     [[nodiscard]] int reach_of(const Diameter& diameter, int side, bool& ends) const;
-    [[nodiscard]] bool has_crease(const Diameter& diameter, const Extent& extent, const glm::vec3& direction) const;
-    [[nodiscard]] bool normals_turn(const Diameter& diameter, int first, int last, const glm::vec3& direction) const;
+    [[nodiscard]] bool has_crease(const Diameter& diameter, const Extent& extent, const Ray& ray) const;
+    [[nodiscard]] bool normals_turn(const Diameter& diameter, int first, int last, const Ray& ray) const;
 
     const RayScene& rays_;
     float radius_, spacing_, jump_;

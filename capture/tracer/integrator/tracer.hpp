@@ -17,6 +17,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace rs::capture {
@@ -48,8 +49,8 @@ struct RenderOptions {
 
 struct Rendering {
     Image<RgbaF> picture;  // linear light, straight alpha = share of camera rays that hit a surface
-    Image<float>
-        depth;  // axial depth of the first surface through the pixel's centre, 0 = none; empty if not asked for
+    // Axial, of the first surface through the pixel's centre at time 0; 0 = none; empty if not asked for.
+    Image<float> depth;
 };
 
 // A picture that gains samples: sums, so that passes of one sample each and one pass of as many give the same bits.
@@ -90,8 +91,21 @@ public:
     // Other lights than the scene came with; they must be as check_light() wants them. Not while anything is drawn.
     void set_lights(std::vector<Light> lights);
 
+    // Places an instance of the scene anew (scene.hpp, Instance); refused, with nothing changed, where a matrix has no
+    // inverse. Seen after commit(), which costs what the tree over the instances costs: no tree of triangles is built
+    // again. `instance` < instance_count(). Not while anything is drawn.
+    Status move(std::size_t instance, const glm::dmat4& world_from_part,
+                const std::optional<glm::dmat4>& at_close = {});
+    void commit();
+    [[nodiscard]] std::size_t instance_count() const;
+    // How often trees of triangles were built, and the tree of instances above them.
+    struct Builds {
+        std::int64_t of_triangles, of_instances;
+    };
+    [[nodiscard]] Builds builds() const;
+
     [[nodiscard]] const std::vector<Light>& lights() const;  // of the scene, not turned
-    // Whether nothing stands between a place and what is `distance` away in a direction of unit length.
+    // Whether nothing stands between a place and what is `distance` away in a direction of unit length, at time 0.
     [[nodiscard]] bool sees(const glm::dvec3& place, const glm::dvec3& direction, double distance) const;
 
     // Turns the scene's lights and environment, but not surfaces that shine, about Y by `angle_rad` from where the

@@ -40,7 +40,7 @@ LightTransport::Vertex LightTransport::vertex_at(const SurfacePoint& point, cons
 
 LightTransport::Met LightTransport::meet(const Segment& segment, const MediumStack& media, glm::vec3& throughput,
                                          glm::vec3& radiance, SurfacePoint& point) const {
-    const bool hit = rays_.intersect(segment.origin, segment.direction, point);
+    const bool hit = rays_.intersect(segment.origin, segment.direction, segment.time, point);
     const float reach = hit ? point.distance : std::numeric_limits<float>::infinity();
     if (!segment.of_camera) {
         if (const auto shown = rays_.ask_primitives(segment.origin, segment.direction, reach)) {
@@ -80,7 +80,7 @@ glm::vec3 LightTransport::emission_of(const SurfacePoint& point, const Segment& 
     const Material& material = material_of(point);
     if (max_component(material.emission) <= 0.0F || (!point.front_side && !material.two_sided)) return glm::vec3(0.0F);
     const glm::vec3 emission = lights_.emission(point.material, point.uv);
-    if (segment.specular || max_component(emission) <= 0.0F) return emission;
+    if (segment.specular || !point.light_drawn || max_component(emission) <= 0.0F) return emission;
     const float cos_light = std::max(-glm::dot(point.geometric_normal, segment.direction), 1e-6F);
     return emission *
            weight_of(segment, lights_.emitter_pdf(segment.selection, point.material, point.distance, cos_light));
@@ -95,7 +95,8 @@ glm::vec3 LightTransport::light_sample(const Vertex& vertex, float u_source, con
     if (max_component(value.f_cos) <= 0.0F) return dark;
     const glm::vec3 start = vertex.start_of(light->direction, wi.z > 0.0F);
     // Just short of the light, which may be a surface itself.
-    if (rays_.occluded(start, light->direction, light->distance * (1.0F - 1e-4F))) return dark;
+    const float reach = light->distance * (1.0F - 1e-4F);
+    if (rays_.occluded(start, light->direction, reach, vertex.point.time)) return dark;
     const auto samples = static_cast<float>(count);
     const float weight = light->delta ? 1.0F : mis_weight(samples * light->pdf, value.pdf);
     return value.f_cos * light->radiance * (weight / (samples * light->pdf));
@@ -104,6 +105,7 @@ glm::vec3 LightTransport::light_sample(const Vertex& vertex, float u_source, con
 LightTransport::Segment LightTransport::segment_from(const Vertex& vertex, const SurfaceSample& drawn,
                                                      int light_samples) const {
     Segment segment;
+    segment.time = vertex.point.time;
     segment.direction = glm::normalize(vertex.frame.to_world(drawn.direction));
     segment.pdf = drawn.pdf;
     segment.specular = drawn.specular;

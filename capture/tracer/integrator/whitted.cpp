@@ -8,10 +8,10 @@ constexpr float kLeastThroughput = 1.0F / 256;
 
 }  // namespace
 
-bool WhittedTracer::trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+bool WhittedTracer::trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                           glm::vec3& radiance) const {
     radiance = glm::vec3(0.0F);
-    return follow({LightTransport::camera_segment(origin, direction)}, sampler, radiance);
+    return follow({LightTransport::camera_segment(origin, direction, time)}, sampler, radiance);
 }
 
 bool WhittedTracer::follow(Ray ray, Sampler& sampler, glm::vec3& radiance) const {
@@ -68,7 +68,8 @@ glm::vec3 WhittedTracer::light_of(const LightTransport::Vertex& vertex, const Li
     const glm::vec3 f_cos = vertex.surface.evaluate(wi).f_cos;
     if (!(max_component(f_cos) > 0.0F)) return glm::vec3(0.0F);
     const glm::vec3 start = vertex.start_of(light.direction, wi.z > 0.0F);
-    if (transport_.rays().occluded(start, light.direction, light.distance * (1.0F - 1e-4F))) return glm::vec3(0.0F);
+    const float reach = light.distance * (1.0F - 1e-4F);
+    if (transport_.rays().occluded(start, light.direction, reach, vertex.point.time)) return glm::vec3(0.0F);
     return f_cos * light.radiance / light.pdf;
 }
 

@@ -28,7 +28,7 @@ public:
           max_depth_(max_depth),
           soft_shadows_(soft_shadows) {}
 
-    bool trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+    bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
 
 protected:

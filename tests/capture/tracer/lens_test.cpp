@@ -1,12 +1,15 @@
-// What many rays to a pixel give beside smooth edges: depth of field and soft shadows, against their formulas.
+// What many rays to a pixel give beside smooth edges: depth of field, motion blur and soft shadows, against their
+// formulas.
 
 #include "capture/tracer/light/directions.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 namespace rs::capture::test {
 namespace {
@@ -90,8 +93,9 @@ double penumbra(RenderMethod method, double lamp_width, double lamp_height, doub
             scene.meshes.push_back(make_quad({0, static_cast<float>(edge_height), -50}, {0, 0, 100}, {50, 0, 0}));
         const auto w = static_cast<float>(lamp_width);
         scene.lights = {rectangle_light({-w / 2, lamp_height, -w / 2}, {w, 0, 0}, {0, 0, w}, glm::vec3(5.0F))};
-        RenderOptions options = many_rays(method, 256);
+        RenderOptions options = many_rays(method, 1024);
         options.soft_shadows = true;
+        options.max_bounces = 1;  // no light from below the half plane
         const Camera camera = look_at_camera({0, 0.9 * edge_height, 1e-4}, {0, 0, 0}, radians(60), 256, 1);
         const Image<RgbaF> picture = render(std::move(scene), camera, options).picture;
         std::vector<double> light;
@@ -142,6 +146,38 @@ TEST(SoftShadows, SurfacesThatShineLightFromAllOver) {
     };
     const double truth = brightness(RenderMethod::kPath);
     EXPECT_NEAR(brightness(RenderMethod::kWhitted), truth, 0.01 * truth);
+}
+
+TEST(Shutter, AStreakIsAsLongAsTheWayOfWhatMoves) {
+    for (const RenderMethod method : {RenderMethod::kToon, RenderMethod::kPath}) {
+        for (const double way : {0.2, 0.5}) {
+            Material speck = material_of(SurfaceKind::diffuse, glm::vec3(0.0F));
+            speck.emission = glm::vec3(1.0F);
+            Scene scene;
+            scene.materials = {speck};
+            scene.parts = {{"speck", {make_quad({-0.05F, -0.2F, 0}, {0.1F, 0, 0}, {0, 0.4F, 0})}}};
+            Instance moves;
+            moves.world_from_part[3] = {-way / 2, 0, 0, 1};
+            moves.at_close = glm::dmat4(1);
+            (*moves.at_close)[3] = {way / 2, 0, 0, 1};
+            scene.instances = {moves};
+            const Camera camera = front_camera(3, 20, 128);
+            RenderOptions options = many_rays(method, 256);
+            options.toon.edge_radius = 0;
+            const Image<RgbaF> picture = render(std::move(scene), camera, options).picture;
+            // As wide as the way where half of the most is seen, whatever the width of what moves.
+            const auto light = [&](int x) { return static_cast<double>(picture(x, 64).a * picture(x, 64).g); };
+            double most = 0, length = 0;
+            for (int x = 0; x < 128; ++x) most = std::max(most, light(x));
+            for (int x = 0; x + 1 < 128; ++x) {
+                const double a = light(x) - most / 2, b = light(x + 1) - most / 2;
+                if ((a < 0) != (b < 0)) length += (a < 0 ? -1 : 1) * (x + a / (a - b));
+            }
+            const double expected = way * camera.fl_x / 3;
+            std::printf("streak: %.2f px, %.2f by the way\n", length, expected);
+            EXPECT_NEAR(length, expected, 1);
+        }
+    }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <chrono>
 #include <cmath>
@@ -174,6 +175,71 @@ TEST(TracedRenderer, PassesGiveTheSameBitsInAnyNumberOfThreads) {
             ASSERT_EQ(one(x, y), whole(x, y));
         }
     }
+}
+
+Scene moving_room() {
+    Scene scene = small_room();
+    scene.geometry[1].moving = 7;
+    for (const double x : {-2.0, 2.0}) {
+        scene.geometry.push_back(scene.geometry[1]);
+        scene.geometry.back().world_from_node[3] = {x, 0.5, 0, 1};
+        scene.geometry.back().world_from_node[0] = {0.3, 0.2, 0, 0};
+    }
+    scene.geometry[3].moving = 8;
+    return scene;
+}
+
+TEST(TracedRoom, WhatMayMoveIsAPartThatNodesShare) {
+    Scene scene = moving_room();
+    scene.geometry.push_back(scene.geometry[3]);
+    scene.geometry.back().material.diffuse = glm::vec3(0.5F);  // looks otherwise
+    const TracedRoom room = traced_room(scene);
+    EXPECT_EQ(room.scene.meshes.size(), 1U);
+    EXPECT_EQ(room.scene.parts.size(), 2U);
+    ASSERT_EQ(room.scene.instances.size(), 4U);
+    EXPECT_EQ(room.moving[2].id, 8U);
+    EXPECT_EQ(room.scene.instances[1].part, room.scene.instances[2].part);
+}
+
+// What moves looks as what was read at its new place.
+TEST(TracedRenderer, MovedNodesLookAsReadThere) {
+    const Camera camera = looking_from({3, 3, 5}, {0, 0.4, 0}, 64);
+    const auto picture_of = [&](TracedRenderer& renderer) {
+        renderer.look(camera);
+        EXPECT_TRUE(renderer.add_pass());
+        return renderer.radiance();
+    };
+    Scene scene = moving_room();
+    auto moved = renderer_of(scene);
+    ASSERT_TRUE(moved);
+    moved->set_method(TracedMethod::kWhitted);
+    const Image<RgbaF> before = picture_of(*moved);
+    const glm::dmat4 way = glm::translate(glm::dmat4(1), {0.3, 0.2, 1});
+    ASSERT_TRUE(moved->move(7, way));
+    EXPECT_FALSE(moved->move(9, way));            // no such node
+    EXPECT_FALSE(moved->move(8, glm::dmat4(0)));  // no inverse
+    const Image<RgbaF> after = picture_of(*moved);
+    for (GeometryNode& node : scene.geometry) {
+        if (node.moving == 7U) node.world_from_node = way * node.world_from_node;
+        node.moving.reset();
+    }
+    auto still = renderer_of(scene);
+    ASSERT_TRUE(still);
+    still->set_method(TracedMethod::kWhitted);
+    const Image<RgbaF> expected = picture_of(*still);
+    int other = 0, wrong = 0;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            other += std::abs(before(x, y).r - expected(x, y).r) > 1e-3F;
+            wrong += std::abs(after(x, y).r - expected(x, y).r) > 1e-3F;
+        }
+    }
+    EXPECT_GT(other, 200);
+    EXPECT_LT(wrong, 10);
+    // While the shutter is open a shadow's edge goes on: pictures become grey there.
+    ASSERT_TRUE(moved->move(7, way, glm::translate(way, {0.5, 0, 0})));
+    const Image<RgbaF> blurred = picture_of(*moved);
+    EXPECT_NE(blurred, after);
 }
 
 TEST(TracedRenderer, ExposureCountsInStops) {
