@@ -5,6 +5,7 @@
 #include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/tools/asked_cameras.hpp"
+#include "compositor/tools/asked_tracing.hpp"
 #include "compositor/tools/sequence_run.hpp"
 #include "compositor/tools/view_options.hpp"
 #include "compositor/tools/view_tiles.hpp"
@@ -100,14 +101,6 @@ ObjectDepth asked_depth(const ViewArguments& arguments) {
     return arguments.object_depth == "pixel" ? ObjectDepth::kPixel : ObjectDepth::kPlane;
 }
 
-// Nothing: raster.
-std::optional<TracedMethod> asked_method(const ViewArguments& arguments) {
-    for (const NamedMethod& named : kTracedMethods) {
-        if (arguments.renderer == named.name) return named.method;
-    }
-    return std::nullopt;
-}
-
 void print_warnings(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings)
         std::fprintf(stderr, "rs-view: warning: %s\n", printable(warning).c_str());
@@ -125,9 +118,10 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
     options.wire_frame = arguments.wire_frame;
     options.samples = arguments.samples;
     options.exposure_ev = arguments.exposure_ev;
-    const auto traced = asked_method(arguments);
-    options.traced = traced.has_value();
-    options.method = traced.value_or(TracedMethod::kPath);
+    const Result<TracedOptions> tracing = asked_tracing(arguments);
+    if (!tracing) return tracing.error();
+    options.tracing = *tracing;
+    options.traced = asked_method(arguments).has_value();
     options.executor = executor;
     options.object_depth = asked_depth(arguments);
     options.object_samples = arguments.object_samples;
@@ -154,11 +148,11 @@ Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::
 // Null for the raster renderer.
 Result<std::unique_ptr<TracedRenderer>> asked_tracer(const ViewArguments& arguments, const Scene& scene,
                                                      Showroom& showroom) {
-    const auto method = asked_method(arguments);
-    if (!method || !arguments.tiles.empty()) return std::unique_ptr<TracedRenderer>();
+    if (!asked_method(arguments) || !arguments.tiles.empty()) return std::unique_ptr<TracedRenderer>();
+    const Result<TracedOptions> options = asked_tracing(arguments);
+    if (!options) return options.error();
     if (const Status status = showroom.wait_for_all({0, 0, 0}); !status) return status.error();
-    auto tracer =
-        TracedRenderer::create(scene, showroom.placed(), {.method = *method, .exposure_ev = arguments.exposure_ev});
+    auto tracer = TracedRenderer::create(scene, showroom.placed(), *options);
     if (!tracer) return Error{arguments.scene + ": " + tracer.error().message};
     print_warnings(tracer->warnings());
     return std::make_unique<TracedRenderer>(std::move(*tracer));

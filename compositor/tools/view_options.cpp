@@ -69,13 +69,14 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         ->type_name("FILE.json");
     app.add_option(
            "--renderer", arguments.renderer,
-           "of the geometry: raster (OpenGL); whitted: traced direct light with hard shadows and mirrors; radiosity: "
-           "and "
-           "what walls reflect, by virtual lights, smooth early; path: all light, grainy at first, true at last. In a "
+           "of the geometry: raster (OpenGL); toon: a cartoon, in few tones and with lines along edges, in mirrors, "
+           "too; "
+           "whitted: traced direct light with hard shadows and mirrors; radiosity: and what walls reflect, by virtual "
+           "lights, smooth early; path: all light, grainy at first, true at last. In a "
            "window T changes between raster and traced. Objects and blended surfaces are put into the traced picture "
            "by depth")
-        ->type_name("raster|whitted|radiosity|path")
-        ->check(CLI::IsMember({"raster", "whitted", "radiosity", "path"}))
+        ->type_name("raster|toon|whitted|radiosity|path")
+        ->check(CLI::IsMember({"raster", "toon", "whitted", "radiosity", "path"}))
         ->capture_default_str();
     app.add_option("--lights", arguments.lights,
                    "JSON list of lights, luminaires (IES, EULUMDAT) among them, beside the scene's or in their place "
@@ -103,6 +104,23 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
     app.add_option("--exposure", arguments.exposure_ev, "stops by which lights are brighter (0)")
         ->check(CLI::Range(-40.0, 40.0))
         ->type_name("EV");
+    app.add_flag(
+        "--soft-shadows", arguments.soft_shadows,
+        "whitted, toon: areas light from all over, not from their middle; in toon the soft rim has tones, too");
+    app.add_option("--toon-lines", arguments.toon_lines,
+                   "toon: how far from an edge its line reaches; 0: no lines (1/2000 of the scene's diagonal)")
+        ->check(CLI::Range(0.0, 1e6))
+        ->type_name("LENGTH");
+    CLI::Option* lens =
+        app.add_option("--lens", arguments.lens,
+                       "traced pictures: the opening of the lens in mm (the scene counting metres), or "
+                       "f/N of a focal length on 36 mm film; all else than what --focus says is blurred. "
+                       "Objects that are put into the picture stay sharp")
+            ->type_name("MM|f/N");
+    app.add_option("--focus", arguments.focus, "with --lens: distance of what is sharp, along the line of sight")
+        ->check(CLI::Range(1e-6, 1e9))
+        ->type_name("DISTANCE")
+        ->needs(lens);
     app.add_flag("--wire-frame", arguments.wire_frame, "only the edges of the geometry's triangles");
     app.add_option("--object-depth", arguments.object_depth,
                    "how deep objects are: one plane each, or every pixel by itself, so that objects, and objects and "
@@ -151,6 +169,8 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         "  rs-view --object vase.rso@-1.2,0,0 --object lamp.rso@1.2,0,0,45,0.8 --orbit 120 -o turn.mp4\n"
         "  rs-view world.wrl -o world.png\n"
         "  rs-view hall.wrl --renderer path --lights evening.json --passes 256 -o evening.png\n"
+        "  rs-view hall.wrl --renderer toon --passes 16 -o cartoon.png\n"
+        "  rs-view hall.wrl --renderer path --lens f/1.4 --focus 2.5 -o portrait.png\n"
         "  rs-view hall.wrl --lights evening.json --probe 0,0.9,0 -o evening.exr\n"
         "  rs-view --sequence maps/street --weather rain -o street.mp4\n"
         "  rs-view room.json --eye 0,1.2,6 --at 0,0.8,0 --fov 45 --size 1920x1080 -o room.png");

@@ -40,6 +40,10 @@ struct ViewArguments {
     int passes = 0;
     double seconds = 0;
     double exposure_ev = 0;
+    bool soft_shadows = false;
+    double toon_lines = -1;  // radius; < 0: as the scene is large
+    std::string lens;
+    double focus = 0;
     bool upright = false;
     bool streaming = false;
     bool wire_frame = false;

@@ -14,6 +14,8 @@ namespace rs::compositor {
 
 namespace {
 
+constexpr int kToonShadowRays = 16;
+
 glm::vec3 ambient_of(const Scene& scene) {
     glm::vec3 ambient = reflected_light(scene);
     for (const Light& light : scene.lights) {
@@ -22,7 +24,22 @@ glm::vec3 ambient_of(const Scene& scene) {
     return ambient;
 }
 
+// Lines are twice as wide within a surface, and as wide as this at its outline: a pixel or two where the whole scene is
+// in view.
+double usual_line_radius(const Scene& scene) {
+    constexpr double kOfDiagonal = 1.0 / 2000;
+    const BoundingBox bounds = bounds_of(scene);
+    return bounds.empty() ? capture::ToonStyle{}.edge_radius
+                          : kOfDiagonal * glm::distance(bounds.lowest, bounds.highest);
+}
+
 }  // namespace
+
+capture::ThinLens CameraLens::of(const Camera& camera) const {
+    constexpr double kFilm_mm = 36;
+    const double focal_mm = kFilm_mm * camera.fl_x / camera.width;
+    return {units_per_mm * (f_number > 0 ? focal_mm / f_number : aperture_mm), focus};
+}
 
 Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                               const TracedOptions& options) {
@@ -42,6 +59,10 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
     renderer.render_.method = options.method;
     renderer.render_.ambient = ambient_of(scene);
     renderer.render_.max_bounces = options.max_bounces;
+    renderer.render_.soft_shadows = options.soft_shadows;
+    renderer.render_.toon.edge_radius = static_cast<float>(options.line_radius.value_or(usual_line_radius(scene)));
+    renderer.render_.toon.shadow_rays = options.soft_shadows ? kToonShadowRays : 0;
+    renderer.render_.toon.brightness = darker;  // tones are tones, however bright the lights are
     renderer.render_.see_areas = true;
     renderer.render_.see_environment = scene.environment && scene.environment->seen;
     renderer.moving_ = std::move(room.moving);
@@ -78,6 +99,12 @@ void TracedRenderer::begin(const Camera& camera) {
     tracer_.set_lights(std::move(lights));
 }
 
+capture::RenderOptions TracedRenderer::render_options(const Camera& camera) const {
+    capture::RenderOptions render = render_;
+    if (options_.lens) render.lens = options_.lens->of(camera);
+    return render;
+}
+
 void TracedRenderer::look(const Camera& camera) {
     camera_ = camera;
     sum_ = {};
@@ -85,7 +112,7 @@ void TracedRenderer::look(const Camera& camera) {
 }
 
 bool TracedRenderer::add_pass(Progress* progress, const std::atomic<bool>* stop) {
-    return tracer_.accumulate(camera_, render_, 1, sum_, progress, stop);
+    return tracer_.accumulate(camera_, render_options(camera_), 1, sum_, progress, stop);
 }
 
 std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera, int side,
@@ -99,7 +126,7 @@ std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera,
     coarse.cx /= side;
     coarse.cy /= side;
     capture::Accumulation sum;
-    if (!tracer_.accumulate(coarse, render_, 1, sum, nullptr, stop)) return std::nullopt;
+    if (!tracer_.accumulate(coarse, render_options(coarse), 1, sum, nullptr, stop)) return std::nullopt;
     const Image<Rgba8> small = shown(sum.mean());
     Image<Rgba8> picture(camera.width, camera.height);
     for (int y = 0; y < camera.height; ++y) {

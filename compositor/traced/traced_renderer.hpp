@@ -28,14 +28,26 @@ struct NamedMethod {
     TracedMethod method;
 };
 // In the order from quick to true.
-inline constexpr std::array kTracedMethods{NamedMethod{"whitted", TracedMethod::kWhitted},
-                                           NamedMethod{"radiosity", TracedMethod::kRadiosity},
-                                           NamedMethod{"path", TracedMethod::kPath}};
+inline constexpr std::array kTracedMethods{
+    NamedMethod{"toon", TracedMethod::kToon}, NamedMethod{"whitted", TracedMethod::kWhitted},
+    NamedMethod{"radiosity", TracedMethod::kRadiosity}, NamedMethod{"path", TracedMethod::kPath}};
+
+// A camera's lens: either its opening, or how many times that goes into a focal length on 36 mm wide film.
+struct CameraLens {
+    double aperture_mm = 0;  // diameter, where f_number is 0
+    double f_number = 0;
+    double focus = 1;            // axial distance of what is sharp, scene units
+    double units_per_mm = 1e-3;  // of the scene
+    [[nodiscard]] capture::ThinLens of(const Camera& camera) const;
+};
 
 struct TracedOptions {
     TracedMethod method = TracedMethod::kPath;
     double exposure_ev = 0;  // pictures are 2^_ times as bright
     int max_bounces = 16;
+    bool soft_shadows = false;            // whitted, toon; the others have no others
+    std::optional<double> line_radius{};  // toon: how far from an edge its line reaches; a share of the scene if empty
+    std::optional<CameraLens> lens{};
 };
 
 // Move-only; one thread, but for `stop`.
@@ -83,6 +95,7 @@ private:
         : tracer_(std::move(tracer)), options_(options) {}
 
     void begin(const Camera& camera);
+    [[nodiscard]] capture::RenderOptions render_options(const Camera& camera) const;
     [[nodiscard]] Image<Rgba8> shown(Image<RgbaF> radiance) const;
 
     capture::Tracer tracer_;

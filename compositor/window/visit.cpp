@@ -34,8 +34,11 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
       compositor_(std::move(compositor)),
       overlay_(std::make_unique<Overlay>(window_)),
       options_(options),
-      make_tracer_([scene, exposure_ev = options.exposure_ev](const std::vector<PlacedObject>& objects) {
-          return TracedRenderer::create(scene, objects, {.exposure_ev = exposure_ev});
+      make_tracer_([scene, tracing = options.tracing,
+                    exposure_ev = options.exposure_ev](const std::vector<PlacedObject>& objects) {
+          TracedOptions traced = tracing;
+          traced.exposure_ev = exposure_ev;
+          return TracedRenderer::create(scene, objects, traced);
       }),
       last_(std::chrono::steady_clock::now()) {
     navigation_.speed = scene.navigation.speed;
@@ -49,7 +52,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
     panel_.speed = navigation_.speed;
     panel_.wire_frame = options.wire_frame;
     panel_.traced = options.traced;
-    panel_.method = options.method;
+    panel_.method = options.tracing.method;
     panel_.executor = options.executor;
     panel_.device = window_.context().device_name();
     if (options.sequence) playback_.emplace(options.sequence, options.weather);

@@ -14,6 +14,7 @@
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -50,6 +51,12 @@ public:
 
     // The nearest hit beyond `origin`; `direction` has unit length, `time` is 0..1. Thread-safe, as is occluded().
     bool intersect(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const;
+    // How far it is to the nearest hits of kBundle rays of one direction, which are near to each other; infinity where
+    // a ray meets nothing.
+    static constexpr int kBundle = 8;
+    using Bundle = std::array<float, kBundle>;
+    [[nodiscard]] Bundle distances(const std::array<glm::vec3, kBundle>& origins, const glm::vec3& direction,
+                                   float time) const;
     // What a primitive answers that is nearer than `distance`.
     [[nodiscard]] std::optional<RayPrimitive::Answer> ask_primitives(const glm::vec3& origin,
                                                                      const glm::vec3& direction, float distance) const;

@@ -2,6 +2,7 @@
 
 #include "capture/tracer/integrator/path.hpp"
 #include "capture/tracer/integrator/radiosity.hpp"
+#include "capture/tracer/integrator/toon.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "rayspace/base/check.hpp"
@@ -132,7 +133,8 @@ void Tracer::turn_lights(double angle_rad) {
 }
 
 Tracer::Frame Tracer::frame_of(const Camera& camera, const RenderOptions& options) const {
-    const bool anywhere = options.see_areas || options.see_environment;
+    // What is out of focus is wider than it is.
+    const bool anywhere = options.see_areas || options.see_environment || options.lens.aperture > 0;
     return {anywhere ? PixelRectangle{0, 0, camera.width, camera.height} : visible_rectangle(camera, *state_->rays),
             picture_key(options.seed, camera)};
 }
@@ -147,7 +149,12 @@ std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& 
                                                      picture, key, first, count);
         case RenderMethod::kWhitted:
             return std::make_unique<WhittedTracer>(transport, IrradianceMap(transport.lights().environment()),
-                                                   options.ambient, std::min(options.max_bounces, kWhittedDepth));
+                                                   options.ambient, std::min(options.max_bounces, kWhittedDepth),
+                                                   options.soft_shadows);
+        case RenderMethod::kToon:
+            return std::make_unique<ToonTracer>(transport, IrradianceMap(transport.lights().environment()),
+                                                options.ambient, std::min(options.max_bounces, kWhittedDepth),
+                                                options.toon);
         case RenderMethod::kPath:
             break;
     }
@@ -192,7 +199,6 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
     const std::unique_ptr<const Integrator> integrator =
         make_integrator(transport, rays, frame.key, options, into.samples, count);
     const PixelRectangle visible = options.part ? overlap(frame.visible, *options.part) : frame.visible;
-    const glm::vec3 centre(rays.centre);
     const bool blurred = state_->rays->blurred();
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);
 
@@ -203,10 +209,14 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
         for (int s = into.samples; s < into.samples + count; ++s) {
             Sampler sampler(pixel_key, static_cast<std::uint32_t>(s));
             const glm::dvec2 offset = (glm::dvec2(sampler.next_2d()) - 0.5) * filter_width_px;
-            const glm::vec3 direction(glm::normalize(rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)));
+            ThinLens::Ray ray{rays.centre, rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)};
             const float time = blurred ? sampler.next_2d().x : 0.0F;
+            if (options.lens.aperture > 0) {
+                ray = options.lens.through(ray.origin, rays.forward, ray.direction, sampler.next_2d());
+            }
+            const glm::vec3 direction(glm::normalize(ray.direction));
             glm::vec3 radiance;
-            if (!integrator->trace(centre, direction, time, sampler, radiance)) continue;
+            if (!integrator->trace(glm::vec3(ray.origin), direction, time, sampler, radiance)) continue;
             pixel.r += radiance.r;
             pixel.g += radiance.g;
             pixel.b += radiance.b;

@@ -7,7 +7,9 @@
 // Rendering Equation", 1986; E. Veach's thesis, 1997, for multiple importance sampling.
 
 #include "capture/tracer/integrator/ray_picture.hpp"
+#include "capture/tracer/integrator/thin_lens.hpp"
 #include "capture/tracer/scene/scene.hpp"
+#include "capture/tracer/scene/toon_style.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -24,6 +26,7 @@ enum class RenderMethod {
     kPath,       // path.hpp
     kRadiosity,  // radiosity.hpp; each sample of all pixels is a pass
     kWhitted,    // whitted.hpp
+    kToon,       // toon.hpp
 };
 
 // Pixels [x0, x1) x [y0, y1).
@@ -41,8 +44,12 @@ struct RenderOptions {
     // What stands in the picture itself; else it is seen in reflections and through glass only.
     bool see_areas = false;
     bool see_environment = false;
-    glm::vec3 ambient{0.0F};  // whitted: what stands for light that surfaces reflect, as the radiance of white matter
-    int threads = 0;          // 0 = as many as the processor has
+    glm::vec3 ambient{
+        0.0F};  // whitted, toon: what stands for light that surfaces reflect, as the radiance of white matter
+    bool soft_shadows = false;  // whitted: areas light from all over; of toon the style says so
+    ToonStyle toon{};
+    ThinLens lens{};
+    int threads = 0;                     // 0 = as many as the processor has
     std::optional<PixelRectangle> part;  // of accumulate(): other pixels get no samples; these have the bits they have
                                          // without it
 };

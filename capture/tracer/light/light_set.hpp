@@ -71,6 +71,10 @@ public:
     // their middle. `radiance / pdf` is irradiance.
     void visit_middles(const glm::vec3& position, const std::function<void(const LightSample&)>& visit) const;
 
+    // The same, but each area by a point of it, and all meshes that shine by one point together; `draw` says where.
+    void visit_points(const glm::vec3& position, const std::function<glm::vec2()>& draw,
+                      const std::function<void(const LightSample&)>& visit) const;
+
     [[nodiscard]] const EnvironmentMap& environment() const { return environment_; }
     // Density with which sample() gives this direction through the environment.
     [[nodiscard]] float environment_pdf(const Selection& selection, const glm::vec3& direction) const;
