@@ -33,10 +33,10 @@ struct VisitOptions {
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = FrameOptions{}.object_samples;
     double exposure_ev = 0;
-    bool traced = false;                                        // from the beginning
-    TracedOptions tracing{};                                    // with the exposure above
-    std::string executor = "software core";                     // of the engine, for the panel
-    std::shared_ptr<const Sequence> sequence;                   // to be played, in this weather
+    bool traced = false;                       // from the beginning
+    TracedOptions tracing{};                   // with the exposure above
+    std::string executor = "software core";    // of the engine, for the panel
+    std::shared_ptr<const Sequence> sequence;  // to be played, in this weather
     std::optional<Weather> weather;
     std::function<void(const std::string&)> open;               // another sequence is wanted; the visit ends
     std::function<void(const std::vector<std::string>&)> warn;  // of objects that cannot be shown; may be empty
