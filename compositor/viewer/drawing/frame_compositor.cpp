@@ -154,7 +154,10 @@ Status FrameCompositor::draw(const Camera& camera) {
     const auto transparent = renderers_.surfaces.draw_opaque(view, wire_frame_);
     statistics_.geometry_in_view = renderers_.surfaces.nodes_in_view();
     if (floor_) draw_floor(view);
-    if (traced_) draw_traced(camera);
+    if (traced_) {
+        draw_traced(camera);
+        renderers_.surfaces.draw_veil(view);
+    }
     gl::flush();
     statistics_.geometry_s = clock.lap();
 

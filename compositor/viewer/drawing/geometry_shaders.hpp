@@ -140,13 +140,14 @@ void main() {
         }
         colour = lit(diffuse, ambient, n, normalize(to_eye));
     }
+    float kept = 1.0;
     if (kFog != 0) {
         float d = length(to_eye);
-        float kept = d >= fog_visibility ? 0.0
+        kept = d >= fog_visibility ? 0.0
                    : kFog == 2 ? exp(-d / (fog_visibility - d)) : (fog_visibility - d) / fog_visibility;
         colour = mix(fog, colour, kept);
     }
-    result = vec4(colour * opacity, opacity);
+    result = kVeil ? vec4(fog * (1.0 - kept), 1.0 - kept) : vec4(colour * opacity, opacity);
 })";
 
 }  // namespace rs::compositor::shaders

@@ -44,7 +44,8 @@ std::string constants_of(const SurfaceKind& kind) {
            shaders::shader_constant("kPictureAlpha", static_cast<int>(kind.picture_alpha)) +
            shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kFog", kind.fog) +
            shaders::shader_constant("kPhong", kind.phong) +
-           shaders::shader_constant("kCover", static_cast<int>(kind.cover));
+           shaders::shader_constant("kCover", static_cast<int>(kind.cover)) +
+           shaders::shader_constant("kVeil", kind.veil);
 }
 
 namespace {
@@ -137,6 +138,16 @@ Status SurfaceRenderer::put(Item& item) {
     auto made = program(kind);
     if (!made) return made.error();
     item.program = std::move(*made);
+    if (kind.fog != 0) {
+        SurfaceKind veil{.fog = kind.fog, .veil = true};
+        if (kind.picture_alpha == AlphaUse::kMask) {
+            veil.picture = kind.picture;
+            veil.picture_alpha = kind.picture_alpha;
+        }
+        auto veiled = program(veil);
+        if (!veiled) return veiled.error();
+        item.veil = std::move(*veiled);
+    }
     const glm::vec3 reflected = kind.phong ? phong_terms(node.material).ambient * lights.ambient : lights.ambient;
     item.material.ambient_light = glm::vec4(reflected, 0);
     item.mirrored = glm::determinant(glm::dmat3(item.world_from_node)) < 0;
@@ -196,8 +207,8 @@ void SurfaceRenderer::set_frame(const FrameView& view) const {
     }
 }
 
-void SurfaceRenderer::draw(const Item& item, const FrameView& view, gl::DrawState state) const {
-    const gl::Program& program = *item.program;
+void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const FrameView& view,
+                           gl::DrawState state) const {
     const auto set = [&](const char* name, const auto& value) {
         if (program.uses(name)) program.set(name, value);
     };
@@ -241,8 +252,18 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
     };
     std::stable_sort(opaque.begin(), opaque.end(),
                      [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
-    for (const std::size_t i : opaque) draw(items_[i], view, state_of(items_[i]));
+    for (const std::size_t i : opaque) draw(items_[i], *items_[i].program, view, state_of(items_[i]));
     return transparent;
+}
+
+void SurfaceRenderer::draw_veil(const FrameView& view) const {
+    for (const Item& item : items_) {
+        if (!item.veil || item.hidden || item.transparent || !may_be_seen(item.bounds, view)) continue;
+        draw(item, *item.veil, view,
+             {.depth_write = false,
+              .blending = gl::Blending::kOverPremultiplied,
+              .culling = item.two_sided ? gl::Culling::kNone : gl::Culling::kBack});
+    }
 }
 
 void SurfaceRenderer::draw_transparent(const Transparent& transparent, const FrameView& view, bool wire_frame) const {
@@ -252,10 +273,10 @@ void SurfaceRenderer::draw_transparent(const Transparent& transparent, const Fra
     // The inner sides lie behind the outer ones.
     if (item.two_sided) {
         state.culling = gl::Culling::kFront;
-        draw(item, view, state);
+        draw(item, *item.program, view, state);
     }
     state.culling = gl::Culling::kBack;
-    draw(item, view, state);
+    draw(item, *item.program, view, state);
 }
 
 }  // namespace rs::compositor

@@ -38,6 +38,7 @@ struct SurfaceKind {
     int fog = 0;           // 0 none, 1 linear, 2 exponential
     bool phong = false;    // by Phong's formula
     Cover cover = Cover::kNone;
+    bool veil = false;  // nothing but the fog before it
     auto operator<=>(const SurfaceKind&) const = default;
 };
 
@@ -59,10 +60,12 @@ public:
     };
     // Draws what is opaque and returns what is not but may be in the picture, to be drawn from the farthest on.
     std::vector<Transparent> draw_opaque(const FrameView& view, bool wire_frame);
+    // The fog before what is opaque, over a picture of it that has none. Nothing where there is no fog.
+    void draw_veil(const FrameView& view) const;
     void draw_transparent(const Transparent& item, const FrameView& view, bool wire_frame) const;
 
-    // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Only its numbers change, unless
-    // lights reach it in a number for which there is no shader yet.
+    // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Only its numbers change,
+    // unless lights reach it in a number for which there is no shader yet.
     Status move(std::size_t node, const std::optional<glm::dmat4>& world_from_node);
 
     // Meshes and pictures that were given to the driver since create() began, and shaders.
@@ -79,6 +82,7 @@ private:
         glm::dmat4 world_from_node;
         BoundingBox bounds;                          // in scene coordinates
         std::shared_ptr<const gl::Program> program;  // of its kind
+        std::shared_ptr<const gl::Program> veil;     // null where there is no fog
         MaterialRow material;
         std::vector<LightRow> lights;
         glm::mat3 texture_transform{1};
@@ -94,7 +98,7 @@ private:
     Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind);
     Status put(Item& item);
     void set_frame(const FrameView& view) const;
-    void draw(const Item& item, const FrameView& view, gl::DrawState state) const;
+    void draw(const Item& item, const gl::Program& program, const FrameView& view, gl::DrawState state) const;
 
     Scene scene_;
     std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;  // one for each kind of surface that there is

@@ -145,6 +145,28 @@ TEST_F(PlayerTest, WhatFallsIsHiddenByWhatIsBefore) {
     }
 }
 
+TEST_F(PlayerTest, TracedFramesMoveThingsWithoutNewTreesAndStandInFog) {
+    const auto sequence = boxes(12, 3);
+    PlayerOptions options{.frame = kSmall, .method = TracedMethod::kWhitted, .passes = 1};
+    auto player = SequencePlayer::create(sequence, options);
+    ASSERT_TRUE(player) << player.error().message;
+    const Image<Rgba8> first = frame_of(*player, 0);
+    const Image<Rgba8> second = frame_of(*player, 1);
+    EXPECT_GT(differing(first, second), 500);
+    EXPECT_TRUE(same(frame_of(*player, 0), first));
+    EXPECT_EQ(player->tracers_made(), 1);
+    auto fresh = SequencePlayer::create(sequence, options);
+    ASSERT_TRUE(fresh);
+    EXPECT_TRUE(same(frame_of(*fresh, 1), second));
+    // In fog that ends before everything, nothing but fog.
+    options.weather = *parse_weather("fog");
+    options.weather->visibility = 1.5;
+    auto foggy = SequencePlayer::create(sequence, options);
+    ASSERT_TRUE(foggy);
+    const Image<Rgba8> nothing = frame_of(*foggy, 0);
+    for (const Rgba8& pixel : nothing.pixels()) ASSERT_EQ(pixel, nothing(0, 0));
+}
+
 TEST(WeatherWords, AreStrict) {
     EXPECT_TRUE(parse_weather("rain,fog"));
     for (const char* wrong : {"", "hail", "rain,", "rain,rain", "rain,snow", "Rain"}) {
