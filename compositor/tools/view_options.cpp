@@ -1,12 +1,63 @@
 #include "compositor/tools/view_options.hpp"
 
+#include "compositor/displays/stereo_picture.hpp"
 #include "engine/executors/executor_table.hpp"
 
 namespace rs::compositor {
+namespace {
+
+void add_display_options(CLI::App& app, ViewArguments& arguments) {
+    CLI::Option* walls =
+        app.add_option("--walls", arguments.walls,
+                       "in place of one view, those of one who stands before walls: cave, power-wall, tabletop, or a "
+                       "file of corners in metres (compositor/README.md, Walls). With -o FOLDER a picture a wall, else "
+                       "a window a wall. The scene's view says where the room stands; --size: of all walls")
+            ->type_name("PRESET|FILE.json");
+    app.add_option("--wall", arguments.wall_names, "only these, such as front,left: a machine for each wall")
+        ->type_name("NAME,...")
+        ->needs(walls);
+    std::vector<std::string> forms;
+    for (const NamedStereoForm& named : kStereoForms) forms.emplace_back(named.name);
+    app.add_option("--stereo", arguments.stereo,
+                   "both eyes' pictures of each wall: folders left and right, side by side, one above the other, or an "
+                   "anaglyph for red and cyan glasses")
+        ->type_name("[folders|side-by-side|top-bottom|anaglyph]")
+        ->expected(0, 1)
+        ->default_str("folders")
+        ->check(CLI::IsMember(forms))
+        ->needs(walls);
+    app.add_option("--eye-distance", arguments.eye_distance_m,
+                   "between the eyes, metres (0.065, or of the walls' file)")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("M")
+        ->needs(walls);
+    app.add_option("--heads", arguments.heads, "where the head is in each frame (compositor/README.md, Walls)")
+        ->type_name("FILE.json")
+        ->needs(walls);
+    CLI::Option* quilt =
+        app.add_option("--quilt", arguments.quilt,
+                       "views from left to right as the tiles of one picture, for displays with horizontal parallax; "
+                       "-o FILE.png gets the layout into its name")
+            ->type_name("COLSxROWS")
+            ->excludes(walls);
+    app.add_option("--tile", arguments.tile, "size of a quilt's tile, WxH")->capture_default_str()->needs(quilt);
+    app.add_option("--cone", arguments.cone_deg, "over which a quilt's eyes spread, in degrees")
+        ->check(CLI::Range(0.01, 170.0))
+        ->capture_default_str()
+        ->type_name("DEG")
+        ->needs(quilt);
+    app.add_option("--focus", arguments.focus, "depth at which a quilt's views agree (of the middle of the scene)")
+        ->check(CLI::Range(1e-6, 1e6))
+        ->type_name("DIST")
+        ->needs(quilt);
+}
+
+}  // namespace
 
 void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
-    app.add_option("SCENE", arguments.scene,
-                   "scene: .wrl, .wrl.gz (VRML97), .gltf, .glb, .obj or .json (compositor/README.md)");
+    app.add_option(
+        "SCENE", arguments.scene,
+        "scene: .wrl, .wrl.gz (VRML97, VRML 1.0), .x3d, .x3dv, .gltf, .glb, .obj or .json (compositor/README.md)");
     app.add_option("--object", arguments.objects,
                    "FILE.rso[@X,Y,Z[,TURN_DEG[,SCALE]]]: an object whose foot stands at X,Y,Z, turned about Y; may be "
                    "repeated. Objects without a place stand in a row. Without SCENE they get a floor")
@@ -89,6 +140,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
     app.add_flag("--streaming", arguments.streaming,
                  "with -o: walk in real time, objects come when they are read, as a visitor sees it; else every frame "
                  "waits for its objects");
+    add_display_options(app, arguments);
     app.add_flag("-q,--quiet", arguments.quiet, "no progress bar");
     app.footer(
         "Lengths are in the scene's units; an object of scale 1 has radius 1. Y is up.\n"
@@ -99,6 +151,8 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         "  rs-view world.wrl -o world.png\n"
         "  rs-view hall.wrl --renderer path --lights evening.json --passes 256 -o evening.png\n"
         "  rs-view hall.wrl --lights evening.json --probe 0,0.9,0 -o evening.exr\n"
+        "  rs-view hall.wrl --walls cave --stereo side-by-side -o walls\n"
+        "  rs-view hall.wrl --quilt 5x9 -o hall.png\n"
         "  rs-view room.json --eye 0,1.2,6 --at 0,0.8,0 --fov 45 --size 1920x1080 -o room.png");
 }
 

@@ -36,6 +36,16 @@ struct ViewArguments {
     int passes = 0;
     double seconds = 0;
     double exposure_ev = 0;
+    std::string walls;
+    std::string wall_names;
+    std::string heads;
+    std::string stereo;
+    double eye_distance_m = -1;  // as the walls' file says
+    std::string quilt;
+    std::string tile = "420x560";
+    double cone_deg = 40;
+    double focus = 0;         // the depth of the scene's middle
+    bool size_given = false;  // by the command line
     bool upright = false;
     bool streaming = false;
     bool wire_frame = false;

@@ -103,6 +103,7 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
 
     {"compositor/gl", {"rayspace/*"}},
     {"compositor/scene", {"rayspace/*"}},
+    {"compositor/displays", {"rayspace/*", "compositor/scene"}},
     {"compositor/traced",
      {"rayspace/*", "compositor/scene", "compositor/viewer/residency", "capture/tracer/scene",
       "capture/tracer/integrator", "engine/core/definition"}},
@@ -115,8 +116,8 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"compositor/viewer",
      {"rayspace/*", "compositor/scene", "compositor/viewer/residency", "compositor/viewer/drawing", "engine/driver"}},
     {"compositor/window",
-     {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/traced", "compositor/viewer",
-      "compositor/viewer/views", "compositor/viewer/drawing"}},
+     {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/displays", "compositor/traced",
+      "compositor/viewer", "compositor/viewer/views", "compositor/viewer/drawing"}},
     {"compositor/tools", {"rayspace/*", "compositor/*", "engine/core/definition", "engine/executors"}},
 };
 
