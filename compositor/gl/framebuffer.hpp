@@ -41,4 +41,7 @@ private:
     int samples_ = 1;
 };
 
+// Puts a picture into the current window, stretched to width x height pixels.
+void show_in_window(ConstImageView<Rgba8> picture, int width, int height);
+
 }  // namespace rs::gl

@@ -86,6 +86,10 @@ void Texture::upload(const void* texels, int width, int height, std::ptrdiff_t s
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
+void Texture::attach_to(unsigned framebuffer) const {
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, handle_.name(), 0);
+}
+
 void Texture::bind(unsigned unit) const {
     glBindTextureUnit(unit, handle_.name());
 }

@@ -31,6 +31,8 @@ public:
     // Overwrites the top left corner; the picture must fit. Its first row becomes texel row 0.
     void upload(ConstImageView<Rgba8> picture) const;
     void upload(ConstImageView<float> picture) const;  // into kFloat
+    // As the colours of a framebuffer that is read from.
+    void attach_to(unsigned framebuffer) const;
     // To `uniform sampler2D` with layout(binding = unit).
     void bind(unsigned unit) const;
 

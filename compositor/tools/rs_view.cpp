@@ -6,14 +6,17 @@
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/tools/asked_cameras.hpp"
 #include "compositor/tools/asked_tracing.hpp"
+#include "compositor/tools/quilt_views.hpp"
 #include "compositor/tools/sequence_run.hpp"
 #include "compositor/tools/view_options.hpp"
 #include "compositor/tools/view_tiles.hpp"
+#include "compositor/tools/wall_views.hpp"
 #include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/frame_times.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/window/visit.hpp"
+#include "compositor/window/wall_visit.hpp"
 #include "engine/executors/executor_table.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
@@ -134,6 +137,22 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
     return visit(std::move(window), scene, std::move(showroom), options);
 }
 
+// A window for each wall.
+Status run_walls(const ViewArguments& arguments, const Scene& scene, const WallViews& views,
+                 std::unique_ptr<Showroom> showroom) {
+    if (asked_method(arguments)) return Error{"--renderer " + arguments.renderer + ": on walls it needs -o FOLDER"};
+    return visit_walls(scene, std::move(showroom),
+                       {.display = views.display,
+                        .heads = views.heads,
+                        .place = views.places.front(),
+                        .stereo = views.stereo,
+                        .samples = arguments.samples,
+                        .exposure_ev = arguments.exposure_ev,
+                        .object_depth = asked_depth(arguments),
+                        .object_samples = arguments.object_samples,
+                        .warn = print_warnings});
+}
+
 Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::vector<Camera>& cameras,
                     const std::function<Result<Image<Rgba8>>(const Camera&)>& compose, Progress& progress) {
     if (kind == OutputKind::video) {
@@ -207,14 +226,16 @@ Status run_probe(const ViewArguments& arguments) {
 }
 
 Status run_view(ViewArguments arguments) {
-    const Result<PixelSize> size = parse_size(arguments.size);
+    const bool in_tiles = !arguments.quilt.empty();
+    const bool on_walls = !arguments.walls.empty();
+    Result<PixelSize> size = in_tiles ? asked_tile(arguments) : parse_size(arguments.size);
     if (!size) return size.error();
     Result<Scene> scene = asked_scene(arguments);
     if (!scene) return scene.error();
     print_warnings(scene->warnings);
     std::optional<Window> window;
     bool in_place_of_window = false;
-    if (arguments.output.empty() && arguments.plan.empty()) {
+    if (arguments.output.empty() && arguments.plan.empty() && !on_walls) {
         Result<Window> opened = open_window(arguments, *size);
         if (opened) {
             window.emplace(std::move(*opened));
@@ -225,8 +246,8 @@ Status run_view(ViewArguments arguments) {
             print_warnings({opened.error().message + "; the first view goes to " + arguments.output});
         }
     }
-    const bool in_window = window.has_value();
     const bool plans = !arguments.plan.empty();
+    const bool in_window = window.has_value() || (on_walls && arguments.output.empty());
     const Result<OutputKind> kind = in_window || plans ? OutputKind::picture : output_kind(arguments.output);
     if (!kind) return kind.error();
     Result<std::unique_ptr<engine::Executor>> board = asked_executor(arguments);
@@ -246,12 +267,34 @@ Status run_view(ViewArguments arguments) {
     if (!cameras) return cameras.error();
     if (plans) return write_plan(arguments, *cameras);
     if (in_place_of_window) cameras->erase(cameras->begin() + 1, cameras->end());
+    std::optional<WallViews> walls;
+    std::optional<QuiltViews> quilt;
+    const std::size_t moments = cameras->size();
+    if (on_walls) {
+        Result<WallViews> asked = asked_walls(arguments, *scene, *cameras);
+        if (!asked) return asked.error();
+        walls = std::move(*asked);
+        if (*kind != OutputKind::folder && !in_window) {
+            return Error{arguments.output + ": walls go into a folder; give a folder to -o"};
+        }
+        cameras = wall_cameras(*walls);
+    } else if (in_tiles) {
+        Result<QuiltViews> asked = asked_quilt(arguments, *scene, *cameras);
+        if (!asked) return asked.error();
+        quilt = std::move(*asked);
+        if (*kind == OutputKind::video) return Error{arguments.output + ": quilts go into a .png or a folder"};
+        cameras = quilt->cameras();
+    }
+    if (!cameras) return cameras.error();
+    if (in_window && walls) {
+        return run_walls(arguments, *scene, *walls, std::move(showroom));
+    }
     if (in_window) {
         return run_visit(std::move(*window), arguments, *scene, std::move(showroom), drawer.name, cameras->front());
     }
     if (!arguments.tile.empty()) return run_tile(arguments, *scene, *showroom, *cameras);
-    if (*kind == OutputKind::picture && cameras->size() != 1) {
-        return Error{arguments.output + ": " + std::to_string(cameras->size()) +
+    if (*kind == OutputKind::picture && moments != 1) {
+        return Error{arguments.output + ": " + std::to_string(moments) +
                      " frames do not fit one picture; give a folder or an .mp4 to -o"};
     }
 
@@ -259,6 +302,7 @@ Status run_view(ViewArguments arguments) {
     if (!tracer) return tracer.error();
     Result<gl::Context> context = gl::Context::create_surfaceless();
     if (!context) return context.error();
+    size = PixelSize{cameras->front().width, cameras->front().height};
     const bool upright = arguments.upright || arguments.streaming || !drawer.tilted;
     Result<FrameCompositor> compositor = FrameCompositor::create(*scene, showroom->engine(), showroom->nodes(),
                                                                  {.width = size->width,
@@ -283,6 +327,9 @@ Status run_view(ViewArguments arguments) {
                 begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                             std::chrono::duration<double>(frame_s * static_cast<double>(times.frames()))));
         }
+        if (camera.width != compositor->width() || camera.height != compositor->height()) {
+            if (Status status = compositor->resize(camera.width, camera.height); !status) return status.error();
+        }
         if (!arguments.tiles.empty()) {
             Result<Image<Rgba8>> traced = read_tiles(arguments, static_cast<std::size_t>(times.frames()), camera);
             if (!traced) return traced.error();
@@ -300,7 +347,10 @@ Status run_view(ViewArguments arguments) {
     if (!*tracer || cameras->size() > 1) {
         progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
     }
-    if (Status status = write_frames(arguments, *kind, *cameras, compose, progress); !status) return status;
+    const Status written = walls   ? write_walls(*walls, arguments, compose, progress)
+                           : quilt ? write_quilts(*quilt, arguments, compose, progress)
+                                   : write_frames(arguments, *kind, *cameras, compose, progress);
+    if (!written) return written;
     progress.finish();
     if (waits && missing > 0) {
         print_warnings({std::to_string(missing) + " objects in view do not fit into --memory " +
@@ -323,9 +373,13 @@ int main(int argc, char** argv) {
     app.callback([&] {
         check_sequence_options(arguments);
         arguments.frames_per_second_given = app.count("--fps") > 0;
+        arguments.size_given = app.count("--size") > 0;
         if (!arguments.sequences.empty()) {
             run = [&] { return arguments.output.empty() ? run_sequence_window(arguments) : run_sequences(arguments); };
             return;
+        }
+        if (!arguments.quilt.empty() && arguments.output.empty()) {
+            throw CLI::ValidationError("--quilt needs -o: the .png to write, or a folder");
         }
         if (arguments.scene.empty() && arguments.objects.empty()) {
             throw CLI::ValidationError("nothing to show; give a scene file or --object FILE.rso");

@@ -1,5 +1,6 @@
 #include "compositor/tools/view_options.hpp"
 
+#include "compositor/displays/stereo_picture.hpp"
 #include "engine/executors/executor_table.hpp"
 
 namespace rs::compositor {
@@ -35,6 +36,48 @@ void add_sequence_options(CLI::App& app, ViewArguments& arguments) {
         ->needs(sequence);
 }
 
+void add_display_options(CLI::App& app, ViewArguments& arguments) {
+    CLI::Option* walls =
+        app.add_option("--walls", arguments.walls,
+                       "in place of one view, those of one who stands before walls: cave, power-wall, tabletop, or a "
+                       "file of corners in metres (compositor/README.md, Walls). With -o FOLDER a picture a wall, else "
+                       "a window a wall. The scene's view says where the room stands; --size: of all walls")
+            ->type_name("PRESET|FILE.json");
+    app.add_option("--wall", arguments.wall_names, "only these, such as front,left: a machine for each wall")
+        ->type_name("NAME,...")
+        ->needs(walls);
+    std::vector<std::string> forms;
+    for (const NamedStereoForm& named : kStereoForms) forms.emplace_back(named.name);
+    app.add_option("--stereo", arguments.stereo,
+                   "both eyes' pictures of each wall: folders left and right, side by side, one above the other, or an "
+                   "anaglyph for red and cyan glasses")
+        ->type_name("[folders|side-by-side|top-bottom|anaglyph]")
+        ->expected(0, 1)
+        ->default_str("folders")
+        ->check(CLI::IsMember(forms))
+        ->needs(walls);
+    app.add_option("--eye-distance", arguments.eye_distance_m,
+                   "between the eyes, metres (0.065, or of the walls' file)")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("M")
+        ->needs(walls);
+    app.add_option("--heads", arguments.heads, "where the head is in each frame (compositor/README.md, Walls)")
+        ->type_name("FILE.json")
+        ->needs(walls);
+    CLI::Option* quilt =
+        app.add_option("--quilt", arguments.quilt,
+                       "views from left to right as the tiles of one picture, for displays with horizontal parallax; "
+                       "-o FILE.png gets the layout into its name")
+            ->type_name("COLSxROWS")
+            ->excludes(walls);
+    app.add_option("--tile-size", arguments.tile_size, "of a quilt's tiles, WxH")->capture_default_str()->needs(quilt);
+    app.add_option("--cone", arguments.cone_deg, "over which a quilt's eyes spread, in degrees")
+        ->check(CLI::Range(0.01, 170.0))
+        ->capture_default_str()
+        ->type_name("DEG")
+        ->needs(quilt);
+}
+
 }  // namespace
 
 void check_sequence_options(const ViewArguments& arguments) {
@@ -48,8 +91,9 @@ void check_sequence_options(const ViewArguments& arguments) {
 }
 
 void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
-    app.add_option("SCENE", arguments.scene,
-                   "scene: .wrl, .wrl.gz (VRML97), .gltf, .glb, .obj or .json (compositor/README.md)");
+    app.add_option(
+        "SCENE", arguments.scene,
+        "scene: .wrl, .wrl.gz (VRML97, VRML 1.0), .x3d, .x3dv, .gltf, .glb, .obj or .json (compositor/README.md)");
     app.add_option("--object", arguments.objects,
                    "FILE.rso[@X,Y,Z[,TURN_DEG[,SCALE]]]: an object whose foot stands at X,Y,Z, turned about Y; may be "
                    "repeated. Objects without a place stand in a row. Without SCENE they get a floor")
@@ -111,16 +155,16 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
                    "toon: how far from an edge its line reaches; 0: no lines (1/2000 of the scene's diagonal)")
         ->check(CLI::Range(0.0, 1e6))
         ->type_name("LENGTH");
-    CLI::Option* lens =
-        app.add_option("--lens", arguments.lens,
-                       "traced pictures: the opening of the lens in mm (the scene counting metres), or "
-                       "f/N of a focal length on 36 mm film; all else than what --focus says is blurred. "
-                       "Objects that are put into the picture stay sharp")
-            ->type_name("MM|f/N");
-    app.add_option("--focus", arguments.focus, "with --lens: distance of what is sharp, along the line of sight")
+    app.add_option("--lens", arguments.lens,
+                   "traced pictures: the opening of the lens in mm (the scene counting metres), or "
+                   "f/N of a focal length on 36 mm film; all else than what --focus says is blurred. "
+                   "Objects that are put into the picture stay sharp")
+        ->type_name("MM|f/N");
+    app.add_option("--focus", arguments.focus,
+                   "distance of what is sharp, along the line of sight: with --lens; with --quilt, of what all "
+                   "views agree on (of the middle of the scene)")
         ->check(CLI::Range(1e-6, 1e9))
-        ->type_name("DISTANCE")
-        ->needs(lens);
+        ->type_name("DISTANCE");
     app.add_flag("--wire-frame", arguments.wire_frame, "only the edges of the geometry's triangles");
     app.add_option("--object-depth", arguments.object_depth,
                    "how deep objects are: one plane each, or every pixel by itself, so that objects, and objects and "
@@ -160,6 +204,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
                  "with -o: walk in real time, objects come when they are read, as a visitor sees it; else every frame "
                  "waits for its objects");
     add_sequence_options(app, arguments);
+    add_display_options(app, arguments);
     app.add_flag("-q,--quiet", arguments.quiet, "no progress bar");
     app.footer(
         "Lengths are in the scene's units; an object of scale 1 has radius 1. Y is up.\n"
@@ -173,6 +218,8 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         "  rs-view hall.wrl --renderer path --lens f/1.4 --focus 2.5 -o portrait.png\n"
         "  rs-view hall.wrl --lights evening.json --probe 0,0.9,0 -o evening.exr\n"
         "  rs-view --sequence maps/street --weather rain -o street.mp4\n"
+        "  rs-view hall.wrl --walls cave --stereo side-by-side -o walls\n"
+        "  rs-view hall.wrl --quilt 5x9 -o hall.png\n"
         "  rs-view room.json --eye 0,1.2,6 --at 0,0.8,0 --fov 45 --size 1920x1080 -o room.png");
 }
 

@@ -43,7 +43,16 @@ struct ViewArguments {
     bool soft_shadows = false;
     double toon_lines = -1;  // radius; < 0: as the scene is large
     std::string lens;
-    double focus = 0;
+    double focus = 0;  // of the lens, and of quilts; 0: not said
+    std::string walls;
+    std::string wall_names;
+    std::string heads;
+    std::string stereo;
+    double eye_distance_m = -1;  // as the walls' file says
+    std::string quilt;
+    std::string tile_size = "420x560";  // of a quilt
+    double cone_deg = 40;
+    bool size_given = false;  // by the command line
     bool upright = false;
     bool streaming = false;
     bool wire_frame = false;

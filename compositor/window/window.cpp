@@ -87,13 +87,16 @@ struct Window::State {
     std::optional<gl::Context> context;
     std::vector<Event> events;
 
-    State() = default;
+    static inline int open = 0;  // all windows; with the last one GLFW ends
+
+    State() { ++open; }
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     ~State() {
+        if (context) glfwMakeContextCurrent(window);
         context.reset();
         if (window != nullptr) glfwDestroyWindow(window);
-        glfwTerminate();
+        if (--open == 0) glfwTerminate();
     }
 
     static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
@@ -151,6 +154,10 @@ Result<Window> Window::create(const WindowOptions& options) {
 
 gl::Context& Window::context() {
     return *state_->context;
+}
+
+void Window::make_current() {
+    glfwMakeContextCurrent(state_->window);
 }
 
 bool Window::wants_to_close() const {

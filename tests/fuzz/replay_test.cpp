@@ -79,12 +79,24 @@ TEST(FuzzReplay, Sequence) {
     replay("sequence", fuzz::fuzz_sequence);
 }
 
+TEST(FuzzReplay, Vrml1) {
+    replay("vrml1", fuzz::fuzz_vrml1);
+}
+
+TEST(FuzzReplay, X3d) {
+    replay("x3d", fuzz::fuzz_x3d);
+}
+
 TEST(FuzzReplay, Luminaire) {
     replay("luminaire", fuzz::fuzz_luminaire);
 }
 
 TEST(FuzzReplay, Manifest) {
     replay("manifest", fuzz::fuzz_manifest);
+}
+
+TEST(FuzzReplay, Walls) {
+    replay("walls", fuzz::fuzz_walls);
 }
 TEST(FuzzReplay, Gltf) {
     replay("gltf", fuzz::fuzz_gltf);
@@ -101,9 +113,11 @@ TEST(FuzzReplay, Picture) {
 
 TEST(FuzzReplay, FaultyWorldsAreReadOrRefused) {
     std::vector<std::string> worlds;
-    for (const fs::path& file : corpus("vrml")) {
-        const auto input = contents(file);
-        worlds.emplace_back(input.begin(), input.end());
+    for (const char* const form : {"vrml", "vrml1", "x3d"}) {
+        for (const fs::path& file : corpus(form)) {
+            const auto input = contents(file);
+            worlds.emplace_back(input.begin(), input.end());
+        }
     }
     constexpr std::uint64_t kSeed = 1;
     SCOPED_TRACE(kSeed);
@@ -144,7 +158,11 @@ TEST(FuzzReplay, SeedsAreValid) {
         EXPECT_TRUE(turn.ok()) << turn.error().message;
         ++seeds;
     }
-    for (const fs::path& file : corpus("vrml")) {
+    std::vector<fs::path> of_worlds = corpus("vrml");
+    for (const char* const form : {"vrml1", "x3d"}) {
+        for (const fs::path& file : corpus(form)) of_worlds.push_back(file);
+    }
+    for (const fs::path& file : of_worlds) {
         if (file.filename().string().rfind("seed-", 0) != 0) continue;
         const auto input = contents(file);
         const auto scene =
@@ -164,7 +182,7 @@ TEST(FuzzReplay, SeedsAreValid) {
         EXPECT_TRUE(read_picture(file).ok()) << file;
         ++seeds;
     }
-    EXPECT_GE(seeds, 14);
+    EXPECT_GE(seeds, 16);
 }
 
 }  // namespace

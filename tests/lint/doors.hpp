@@ -105,6 +105,7 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
 
     {"compositor/gl", {"rayspace/*"}},
     {"compositor/scene", {"rayspace/*"}},
+    {"compositor/displays", {"rayspace/*", "compositor/scene"}},
     {"compositor/traced",
      {"rayspace/*", "compositor/scene", "compositor/viewer/residency", "capture/tracer/scene",
       "capture/tracer/integrator", "engine/core/definition"}},
@@ -122,7 +123,8 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
       "compositor/viewer/residency", "compositor/viewer/views", "compositor/viewer/drawing"}},
     {"compositor/window",
      {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/sequence", "compositor/playback",
-      "compositor/traced", "compositor/viewer", "compositor/viewer/views", "compositor/viewer/drawing"}},
+      "compositor/displays", "compositor/traced", "compositor/viewer", "compositor/viewer/views",
+      "compositor/viewer/drawing"}},
     // Items, ranks and messages: it knows neither MPI nor what the work is.
     {"compositor/farm/schedule", {"rayspace/base", "rayspace/file"}},
     {"compositor/farm/mpi", {"rayspace/base", "compositor/farm/schedule"}},
