@@ -1,7 +1,8 @@
 // rs-view: a scene with ray-space objects -> composited frames.
 
 #include "compositor/gl/context.hpp"
-#include "compositor/scene/lights_file.hpp"
+#include "compositor/lighting/light_warnings.hpp"
+#include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/tools/asked_cameras.hpp"
@@ -47,13 +48,7 @@ Result<Scene> asked_scene(const ViewArguments& arguments) {
     if (!arguments.lights.empty()) {
         Result<LightList> list = read_light_list(arguments.lights);
         if (!list) return list.error();
-        if (list->replace) {
-            scene.lights.clear();
-            scene.navigation.headlight = false;
-            for (GeometryNode& node : scene.geometry) node.lights.clear();
-        }
-        scene.lights.insert(scene.lights.end(), list->lights.begin(), list->lights.end());
-        scene.environment = std::move(list->environment);
+        if (Status added = add_lights(scene, std::move(*list), arguments.lights); !added) return added.error();
     }
     if (!arguments.path.empty()) {
         const Result<Scene> walk = read_scene(arguments.path);
@@ -123,6 +118,7 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
     options.wire_frame = arguments.wire_frame;
     options.samples = arguments.samples;
     options.exposure_ev = arguments.exposure_ev;
+    if (!arguments.lights.empty()) options.lights = arguments.lights;
     const auto traced = asked_method(arguments);
     options.traced = traced.has_value();
     options.method = traced.value_or(TracedMethod::kPath);
@@ -204,6 +200,11 @@ Status run_view(ViewArguments arguments) {
     Result<Scene> scene = asked_scene(arguments);
     if (!scene) return scene.error();
     print_warnings(scene->warnings);
+    print_warnings(light_warnings(*scene));
+    if (!arguments.save_lights.empty()) {
+        if (Status saved = write_light_list(lights_in_force(*scene), arguments.save_lights); !saved) return saved;
+        if (arguments.output.empty()) return {};
+    }
     std::optional<Window> window;
     bool in_place_of_window = false;
     if (arguments.output.empty()) {

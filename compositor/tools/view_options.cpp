@@ -38,6 +38,9 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
                    "JSON list of lights, luminaires (IES, EULUMDAT) among them, beside the scene's or in their place "
                    "(compositor/README.md)")
         ->type_name("FILE.json");
+    app.add_option("--save-lights", arguments.save_lights,
+                   "writes the lights in force as such a list, which replaces those of the scene; with -o also draws")
+        ->type_name("FILE.json");
     app.add_option("--probe", arguments.probe,
                    "in place of a view: what light reaches X,Y,Z, as an .exr map that lights an object in "
                    "\"environment\" of a recipe of rs-capture synth as it will stand there")
@@ -99,6 +102,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         "  rs-view world.wrl -o world.png\n"
         "  rs-view hall.wrl --renderer path --lights evening.json --passes 256 -o evening.png\n"
         "  rs-view hall.wrl --lights evening.json --probe 0,0.9,0 -o evening.exr\n"
+        "  rs-view hall.wrl --save-lights hall_lights.json\n"
         "  rs-view room.json --eye 0,1.2,6 --at 0,0.8,0 --fov 45 --size 1920x1080 -o room.png");
 }
 

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ struct NamedMethod {
 inline constexpr std::array kTracedMethods{NamedMethod{"whitted", TracedMethod::kWhitted},
                                            NamedMethod{"radiosity", TracedMethod::kRadiosity},
                                            NamedMethod{"path", TracedMethod::kPath}};
+
+class ObjectRays;
 
 struct TracedOptions {
     TracedMethod method = TracedMethod::kPath;
@@ -46,6 +49,9 @@ public:
 
     // For pictures that begin after this.
     void set_method(TracedMethod method) { render_.method = method; }
+    // The lights, environment and headlight of `scene`, whose geometry is that of the scene that this was made of, and
+    // another exposure. What is traced then is what a renderer made of `scene` would trace, bit for bit.
+    void set_lights(const Scene& scene, double exposure_ev);
     // Begins a picture anew.
     void look(const Camera& camera);
     // One more sample of each pixel. False, with nothing changed, where `stop` became true before it was there.
@@ -72,6 +78,7 @@ private:
     TracedRenderer(capture::Tracer tracer, const TracedOptions& options)
         : tracer_(std::move(tracer)), options_(options) {}
 
+    void describe_lights(const Scene& scene, std::vector<Light> lights);
     void carry_headlight(const Camera& camera);
     [[nodiscard]] Image<Rgba8> shown(Image<RgbaF> radiance) const;
 
@@ -79,8 +86,11 @@ private:
     TracedOptions options_;
     capture::RenderOptions render_;
     Background background_;
+    bool glows_ = false;  // something of the scene's surfaces shines
     bool headlight_ = false;
-    std::vector<Light> lights_;  // without the headlight
+    std::vector<Light> lights_;                         // without the headlight
+    std::shared_ptr<const Image<RgbaF>> environment_;   // whose light it is
+    std::vector<std::shared_ptr<ObjectRays>> objects_;  // of the tracer's scene
     std::vector<std::string> warnings_;
     Camera camera_;
     capture::Accumulation sum_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -113,6 +114,17 @@ void add_floor(const Floor& floor, capture::Scene& scene) {
 
 }  // namespace
 
+std::vector<Light> traced_lights(const Scene& scene) {
+    std::vector<Light> lights;
+    std::ranges::copy_if(scene.lights, std::back_inserter(lights), [](const Light& light) { return light.everywhere; });
+    return lights;
+}
+
+capture::Environment traced_environment(const Scene& scene) {
+    if (!scene.environment) return {};
+    return {*scene.environment->pixels, scene.environment->scale, scene.environment->turn_rad};
+}
+
 TracedRoom traced_room(const Scene& scene) {
     TracedRoom room;
     std::map<const SceneTexture*, int> textures;
@@ -141,17 +153,9 @@ TracedRoom traced_room(const Scene& scene) {
         room.scene.meshes.push_back(std::move(mesh));
     }
     if (scene.floor) add_floor(*scene.floor, room.scene);
-    if (scene.environment) {
-        const EnvironmentLight& light = *scene.environment;
-        room.scene.environment = {*light.pixels, light.scale, light.turn_rad};
-    }
-    for (const Light& light : scene.lights) {
-        if (light.everywhere) {
-            room.scene.lights.push_back(light);
-        } else {
-            ++room.without_own_lights;
-        }
-    }
+    room.scene.environment = traced_environment(scene);
+    room.scene.lights = traced_lights(scene);
+    room.without_own_lights = static_cast<int>(scene.lights.size() - room.scene.lights.size());
     return room;
 }
 

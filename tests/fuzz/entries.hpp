@@ -35,4 +35,7 @@ int fuzz_picture(const std::uint8_t* data, std::size_t size);
 // The bytes as a photometric file: IES, and EULUMDAT.
 int fuzz_luminaire(const std::uint8_t* data, std::size_t size);
 
+// The bytes as a list of lights; what is read is written and read again.
+int fuzz_lights(const std::uint8_t* data, std::size_t size);
+
 }  // namespace rs::fuzz

@@ -78,6 +78,9 @@ TEST(FuzzReplay, Vrml) {
 TEST(FuzzReplay, Luminaire) {
     replay("luminaire", fuzz::fuzz_luminaire);
 }
+TEST(FuzzReplay, Lights) {
+    replay("lights", fuzz::fuzz_lights);
+}
 TEST(FuzzReplay, Gltf) {
     replay("gltf", fuzz::fuzz_gltf);
 }

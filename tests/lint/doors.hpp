@@ -103,6 +103,7 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
 
     {"compositor/gl", {"rayspace/*"}},
     {"compositor/scene", {"rayspace/*"}},
+    {"compositor/lighting", {"rayspace/*", "compositor/scene"}},
     {"compositor/traced",
      {"rayspace/*", "compositor/scene", "compositor/viewer/residency", "capture/tracer/scene",
       "capture/tracer/integrator", "engine/core/definition"}},
@@ -110,13 +111,13 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"compositor/viewer/views",
      {"rayspace/*", "compositor/scene", "compositor/viewer/residency", "engine/core/definition", "engine/driver"}},
     {"compositor/viewer/drawing",
-     {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/viewer/residency", "compositor/viewer/views",
-      "engine/core/views", "engine/driver"}},
+     {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/lighting", "compositor/viewer/residency",
+      "compositor/viewer/views", "engine/core/views", "engine/driver"}},
     {"compositor/viewer",
      {"rayspace/*", "compositor/scene", "compositor/viewer/residency", "compositor/viewer/drawing", "engine/driver"}},
     {"compositor/window",
-     {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/traced", "compositor/viewer",
-      "compositor/viewer/views", "compositor/viewer/drawing"}},
+     {"rayspace/*", "compositor/gl", "compositor/scene", "compositor/lighting", "compositor/traced",
+      "compositor/viewer", "compositor/viewer/views", "compositor/viewer/drawing"}},
     {"compositor/tools", {"rayspace/*", "compositor/*", "engine/core/definition", "engine/executors"}},
 };
 

@@ -82,6 +82,10 @@ public:
 
     // Other lights than the scene came with; they must be as check_light() wants them. Not while anything is drawn.
     void set_lights(std::vector<Light> lights);
+    // Another environment, whose pixels are finite and not negative, or the same one brighter and turned (the fields of
+    // Environment), which costs nothing. Not while anything is drawn.
+    void set_environment(Environment environment);
+    void set_environment(float scale, float turn_rad);
 
     [[nodiscard]] const std::vector<Light>& lights() const;  // of the scene, not turned
     // Whether nothing stands between a place and what is `distance` away in a direction of unit length.

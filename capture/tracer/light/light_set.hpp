@@ -39,6 +39,10 @@ public:
     // In place of those that were there.
     void set_lights(const std::vector<Light>& lights);
 
+    // Another environment, or the same one brighter and turned; set_lights() must follow.
+    void set_environment(Environment environment);
+    void set_environment(float scale, float turn_rad);
+
     // Turns the lights and the environment about Y, from where they were at construction; positive angles take
     // +Z to +X. Surfaces that shine stay.
     void turn(float angle_rad);

@@ -90,24 +90,7 @@ public:
         return found->second;
     }
 
-    Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind) {
-        auto& made = programs_[kind];
-        if (!made) {
-            auto program =
-                gl::Program::create("surface", shaders::kSurfaceVertex, constants_of(kind) + shaders::kSurfaceFragment);
-            if (!program) return program.error();
-            made = std::make_shared<const gl::Program>(std::move(*program));
-        }
-        return made;
-    }
-    [[nodiscard]] std::vector<std::shared_ptr<const gl::Program>> programs() const {
-        std::vector<std::shared_ptr<const gl::Program>> all;
-        for (const auto& [kind, program] : programs_) all.push_back(program);
-        return all;
-    }
-
 private:
-    std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;
     std::map<const Mesh*, std::shared_ptr<const gl::VertexArray>> meshes_;
     std::map<const SceneTexture*, std::shared_ptr<const gl::Texture>> pictures_;
     std::map<const SceneTexture*, AlphaUse> alphas_;
@@ -116,45 +99,70 @@ private:
 }  // namespace
 
 Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
-    SurfaceRenderer renderer;
-    renderer.fog_ = scene.fog;
-    renderer.headlight_ = scene.navigation.headlight;
+    SurfaceRenderer renderer(scene);
     Uploads uploads;
-    for (const GeometryNode& node : scene.geometry) {
+    for (std::size_t n = 0; n < scene.geometry.size(); ++n) {
+        const GeometryNode& node = scene.geometry[n];
         if (node.mesh->indices.empty()) continue;
         Item item;
+        item.node = n;
         item.mesh = uploads.mesh(node.mesh);
         item.world_from_node = node.world_from_node;
         item.bounds = bounds_of(*node.mesh).moved(node.world_from_node);
-        AlphaUse alpha = AlphaUse::kNone;
         if (node.material.texture) {
             item.picture = uploads.picture(*node.material.texture);
-            alpha = uploads.alpha(*node.material.texture);
+            item.alpha = uploads.alpha(*node.material.texture);
         }
-        const SurfaceLights lights = lights_of(scene, node, item.bounds);
-        auto program = uploads.program(kind_of(scene, node, alpha, lights.lights));
-        if (!program) return program.error();
-        item.program = std::move(*program);
         item.material = row_of(node.material);
-        item.material.ambient_light = glm::vec4(lights.ambient, 0);
-        item.lights = rows_of(scene, lights.lights);
         item.texture_transform = node.material.texture_transform;
-        item.transparent = node.material.opacity < 1 || alpha == AlphaUse::kBlend;
+        item.transparent = node.material.opacity < 1 || item.alpha == AlphaUse::kBlend;
         item.two_sided = node.mesh->two_sided;
         item.mirrored = glm::determinant(glm::dmat3(node.world_from_node)) < 0;
+        if (Status status = renderer.put(item); !status) return status.error();
         renderer.items_.push_back(std::move(item));
     }
-    renderer.programs_ = uploads.programs();
     return renderer;
 }
 
+Result<std::shared_ptr<const gl::Program>> SurfaceRenderer::program(const SurfaceKind& kind) {
+    const auto found = programs_.find(kind);
+    if (found != programs_.end()) return found->second;
+    auto program =
+        gl::Program::create("surface", shaders::kSurfaceVertex, constants_of(kind) + shaders::kSurfaceFragment);
+    if (!program) return program.error();
+    return programs_[kind] = std::make_shared<const gl::Program>(std::move(*program));
+}
+
+// Lights and the shader.
+Status SurfaceRenderer::put(Item& item) {
+    const GeometryNode& node = scene_.geometry[item.node];
+    const SurfaceLights lights = lights_of(scene_, node, item.bounds);
+    auto made = program(kind_of(scene_, node, item.alpha, lights.lights));
+    if (!made) return made.error();
+    item.program = std::move(*made);
+    item.material.ambient_light = glm::vec4(lights.ambient, 0);
+    item.lights = rows_of(scene_, lights.lights);
+    return {};
+}
+
+Status SurfaceRenderer::set_lights(const Scene& scene) {
+    scene_.lights = scene.lights;
+    scene_.navigation.headlight = scene.navigation.headlight;
+    for (std::size_t n = 0; n < scene.geometry.size(); ++n) scene_.geometry[n].lights = scene.geometry[n].lights;
+    for (Item& item : items_) {
+        if (Status status = put(item); !status) return status;
+    }
+    return {};
+}
+
 void SurfaceRenderer::set_frame(const FrameView& view) const {
-    for (const auto& program : programs_) {
+    for (const auto& [kind, program] : programs_) {
         if (program->uses("eye")) program->set("eye", glm::vec3(view.camera.centre()));
         if (program->uses("headlight")) program->set("headlight", glm::vec3(view.camera.forward()));
-        if (!fog_) continue;
-        if (program->uses("fog")) program->set("fog", fog_->colour);
-        if (program->uses("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog_->visibility));
+        const auto& fog = scene_.fog;
+        if (!fog) continue;
+        if (program->uses("fog")) program->set("fog", fog->colour);
+        if (program->uses("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog->visibility));
     }
 }
 

@@ -14,6 +14,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,6 +51,10 @@ class SurfaceRenderer {
 public:
     static Result<SurfaceRenderer> create(const Scene& scene);
 
+    // The lights and the headlight of `scene`, whose geometry is that of the scene that this was made of. Fails where
+    // the driver refuses a shader.
+    Status set_lights(const Scene& scene);
+
     struct Transparent {
         std::size_t index;
         double distance;  // from the viewpoint to the middle of what is drawn, scene units
@@ -67,6 +72,8 @@ private:
         std::shared_ptr<const gl::Texture> picture;
         glm::dmat4 world_from_node;
         BoundingBox bounds;                          // in scene coordinates
+        std::size_t node = 0;                        // of Scene::geometry
+        AlphaUse alpha = AlphaUse::kNone;            // of its picture
         std::shared_ptr<const gl::Program> program;  // of its kind
         MaterialRow material;
         std::vector<LightRow> lights;
@@ -75,14 +82,15 @@ private:
         bool two_sided = true;
         bool mirrored = false;  // by its matrix
     };
-    SurfaceRenderer() = default;
+    explicit SurfaceRenderer(const Scene& scene) : scene_(scene) {}
+    Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind);
+    Status put(Item& item);
     void set_frame(const FrameView& view) const;
     void draw(const Item& item, const FrameView& view, gl::DrawState state) const;
 
-    std::vector<std::shared_ptr<const gl::Program>> programs_;  // one for each kind of surface that there is
+    Scene scene_;
+    std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;  // one for each kind that there was
     std::vector<Item> items_;
-    std::optional<Fog> fog_;
-    bool headlight_ = false;
     int nodes_in_view_ = 0;
 };
 
