@@ -74,15 +74,23 @@ void Framebuffer::resolve_to(const Framebuffer& target) const {
 }
 
 float Framebuffer::depth_at(int column, int row, const Framebuffer& scratch) const {
-    RS_CHECK(scratch.width_ == width_ && scratch.height_ == height_ && scratch.samples_ == 1);
-    if (&scratch != this) {
-        glBlitNamedFramebuffer(handle_.name(), scratch.handle_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
-                               GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-    }
+    return depths_at(column, row, 1, 1, scratch).front();
+}
+
+std::vector<float> Framebuffer::depths_at(int column, int row, int width, int height,
+                                          const Framebuffer& scratch) const {
+    RS_CHECK(column >= 0 && row >= 0 && column + width <= width_ && row + height <= height_);
+    if (&scratch != this) copy_depths_to(scratch);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, scratch.handle_.name());
-    float depth = 0;
-    glReadPixels(column, row, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
-    return depth;
+    std::vector<float> depths(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    glReadPixels(column, row, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+    return depths;
+}
+
+void Framebuffer::copy_depths_to(const Framebuffer& target) const {
+    RS_CHECK(target.width_ == width_ && target.height_ == height_ && target.samples_ == 1 && &target != this);
+    glBlitNamedFramebuffer(handle_.name(), target.handle_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
+                           GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
 void Framebuffer::show_in_window(int width, int height) const {

@@ -3,6 +3,7 @@
 // Colours are linear light. Y is up; the unit of length is the scene's own.
 
 #include "compositor/scene/camera_path.hpp"
+#include "compositor/scene/light/light_entry.hpp"
 #include "compositor/scene/material.hpp"
 #include "compositor/scene/mesh.hpp"
 #include "compositor/scene/surroundings.hpp"
@@ -12,6 +13,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -67,6 +69,14 @@ enum class Shading {
 // What weather leaves on surfaces that look up.
 enum class Cover { kNone = 0, kWet = 1, kSnow = 2 };
 
+// Of lights that came from a list.
+struct ListedLights {
+    std::vector<LightEntry> entries;  // of the last lights of the scene
+    std::optional<EnvironmentEntry> environment;
+    // LightEntry::scope -> geometry nodes; filled once the scene's own lights are gone.
+    std::map<std::uint32_t, std::vector<std::uint32_t>> scopes;
+};
+
 struct Scene {
     Shading shading = Shading::kVrml;  // of raster
     Cover cover = Cover::kNone;        // of raster
@@ -76,6 +86,7 @@ struct Scene {
                                .ambient = glm::vec3(0.4F),
                                .towards = glm::normalize(glm::dvec3(-0.45, -1, -0.6))}};
     std::optional<EnvironmentLight> environment;
+    ListedLights listed;  // what is known of them besides
     std::vector<GeometryNode> geometry;
     std::vector<RaySpaceNode> objects;
     std::vector<Room> rooms;

@@ -1,7 +1,8 @@
 // rs-view: a scene with ray-space objects -> composited frames.
 
 #include "compositor/gl/context.hpp"
-#include "compositor/scene/lights_file.hpp"
+#include "compositor/lighting/light_warnings.hpp"
+#include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/tools/asked_cameras.hpp"
@@ -53,13 +54,7 @@ Result<Scene> asked_scene(const ViewArguments& arguments) {
     if (!arguments.lights.empty()) {
         Result<LightList> list = read_light_list(arguments.lights);
         if (!list) return list.error();
-        if (list->replace) {
-            scene.lights.clear();
-            scene.navigation.headlight = false;
-            for (GeometryNode& node : scene.geometry) node.lights.clear();
-        }
-        scene.lights.insert(scene.lights.end(), list->lights.begin(), list->lights.end());
-        scene.environment = std::move(list->environment);
+        if (Status added = add_lights(scene, std::move(*list), arguments.lights); !added) return added.error();
     }
     if (!arguments.path.empty()) {
         const Result<Scene> walk = read_scene(arguments.path);
@@ -125,6 +120,7 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
     if (!tracing) return tracing.error();
     options.tracing = *tracing;
     options.traced = asked_method(arguments).has_value();
+    if (!arguments.lights.empty()) options.lights = arguments.lights;
     options.executor = executor;
     options.object_depth = asked_depth(arguments);
     options.object_samples = arguments.object_samples;
@@ -233,6 +229,11 @@ Status run_view(ViewArguments arguments) {
     Result<Scene> scene = asked_scene(arguments);
     if (!scene) return scene.error();
     print_warnings(scene->warnings);
+    print_warnings(light_warnings(*scene));
+    if (!arguments.save_lights.empty()) {
+        if (Status saved = write_light_list(lights_in_force(*scene), arguments.save_lights); !saved) return saved;
+        if (arguments.output.empty()) return {};
+    }
     std::optional<Window> window;
     bool in_place_of_window = false;
     if (arguments.output.empty() && arguments.plan.empty() && !on_walls) {

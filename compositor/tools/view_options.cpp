@@ -126,6 +126,9 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
                    "JSON list of lights, luminaires (IES, EULUMDAT) among them, beside the scene's or in their place "
                    "(compositor/README.md)")
         ->type_name("FILE.json");
+    app.add_option("--save-lights", arguments.save_lights,
+                   "writes the lights in force as such a list, which replaces those of the scene; with -o also draws")
+        ->type_name("FILE.json");
     app.add_option("--probe", arguments.probe,
                    "in place of a view: what light reaches X,Y,Z, as an .exr map that lights an object in "
                    "\"environment\" of a recipe of rs-capture synth as it will stand there")
@@ -217,6 +220,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         "  rs-view hall.wrl --renderer toon --passes 16 -o cartoon.png\n"
         "  rs-view hall.wrl --renderer path --lens f/1.4 --focus 2.5 -o portrait.png\n"
         "  rs-view hall.wrl --lights evening.json --probe 0,0.9,0 -o evening.exr\n"
+        "  rs-view hall.wrl --save-lights hall_lights.json\n"
         "  rs-view --sequence maps/street --weather rain -o street.mp4\n"
         "  rs-view hall.wrl --walls cave --stereo side-by-side -o walls\n"
         "  rs-view hall.wrl --quilt 5x9 -o hall.png\n"

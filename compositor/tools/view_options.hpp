@@ -32,6 +32,7 @@ struct ViewArguments {
     int object_samples = FrameOptions{}.object_samples;
     std::int64_t memory_mib = usual_memory_budget() >> 20;
     std::string lights;
+    std::string save_lights;
     std::string renderer = "raster";
     std::string probe;
     std::string plan;

@@ -45,29 +45,29 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
                                               const TracedOptions& options) {
     TracedRoom room = traced_room(scene);
     const auto darker = static_cast<float>(std::exp2(-options.exposure_ev));
+    std::vector<std::shared_ptr<ObjectRays>> rays;
     for (const PlacedObject& object : objects) {
-        room.scene.primitives.push_back(std::make_shared<const ObjectRays>(object, darker));
+        rays.push_back(std::make_shared<ObjectRays>(object, darker));
+        room.scene.primitives.push_back(rays.back());
     }
     std::vector<Light> lights = room.scene.lights;
-    const bool shines = !lights.empty() || scene.environment ||
-                        std::ranges::any_of(room.scene.materials,
-                                            [](const auto& material) { return material.emission != glm::vec3(0); });
+    const bool glows = std::ranges::any_of(room.scene.materials,
+                                           [](const auto& material) { return material.emission != glm::vec3(0); });
     auto tracer = capture::Tracer::create(std::move(room.scene));
     if (!tracer) return tracer.error();
     TracedRenderer renderer(std::move(*tracer), options);
     renderer.background_ = scene.background;
     renderer.render_.method = options.method;
-    renderer.render_.ambient = ambient_of(scene);
     renderer.render_.max_bounces = options.max_bounces;
     renderer.render_.soft_shadows = options.soft_shadows;
     renderer.render_.toon.edge_radius = static_cast<float>(options.line_radius.value_or(usual_line_radius(scene)));
     renderer.render_.toon.shadow_rays = options.soft_shadows ? kToonShadowRays : 0;
     renderer.render_.toon.brightness = darker;  // tones are tones, however bright the lights are
     renderer.render_.see_areas = true;
-    renderer.render_.see_environment = scene.environment && scene.environment->seen;
     renderer.moving_ = std::move(room.moving);
-    renderer.headlight_ = scene.navigation.headlight && !shines;
-    renderer.lights_ = std::move(lights);
+    renderer.glows_ = glows;
+    renderer.objects_ = std::move(rays);
+    renderer.describe_lights(scene, std::move(lights));
     if (room.without_own_lights > 0) {
         renderer.warnings_.push_back(std::to_string(room.without_own_lights) +
                                      " lights that shine on parts of the scene only are not traced");
@@ -89,6 +89,30 @@ bool TracedRenderer::move(std::uint32_t id, const glm::dmat4& moved, const std::
         if (!tracer_.move(i, placed.world_from_part, placed.at_close)) return false;
     }
     return !wanted.empty();
+}
+
+void TracedRenderer::describe_lights(const Scene& scene, std::vector<Light> lights) {
+    render_.ambient = ambient_of(scene);
+    render_.see_environment = scene.environment && scene.environment->seen;
+    headlight_ = scene.navigation.headlight && lights.empty() && !scene.environment && !glows_;
+    lights_ = std::move(lights);
+    environment_ = scene.environment ? scene.environment->pixels : nullptr;
+}
+
+void TracedRenderer::set_lights(const Scene& scene, double exposure_ev) {
+    std::vector<Light> lights = traced_lights(scene);
+    const auto& pixels = scene.environment ? scene.environment->pixels : nullptr;
+    if (pixels != environment_) {
+        tracer_.set_environment(traced_environment(scene));
+    } else if (pixels) {
+        tracer_.set_environment(scene.environment->scale, scene.environment->turn_rad);
+    }
+    tracer_.set_lights(lights);
+    options_.exposure_ev = exposure_ev;
+    const auto darker = static_cast<float>(std::exp2(-exposure_ev));
+    render_.toon.brightness = darker;
+    for (const auto& object : objects_) object->set_brightness(darker);
+    describe_lights(scene, std::move(lights));
 }
 
 void TracedRenderer::begin(const Camera& camera) {

@@ -16,6 +16,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,8 @@ struct CameraLens {
     double units_per_mm = 1e-3;  // of the scene
     [[nodiscard]] capture::ThinLens of(const Camera& camera) const;
 };
+
+class ObjectRays;
 
 struct TracedOptions {
     TracedMethod method = TracedMethod::kPath;
@@ -68,6 +71,9 @@ public:
     void set_method(TracedMethod method) { render_.method = method; }
     // Only these pixels of pictures that begin after this are traced; they have the bytes that they have in whole ones.
     void set_part(const capture::PixelRectangle& part) { render_.part = part; }
+    // The lights, environment and headlight of `scene`, whose geometry is that of the scene that this was made of, and
+    // another exposure. What is traced then is what a renderer made of `scene` would trace, bit for bit.
+    void set_lights(const Scene& scene, double exposure_ev);
     // Begins a picture anew.
     void look(const Camera& camera);
     // One more sample of each pixel. False, with nothing changed, where `stop` became true before it was there.
@@ -95,6 +101,7 @@ private:
         : tracer_(std::move(tracer)), options_(options) {}
 
     void begin(const Camera& camera);
+    void describe_lights(const Scene& scene, std::vector<Light> lights);
     [[nodiscard]] capture::RenderOptions render_options(const Camera& camera) const;
     [[nodiscard]] Image<Rgba8> shown(Image<RgbaF> radiance) const;
 
@@ -103,8 +110,11 @@ private:
     capture::RenderOptions render_;
     Background background_;
     std::vector<TracedRoom::Moving> moving_;  // of each of the tracer's instances
+    bool glows_ = false;                      // something of the scene's surfaces shines
     bool headlight_ = false;
-    std::vector<Light> lights_;  // without the headlight
+    std::vector<Light> lights_;                         // without the headlight
+    std::shared_ptr<const Image<RgbaF>> environment_;   // whose light it is
+    std::vector<std::shared_ptr<ObjectRays>> objects_;  // of the tracer's scene
     std::vector<std::string> warnings_;
     Camera camera_;
     capture::Accumulation sum_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -142,6 +143,17 @@ private:
 
 }  // namespace
 
+std::vector<Light> traced_lights(const Scene& scene) {
+    std::vector<Light> lights;
+    std::ranges::copy_if(scene.lights, std::back_inserter(lights), [](const Light& light) { return light.everywhere; });
+    return lights;
+}
+
+capture::Environment traced_environment(const Scene& scene) {
+    if (!scene.environment) return {};
+    return {*scene.environment->pixels, scene.environment->scale, scene.environment->turn_rad};
+}
+
 TracedRoom traced_room(const Scene& scene) {
     TracedRoom room;
     NodeTaker taker(room.scene);
@@ -170,17 +182,9 @@ TracedRoom traced_room(const Scene& scene) {
         room.moving.push_back({*node.moving, node.world_from_node});
     }
     if (scene.floor) add_floor(*scene.floor, room.scene);
-    if (scene.environment) {
-        const EnvironmentLight& light = *scene.environment;
-        room.scene.environment = {*light.pixels, light.scale, light.turn_rad};
-    }
-    for (const Light& light : scene.lights) {
-        if (light.everywhere) {
-            room.scene.lights.push_back(light);
-        } else {
-            ++room.without_own_lights;
-        }
-    }
+    room.scene.environment = traced_environment(scene);
+    room.scene.lights = traced_lights(scene);
+    room.without_own_lights = static_cast<int>(scene.lights.size() - room.scene.lights.size());
     return room;
 }
 

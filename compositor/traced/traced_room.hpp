@@ -30,7 +30,11 @@ struct TracedRoom {
     int without_own_lights = 0;  // lights that shine on some nodes only, which the tracer does not know
 };
 
-// Pure; thread-safe.
+// The lights and the environment of it.
+std::vector<Light> traced_lights(const Scene& scene);
+capture::Environment traced_environment(const Scene& scene);
+
+// Pure; thread-safe, as all here.
 TracedRoom traced_room(const Scene& scene);
 
 // Goes along with the viewer where the scene wants that (Navigation::headlight) and nothing else shines.

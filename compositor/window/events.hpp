@@ -28,6 +28,11 @@ enum class Key {
     kPanel,              // tab
     kWireFrame,          // F
     kTrace,              // T
+    kLights,             // L
+    kUndo,               // control Z
+    kRedo,               // control Y, control shift Z
+    kDuplicate,          // control D
+    kDelete,             // delete
     kScreenshot,         // P
     kRecord,             // R
     kPlay,               // K

@@ -33,6 +33,9 @@ constexpr std::array kHelp = {
     HelpLine{"click", "pick an object"},
     HelpLine{"F", "wire frame"},
     HelpLine{"T", "trace the light, and back"},
+    HelpLine{"L", "edit the lights: click one, drag its arrows, its middle or its aim"},
+    HelpLine{"control Z, Y", "undo, redo a change of light"},
+    HelpLine{"control D, delete", "duplicate, delete the light"},
     HelpLine{"P  R", "screenshot, record"},
     HelpLine{"K  , .", "sequences: play, a frame back, on"},
     HelpLine{"tab", "this panel"},
@@ -176,11 +179,12 @@ bool Overlay::wants_keys() const {
     return ImGui::GetIO().WantTextInput;
 }
 
-void Overlay::draw(PanelState& state) {
+void Overlay::draw(PanelState& state, const std::function<void()>& more) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     if (state.show_panel) draw_panel(state);
+    if (more) more();
     if (state.show_help) draw_help();
     if (!state.news.empty()) draw_news(state.news);
     ImGui::Render();

@@ -6,6 +6,7 @@
 #include "compositor/window/playback.hpp"
 #include "compositor/window/window.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -63,8 +64,8 @@ public:
     [[nodiscard]] bool wants_mouse() const;
     [[nodiscard]] bool wants_keys() const;
 
-    // Draws into the window; after the picture, before swap().
-    void draw(PanelState& state);
+    // Draws into the window; after the picture, before swap(). `more` draws other panels.
+    void draw(PanelState& state, const std::function<void()>& more = nullptr);
 };
 
 }  // namespace rs::compositor

@@ -34,12 +34,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
       compositor_(std::move(compositor)),
       overlay_(std::make_unique<Overlay>(window_)),
       options_(options),
-      make_tracer_([scene, tracing = options.tracing,
-                    exposure_ev = options.exposure_ev](const std::vector<PlacedObject>& objects) {
-          TracedOptions traced = tracing;
-          traced.exposure_ev = exposure_ev;
-          return TracedRenderer::create(scene, objects, traced);
-      }),
+      desk_(scene, options.exposure_ev, options.lights),
       last_(std::chrono::steady_clock::now()) {
     navigation_.speed = scene.navigation.speed;
     if (const BoundingBox bounds = bounds_of(scene); !bounds.empty()) middle_ = bounds.middle();
@@ -116,6 +111,7 @@ void Visit::pick(const glm::dvec2& at_px) {
 
 Status Visit::obey(Key command) {
     const std::size_t count = options_.viewpoints.size();
+    if (desk_.obey(command)) return {};
     switch (command) {
         case Key::kWalk:
             panel_.mode = NavigationMode::kWalk;
@@ -172,6 +168,15 @@ Status Visit::obey(Key command) {
     return {};
 }
 
+std::shared_ptr<const Scene> Visit::scene_to_trace() const {
+    if (!playback_) return desk_.scene();
+    auto scene = std::make_shared<Scene>(playback_->scene());
+    scene->lights = desk_.scene()->lights;
+    scene->environment = desk_.scene()->environment;
+    scene->navigation.headlight = desk_.scene()->navigation.headlight;
+    return scene;
+}
+
 bool Visit::refine(const Camera& here) {
     if (!panel_.traced) {
         if (refined_) refinement_->end();
@@ -183,13 +188,11 @@ bool Visit::refine(const Camera& here) {
     if (!refined_ && (!refinement_ || traced_objects_ != showroom_->placed().size())) {
         std::vector<PlacedObject> objects = showroom_->placed();
         traced_objects_ = objects.size();
-        if (playback_) {
-            make_tracer_ = [scene = playback_->scene(),
-                            exposure_ev = options_.exposure_ev](const std::vector<PlacedObject>& shown) {
-                return TracedRenderer::create(scene, shown, {.exposure_ev = exposure_ev});
-            };
-        }
-        refinement_.emplace([make = make_tracer_, there = std::move(objects)] { return make(there); });
+        TracedOptions tracing = options_.tracing;
+        tracing.exposure_ev = desk_.edits().state().exposure_ev;
+        refinement_.emplace([scene = scene_to_trace(), tracing, there = std::move(objects)] {
+            return TracedRenderer::create(*scene, there, tracing);
+        });
     }
     if (const std::optional<Error> failed = refinement_->failure()) {
         panel_.traced = false;
@@ -199,10 +202,11 @@ bool Visit::refine(const Camera& here) {
     }
     const bool otherwise =
         !refined_ || refined_->width != here.width || refined_->height != here.height || refined_by_ != panel_.method;
-    if (otherwise) {
+    if (otherwise || relit_) {
         refined_ = here;
         refined_by_ = panel_.method;
-        compositor_.set_traced(nullptr);
+        if (otherwise) compositor_.set_traced(nullptr);
+        relit_ = false;
         refinement_->begin(here, panel_.method);
         panel_.passes = 0;
         return true;
@@ -233,6 +237,32 @@ Result<bool> Visit::play(double seconds) {
     refined_.reset();
     refinement_.reset();
     return true;
+}
+
+DeskView Visit::desk_view() const {
+    return {camera(), [this](const glm::dvec2& at) {
+                return compositor_.surface_at(static_cast<int>(at.x), static_cast<int>(at.y));
+            }};
+}
+
+Status Visit::relight() {
+    desk_.settle(desk_view());
+    if (std::string news = desk_.take_news(); !news.empty()) tell(news);
+    if (!desk_.take_change()) return {};
+    const double exposure_ev = desk_.edits().state().exposure_ev;
+    if (refinement_) refinement_->set_lights({desk_.scene(), exposure_ev});
+    relit_ = true;
+    return compositor_.set_lights(*desk_.scene(), exposure_ev);
+}
+
+Status Visit::show(const glm::ivec2& size) {
+    if (!desk_.is_open()) {
+        compositor_.show_in_window(size.x, size.y);
+        return {};
+    }
+    if (Status drawn = compositor_.draw_handles(desk_.strokes(camera())); !drawn) return drawn;
+    compositor_.handles()->shown().show_in_window(size.x, size.y);
+    return {};
 }
 
 Status Visit::take_pictures() {
@@ -334,7 +364,7 @@ Result<bool> Visit::step(std::optional<double> seconds) {
                               (std::holds_alternative<ButtonEvent>(event) && std::get<ButtonEvent>(event).down);
         if (of_mouse && overlay_->wants_mouse()) continue;
         if (std::holds_alternative<KeyEvent>(event) && overlay_->wants_keys()) continue;
-        input_.take(event);
+        if (!desk_.take(event, desk_view())) input_.take(event);
     }
     for (const Key command : input_.commands()) {
         if (Status status = obey(command); !status) return status.error();
@@ -347,6 +377,7 @@ Result<bool> Visit::step(std::optional<double> seconds) {
         if (video_) panel_.recording = false;  // a video has one size
     }
 
+    if (Status status = relight(); !status) return status.error();
     const bool turned = move(passed);
     const Result<bool> played = play(passed);
     if (!played) return played.error();
@@ -373,9 +404,11 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     if (Status status = take_pictures(); !status) return status.error();
     if (Status status = record(); !status) return status.error();
     refresh_panel(passed);
-    compositor_.show_in_window(size.x, size.y);
+    if (Status status = show(size); !status) return status.error();
     const int picked_before = panel_.picked;
-    overlay_->draw(panel_);
+    overlay_->draw(panel_, [this] {
+        if (desk_.is_open()) light_panel_.draw(desk_, desk_view());
+    });
     if (panel_.picked != picked_before && panel_.picked >= 0) {
         panel_.turn_rad = turns_rad_[static_cast<std::size_t>(panel_.picked)];
     }

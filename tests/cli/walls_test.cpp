@@ -105,7 +105,7 @@ TEST_F(Displays, TracedLightFallsOnWallsToo) {
 
 TEST_F(Displays, AQuiltHasItsLayoutInItsName) {
     test::ToolRun run =
-        view({in("hall.wrl"), "--quilt", "3x2", "--tile", "30x40", "--cone", "30", "-o", in("hall.png")});
+        view({in("hall.wrl"), "--quilt", "3x2", "--tile-size", "30x40", "--cone", "30", "-o", in("hall.png")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const Image<Rgba8> quilt = picture("hall_qs3x2a0.75.png");
     ASSERT_EQ(quilt.width(), 90);
@@ -115,7 +115,7 @@ TEST_F(Displays, AQuiltHasItsLayoutInItsName) {
     for (int column = 0; column < 3; ++column) {
         for (int row = 0; row < 2; ++row) EXPECT_GT(quilt(30 * column + 15, 40 * row + 20).r, 200);
     }
-    run = view({in("hall.wrl"), "--quilt", "3x2", "--tile", "30x40", "--orbit", "2", "-o", in("turn")});
+    run = view({in("hall.wrl"), "--quilt", "3x2", "--tile-size", "30x40", "--orbit", "2", "-o", in("turn")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_TRUE(exists("turn/0001_qs3x2a0.75.png"));
 }

@@ -98,6 +98,10 @@ TEST(FuzzReplay, Manifest) {
 TEST(FuzzReplay, Walls) {
     replay("walls", fuzz::fuzz_walls);
 }
+
+TEST(FuzzReplay, Lights) {
+    replay("lights", fuzz::fuzz_lights);
+}
 TEST(FuzzReplay, Gltf) {
     replay("gltf", fuzz::fuzz_gltf);
 }

@@ -297,6 +297,16 @@ Tracer::Builds Tracer::builds() const {
     return {builds.of_triangles, builds.of_instances};
 }
 
+void Tracer::set_environment(Environment environment) {
+    state_->lights->set_environment(std::move(environment));
+    state_->lights->set_lights(state_->scene.lights);
+}
+
+void Tracer::set_environment(float scale, float turn_rad) {
+    state_->lights->set_environment(scale, turn_rad);
+    state_->lights->set_lights(state_->scene.lights);
+}
+
 Result<Tracer> Tracer::create(Scene scene) {
     if (Status checked = check_scene(scene); !checked) return checked.error();
     auto state = std::make_unique<State>();

@@ -97,6 +97,10 @@ public:
 
     // Other lights than the scene came with; they must be as check_light() wants them. Not while anything is drawn.
     void set_lights(std::vector<Light> lights);
+    // Another environment, whose pixels are finite and not negative, or the same one brighter and turned (the fields of
+    // Environment), which costs nothing. Not while anything is drawn.
+    void set_environment(Environment environment);
+    void set_environment(float scale, float turn_rad);
 
     // Places an instance of the scene anew (scene.hpp, Instance); refused, with nothing changed, where a matrix has no
     // inverse. Seen after commit(), which costs what the tree over the instances costs: no tree of triangles is built

@@ -93,6 +93,17 @@ void LightSet::set_lights(const std::vector<Light>& lights) {
     sum_flux();
 }
 
+void LightSet::set_environment(Environment environment) {
+    environment_turn_rad_ = environment.turn_rad;
+    environment_ = EnvironmentMap(std::move(environment));
+}
+
+void LightSet::set_environment(float scale, float turn_rad) {
+    environment_turn_rad_ = turn_rad;
+    environment_.set_scale(scale);
+    environment_.set_turn(turn_rad);
+}
+
 void LightSet::add_light(const Light& light) {
     const bool area = light.kind == LightKind::kRectangle || light.kind == LightKind::kDisc;
     float power = luminance(light.colour);

@@ -44,6 +44,10 @@ public:
     // is no source of samples: it shines where drawn directions meet it.
     void update_instances(const Extent& extent);
 
+    // Another environment, or the same one brighter and turned; set_lights() must follow.
+    void set_environment(Environment environment);
+    void set_environment(float scale, float turn_rad);
+
     // Turns the lights and the environment about Y, from where they were at construction; positive angles take
     // +Z to +X. Surfaces that shine stay.
     void turn(float angle_rad);

@@ -102,10 +102,23 @@ FrameCompositor::FrameCompositor(const Scene& scene, std::shared_ptr<engine::Dat
       object_samples_(options.object_samples),
       upright_pictures_(options.upright_pictures),
       rectangle_(4) {
-    for (const Light& light : scene.lights) {
+    set_floor_light(scene.lights);
+}
+
+void FrameCompositor::set_floor_light(const std::vector<Light>& raster_lights) {
+    floor_light_ = glm::vec3(0);
+    for (const Light& light : raster_lights) {
         if (light.kind != LightKind::kDirectional || !light.everywhere) continue;
         floor_light_ += light.ambient + light.colour * static_cast<float>(std::max(-light.towards.y, 0.0));
     }
+}
+
+Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
+    Scene lit = scene;
+    lit.lights = raster_lights(scene, exposure_ev);
+    if (Status status = renderers_.surfaces.set_lights(lit); !status) return status;
+    set_floor_light(lit.lights);
+    return {};
 }
 
 Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {
@@ -222,6 +235,29 @@ Status FrameCompositor::resize(int width, int height) {
 
 void FrameCompositor::turn_object(std::size_t index, double angle_rad) {
     turns_rad_[index] = angle_rad;
+}
+
+Status FrameCompositor::draw_handles(const std::vector<HandleStroke>& strokes) {
+    RS_CHECK(camera_.has_value());
+    if (!handles_) {
+        auto made = HandleRenderer::create();
+        if (!made) return made.error();
+        handles_ = std::move(*made);
+    }
+    return handles_->draw(strokes, *camera_, renderers_.frame.shown(), renderers_.frame.drawn);
+}
+
+std::optional<SurfacePoint> FrameCompositor::surface_at(int x, int y) const {
+    constexpr int kAround = kDepthsAcross / 2;
+    if (!camera_ || x < kAround || y < kAround || x >= width() - kAround || y >= height() - kAround) {
+        return std::nullopt;
+    }
+    const Frame& frame = renderers_.frame;
+    const std::vector<float> depths =
+        frame.drawn.depths_at(x - kAround, y - kAround, kDepthsAcross, kDepthsAcross, frame.shown());
+    DepthsAround inverse{};
+    for (std::size_t i = 0; i < inverse.size(); ++i) inverse[i] = static_cast<double>(depths[i]) / kNear;
+    return surface_from_depths(*camera_, x, y, inverse);
 }
 
 std::optional<double> FrameCompositor::distance_ahead() const {

@@ -13,8 +13,10 @@
 #include "compositor/gl/framebuffer.hpp"
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/vertex_array.hpp"
+#include "compositor/lighting/surface_point.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/background_renderer.hpp"
+#include "compositor/viewer/drawing/handle_renderer.hpp"
 #include "compositor/viewer/drawing/object_renderer.hpp"
 #include "compositor/viewer/drawing/placeholder_renderer.hpp"
 #include "compositor/viewer/drawing/shown_parts.hpp"
@@ -94,8 +96,17 @@ public:
     Status draw(const Camera& camera);
     [[nodiscard]] Image<Rgba8> picture() const { return renderers_.frame.shown().read_picture(); }
     void show_in_window(int width, int height) const { renderers_.frame.shown().show_in_window(width, height); }
+    // Handles over a copy of the frame, to be shown in its place; picture() is still without.
+    Status draw_handles(const std::vector<HandleStroke>& strokes);
+    [[nodiscard]] const HandleRenderer* handles() const { return handles_ ? &*handles_ : nullptr; }
 
-    // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Its mesh stays where it is.
+    // The lights, environment and headlight of `scene`, whose geometry is that of the scene that this was made of, and
+    // another exposure: frames are then those of a compositor made of `scene`, bit for bit. Fails where the
+    // driver refuses a shader.
+    Status set_lights(const Scene& scene, double exposure_ev);
+
+    // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Its mesh stays where it
+    // is.
     Status move_geometry(std::size_t index, const std::optional<glm::dmat4>& world_from_node) {
         return renderers_.surfaces.move(index, world_from_node);
     }
@@ -116,6 +127,8 @@ public:
     [[nodiscard]] const FrameStatistics& statistics() const { return statistics_; }
     // Which ray-space node is seen at a pixel of the last frame.
     [[nodiscard]] std::optional<std::size_t> object_at(int x, int y) const;
+    // The surface that is seen at a pixel of the last frame: of geometry, and of objects where they have depth.
+    [[nodiscard]] std::optional<SurfacePoint> surface_at(int x, int y) const;
     // How far geometry is along the middle pixel's ray in the last frame, scene units; nothing where there is none.
     [[nodiscard]] std::optional<double> distance_ahead() const;
 
@@ -156,6 +169,7 @@ private:
     };
     [[nodiscard]] std::optional<ObjectView> view_of_node(std::size_t index, const Camera& camera) const;
     [[nodiscard]] std::vector<SeenNode> seen_nodes(const Camera& camera) const;
+    void set_floor_light(const std::vector<Light>& raster_lights);
     void draw_traced(const Camera& camera);
     void draw_floor(const FrameView& view) const;
     void upload(const SeenNode& node);
@@ -182,6 +196,7 @@ private:
     std::optional<Weather> weather_;
     double weather_seconds_ = 0;
     gl::VertexArray rectangle_;
+    std::optional<HandleRenderer> handles_;  // once there were some
     FrameStatistics statistics_;
 };
 

@@ -154,11 +154,16 @@ Status SurfaceRenderer::put(Item& item) {
     return {};
 }
 
+void SurfaceRenderer::gather_ambient_light() {
+    ambient_light_ = glm::vec3(0);
+    for (const Light& light : scene_.lights) {
+        if (light.kind == LightKind::kDirectional && light.everywhere) ambient_light_ += light.ambient;
+    }
+}
+
 Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
     SurfaceRenderer renderer(scene);
-    for (const Light& light : scene.lights) {
-        if (light.kind == LightKind::kDirectional && light.everywhere) renderer.ambient_light_ += light.ambient;
-    }
+    renderer.gather_ambient_light();
     Uploads uploads;
     renderer.item_of_node_.resize(scene.geometry.size());
     for (std::size_t i = 0; i < scene.geometry.size(); ++i) {
@@ -193,6 +198,18 @@ Status SurfaceRenderer::move(std::size_t node, const std::optional<glm::dmat4>& 
     if (item.hidden || *world_from_node == item.world_from_node) return {};
     item.world_from_node = *world_from_node;
     return put(item);
+}
+
+Status SurfaceRenderer::set_lights(const Scene& scene) {
+    scene_.lights = scene.lights;
+    scene_.environment = scene.environment;
+    scene_.navigation.headlight = scene.navigation.headlight;
+    for (std::size_t n = 0; n < scene.geometry.size(); ++n) scene_.geometry[n].lights = scene.geometry[n].lights;
+    gather_ambient_light();
+    for (Item& item : items_) {
+        if (Status status = put(item); !status) return status;
+    }
+    return {};
 }
 
 void SurfaceRenderer::set_frame(const FrameView& view) const {

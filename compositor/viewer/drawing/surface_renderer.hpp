@@ -54,6 +54,10 @@ class SurfaceRenderer {
 public:
     static Result<SurfaceRenderer> create(const Scene& scene);
 
+    // The lights and the headlight of `scene`, whose geometry is that of the scene that this was made of. Fails where
+    // the driver refuses a shader.
+    Status set_lights(const Scene& scene);
+
     struct Transparent {
         std::size_t index;
         double distance;  // from the viewpoint to the middle of what is drawn, scene units
@@ -80,7 +84,10 @@ private:
         std::shared_ptr<const gl::VertexArray> mesh;
         std::shared_ptr<const gl::Texture> picture;
         glm::dmat4 world_from_node;
+        BoundingBox bounds_in_node;
         BoundingBox bounds;                          // in scene coordinates
+        std::size_t node = 0;                        // of Scene::geometry
+        AlphaUse alpha = AlphaUse::kNone;            // of its picture
         std::shared_ptr<const gl::Program> program;  // of its kind
         std::shared_ptr<const gl::Program> veil;     // null where there is no fog
         MaterialRow material;
@@ -90,13 +97,11 @@ private:
         bool two_sided = true;
         bool mirrored = false;  // by its matrix
         bool hidden = false;
-        std::size_t node = 0;  // of the scene
-        BoundingBox bounds_in_node;
-        AlphaUse alpha = AlphaUse::kNone;
     };
     explicit SurfaceRenderer(const Scene& scene) : scene_(scene) {}
     Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind);
     Status put(Item& item);
+    void gather_ambient_light();
     void set_frame(const FrameView& view) const;
     void draw(const Item& item, const gl::Program& program, const FrameView& view, gl::DrawState state) const;
 

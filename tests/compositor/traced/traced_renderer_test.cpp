@@ -256,6 +256,48 @@ TEST(TracedRenderer, ExposureCountsInStops) {
     EXPECT_NEAR(linear(brighter->picture()(1, 1).g) / linear(plain->picture()(1, 1).g), 2, 0.1);
 }
 
+// Whatever is changed of the light, and back again, the bits are those of a renderer that began with it.
+TEST(TracedRenderer, EditedLightGivesThePicturesOfASceneThatHasIt) {
+    const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 33);
+    Scene first = small_room();
+    EnvironmentLight sky;
+    sky.pixels = std::make_shared<const Image<RgbaF>>(4, 2, RgbaF{1, 2, 4, 1});
+    sky.scale = 0.1F;
+    first.environment = sky;
+    Scene moved = first;
+    moved.lights[0].location = {-1, 2, 0};
+    Scene turned = moved;
+    turned.environment->turn_rad = 1;
+    turned.environment->scale = 0.3F;
+    Scene other = turned;
+    other.environment->pixels = std::make_shared<const Image<RgbaF>>(2, 2, RgbaF{3, 1, 0, 1});
+    other.environment->seen = true;
+    Scene none = small_room();
+    none.lights = {rectangle_light({-1, 4, -1}, {2, 0, 0}, {0, 0, 2}, glm::vec3(3))};
+    Scene dark = none;
+    dark.lights.clear();
+    dark.navigation.headlight = true;
+    const auto picture = [&](TracedRenderer& renderer) {
+        renderer.look(camera);
+        for (int pass = 0; pass < 2; ++pass) EXPECT_TRUE(renderer.add_pass());
+        return std::pair(renderer.radiance(), renderer.picture());
+    };
+    for (const NamedMethod& named : kTracedMethods) {
+        auto edited = renderer_of(first);
+        ASSERT_TRUE(edited);
+        edited->set_method(named.method);
+        double exposure_ev = 0;
+        for (const Scene* scene : {&moved, &turned, &other, &none, &dark, &first}) {
+            exposure_ev += 0.5;
+            edited->set_lights(*scene, exposure_ev);
+            auto fresh = renderer_of(*scene, exposure_ev);
+            ASSERT_TRUE(fresh);
+            fresh->set_method(named.method);
+            EXPECT_EQ(picture(*edited), picture(*fresh)) << named.name << " " << exposure_ev;
+        }
+    }
+}
+
 TEST(TracedRenderer, TheHeadlightIsCarriedWhereNothingElseShines) {
     Scene scene = small_room();
     scene.lights.clear();
@@ -301,6 +343,39 @@ TEST(Refinement, GoesFromCoarseToFineAndBeginsAnew) {
     EXPECT_EQ(other->width(), 20);
     refinement.end();
     EXPECT_FALSE(refinement.failure());
+}
+
+TEST(Refinement, ChangesItsLightWithoutANewTracer) {
+    std::atomic<int> made{0};
+    Refinement refinement([&made] {
+        ++made;
+        return renderer_of(small_room());
+    });
+    const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 40);
+    const auto first_pass = [&] {
+        const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+        for (std::shared_ptr<const Image<Rgba8>> first; std::chrono::steady_clock::now() < patience;) {
+            const auto step = refinement.take();
+            if (step && step->passes == 1) first = step->picture;
+            if (first) return *first;
+            // The first pass may have been overtaken.
+            if (step && step->passes > 1) refinement.begin(camera);
+            std::this_thread::yield();
+        }
+        return Image<Rgba8>();
+    };
+    refinement.begin(camera);
+    const Image<Rgba8> before = first_pass();
+    Scene moved = small_room();
+    moved.lights[0].location = {-2, 3, 0};
+    refinement.set_lights({std::make_shared<const Scene>(moved), 0});
+    refinement.begin(camera);
+    const Image<Rgba8> after = first_pass();
+    EXPECT_NE(after, before);
+    refinement.set_lights({std::make_shared<const Scene>(small_room()), 0});
+    refinement.begin(camera);
+    EXPECT_EQ(first_pass(), before);
+    EXPECT_EQ(made, 1);
 }
 
 TEST(Refinement, AGridIsTheMiddleOfItsPixels) {
