@@ -17,6 +17,8 @@ struct SceneTexture {
     bool modulates = false;  // multiplies the diffuse colour (grey pictures, glTF); else it replaces it
 };
 
+struct NormalMap;  // normal_map.hpp
+
 enum class AlphaUse { kNone = 0, kMask = 1, kBlend = 2 };
 // A picture whose alpha is nearly everywhere 0 or 255 cuts holes, with sharp edges and no order of drawing.
 AlphaUse alpha_use(const SceneTexture& texture);
@@ -30,7 +32,8 @@ struct Material {
     float opacity = 1;       // 1 - transparency
     bool lit = true;         // else it shows `diffuse` as it is
     std::shared_ptr<const SceneTexture> texture;
-    glm::mat3 texture_transform{1};  // of (s, t, 1)
+    std::shared_ptr<const NormalMap> normals;  // relief, at the same texture coordinates
+    glm::mat3 texture_transform{1};            // of (s, t, 1)
 };
 
 // Whether other things shine through: such surfaces are drawn behind all others, the farthest first.

@@ -123,6 +123,7 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
     options.wire_frame = arguments.wire_frame;
     options.samples = arguments.samples;
     options.exposure_ev = arguments.exposure_ev;
+    options.shadows = arguments.shadows == "on";
     const auto traced = asked_method(arguments);
     options.traced = traced.has_value();
     options.method = traced.value_or(TracedMethod::kPath);
@@ -254,6 +255,7 @@ Status run_view(ViewArguments arguments) {
                                                                   .height = size->height,
                                                                   .samples = arguments.samples,
                                                                   .wire_frame = arguments.wire_frame,
+                                                                  .shadows = arguments.shadows == "on",
                                                                   .exposure_ev = arguments.exposure_ev,
                                                                   .object_depth = asked_depth(arguments),
                                                                   .object_samples = arguments.object_samples,

@@ -51,6 +51,12 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
     app.add_option("--exposure", arguments.exposure_ev, "stops by which lights are brighter (0)")
         ->check(CLI::Range(-40.0, 40.0))
         ->type_name("EV");
+    app.add_option("--shadows", arguments.shadows,
+                   "of raster: lights throw shadows of geometry and objects onto geometry and floors. In a window O "
+                   "switches them")
+        ->type_name("on|off")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->capture_default_str();
     app.add_flag("--wire-frame", arguments.wire_frame, "only the edges of the geometry's triangles");
     app.add_option("--object-depth", arguments.object_depth,
                    "how deep objects are: one plane each, or every pixel by itself, so that objects, and objects and "

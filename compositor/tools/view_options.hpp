@@ -36,6 +36,7 @@ struct ViewArguments {
     int passes = 0;
     double seconds = 0;
     double exposure_ev = 0;
+    std::string shadows = "on";
     bool upright = false;
     bool streaming = false;
     bool wire_frame = false;

@@ -1,5 +1,6 @@
 #include "compositor/traced/traced_room.hpp"
 
+#include "compositor/scene/normal_map.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
 
@@ -116,6 +117,7 @@ void add_floor(const Floor& floor, capture::Scene& scene) {
 TracedRoom traced_room(const Scene& scene) {
     TracedRoom room;
     std::map<const SceneTexture*, int> textures;
+    std::map<const NormalMap*, int> reliefs;
     for (std::size_t n = 0; n < scene.geometry.size(); ++n) {
         const GeometryNode& node = scene.geometry[n];
         if (node.mesh->topology != Topology::kTriangles || is_blended(node.material)) {
@@ -136,6 +138,12 @@ TracedRoom traced_room(const Scene& scene) {
             }
             material.texture = found->second;
             if (!node.material.lit) material.emission_texture = found->second;
+        }
+        if (node.material.normals && node.material.lit) {
+            const NormalMap& map = *node.material.normals;
+            const auto [found, is_new] = reliefs.try_emplace(&map, static_cast<int>(room.scene.reliefs.size()));
+            if (is_new) room.scene.reliefs.push_back({"relief", map.directions, map.repeat_s, map.repeat_t});
+            material.relief = found->second;
         }
         room.scene.materials.push_back(std::move(material));
         room.scene.meshes.push_back(std::move(mesh));

@@ -32,6 +32,7 @@ struct VisitOptions {
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = FrameOptions{}.object_samples;
     double exposure_ev = 0;
+    bool shadows = true;
     bool traced = false;  // from the beginning
     TracedMethod method = TracedMethod::kPath;
     std::string executor = "software core";                     // of the engine, for the panel

@@ -43,6 +43,7 @@ constexpr std::array kBindings = {
     Binding{GLFW_KEY_TAB, Key::kPanel},
     Binding{GLFW_KEY_F, Key::kWireFrame},
     Binding{GLFW_KEY_T, Key::kTrace},
+    Binding{GLFW_KEY_O, Key::kShadows},
     Binding{GLFW_KEY_P, Key::kScreenshot},
     Binding{GLFW_KEY_R, Key::kRecord},
     Binding{GLFW_KEY_ESCAPE, Key::kQuit},

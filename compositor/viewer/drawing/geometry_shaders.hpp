@@ -1,7 +1,10 @@
 #pragma once
 // The GLSL of the scene's geometry: VRML97's lighting (ISO/IEC 14772-1, 4.14.4) at every pixel, in linear light.
 //
-//   colour = fog * (1 - f) + f * (emissive + sum over lights: attenuation * spot * (ambient + diffuse + specular))
+//   colour = fog * (1 - f) + f * (emissive + sum over lights: attenuation * spot * (ambient + s * (diffuse +
+//   specular)))
+//
+// where s is how much of the light's shadow map is open there (shadow_shaders.hpp), 1 without.
 //
 // A shader for every kind of surface (surface_renderer.hpp): what kinds differ in are constants at its head, so that
 // loops over lights are unrolled and what a surface does not have costs nothing. Drawn on a CPU that is several times
@@ -31,7 +34,7 @@ void main() {
     vertex_colour = colour;
 })";
 
-// Behind the constants of constants_of(SurfaceKind).
+// Behind the constants of constants_of(SurfaceKind) and kShadowLookUp.
 inline constexpr const char* kSurfaceFragment = R"(
 const int kLights = kDirectional + kPoints + kSpots;
 // Five for each light, directional ones first, then points, then spots:
@@ -40,6 +43,7 @@ uniform vec4 lights[5 * max(kLights, 1)];
 // diffuse, opacity; specular, exponent; emissive, ambient; ambient light of directional lights
 uniform vec4 material[4];
 layout(binding = 0) uniform sampler2D surface_picture;
+layout(binding = 4) uniform sampler2D relief_map;  // NormalMap
 uniform vec3 eye;
 uniform vec3 headlight;      // its direction of travel
 uniform vec3 fog;
@@ -63,7 +67,32 @@ vec3 reflected(vec3 diffuse, vec3 n, vec3 to_eye, float eye_facing, vec3 to_ligh
     return sum * colour;
 }
 
-vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, vec3 to_eye, float eye_facing) {
+// The normal where the surface has relief: along the texture's axes as they lie on the triangle.
+vec3 in_relief(vec3 n) {
+    vec3 direction = texture(relief_map, place_on_texture).xyz;
+    vec3 px = dFdx(place_in_world), py = dFdy(place_in_world);
+    vec2 tx = dFdx(place_on_texture), ty = dFdy(place_on_texture);
+    float area = tx.x * ty.y - ty.x * tx.y;
+    vec3 s = (px * ty.y - py * tx.y) * sign(area);
+    vec3 t = (px * ty.x - py * tx.x) * sign(area);  // up: rows go down
+    s -= n * dot(n, s);
+    t -= n * dot(n, t);
+    bool flat_there = direction.xy == vec2(0.0) || area == 0.0;
+    vec3 sum = s * (direction.x * inversesqrt(max(dot(s, s), 1e-30))) +
+               t * (direction.y * inversesqrt(max(dot(t, t), 1e-30))) + n * direction.z;
+    return flat_there || dot(sum, sum) < 1e-12 ? n : normalize(sum);
+}
+
+// Of the light's map, the numbers of which begin at row `shadow`.
+float open_to_light(int first, int shadow, int shape, vec3 n) {
+    if (shape == 1) return parallel_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
+    if (shape == 2) return cone_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
+    if (shape == 3) return cube_shadow(4 * shadow, place_in_world, n, lights[first + 2].xyz);
+    return 1.0;
+}
+
+vec3 from_light(int first, bool has_place, bool is_spot, int shadow, int shape, vec3 diffuse, vec3 n, vec3 even,
+                vec3 to_eye, float eye_facing) {
     vec3 to_light = -lights[first + 3].xyz;
     float strength = 1.0;
     if (has_place) {
@@ -82,19 +111,26 @@ vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, v
         }
     }
     vec3 ambient = has_place ? lights[first + 1].rgb * diffuse * material[2].w : vec3(0.0);
-    return strength * (ambient + reflected(diffuse, n, to_eye, eye_facing, to_light, lights[first].rgb));
+    vec3 direct = reflected(diffuse, n, to_eye, eye_facing, to_light, lights[first].rgb);
+    if (shape != 0) direct *= open_to_light(first, shadow, shape, even);
+    return strength * (ambient + direct);
 }
 
-vec3 lit(vec3 diffuse, vec3 n, vec3 to_eye) {
+// `even`: the normal without relief.
+vec3 lit(vec3 diffuse, vec3 n, vec3 even, vec3 to_eye) {
     vec3 sum = material[2].rgb + material[3].rgb * diffuse * material[2].w;
     float eye_facing = dot(n, to_eye);
     if (kHeadlight) sum += reflected(diffuse, n, to_eye, eye_facing, -headlight, vec3(1.0));
-    for (int i = 0; i < kDirectional; ++i) sum += from_light(5 * i, false, false, diffuse, n, to_eye, eye_facing);
-    for (int i = kDirectional; i < kDirectional + kPoints; ++i) {
-        sum += from_light(5 * i, true, false, diffuse, n, to_eye, eye_facing);
+    for (int i = 0; i < kDirectional; ++i) {
+        sum += from_light(5 * i, false, false, i, i < kShadowedDirectional ? 1 : 0, diffuse, n, even, to_eye, eye_facing);
     }
-    for (int i = kDirectional + kPoints; i < kLights; ++i) {
-        sum += from_light(5 * i, true, true, diffuse, n, to_eye, eye_facing);
+    for (int i = 0; i < kPoints; ++i) {
+        sum += from_light(5 * (kDirectional + i), true, false, kShadowedDirectional + i, i < kShadowedPoints ? 3 : 0,
+                          diffuse, n, even, to_eye, eye_facing);
+    }
+    for (int i = 0; i < kSpots; ++i) {
+        sum += from_light(5 * (kDirectional + kPoints + i), true, true, kShadowedDirectional + kShadowedPoints + i,
+                          i < kNarrowSpots ? 2 : i < kNarrowSpots + kWideSpots ? 3 : 0, diffuse, n, even, to_eye, eye_facing);
     }
     return sum;
 }
@@ -111,8 +147,9 @@ void main() {
     vec3 colour = diffuse;
     vec3 to_eye = eye - place_in_world;
     if (kLit && normal_in_world != vec3(0.0)) {
-        vec3 n = normalize(normal_in_world) * (gl_FrontFacing ? 1.0 : -1.0);
-        colour = lit(diffuse, n, normalize(to_eye));
+        float side = gl_FrontFacing ? 1.0 : -1.0;
+        vec3 even = normalize(normal_in_world) * side;
+        colour = lit(diffuse, kRelief ? in_relief(even * side) * side : even, even, normalize(to_eye));
     }
     if (kFog != 0) {
         float d = length(to_eye);

@@ -1,7 +1,9 @@
 #include "compositor/viewer/drawing/surface_renderer.hpp"
 
+#include "compositor/scene/normal_map.hpp"
 #include "compositor/viewer/drawing/geometry_shaders.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
+#include "compositor/viewer/shadows/shadow_shaders.hpp"
 
 #include <algorithm>
 #include <map>
@@ -10,7 +12,7 @@
 
 namespace rs::compositor {
 
-SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha,
+SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const GeometryNode& node, AlphaUse alpha,
                     const std::vector<std::uint32_t>& lights) {
     SurfaceKind kind;
     kind.lit = node.material.lit;
@@ -20,6 +22,19 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
             ++(light == LightKind::kDirectional ? kind.directional
                : light == LightKind::kPoint     ? kind.points
                                                 : kind.spots);
+            switch (shadows.shape_of(i)) {
+                case ShadowShape::kNone:
+                    break;
+                case ShadowShape::kParallel:
+                    ++kind.shadowed_directional;
+                    break;
+                case ShadowShape::kCone:
+                    ++kind.narrow_spots;
+                    break;
+                case ShadowShape::kCube:
+                    ++(light == LightKind::kPoint ? kind.shadowed_points : kind.wide_spots);
+                    break;
+            }
             kind.fading |= light != LightKind::kDirectional && scene.lights[i].attenuation != glm::vec3(1, 0, 0);
         }
         kind.headlight = scene.navigation.headlight;
@@ -28,6 +43,7 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
     kind.picture = !node.material.texture ? 0 : node.material.texture->modulates ? 2 : 1;
     kind.picture_alpha = alpha;
     kind.colours = node.mesh->has_colours;
+    kind.relief = kind.lit && node.material.normals != nullptr;
     if (scene.fog) kind.fog = scene.fog->kind == FogKind::kLinear ? 1 : 2;
     return kind;
 }
@@ -35,11 +51,18 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
 std::string constants_of(const SurfaceKind& kind) {
     return "#version 450 core\n" + shaders::shader_constant("kDirectional", kind.directional) +
            shaders::shader_constant("kPoints", kind.points) + shaders::shader_constant("kSpots", kind.spots) +
-           shaders::shader_constant("kFading", kind.fading) + shaders::shader_constant("kHeadlight", kind.headlight) +
-           shaders::shader_constant("kLit", kind.lit) + shaders::shader_constant("kShiny", kind.shiny) +
-           shaders::shader_constant("kPicture", kind.picture) +
+           shaders::shader_constant("kShadowedDirectional", kind.shadowed_directional) +
+           shaders::shader_constant("kShadowedPoints", kind.shadowed_points) +
+           shaders::shader_constant("kNarrowSpots", kind.narrow_spots) +
+           shaders::shader_constant("kWideSpots", kind.wide_spots) +
+           shaders::shader_constant(
+               "kShadows", kind.shadowed_directional + kind.shadowed_points + kind.narrow_spots + kind.wide_spots) +
+           "const float kNear = " + std::to_string(kNear) + ";\n" + shaders::shader_constant("kFading", kind.fading) +
+           shaders::shader_constant("kHeadlight", kind.headlight) + shaders::shader_constant("kLit", kind.lit) +
+           shaders::shader_constant("kShiny", kind.shiny) + shaders::shader_constant("kPicture", kind.picture) +
            shaders::shader_constant("kPictureAlpha", static_cast<int>(kind.picture_alpha)) +
-           shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kFog", kind.fog);
+           shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kRelief", kind.relief) +
+           shaders::shader_constant("kFog", kind.fog);
 }
 
 namespace {
@@ -84,6 +107,15 @@ public:
         return uploaded;
     }
 
+    std::shared_ptr<const gl::Texture> relief(const NormalMap& map) {
+        auto& uploaded = reliefs_[&map];
+        if (!uploaded) {
+            uploaded =
+                std::make_shared<const gl::Texture>(map.directions.view(), gl::TextureWrap{map.repeat_s, map.repeat_t});
+        }
+        return uploaded;
+    }
+
     AlphaUse alpha(const SceneTexture& texture) {
         const auto [found, is_new] = alphas_.try_emplace(&texture, AlphaUse::kNone);
         if (is_new) found->second = alpha_use(texture);
@@ -93,8 +125,8 @@ public:
     Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind) {
         auto& made = programs_[kind];
         if (!made) {
-            auto program =
-                gl::Program::create("surface", shaders::kSurfaceVertex, constants_of(kind) + shaders::kSurfaceFragment);
+            auto program = gl::Program::create("surface", shaders::kSurfaceVertex,
+                                               constants_of(kind) + shaders::kShadowLookUp + shaders::kSurfaceFragment);
             if (!program) return program.error();
             made = std::make_shared<const gl::Program>(std::move(*program));
         }
@@ -110,13 +142,23 @@ private:
     std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;
     std::map<const Mesh*, std::shared_ptr<const gl::VertexArray>> meshes_;
     std::map<const SceneTexture*, std::shared_ptr<const gl::Texture>> pictures_;
+    std::map<const NormalMap*, std::shared_ptr<const gl::Texture>> reliefs_;
     std::map<const SceneTexture*, AlphaUse> alphas_;
 };
 
 }  // namespace
 
-Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
+Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const ShadowPlan& shadows) {
     SurfaceRenderer renderer;
+    if (!shadows.faces.empty()) {
+        auto caster = gl::Program::create("shadow", shaders::kCasterVertex, shaders::kCasterFragment);
+        if (!caster) return caster.error();
+        auto masked = gl::Program::create("shadow with holes", shaders::kCasterVertex, shaders::kMaskedCasterFragment);
+        if (!masked) return masked.error();
+        renderer.caster_.emplace(std::move(*caster));
+        renderer.masked_caster_.emplace(std::move(*masked));
+    }
+    for (const Light& light : scene.lights) renderer.everywhere_.push_back(light.everywhere ? 1 : 0);
     renderer.fog_ = scene.fog;
     renderer.headlight_ = scene.navigation.headlight;
     Uploads uploads;
@@ -131,13 +173,19 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
             item.picture = uploads.picture(*node.material.texture);
             alpha = uploads.alpha(*node.material.texture);
         }
+        if (node.material.lit && node.material.normals) item.relief = uploads.relief(*node.material.normals);
         const SurfaceLights lights = lights_of(scene, node, item.bounds);
-        auto program = uploads.program(kind_of(scene, node, alpha, lights.lights));
+        auto program = uploads.program(kind_of(scene, shadows, node, alpha, lights.lights));
         if (!program) return program.error();
         item.program = std::move(*program);
         item.material = row_of(node.material);
         item.material.ambient_light = glm::vec4(lights.ambient, 0);
-        item.lights = rows_of(scene, lights.lights);
+        const std::vector<std::uint32_t> ordered = in_shader_order(scene, shadows, lights.lights);
+        item.lights = rows_of(scene, ordered);
+        item.shadows = rows_of(shadows, ordered);
+        item.own_lights = node.lights;
+        item.throws_shadows = throws_shadows(node);
+        item.masked = alpha == AlphaUse::kMask;
         item.texture_transform = node.material.texture_transform;
         item.transparent = node.material.opacity < 1 || alpha == AlphaUse::kBlend;
         item.two_sided = node.mesh->two_sided;
@@ -170,7 +218,9 @@ void SurfaceRenderer::draw(const Item& item, const FrameView& view, gl::DrawStat
     // Rows of vec4 without gaps: surface_tables.cpp asserts their sizes.
     set("material", std::span(&item.material.diffuse_opacity, 4));
     if (!item.lights.empty()) set("lights", std::span(&item.lights.front().colour, 5 * item.lights.size()));
+    if (!item.shadows.empty()) set("shadows", std::span(&item.shadows.front().u, 4 * item.shadows.size()));
     if (item.picture) item.picture->bind(0);
+    if (item.relief) item.relief->bind(4);
     state.clockwise = item.mirrored;
     gl::draw(program, *item.mesh, state);
 }
@@ -205,6 +255,23 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
                      [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
     for (const std::size_t i : opaque) draw(items_[i], view, state_of(items_[i]));
     return transparent;
+}
+
+void SurfaceRenderer::draw_casters(const ShadowFace& face) const {
+    for (const Item& item : items_) {
+        if (!item.throws_shadows || !may_throw(item.bounds, face)) continue;
+        if (everywhere_[face.light] == 0 && std::ranges::find(item.own_lights, face.light) == item.own_lights.end()) {
+            continue;
+        }
+        const gl::Program& program = item.masked ? *masked_caster_ : *caster_;
+        program.set("clip_from_node", glm::mat4(face.clip_from_world * item.world_from_node));
+        if (item.masked) {
+            program.set("texture_transform", item.texture_transform);
+            item.picture->bind(0);
+        }
+        gl::draw(program, *item.mesh,
+                 {.culling = item.two_sided ? gl::Culling::kNone : gl::Culling::kBack, .clockwise = item.mirrored});
+    }
 }
 
 void SurfaceRenderer::draw_transparent(const Transparent& transparent, const FrameView& view, bool wire_frame) const {
