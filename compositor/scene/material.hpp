@@ -18,6 +18,8 @@ struct SceneTexture {
     bool modulates = false;  // multiplies the diffuse colour (grey pictures, glTF); else it replaces it
 };
 
+struct NormalMap;  // normal_map.hpp
+
 enum class AlphaUse { kNone = 0, kMask = 1, kBlend = 2 };
 // A picture whose alpha is nearly everywhere 0 or 255 cuts holes, with sharp edges and no order of drawing.
 AlphaUse alpha_use(const SceneTexture& texture);
@@ -38,8 +40,9 @@ struct Material {
     float opacity = 1;       // 1 - transparency
     bool lit = true;         // else it shows `diffuse` as it is
     std::shared_ptr<const SceneTexture> texture;
-    glm::mat3 texture_transform{1};        // of (s, t, 1)
-    std::optional<PhongTerms> phong = {};  // else made of `ambient` and `shininess` (phong_terms)
+    std::shared_ptr<const NormalMap> normals;  // relief, at the same texture coordinates
+    glm::mat3 texture_transform{1};            // of (s, t, 1)
+    std::optional<PhongTerms> phong = {};      // else made of `ambient` and `shininess` (phong_terms)
 
     bool operator==(const Material&) const = default;
 };

@@ -121,6 +121,7 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
     options.tracing = *tracing;
     options.traced = asked_method(arguments).has_value();
     if (!arguments.lights.empty()) options.lights = arguments.lights;
+    options.shadows = arguments.shadows == "on";
     options.executor = executor;
     options.object_depth = asked_depth(arguments);
     options.object_samples = arguments.object_samples;
@@ -310,6 +311,7 @@ Status run_view(ViewArguments arguments) {
                                                                   .height = size->height,
                                                                   .samples = arguments.samples,
                                                                   .wire_frame = arguments.wire_frame,
+                                                                  .shadows = arguments.shadows == "on",
                                                                   .exposure_ev = arguments.exposure_ev,
                                                                   .object_depth = asked_depth(arguments),
                                                                   .object_samples = arguments.object_samples,

@@ -168,6 +168,12 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
                    "views agree on (of the middle of the scene)")
         ->check(CLI::Range(1e-6, 1e9))
         ->type_name("DISTANCE");
+    app.add_option("--shadows", arguments.shadows,
+                   "of raster: lights throw shadows of geometry and objects onto geometry and floors. In a window O "
+                   "switches them")
+        ->type_name("on|off")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->capture_default_str();
     app.add_flag("--wire-frame", arguments.wire_frame, "only the edges of the geometry's triangles");
     app.add_option("--object-depth", arguments.object_depth,
                    "how deep objects are: one plane each, or every pixel by itself, so that objects, and objects and "

@@ -54,6 +54,7 @@ struct ViewArguments {
     std::string tile_size = "420x560";  // of a quilt
     double cone_deg = 40;
     bool size_given = false;  // by the command line
+    std::string shadows = "on";
     bool upright = false;
     bool streaming = false;
     bool wire_frame = false;

@@ -1,6 +1,7 @@
 #include "compositor/traced/traced_room.hpp"
 
 #include "capture/tracer/scene/flatten.hpp"
+#include "compositor/scene/normal_map.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
 
@@ -132,6 +133,12 @@ public:
             material.texture = found->second;
             if (!node.material.lit) material.emission_texture = found->second;
         }
+        if (node.material.normals && node.material.lit) {
+            const NormalMap& map = *node.material.normals;
+            const auto [found, is_new] = reliefs_.try_emplace(&map, static_cast<int>(scene_.reliefs.size()));
+            if (is_new) scene_.reliefs.push_back({"relief", map.directions, map.repeat_s, map.repeat_t});
+            material.relief = found->second;
+        }
         scene_.materials.push_back(std::move(material));
         return mesh;
     }
@@ -139,6 +146,7 @@ public:
 private:
     capture::Scene& scene_;
     std::map<const SceneTexture*, int> textures_;
+    std::map<const NormalMap*, int> reliefs_;
 };
 
 }  // namespace

@@ -27,6 +27,7 @@ enum class Key {
     kHelp,               // F1, H
     kPanel,              // tab
     kWireFrame,          // F
+    kShadows,            // O
     kTrace,              // T
     kLights,             // L
     kUndo,               // control Z

@@ -32,6 +32,7 @@ constexpr std::array kHelp = {
     HelpLine{"home", "where the visit began"},
     HelpLine{"click", "pick an object"},
     HelpLine{"F", "wire frame"},
+    HelpLine{"O", "shadows, on and off"},
     HelpLine{"T", "trace the light, and back"},
     HelpLine{"L", "edit the lights: click one, drag its arrows, its middle or its aim"},
     HelpLine{"control Z, Y", "undo, redo a change of light"},
@@ -95,6 +96,8 @@ void draw_switches(PanelState& state) {
     auto speed = static_cast<float>(state.speed);
     if (ImGui::SliderFloat("speed", &speed, 0.01F, 100, "%.2f /s", ImGuiSliderFlags_Logarithmic)) state.speed = speed;
     ImGui::Checkbox("wire frame", &state.wire_frame);
+    ImGui::SameLine();
+    ImGui::Checkbox("shadows", &state.shadows);
     ImGui::SameLine();
     ImGui::Checkbox("traced light", &state.traced);
     if (state.traced) {

@@ -26,6 +26,7 @@ struct PanelState {
     bool show_panel = true;
     bool show_help = false;
     bool wire_frame = false;
+    bool shadows = true;
     bool traced = false;  // the view stands still and refines
     TracedMethod method = TracedMethod::kPath;
     int passes = 0;  // of it

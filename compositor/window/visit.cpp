@@ -46,6 +46,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
     panel_.mode = mode_of(scene.navigation);
     panel_.speed = navigation_.speed;
     panel_.wire_frame = options.wire_frame;
+    panel_.shadows = options.shadows;
     panel_.traced = options.traced;
     panel_.method = options.tracing.method;
     panel_.executor = options.executor;
@@ -67,6 +68,7 @@ Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, 
                                                                  {.width = size.x,
                                                                   .height = size.y,
                                                                   .samples = options.samples,
+                                                                  .shadows = options.shadows,
                                                                   .exposure_ev = options.exposure_ev,
                                                                   .object_depth = options.object_depth,
                                                                   .object_samples = options.object_samples,
@@ -140,6 +142,9 @@ Status Visit::obey(Key command) {
             break;
         case Key::kWireFrame:
             panel_.wire_frame = !panel_.wire_frame;
+            break;
+        case Key::kShadows:
+            panel_.shadows = !panel_.shadows;
             break;
         case Key::kTrace:
             panel_.traced = !panel_.traced;
@@ -389,6 +394,10 @@ Result<bool> Visit::step(std::optional<double> seconds) {
         }
     }
     compositor_.set_wire_frame(panel_.wire_frame);
+    if (const Status status = compositor_.set_shadows(panel_.shadows); !status) {
+        panel_.shadows = compositor_.shadows();
+        tell(status.error().message);
+    }
     const std::optional<glm::dvec3> destination = travel_ ? std::optional(travel_->to.eye) : std::nullopt;
     if (Status status = showroom_->update(visitor_.eye, passed, destination); !status) return status.error();
     hear_showroom();

@@ -36,10 +36,11 @@ struct VisitOptions {
     int object_samples = FrameOptions{}.object_samples;
     double exposure_ev = 0;
     std::filesystem::path lights = "lights.json";  // the profile that edited light is saved to
-    bool traced = false;                           // from the beginning
-    TracedOptions tracing{};                       // with the exposure above
-    std::string executor = "software core";        // of the engine, for the panel
-    std::shared_ptr<const Sequence> sequence;      // to be played, in this weather
+    bool shadows = true;
+    bool traced = false;                       // from the beginning
+    TracedOptions tracing{};                   // with the exposure above
+    std::string executor = "software core";    // of the engine, for the panel
+    std::shared_ptr<const Sequence> sequence;  // to be played, in this weather
     std::optional<Weather> weather;
     std::function<void(const std::string&)> open;               // another sequence is wanted; the visit ends
     std::function<void(const std::vector<std::string>&)> warn;  // of objects that cannot be shown; may be empty

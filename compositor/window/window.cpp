@@ -45,6 +45,7 @@ constexpr std::array kBindings = {
     Binding{GLFW_KEY_T, Key::kTrace},
     Binding{GLFW_KEY_L, Key::kLights},
     Binding{GLFW_KEY_DELETE, Key::kDelete},
+    Binding{GLFW_KEY_O, Key::kShadows},
     Binding{GLFW_KEY_P, Key::kScreenshot},
     Binding{GLFW_KEY_R, Key::kRecord},
     Binding{GLFW_KEY_K, Key::kPlay},

@@ -43,6 +43,18 @@ void intersect_primitive(const RTCIntersectFunctionNArguments* arguments) {
     reinterpret_cast<PrimitiveQuery*>(arguments->context)->nearest = answer;
 }
 
+// From the triangle's edges in space and on the texture; 0 where it has no area there.
+void set_texture_axes(const Mesh& mesh, const glm::uvec3& t, const glm::vec3* corners, SurfacePoint& point) {
+    point.along_u = point.along_v = glm::vec3(0.0F);
+    if (mesh.uvs.empty()) return;
+    const glm::vec2 d1 = mesh.uvs[t.y] - mesh.uvs[t.x], d2 = mesh.uvs[t.z] - mesh.uvs[t.x];
+    const glm::vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
+    const float area = d1.x * d2.y - d2.x * d1.y;
+    if (area == 0.0F) return;
+    point.along_u = (e1 * d2.y - e2 * d1.y) / area;
+    point.along_v = (e2 * d1.x - e1 * d2.x) / area;
+}
+
 void occlude_primitive(const RTCOccludedFunctionNArguments* arguments) {
     auto& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
     if (ask(arguments->geometryUserPtr, ray)) ray.tfar = -std::numeric_limits<float>::infinity();
@@ -191,6 +203,9 @@ bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, fl
     point.geometric_normal = length > 0.0F ? cross / length : -direction;
     point.front_side = glm::dot(point.geometric_normal, direction) < 0.0F;
     if (!point.front_side) point.geometric_normal = -point.geometric_normal;
+    if (scene_->materials[static_cast<std::size_t>(mesh.material)].relief >= 0) {
+        set_texture_axes(mesh, t, corners, point);
+    }
     point.shading_normal = point.geometric_normal;
     point.lifted_position = point.position;
     if (mesh.normals.empty()) return true;

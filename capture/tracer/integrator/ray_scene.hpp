@@ -31,6 +31,7 @@ struct SurfacePoint {
     glm::vec3 lifted_position;
     glm::vec3 geometric_normal;
     glm::vec3 shading_normal;
+    glm::vec3 along_u, along_v;  // how the place moves with uv; set where the material has relief only
     glm::vec2 uv;
     glm::vec3 colour;  // of the vertices
     float distance;

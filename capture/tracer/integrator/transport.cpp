@@ -20,6 +20,23 @@ glm::vec3 facing_normal(const glm::vec3& normal, const glm::vec3& to_viewer) {
     return glm::normalize(normal + to_viewer * (kLeastCos - cos_viewer));
 }
 
+// The shading normal where the material has relief. Sides that are seen from behind have the front's, turned over.
+glm::vec3 normal_in_relief(const Scene& scene, const Material& material, const SurfacePoint& point) {
+    const glm::vec3 even = point.shading_normal;
+    if (material.relief < 0) return even;
+    const RgbaF texel = sample_texture(scene.reliefs[static_cast<std::size_t>(material.relief)], point.uv);
+    if (texel.r == 0.0F && texel.g == 0.0F) return even;
+    const float side = point.front_side ? 1.0F : -1.0F;
+    const glm::vec3 n = even * side;
+    const glm::vec3 u = point.along_u - n * glm::dot(n, point.along_u);
+    const glm::vec3 v = point.along_v - n * glm::dot(n, point.along_v);
+    const float u_length = glm::length(u), v_length = glm::length(v);
+    if (!(u_length > 0.0F && v_length > 0.0F)) return even;
+    const glm::vec3 sum = u * (texel.r / u_length) + v * (texel.g / v_length) + n * texel.b;
+    const float length = glm::length(sum);
+    return length > 1e-6F ? sum * (side / length) : even;
+}
+
 glm::vec3 surface_colour(const Scene& scene, const Material& material, const SurfacePoint& point) {
     if (material.texture < 0) return material.colour * point.colour;
     const RgbaF texel = sample_texture(scene.textures[static_cast<std::size_t>(material.texture)], point.uv);
@@ -31,7 +48,7 @@ glm::vec3 surface_colour(const Scene& scene, const Material& material, const Sur
 LightTransport::Vertex LightTransport::vertex_at(const SurfacePoint& point, const glm::vec3& direction) const {
     const Material& material = material_of(point);
     const glm::vec3 to_viewer = -direction;
-    const Frame frame(facing_normal(point.shading_normal, to_viewer));
+    const Frame frame(facing_normal(normal_in_relief(scene_, material, point), to_viewer));
     return {
         point, frame,
         Surface(model_of(point), surface_colour(scene_, material, point), frame.to_local(to_viewer), !point.front_side),

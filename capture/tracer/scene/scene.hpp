@@ -35,6 +35,7 @@ struct Material {
     float ior = 1.5F;
     glm::vec3 emission{0.0F};   // radiance, W/(m^2 sr) in arbitrary units; multiplied by emission_texture
     int emission_texture = -1;  // index into Scene::textures, -1 = none; its alpha counts nothing
+    int relief = -1;            // index into Scene::reliefs, -1 = none
     bool two_sided = true;      // thin surfaces (petals, leaves): shaded the same from both sides
     float translucency = 0.0F;  // diffuse only: share of the light that leaves on the other side (petals), 0..1
 };
@@ -109,6 +110,9 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<Material> materials;
     std::vector<Texture> textures;
+    // Normal maps: a texel's r, g, b are a direction of any length along u, v and the normal; (0, 0, 1) leaves the
+    // normal as it is.
+    std::vector<Texture> reliefs;
     std::vector<Light> lights;  // ambient parts count nothing here; areas are not seen by the camera
     Environment environment;
     std::vector<std::shared_ptr<const RayPrimitive>> primitives;  // not seen by the camera itself

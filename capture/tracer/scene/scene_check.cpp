@@ -81,12 +81,15 @@ Problem check_instances(const Scene& scene) {
     return std::nullopt;
 }
 
-Problem check_material(const Material& material, std::size_t texture_count) {
+Problem check_material(const Material& material, std::size_t texture_count, std::size_t relief_count) {
     const std::string name = "material \"" + material.name + "\": ";
     for (const int texture : {material.texture, material.emission_texture}) {
         if (texture < -1 || (texture >= 0 && static_cast<std::size_t>(texture) >= texture_count)) {
             return name + "texture " + std::to_string(texture) + " does not exist";
         }
+    }
+    if (material.relief < -1 || (material.relief >= 0 && static_cast<std::size_t>(material.relief) >= relief_count)) {
+        return name + "relief " + std::to_string(material.relief) + " does not exist";
     }
     if (!is_light(material.colour) || glm::any(glm::greaterThan(material.colour, glm::vec3(1.0F)))) {
         return name + "colour must be within 0..1";
@@ -120,8 +123,14 @@ Problem check_parts(const Scene& scene) {
             return "texture \"" + texture.name + "\" has pixels that are negative or not finite";
         }
     }
+    for (const Texture& relief : scene.reliefs) {
+        const bool finite = std::ranges::all_of(relief.pixels.pixels(), [](const RgbaF& p) {
+            return std::isfinite(p.r) && std::isfinite(p.g) && std::isfinite(p.b);
+        });
+        if (relief.pixels.empty() || !finite) return "relief \"" + relief.name + "\" needs pixels that are finite";
+    }
     for (const Material& material : scene.materials) {
-        if (Problem problem = check_material(material, scene.textures.size())) return problem;
+        if (Problem problem = check_material(material, scene.textures.size(), scene.reliefs.size())) return problem;
     }
     for (const Mesh& mesh : scene.meshes) {
         if (Problem problem = check_mesh(mesh, scene.materials.size())) return problem;

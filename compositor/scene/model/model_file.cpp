@@ -91,6 +91,7 @@ private:
         if (mesh->topology != Topology::kTriangles) {
             node.material.lit = false;
             node.material.texture = nullptr;
+            node.material.normals = nullptr;
         }
         scene_.geometry.push_back(std::move(node));
         names_.emplace_back(name);

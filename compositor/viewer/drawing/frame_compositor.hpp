@@ -4,7 +4,7 @@
 //
 // A frame:  views of the nodes that can be seen: camera into the node's coordinates (equation 3), only the pixels that
 //           the node can cover -> engine, which draws them while
-//           background -> opaque geometry -> floor  are drawn
+//           (shadow maps in which something has changed ->) background -> opaque geometry -> floor  are drawn
 //           -> transparent geometry and the engine's pictures, the farthest first: texture -> rectangle at the depth of
 //           its planes (object_view.hpp), tested against the geometry, blended over.
 //
@@ -16,6 +16,7 @@
 #include "compositor/lighting/surface_point.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/background_renderer.hpp"
+#include "compositor/viewer/drawing/floor_renderer.hpp"
 #include "compositor/viewer/drawing/handle_renderer.hpp"
 #include "compositor/viewer/drawing/object_renderer.hpp"
 #include "compositor/viewer/drawing/placeholder_renderer.hpp"
@@ -23,6 +24,7 @@
 #include "compositor/viewer/drawing/surface_renderer.hpp"
 #include "compositor/viewer/drawing/weather_renderer.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
+#include "compositor/viewer/shadows/shadow_maps.hpp"
 #include "compositor/viewer/views/object_view.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
 #include "engine/driver/data_module.hpp"
@@ -41,6 +43,7 @@ struct FrameOptions {
     int height = 720;
     int samples = 4;          // per pixel, for the edges of geometry
     bool wire_frame = false;  // of the geometry, floor excepted
+    bool shadows = false;     // geometry and objects throw them onto geometry and floor (shadow_plan.hpp)
     double exposure_ev = 0;   // the scene's lights are 2^_ times as bright; objects, background, unlit surfaces stay
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples =
@@ -69,6 +72,8 @@ struct FrameStatistics {
     int nodes_missing = 0;             // placeholders in view
     std::int64_t pixels_rendered = 0;  // by the engine
     int geometry_in_view = 0;          // geometry nodes that were drawn
+    int shadow_maps_drawn = 0;         // because something in them has changed
+    double shadows_s = 0;              // of drawing them
     double geometry_s = 0;             // background, geometry, floor
     double engine_s = 0;               // of drawing the views, at the same time as the geometry
     double engine_wait_s = 0;          // the part of it that the frame waited for
@@ -107,11 +112,9 @@ public:
 
     // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Its mesh stays where it
     // is.
-    Status move_geometry(std::size_t index, const std::optional<glm::dmat4>& world_from_node) {
-        return renderers_.surfaces.move(index, world_from_node);
-    }
+    Status move_geometry(std::size_t index, const std::optional<glm::dmat4>& world_from_node);
     // Meshes and pictures of geometry given to the driver since create() began: none after it.
-    [[nodiscard]] int uploads() const { return renderers_.surfaces.uploads(); }
+    [[nodiscard]] int uploads() const { return renderers_.lit.surfaces.uploads(); }
     // What falls in the next frame, `seconds` after the sequence's beginning; nothing: it is dry. The weather's fog and
     // what it leaves on surfaces are the scene's (in_weather).
     void set_weather(const std::optional<Weather>& weather, double seconds) {
@@ -137,6 +140,9 @@ public:
     // Frames of another size from now on. Fails, with nothing changed, where the driver cannot.
     Status resize(int width, int height);
     void set_wire_frame(bool wire_frame) { wire_frame_ = wire_frame; }
+    // Fails, with nothing changed, where the driver cannot. Some tenths of a second.
+    Status set_shadows(bool shadows);
+    [[nodiscard]] bool shadows() const { return renderers_.lit.shadows.has_value(); }
     // Turns a node about its object's axis: counter-clockwise seen from above, from where the scene has put it.
     void turn_object(std::size_t index, double angle_rad);
 
@@ -149,18 +155,27 @@ private:
         [[nodiscard]] const gl::Framebuffer& shown() const { return resolved ? *resolved : drawn; }
         [[nodiscard]] float depth_at(int x, int y) const { return drawn.depth_at(x, y, shown()); }
     };
+    // What the scene's lights fall on.
+    struct Lit {
+        SurfaceRenderer surfaces;
+        std::optional<FloorRenderer> floor;
+        std::optional<ShadowMaps> shadows;
+
+        // `scene` with raster's lights.
+        static Result<std::optional<ShadowMaps>> make_maps(const Scene& scene, const ShownNodes& nodes, bool shadows);
+        static Result<Lit> create(const Scene& scene, const ShownNodes& nodes, bool shadows);
+    };
     struct Renderers {
-        gl::Program floor;
         gl::Program traced;
         ObjectRenderer objects;
         PlaceholderRenderer placeholders;
         BackgroundRenderer background;
-        SurfaceRenderer surfaces;
+        Lit lit;
         WeatherRenderer weather;
         Frame frame;
     };
-    FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
-                    std::shared_ptr<const ShownNodes> nodes, Renderers renderers, const FrameOptions& options);
+    FrameCompositor(Scene scene, std::shared_ptr<engine::DataModule> engine, std::shared_ptr<const ShownNodes> nodes,
+                    Renderers renderers, const FrameOptions& options);
 
     struct SeenNode {
         std::size_t index = 0;
@@ -169,18 +184,16 @@ private:
     };
     [[nodiscard]] std::optional<ObjectView> view_of_node(std::size_t index, const Camera& camera) const;
     [[nodiscard]] std::vector<SeenNode> seen_nodes(const Camera& camera) const;
-    void set_floor_light(const std::vector<Light>& raster_lights);
     void draw_traced(const Camera& camera);
-    void draw_floor(const FrameView& view) const;
+    Status light_anew(bool shadows);
+    void draw_shadows();
+    [[nodiscard]] PlacedObject turned(std::size_t index) const;
     void upload(const SeenNode& node);
     void draw_object(const SeenNode& node) const;
     void draw_blended(const std::vector<SurfaceRenderer::Transparent>& surfaces, const std::vector<SeenNode>& nodes,
                       const FrameView& view);
 
-    std::optional<Floor> floor_;
-    glm::vec3 floor_light_{0};       // that falls on it from above
-    glm::vec3 floor_background_{0};  // into which it fades
-    std::optional<Fog> fog_;
+    Scene scene_;  // with raster's lights
     std::shared_ptr<engine::DataModule> engine_;
     std::shared_ptr<const ShownNodes> nodes_;
     std::vector<double> turns_rad_;  // [node]: by which the visitor has turned it

@@ -1,7 +1,9 @@
 #include "compositor/viewer/drawing/surface_renderer.hpp"
 
+#include "compositor/scene/normal_map.hpp"
 #include "compositor/viewer/drawing/geometry_shaders.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
+#include "compositor/viewer/shadows/shadow_shaders.hpp"
 
 #include <algorithm>
 #include <map>
@@ -10,7 +12,7 @@
 
 namespace rs::compositor {
 
-SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha,
+SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const GeometryNode& node, AlphaUse alpha,
                     const std::vector<std::uint32_t>& lights) {
     SurfaceKind kind;
     kind.lit = node.material.lit;
@@ -20,6 +22,19 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
             ++(light == LightKind::kDirectional ? kind.directional
                : light == LightKind::kPoint     ? kind.points
                                                 : kind.spots);
+            switch (shadows.shape_of(i)) {
+                case ShadowShape::kNone:
+                    break;
+                case ShadowShape::kParallel:
+                    ++kind.shadowed_directional;
+                    break;
+                case ShadowShape::kCone:
+                    ++kind.narrow_spots;
+                    break;
+                case ShadowShape::kCube:
+                    ++(light == LightKind::kPoint ? kind.shadowed_points : kind.wide_spots);
+                    break;
+            }
             kind.fading |= light != LightKind::kDirectional && scene.lights[i].attenuation != glm::vec3(1, 0, 0);
         }
         kind.headlight = scene.navigation.headlight;
@@ -31,6 +46,7 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
     kind.phong = scene.shading == Shading::kPhong;
     kind.cover = kind.lit ? scene.cover : Cover::kNone;
     kind.shiny |= kind.cover == Cover::kWet;
+    kind.relief = kind.lit && node.material.normals != nullptr;
     if (scene.fog) kind.fog = scene.fog->kind == FogKind::kLinear ? 1 : 2;
     return kind;
 }
@@ -38,12 +54,18 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
 std::string constants_of(const SurfaceKind& kind) {
     return "#version 450 core\n" + shaders::shader_constant("kDirectional", kind.directional) +
            shaders::shader_constant("kPoints", kind.points) + shaders::shader_constant("kSpots", kind.spots) +
-           shaders::shader_constant("kFading", kind.fading) + shaders::shader_constant("kHeadlight", kind.headlight) +
-           shaders::shader_constant("kLit", kind.lit) + shaders::shader_constant("kShiny", kind.shiny) +
-           shaders::shader_constant("kPicture", kind.picture) +
+           shaders::shader_constant("kShadowedDirectional", kind.shadowed_directional) +
+           shaders::shader_constant("kShadowedPoints", kind.shadowed_points) +
+           shaders::shader_constant("kNarrowSpots", kind.narrow_spots) +
+           shaders::shader_constant("kWideSpots", kind.wide_spots) +
+           shaders::shader_constant(
+               "kShadows", kind.shadowed_directional + kind.shadowed_points + kind.narrow_spots + kind.wide_spots) +
+           "const float kNear = " + std::to_string(kNear) + ";\n" + shaders::shader_constant("kFading", kind.fading) +
+           shaders::shader_constant("kHeadlight", kind.headlight) + shaders::shader_constant("kLit", kind.lit) +
+           shaders::shader_constant("kShiny", kind.shiny) + shaders::shader_constant("kPicture", kind.picture) +
            shaders::shader_constant("kPictureAlpha", static_cast<int>(kind.picture_alpha)) +
-           shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kFog", kind.fog) +
-           shaders::shader_constant("kPhong", kind.phong) +
+           shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kRelief", kind.relief) +
+           shaders::shader_constant("kFog", kind.fog) + shaders::shader_constant("kPhong", kind.phong) +
            shaders::shader_constant("kCover", static_cast<int>(kind.cover)) +
            shaders::shader_constant("kVeil", kind.veil);
 }
@@ -90,17 +112,27 @@ public:
         return uploaded;
     }
 
+    std::shared_ptr<const gl::Texture> relief(const NormalMap& map) {
+        auto& uploaded = reliefs_[&map];
+        if (!uploaded) {
+            uploaded =
+                std::make_shared<const gl::Texture>(map.directions.view(), gl::TextureWrap{map.repeat_s, map.repeat_t});
+        }
+        return uploaded;
+    }
+
     AlphaUse alpha(const SceneTexture& texture) {
         const auto [found, is_new] = alphas_.try_emplace(&texture, AlphaUse::kNone);
         if (is_new) found->second = alpha_use(texture);
         return found->second;
     }
 
-    [[nodiscard]] int count() const { return static_cast<int>(meshes_.size() + pictures_.size()); }
+    [[nodiscard]] int count() const { return static_cast<int>(meshes_.size() + pictures_.size() + reliefs_.size()); }
 
 private:
     std::map<const Mesh*, std::shared_ptr<const gl::VertexArray>> meshes_;
     std::map<const SceneTexture*, std::shared_ptr<const gl::Texture>> pictures_;
+    std::map<const NormalMap*, std::shared_ptr<const gl::Texture>> reliefs_;
     std::map<const SceneTexture*, AlphaUse> alphas_;
 };
 
@@ -121,7 +153,8 @@ void pad(SurfaceKind& kind, std::vector<LightRow>& rows) {
 Result<std::shared_ptr<const gl::Program>> SurfaceRenderer::program(const SurfaceKind& kind) {
     const auto known = programs_.find(kind);
     if (known != programs_.end()) return known->second;
-    auto made = gl::Program::create("surface", shaders::kSurfaceVertex, constants_of(kind) + shaders::kSurfaceFragment);
+    auto made = gl::Program::create("surface", shaders::kSurfaceVertex,
+                                    constants_of(kind) + shaders::kShadowLookUp + shaders::kSurfaceFragment);
     if (!made) return made.error();
     return programs_.emplace(kind, std::make_shared<const gl::Program>(std::move(*made))).first->second;
 }
@@ -132,8 +165,10 @@ Status SurfaceRenderer::put(Item& item) {
     item.bounds = item.bounds_in_node.moved(item.world_from_node);
     const SurfaceLights lights =
         node.moving ? lights_near(scene_, node, item.bounds) : lights_of(scene_, node, item.bounds);
-    SurfaceKind kind = kind_of(scene_, node, item.alpha, lights.lights);
-    item.lights = rows_of(scene_, lights.lights);
+    SurfaceKind kind = kind_of(scene_, shadows_, node, item.alpha, lights.lights);
+    const std::vector<std::uint32_t> ordered = in_shader_order(scene_, shadows_, lights.lights);
+    item.lights = rows_of(scene_, ordered);
+    item.shadows = rows_of(shadows_, ordered);
     if (node.moving && kind.lit) pad(kind, item.lights);
     auto made = program(kind);
     if (!made) return made.error();
@@ -161,8 +196,20 @@ void SurfaceRenderer::gather_ambient_light() {
     }
 }
 
-Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
-    SurfaceRenderer renderer(scene);
+Status SurfaceRenderer::make_casters() {
+    if (shadows_.faces.empty() || caster_) return {};
+    auto caster = gl::Program::create("shadow", shaders::kCasterVertex, shaders::kCasterFragment);
+    if (!caster) return caster.error();
+    auto masked = gl::Program::create("shadow with holes", shaders::kCasterVertex, shaders::kMaskedCasterFragment);
+    if (!masked) return masked.error();
+    caster_.emplace(std::move(*caster));
+    masked_caster_.emplace(std::move(*masked));
+    return {};
+}
+
+Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const ShadowPlan& shadows) {
+    SurfaceRenderer renderer(scene, shadows);
+    if (const Status status = renderer.make_casters(); !status) return status.error();
     renderer.gather_ambient_light();
     Uploads uploads;
     renderer.item_of_node_.resize(scene.geometry.size());
@@ -178,6 +225,8 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
             item.picture = uploads.picture(*node.material.texture);
             item.alpha = uploads.alpha(*node.material.texture);
         }
+        if (node.material.lit && node.material.normals) item.relief = uploads.relief(*node.material.normals);
+        item.throws_shadows = throws_shadows(node);
         item.material = row_of(node.material, scene.shading);
         if (const Status status = renderer.put(item); !status) return status.error();
         item.texture_transform = node.material.texture_transform;
@@ -200,16 +249,24 @@ Status SurfaceRenderer::move(std::size_t node, const std::optional<glm::dmat4>& 
     return put(item);
 }
 
-Status SurfaceRenderer::set_lights(const Scene& scene) {
+Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows) {
     scene_.lights = scene.lights;
     scene_.environment = scene.environment;
     scene_.navigation.headlight = scene.navigation.headlight;
     for (std::size_t n = 0; n < scene.geometry.size(); ++n) scene_.geometry[n].lights = scene.geometry[n].lights;
+    shadows_ = shadows;
+    if (Status status = make_casters(); !status) return status;
     gather_ambient_light();
     for (Item& item : items_) {
         if (Status status = put(item); !status) return status;
     }
     return {};
+}
+
+BoundingBox SurfaceRenderer::caster_bounds(std::size_t node) const {
+    if (!item_of_node_[node]) return {};
+    const Item& item = items_[*item_of_node_[node]];
+    return item.hidden || !item.throws_shadows ? BoundingBox{} : item.bounds;
 }
 
 void SurfaceRenderer::set_frame(const FrameView& view) const {
@@ -236,7 +293,9 @@ void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const F
     // Rows of vec4 without gaps: surface_tables.cpp asserts their sizes.
     set("material", std::span(&item.material.diffuse_opacity, 4));
     if (!item.lights.empty()) set("lights", std::span(&item.lights.front().colour, 5 * item.lights.size()));
+    if (!item.shadows.empty()) set("shadows", std::span(&item.shadows.front().u, 4 * item.shadows.size()));
     if (item.picture) item.picture->bind(0);
+    if (item.relief) item.relief->bind(4);
     state.clockwise = item.mirrored;
     gl::draw(program, *item.mesh, state);
 }
@@ -280,6 +339,25 @@ void SurfaceRenderer::draw_veil(const FrameView& view) const {
              {.depth_write = false,
               .blending = gl::Blending::kOverPremultiplied,
               .culling = item.two_sided ? gl::Culling::kNone : gl::Culling::kBack});
+    }
+}
+
+void SurfaceRenderer::draw_casters(const ShadowFace& face) const {
+    for (const Item& item : items_) {
+        if (!item.throws_shadows || item.hidden || !may_throw(item.bounds, face)) continue;
+        const std::vector<std::uint32_t>& own_lights = scene_.geometry[item.node].lights;
+        if (!scene_.lights[face.light].everywhere && std::ranges::find(own_lights, face.light) == own_lights.end()) {
+            continue;
+        }
+        const bool masked = item.alpha == AlphaUse::kMask;
+        const gl::Program& program = masked ? *masked_caster_ : *caster_;
+        program.set("clip_from_node", glm::mat4(face.clip_from_world * item.world_from_node));
+        if (masked) {
+            program.set("texture_transform", item.texture_transform);
+            item.picture->bind(0);
+        }
+        gl::draw(program, *item.mesh,
+                 {.culling = item.two_sided ? gl::Culling::kNone : gl::Culling::kBack, .clockwise = item.mirrored});
     }
 }
 

@@ -1,10 +1,11 @@
 #include "compositor/viewer/drawing/surface_tables.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rs::compositor {
 
-static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 64);
+static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 64 && sizeof(ShadowRow) == 64);
 
 namespace {
 
@@ -109,12 +110,34 @@ SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const Boun
     return found;
 }
 
+std::vector<std::uint32_t> in_shader_order(const Scene& scene, const ShadowPlan& shadows,
+                                           std::vector<std::uint32_t> lights) {
+    const auto place = [&](std::uint32_t i) {
+        const LightKind kind = scene.lights[i].kind;
+        const ShadowShape shape = shadows.shape_of(i);
+        return std::pair(kind == LightKind::kDirectional ? 0
+                         : kind == LightKind::kPoint     ? 1
+                                                         : 2,
+                         shape == ShadowShape::kNone   ? 2
+                         : shape == ShadowShape::kCube ? 1
+                                                       : 0);
+    };
+    std::ranges::stable_sort(lights, {}, place);
+    return lights;
+}
+
 std::vector<LightRow> rows_of(const Scene& scene, const std::vector<std::uint32_t>& lights) {
     std::vector<LightRow> rows;
-    for (const LightKind kind : {LightKind::kDirectional, LightKind::kPoint, LightKind::kSpot}) {
-        for (const std::uint32_t i : lights) {
-            if (scene.lights[i].kind == kind) rows.push_back(row_of(scene.lights[i]));
-        }
+    for (const std::uint32_t i : lights) rows.push_back(row_of(scene.lights[i]));
+    return rows;
+}
+
+std::vector<ShadowRow> rows_of(const ShadowPlan& shadows, const std::vector<std::uint32_t>& lights) {
+    std::vector<ShadowRow> rows;
+    for (const std::uint32_t i : lights) {
+        if (shadows.shape_of(i) == ShadowShape::kNone) continue;
+        const LightShadow& shadow = shadows.of_light[i];
+        rows.push_back({shadow.row_u, shadow.row_v, shadow.row_depth, shadow.layer_texel});
     }
     return rows;
 }

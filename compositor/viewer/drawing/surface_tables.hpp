@@ -3,6 +3,7 @@
 // thread-safe.
 
 #include "compositor/scene/scene.hpp"
+#include "compositor/viewer/shadows/shadow_plan.hpp"
 
 #include <glm/glm.hpp>
 
@@ -41,7 +42,17 @@ SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const Boun
 // Of a node that moves: as lights_of(), but no light is left out for shining on its back.
 SurfaceLights lights_near(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world);
 
-// Their rows, directional ones first, then points, then spots.
+// As the shaders take them: directional ones first, then points, then spots; of each kind those with shadows first, of
+// spots the narrow ones.
+std::vector<std::uint32_t> in_shader_order(const Scene& scene, const ShadowPlan& shadows,
+                                           std::vector<std::uint32_t> lights);
+// In the order of `lights`.
 std::vector<LightRow> rows_of(const Scene& scene, const std::vector<std::uint32_t>& lights);
+
+struct ShadowRow {
+    glm::vec4 u, v, depth, layer_texel;  // LightShadow
+};
+// Of those of `lights` that throw shadows, in their order.
+std::vector<ShadowRow> rows_of(const ShadowPlan& shadows, const std::vector<std::uint32_t>& lights);
 
 }  // namespace rs::compositor
