@@ -48,7 +48,7 @@ std::string rest_of(std::string_view line, std::string_view first_word) {
     return std::string(rest);
 }
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
     return "'" + printable(word.substr(0, kLongestShown)) + (word.size() > kLongestShown ? "...'" : "'");
 }
 
@@ -60,12 +60,12 @@ double number(std::string_view word, double lowest, double highest, bool may_end
     double value = 0;
     const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (end.ec != std::errc() || end.ptr != digits.data() + digits.size() || !std::isfinite(value)) {
-        throw MalformedLine{quoted(word) + " is no number; write it as 1.5"};
+        throw MalformedLine{in_quotes(word) + " is no number; write it as 1.5"};
     }
     if (value < lowest || value > highest) {
         std::array<char, 96> text{};
         std::snprintf(text.data(), text.size(), "; it must be %g..%g", lowest, highest);
-        throw MalformedLine{quoted(word) + " is out of range" + text.data()};
+        throw MalformedLine{in_quotes(word) + " is out of range" + text.data()};
     }
     return value;
 }
@@ -117,7 +117,7 @@ private:
         instance.pose.scale = triple(values.subspan(8, 3), kFarthest);
         for (int axis = 0; axis < 3; ++axis) {
             if (std::abs(instance.pose.scale[axis]) < kLeastScale) {
-                throw MalformedLine{"the scale " + quoted(words[static_cast<std::size_t>(8 + axis)]) +
+                throw MalformedLine{"the scale " + in_quotes(words[static_cast<std::size_t>(8 + axis)]) +
                                     " leaves nothing; give one that is not 0"};
             }
         }
@@ -146,13 +146,13 @@ private:
         const std::string_view kind = words[0];
         const auto numbers = [&](std::size_t least, std::size_t most) {
             if (words.size() - 1 < least || words.size() - 1 > most) {
-                throw MalformedLine{quoted(kind) + " has " + std::to_string(words.size() - 1) + " numbers; it takes " +
-                                    std::to_string(least) + ".." + std::to_string(most)};
+                throw MalformedLine{in_quotes(kind) + " has " + std::to_string(words.size() - 1) +
+                                    " numbers; it takes " + std::to_string(least) + ".." + std::to_string(most)};
             }
             for (std::size_t i = 1; i < words.size(); ++i) number(words[i], -1e30, 1e30, false);
         };
         const auto name = [&] {
-            if (words.size() < 2) throw MalformedLine{quoted(kind) + " has no name; give one"};
+            if (words.size() < 2) throw MalformedLine{in_quotes(kind) + " has no name; give one"};
             // As the reader of meshes has it: up to the next blank.
             return std::string(words[1]);
         };
@@ -181,14 +181,14 @@ private:
             name();
         } else if (kind != "s" && kind != "mg" && kind != "vp" && kind != "lod" && kind != "bevel" &&
                    kind != "c_interp" && kind != "d_interp") {
-            throw MalformedLine{quoted(kind) + " begins no line of extended OBJ; mend or take out the line"};
+            throw MalformedLine{in_quotes(kind) + " begins no line of extended OBJ; mend or take out the line"};
         }
     }
 
     void take_face(const Words& words, std::string_view kind) {
         const std::size_t least = kind == "f" ? 3 : kind == "l" ? 2 : 1;
         if (words.size() - 1 < least) {
-            throw MalformedLine{quoted(kind) + " has " + std::to_string(words.size() - 1) + " corners; it takes " +
+            throw MalformedLine{in_quotes(kind) + " has " + std::to_string(words.size() - 1) + " corners; it takes " +
                                 std::to_string(least) + " or more"};
         }
         const std::array<long long, 3> counts{vertices_, places_, normals_};
@@ -200,7 +200,7 @@ private:
                 if (end == corner.size()) break;
                 corner.remove_prefix(end + 1);
                 if (part == 2)
-                    throw MalformedLine{"the corner " + quoted(words[i]) + " has too many parts; write 1/2/3"};
+                    throw MalformedLine{"the corner " + in_quotes(words[i]) + " has too many parts; write 1/2/3"};
             }
         }
         note_object();
@@ -210,13 +210,13 @@ private:
         if (text.empty() && part != 0) return;
         long long index = 0;
         if (!whole(text, index) || index == 0) {
-            throw MalformedLine{"the corner " + quoted(corner) + " is no index; write it as 1, 1/2, 1//3 or 1/2/3"};
+            throw MalformedLine{"the corner " + in_quotes(corner) + " is no index; write it as 1, 1/2, 1//3 or 1/2/3"};
         }
         // Some writers number texture coordinates that they do not write.
         if (part == 1 && count == 0) return;
         if (index > count || index < -count) {
             constexpr std::array kWhat{"vertices", "texture coordinates", "normals"};
-            throw MalformedLine{"the corner " + quoted(corner) + " asks for one of " + std::to_string(count) + " " +
+            throw MalformedLine{"the corner " + in_quotes(corner) + " asks for one of " + std::to_string(count) + " " +
                                 kWhat.at(part) + " before it; mend the number"};
         }
     }
@@ -233,8 +233,9 @@ private:
             }
             found->nodes.push_back(node_);
         } else if (owner->second != object_) {
-            throw MalformedLine{"faces of the group " + quoted(node_) + " belong to the objects " +
-                                quoted(owner->second) + " and " + quoted(object_) + "; give the group another name"};
+            throw MalformedLine{"faces of the group " + in_quotes(node_) + " belong to the objects " +
+                                in_quotes(owner->second) + " and " + in_quotes(object_) +
+                                "; give the group another name"};
         }
     }
 

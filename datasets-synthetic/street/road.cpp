@@ -148,11 +148,11 @@ void build_street_furniture(World& world) {
             const float z = random.uniform(-0.55F, 0.55F);
             const float y = height + 0.9F + 0.75F * static_cast<float>(i);
             const float r = (kind == 0 ? 1.75F : 1.6F) - 0.35F * static_cast<float>(i);
-            tree.crown("leaves", {x, y, z}, {r, 0.85F * r, r}, 11, 7, static_cast<std::uint32_t>(50 + 10 * kind + i));
+            tree.crown("leaves", {x, y, z}, {r, 0.85F * r, r}, 9, 6, static_cast<std::uint32_t>(50 + 10 * kind + i));
         }
     }
     Pen bush(world, "bush");
-    bush.crown("leaves", {0, 1.4F, 0}, {2.6F, 2.0F, 2.2F}, 9, 5, 77);
+    bush.crown("leaves", {0, 1.4F, 0}, {2.6F, 2.0F, 2.2F}, 7, 4, 77);
     Pen lamp(world, "lamp");
     lamp.cylinder("pole", {0, 0, 0}, {0, 1, 0}, 0.1F, 0.7F, 8, 0.75F);
     lamp.cylinder("pole", {0, 0.7F, 0}, {0, 1, 0}, 0.065F, kLampHeight_m - 0.6F, 8, 0.8F);

@@ -99,7 +99,7 @@ void plant(Street& street, Random& random) {
         }
     }
     // Beyond the houses.
-    for (int i = 0; i < 26; ++i) {
+    for (int i = 0; i < 12; ++i) {
         for (const float sx : {-1.0F, 1.0F}) {
             for (const float sz : {-1.0F, 1.0F}) {
                 const float x = sx * random.uniform(76, 166);
@@ -110,7 +110,7 @@ void plant(Street& street, Random& random) {
             }
         }
     }
-    for (int i = 0; i < 14; ++i) {
+    for (int i = 0; i < 6; ++i) {
         for (const float sx : {-1.0F, 1.0F}) {
             for (const float sz : {-1.0F, 1.0F}) {
                 const float x = sx * random.uniform(11, 50);
