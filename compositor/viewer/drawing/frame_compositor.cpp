@@ -367,7 +367,8 @@ void FrameCompositor::draw_shadows() {
     constexpr float kThere = 0.5F;  // opacity from which on an object that fades in throws its shadow
     std::vector<std::optional<PlacedObject>> objects(nodes_->size());
     for (std::size_t i = 0; i < nodes_->size(); ++i) {
-        if ((*nodes_)[i].object && (*nodes_)[i].opacity >= kThere) objects[i] = turned(i);
+        const ShownNode& node = (*nodes_)[i];
+        if (node.object && !node.hidden && node.opacity >= kThere) objects[i] = turned(i);
     }
     statistics_.shadow_maps_drawn = renderers_.lit.shadows->update(
         objects, [&](const ShadowFace& face) { renderers_.lit.surfaces.draw_casters(face); });
