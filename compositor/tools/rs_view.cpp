@@ -311,6 +311,9 @@ int main(int argc, char** argv) {
         if (!arguments.probe.empty() && rs::lower_case_extension(arguments.output) != ".exr") {
             throw CLI::ValidationError("--probe needs -o FILE.exr, the map to write");
         }
+        if (arguments.renderer == "raster" && !arguments.output.empty() && !arguments.lens.empty()) {
+            throw CLI::ValidationError("--lens is for traced pictures; add --renderer path, or another that traces");
+        }
         run = [&] { return arguments.probe.empty() ? run_view(arguments) : run_probe(arguments); };
     });
     return rs::tool_main(app, argc, argv, run);
