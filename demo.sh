@@ -84,6 +84,16 @@ traced_for_room() {
   for job in "${jobs[@]}"; do wait "$job" || fail "an object of the showroom could not be made; see above"; done
 }
 
+# show_toon: an object drawn as a cartoon, beside those that were photographed.
+show_toon() {
+  local world=$OUT/showroom
+  step "toon: trace 48 pictures" "$OUT/blocks-toon-set" "$BIN/rs-capture" synth datasets-synthetic/recipes/blocks-toon.json \
+    -o "$OUT/blocks-toon-set" --views 48 --size 224x224 --spp 4 -q
+  step "toon: encode" "$OUT/blocks-toon.rso" "$BIN/rs-encode" build "$OUT/blocks-toon-set" -o "$OUT/blocks-toon.rso" -q
+  step "toon: in the shop" "$OUT/showroom-toon.png" "$BIN/rs-view" "$world/showroom.wrl" --viewpoint table \
+    --object "$OUT/blocks-toon.rso@-1.3,0.8,4.05,-10,0.15" --size 800x450 -o "$OUT/showroom-toon.png"
+}
+
 # show_room: the shop and the museum, and the walk through both.
 show_room() {
   local rest=() name world=$OUT/showroom view
@@ -132,8 +142,9 @@ else
     from_set "$name"
   done
   show_room
+  show_toon
   show_street
-  LOOK="street.mp4, street-sheet.jpg, showroom-walk.mp4, showroom-shop.png, showroom-museum.png and showroom-evening.png, the contact sheets and the orbit videos"
+  LOOK="showroom-walk.mp4, street.mp4, showroom-shop.png, showroom-museum.png, showroom-evening.png, showroom-toon.png and street-sheet.jpg, the contact sheets and the orbit videos"
 fi
 
 printf '\n%-34s %9s  %7s  %s\n' "step" "time" "size" "file"

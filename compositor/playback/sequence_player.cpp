@@ -76,7 +76,7 @@ Status show_frame(const Sequence& sequence, std::size_t frame, const std::option
 Status SequencePlayer::draw(std::size_t number, const Camera& camera) {
     const auto weather = weather_of(*sequence_, options_);
     if (Status status = show_frame(*sequence_, number, weather, compositor_, *showroom_); !status) return status;
-    if (options_.method) {
+    if (options_.tracing) {
         if (Status status = trace(number, camera); !status) return status;
     }
     if (Status status = showroom_->update(camera.centre(), 1 / sequence_->frames_per_second); !status) return status;
@@ -89,8 +89,7 @@ Status SequencePlayer::make_tracer() {
     for (const ShownNode& node : *showroom_->nodes()) {
         if (node.object && !node.hidden) objects.push_back(*node.object);
     }
-    auto tracer = TracedRenderer::create(scene_, objects,
-                                         {.method = *options_.method, .exposure_ev = options_.frame.exposure_ev});
+    auto tracer = TracedRenderer::create(scene_, objects, *options_.tracing);
     if (!tracer) return tracer.error();
     if (tracers_made_++ == 0) {
         for (const std::string& warning : tracer->warnings()) warnings_.push_back(warning);

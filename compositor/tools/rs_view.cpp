@@ -403,6 +403,9 @@ int main(int argc, char** argv) {
         if (in_pieces && (arguments.renderer == "raster" || arguments.seconds > 0)) {
             throw CLI::ValidationError("--tile and --tiles are of a --renderer that traces, by --passes");
         }
+        if (arguments.renderer == "raster" && !arguments.output.empty() && !arguments.lens.empty()) {
+            throw CLI::ValidationError("--lens is for traced pictures; add --renderer path, or another that traces");
+        }
         run = [&] { return arguments.probe.empty() ? run_view(arguments) : run_probe(arguments); };
     });
     return rs::tool_main(app, argc, argv, run);

@@ -3,6 +3,7 @@
 #include "compositor/gl/context.hpp"
 #include "compositor/playback/sequence_player.hpp"
 #include "compositor/sequence/converter.hpp"
+#include "compositor/tools/asked_tracing.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -48,12 +49,13 @@ Result<PlayerOptions> player_options(const ViewArguments& arguments) {
                      .samples = arguments.samples,
                      .wire_frame = arguments.wire_frame,
                      .exposure_ev = arguments.exposure_ev,
+                     .shadows = arguments.shadows == "on",
                      .object_depth = arguments.object_depth == "pixel" ? ObjectDepth::kPixel : ObjectDepth::kPlane,
                      .object_samples = arguments.object_samples,
                      .upright_pictures = arguments.upright};
-    for (const NamedMethod& named : kTracedMethods) {
-        if (arguments.renderer == named.name) options.method = named.method;
-    }
+    const Result<TracedOptions> tracing = asked_tracing(arguments);
+    if (!tracing) return tracing.error();
+    if (asked_method(arguments)) options.tracing = *tracing;
     options.passes = arguments.passes > 0 ? arguments.passes : kUsualPassesOfAFrame;
     options.memory_bytes = arguments.memory_mib << 20;
     if (arguments.weather.empty()) return options;

@@ -1,4 +1,5 @@
 #include "compositor/playback/sequence_player.hpp"
+#include "compositor/tools/asked_tracing.hpp"
 #include "compositor/tools/sequence_run.hpp"
 #include "compositor/window/visit.hpp"
 #include "rayspace/base/printable.hpp"
@@ -38,11 +39,11 @@ Status visit_sequence(const ViewArguments& arguments, PixelSize size, const std:
     options.wire_frame = arguments.wire_frame;
     options.exposure_ev = arguments.exposure_ev;
     options.object_samples = arguments.object_samples;
-    for (const NamedMethod& named : kTracedMethods) {
-        if (arguments.renderer != named.name) continue;
-        options.traced = true;
-        options.method = named.method;
-    }
+    options.shadows = arguments.shadows == "on";
+    const Result<TracedOptions> tracing = asked_tracing(arguments);
+    if (!tracing) return tracing.error();
+    options.tracing = *tracing;
+    options.traced = asked_method(arguments).has_value();
     options.warn = warn_all;
     options.open = [&next](const std::string& folder) { next = folder; };
     const Camera first = camera_of(*sequence, 0, size.width, size.height);

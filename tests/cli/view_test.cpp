@@ -111,6 +111,29 @@ TEST_F(View, LightIsTracedWhereThatIsAskedFor) {
     EXPECT_EQ(info->width, 512);
 }
 
+TEST_F(View, CartoonsHaveTonesWhateverTheExposure) {
+    write("hall.wrl", kShadedFloor);
+    write("evening.json", R"({"replace": true, "lights": [{"kind": "directional", "aim": [0, -1, 0], "lux": 2000}]})");
+    const std::vector<std::string> base = {
+        in("hall.wrl"), "--lights", in("evening.json"), "--renderer", "toon", "--passes", "1", "-o", in("x.png")};
+    const auto tone = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), base.begin(), base.end());
+        run_ = view(more);
+        const auto picture = run_.exit_code == 0 ? read_picture(in("x.png")) : Result<Image<Rgba8>>(Error{run_.err});
+        return picture ? static_cast<int>((*picture)(8, 24).g) : -1;
+    };
+    const int lit = tone({});
+    if (lit < 0 && run_.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run_.err;
+    EXPECT_EQ(lit, 255) << run_.err;
+    EXPECT_EQ(tone({"--exposure", "-2"}), 255);
+    EXPECT_EQ(tone({"--soft-shadows", "--toon-lines", "0", "--lens", "f/2", "--focus", "6"}), 255) << run_.err;
+    EXPECT_EQ(tone({"--lens", "25"}), -1);
+    EXPECT_EQ(run_.err, "rs-view: error: --lens 25: nothing would be sharp; add --focus DISTANCE\n");
+    EXPECT_EQ(tone({"--lens", "f/wide", "--focus", "2"}), -1);
+    EXPECT_THAT(run_.err, HasSubstr("--lens f/wide: must be the opening in mm, as 25, or an f-number, as f/2.8"));
+    EXPECT_EQ(view({in("hall.wrl"), "--lens", "25", "--focus", "2", "-o", in("y.png")}).exit_code, 2);
+}
+
 TEST_F(View, ListsOfLightsThatMakeNoSenseAreRefused) {
     write("hall.wrl", kShadedFloor);
     write("evening.json", R"({"lights": [{"kind": "luminaire", "file": "none.ies", "location": [0, 1, 0]}]})");

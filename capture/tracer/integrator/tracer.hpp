@@ -7,7 +7,6 @@
 // Rendering Equation", 1986; E. Veach's thesis, 1997, for multiple importance sampling.
 
 #include "capture/tracer/integrator/ray_picture.hpp"
-#include "capture/tracer/integrator/thin_lens.hpp"
 #include "capture/tracer/scene/scene.hpp"
 #include "capture/tracer/scene/toon_style.hpp"
 #include "rayspace/base/progress.hpp"

@@ -167,6 +167,7 @@ Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
 
 Status FrameCompositor::move_geometry(std::size_t index, const std::optional<glm::dmat4>& world_from_node) {
     Lit& lit = renderers_.lit;
+    if (lit.surfaces.stands(index, world_from_node)) return {};
     if (lit.shadows) lit.shadows->touch(lit.surfaces.caster_bounds(index));
     if (Status status = lit.surfaces.move(index, world_from_node); !status) return status;
     if (lit.shadows) lit.shadows->touch(lit.surfaces.caster_bounds(index));

@@ -263,6 +263,12 @@ Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows
     return {};
 }
 
+bool SurfaceRenderer::stands(std::size_t node, const std::optional<glm::dmat4>& world_from_node) const {
+    if (!item_of_node_[node]) return true;
+    const Item& item = items_[*item_of_node_[node]];
+    return world_from_node ? !item.hidden && *world_from_node == item.world_from_node : item.hidden;
+}
+
 BoundingBox SurfaceRenderer::caster_bounds(std::size_t node) const {
     if (!item_of_node_[node]) return {};
     const Item& item = items_[*item_of_node_[node]];

@@ -80,6 +80,8 @@ public:
     // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Only its numbers change,
     // unless lights reach it in a number for which there is no shader yet.
     Status move(std::size_t node, const std::optional<glm::dmat4>& world_from_node);
+    // Whether it stands there, or nowhere, already.
+    [[nodiscard]] bool stands(std::size_t node, const std::optional<glm::dmat4>& world_from_node) const;
 
     // From where a node throws shadows, in scene coordinates; empty where it throws none.
     [[nodiscard]] BoundingBox caster_bounds(std::size_t node) const;

@@ -147,7 +147,7 @@ TEST_F(PlayerTest, WhatFallsIsHiddenByWhatIsBefore) {
 
 TEST_F(PlayerTest, TracedFramesMoveThingsWithoutNewTreesAndStandInFog) {
     const auto sequence = boxes(12, 3);
-    PlayerOptions options{.frame = kSmall, .method = TracedMethod::kWhitted, .passes = 1};
+    PlayerOptions options{.frame = kSmall, .tracing = TracedOptions{.method = TracedMethod::kWhitted}, .passes = 1};
     auto player = SequencePlayer::create(sequence, options);
     ASSERT_TRUE(player) << player.error().message;
     const Image<Rgba8> first = frame_of(*player, 0);

@@ -22,8 +22,12 @@ void expect_same_light(const Light& a, const Light& b) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.colour, b.colour);
     EXPECT_EQ(a.ambient, b.ambient);
-    if (a.kind == LightKind::kDirectional || a.kind == LightKind::kSpot) EXPECT_EQ(a.towards, b.towards);
-    if (a.kind != LightKind::kDirectional) EXPECT_EQ(a.location, b.location);
+    if (a.kind == LightKind::kDirectional || a.kind == LightKind::kSpot) {
+        EXPECT_EQ(a.towards, b.towards);
+    }
+    if (a.kind != LightKind::kDirectional) {
+        EXPECT_EQ(a.location, b.location);
+    }
     EXPECT_EQ(a.everywhere, b.everywhere);
     if (a.kind != LightKind::kPoint && a.kind != LightKind::kSpot) return;
     EXPECT_EQ(a.attenuation, b.attenuation);

@@ -1,4 +1,4 @@
-#include "capture/tracer/integrator/coverage.hpp"
+#include "capture/tracer/session/coverage.hpp"
 
 #include "capture/tracer/integrator/sampler.hpp"
 #include "rayspace/base/parallel.hpp"
