@@ -48,8 +48,8 @@ Result<PlayerOptions> player_options(const ViewArguments& arguments) {
                      .height = size->height,
                      .samples = arguments.samples,
                      .wire_frame = arguments.wire_frame,
-                     .exposure_ev = arguments.exposure_ev,
                      .shadows = arguments.shadows == "on",
+                     .exposure_ev = arguments.exposure_ev,
                      .object_depth = arguments.object_depth == "pixel" ? ObjectDepth::kPixel : ObjectDepth::kPlane,
                      .object_samples = arguments.object_samples,
                      .upright_pictures = arguments.upright};

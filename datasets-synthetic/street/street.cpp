@@ -92,7 +92,7 @@ void plant(Street& street, Random& random) {
             for (const float sz : {-1.0F, 1.0F}) {
                 const float x = sx * (16 + 12 * static_cast<float>(i));
                 tree(x + 3 * sz, sz * 4.9F);
-                const float lamp_x = x + 9 * sz * 0.5F - 3;
+                const float lamp_x = x + 3 * sz + 6 * sx;
                 street.standing.push_back({"lamp", {lamp_x, kKerb_m, sz * 4.6F}, sz > 0 ? 180.0F : 0.0F, 1});
                 street.street_lights.emplace_back(lamp_x, kLampHeight_m + 0.1F, sz * 3.4F);
             }
@@ -211,7 +211,7 @@ ordered_json lights_of_street(const Street& street, bool night) {
     lights.push_back({{"kind", "directional"},
                       {"name", night ? "moon" : "sun"},
                       {"aim", {0.55, -1, -0.75}},
-                      {"lux", night ? 9 : 700},
+                      {"lux", night ? 9 : 560},
                       {"colour", night ? triple({0.55F, 0.65F, 1.0F}) : triple({1.0F, 0.95F, 0.86F})}});
     if (night) {
         for (const vec3& place : street.street_lights) {
@@ -236,7 +236,7 @@ ordered_json lights_of_street(const Street& street, bool night) {
     }
     return {{"replace", true},
             {"lights", lights},
-            {"environment", {{"file", "sky.png"}, {"scale", night ? 0.05 : 0.75}, {"seen", true}}}};
+            {"environment", {{"file", "sky.png"}, {"scale", night ? 0.05 : 0.62}, {"seen", true}}}};
 }
 
 struct Sky {

@@ -39,7 +39,7 @@ void hatchback(Pen& pen, const std::string& paint) {
     const std::array<vec2, 12> body{vec2{-2.05F, 0.42F}, {-1.95F, 0.26F}, {1.92F, 0.26F},  {2.05F, 0.42F},
                                     {2.03F, 0.66F},      {1.78F, 0.82F},  {0.95F, 0.93F},  {0.4F, 0.98F},
                                     {-1.2F, 1.0F},       {-1.85F, 0.98F}, {-2.02F, 0.86F}, {-2.06F, 0.6F}};
-    pen.prism(paint, body, -w, w, 0.05F, 0.8F);
+    pen.prism(paint, body, -w, w);
     const std::array<vec2, 5> cabin{vec2{-1.83F, 0.97F}, {0.98F, 0.9F}, {0.3F, 1.38F}, {-0.6F, 1.45F}, {-1.5F, 1.38F}};
     pen.prism("car_glass", cabin, -w + 0.05F, w - 0.05F, 0.2F, 1.1F);
     const std::array<vec2, 6> roof{vec2{-1.56F, 1.36F}, {-0.6F, 1.42F},  {0.33F, 1.355F},
@@ -62,40 +62,36 @@ void hatchback(Pen& pen, const std::string& paint) {
     pen.box("trim", {1.9F, 0.24F, -w + 0.03F}, {2.08F, 0.4F, w - 0.03F});
     pen.box("trim", {-2.09F, 0.24F, -w + 0.03F}, {-1.9F, 0.42F, w - 0.03F});
     lamps(pen, 2.0F, -2.04F, w, 0.6F, 0.15F);
-    wheels(pen, {1.28F, -1.28F}, w + 0.01F, 0.31F);
+    wheels(pen, {1.28F, -1.28F}, w + 0.05F, 0.31F);
 }
 
 void van(Pen& pen, const std::string& paint) {
     constexpr float w = 0.98F;
     const std::array<vec2, 8> body{vec2{-2.6F, 0.34F}, {2.5F, 0.34F},  {2.6F, 0.6F}, {2.5F, 1.0F},
                                    {1.95F, 1.22F},     {1.25F, 2.12F}, {1.0F, 2.2F}, {-2.6F, 2.2F}};
-    pen.prism(paint, body, -w, w, 0.06F, 1.3F);
+    pen.prism(paint, body, -w, w);
     pen.quad("car_glass", {vec3{1.93F, 1.26F, w - 0.12F},
                            {1.93F, 1.26F, -w + 0.12F},
                            {1.31F, 2.06F, -w + 0.14F},
                            {1.31F, 2.06F, w - 0.14F}});
     for (const float side : {-1.0F, 1.0F}) {
-        const float z0 = side * (w + 0.008F);
-        const float z1 = side * (w - 0.045F);
-        std::array<vec3, 4> door{vec3{0.5F, 1.28F, z0 - side * 0.02F},
-                                 {1.72F, 1.28F, z0 - side * 0.02F},
-                                 {1.2F, 1.98F, z1},
-                                 {0.5F, 1.98F, z1}};
+        const float z = side * (w + 0.012F);
+        std::array<vec3, 4> door{vec3{0.5F, 1.28F, z}, {1.72F, 1.28F, z}, {1.2F, 1.98F, z}, {0.5F, 1.98F, z}};
         if (side < 0) std::swap(door[0], door[1]), std::swap(door[2], door[3]);
         pen.quad("car_glass", door);
-        pen.box("trim", {1.45F, 1.3F, side * (w + 0.1F) - 0.06F}, {1.6F, 1.55F, side * (w + 0.1F) + 0.06F});
+        pen.box("trim", {1.72F, 1.2F, side * (w + 0.1F) - 0.07F}, {1.82F, 1.5F, side * (w + 0.1F) + 0.07F});
     }
     pen.box("trim", {2.4F, 0.3F, -w + 0.03F}, {2.64F, 0.5F, w - 0.03F});
     pen.box("trim", {-2.66F, 0.3F, -w + 0.03F}, {-2.5F, 0.5F, w - 0.03F});
     lamps(pen, 2.56F, -2.6F, w, 0.72F, 0.22F);
-    wheels(pen, {1.65F, -1.6F}, w + 0.01F, 0.34F);
+    wheels(pen, {1.65F, -1.6F}, w + 0.05F, 0.34F);
 }
 
 void bus(Pen& pen, const std::string& paint) {
     constexpr float w = 1.24F;
     const std::array<vec2, 8> body{vec2{-5.25F, 0.36F}, {5.15F, 0.36F}, {5.25F, 0.7F},  {5.2F, 2.6F},
                                    {5.0F, 2.95F},       {-5.0F, 3.0F},  {-5.22F, 2.8F}, {-5.25F, 0.7F}};
-    pen.prism(paint, body, -w, w, 0.06F, 2.7F);
+    pen.prism(paint, body, -w, w);
     for (const float side : {-1.0F, 1.0F}) {
         const float z = side * (w + 0.012F);
         for (int i = 0; i < 6; ++i) {
@@ -116,7 +112,7 @@ void bus(Pen& pen, const std::string& paint) {
     pen.box("headlamp", {5.0F, 2.62F, -0.7F}, {5.17F, 2.84F, 0.7F});  // where it goes to
     pen.box("trim", {5.0F, 0.3F, -w + 0.03F}, {5.29F, 0.52F, w - 0.03F});
     lamps(pen, 5.22F, -5.25F, w, 0.72F, 0.2F);
-    wheels(pen, {3.1F, -2.9F}, w + 0.01F, 0.46F);
+    wheels(pen, {3.1F, -2.9F}, w + 0.05F, 0.46F);
 }
 
 }  // namespace

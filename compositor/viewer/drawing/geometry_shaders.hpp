@@ -171,7 +171,7 @@ void main() {
             specular = mix(specular, vec3(0.35), up);
             exponent = mix(exponent, 90.0, up);
         } else if (kCover == 2) {
-            float up = smoothstep(0.35, 0.75, even.y);
+            float up = 0.9 * smoothstep(0.55, 0.85, even.y);
             diffuse = mix(diffuse, vec3(0.86), up);
             ambient = mix(ambient, vec3(0.86) * cover_light, up);
             specular *= 1.0 - up;
