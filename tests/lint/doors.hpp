@@ -54,8 +54,9 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"datasets-synthetic/shapes", {"rayspace/*", "capture/tracer/scene"}},
     {"datasets-synthetic/objects", {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/shapes"}},
     {"datasets-synthetic/showroom", {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/shapes"}},
+    {"datasets-synthetic/measuring", {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/shapes"}},
     {"datasets-synthetic", {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/objects"}},
-    {"datasets-synthetic/tools", {"rayspace/*", "datasets-synthetic/showroom"}},
+    {"datasets-synthetic/tools", {"rayspace/*", "datasets-synthetic/measuring", "datasets-synthetic/showroom"}},
 
     {"encode/set", {"rayspace/*"}},
     {"encode/raymap", {"rayspace/*", "encode/set"}},
