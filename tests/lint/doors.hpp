@@ -56,8 +56,10 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"datasets-synthetic/showroom", {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/shapes"}},
     {"datasets-synthetic/street",
      {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/shapes", "datasets-synthetic/showroom"}},
+    {"datasets-synthetic/measuring", {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/shapes"}},
     {"datasets-synthetic", {"rayspace/*", "capture/tracer/scene", "datasets-synthetic/objects"}},
-    {"datasets-synthetic/tools", {"rayspace/*", "datasets-synthetic/showroom", "datasets-synthetic/street"}},
+    {"datasets-synthetic/tools",
+     {"rayspace/*", "datasets-synthetic/measuring", "datasets-synthetic/showroom", "datasets-synthetic/street"}},
 
     {"encode/set", {"rayspace/*"}},
     {"encode/raymap", {"rayspace/*", "encode/set"}},
