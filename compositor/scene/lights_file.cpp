@@ -1,6 +1,7 @@
 #include "compositor/scene/lights_file.hpp"
 
 #include "compositor/scene/strict_json.hpp"
+#include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
@@ -184,7 +185,7 @@ Result<LightList> light_list_from_json(const std::string& text, const std::files
         top.expect_all_taken();
         return list;
     } catch (const MalformedJson& malformed) {
-        return Error{malformed.message};
+        return Error{printable(malformed.message)};  // files may have any names
     }
 }
 

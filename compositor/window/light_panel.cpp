@@ -16,7 +16,8 @@ namespace {
 
 constexpr float kPanelMargin_px = 10;
 constexpr float kWidth_px = 400;
-constexpr float kField_px = 92;
+constexpr float kField_px = 88;
+constexpr float kButton_px = 44;
 constexpr float kListRows = 7;
 const ImVec4 kWarning{1, 0.6F, 0.3F, 1};
 constexpr std::array kKinds = {LightKind::kPoint,     LightKind::kSpot, LightKind::kLuminaire,
@@ -30,9 +31,8 @@ constexpr Range kPlaces{-kMostDistant, kMostDistant};
 constexpr Range kPowers{0, kStrongest};
 constexpr Range kLengths{kShortest, kMostDistant};
 
-bool small_button(const char* text, const char* what) {
-    const bool pressed = ImGui::SmallButton(text);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", what);
+bool step_button(const char* text) {
+    const bool pressed = ImGui::Button(text, {kButton_px, 0});
     ImGui::SameLine(0, 2);
     return pressed;
 }
@@ -55,12 +55,15 @@ bool drag(double& value, double speed, const Range& range, const char* format) {
 bool factor_field(const char* label, double& value, double first, const Range& range) {
     ImGui::PushID(label);
     double changed = value;
-    if (small_button("/10", "a tenth")) changed = scaled(value, 0.1, first, range.lowest, range.highest);
-    if (small_button("- ", "a tenth less")) changed = scaled(value, 1 / 1.1, first, range.lowest, range.highest);
+    const auto factor = [&](const char* text, double by) {
+        if (step_button(text)) changed = scaled(value, by, first, range.lowest, range.highest);
+    };
+    factor("/10", 0.1);
+    factor("/1.1", 1 / 1.1);
     const double speed = std::max(value, 0.1 * first) * 0.01;
     if (double dragged = value; drag(dragged, speed, range, "%.4g")) changed = dragged;
-    if (small_button("+ ", "a tenth more")) changed = scaled(value, 1.1, first, range.lowest, range.highest);
-    if (small_button("x10", "ten times")) changed = scaled(value, 10, first, range.lowest, range.highest);
+    factor("x1.1", 1.1);
+    factor("x10", 10);
     ImGui::TextUnformatted(label);
     ImGui::PopID();
     return std::exchange(value, changed) != changed;
@@ -70,16 +73,16 @@ bool factor_field(const char* label, double& value, double first, const Range& r
 bool step_field(const char* label, double& value, int order, const Range& range) {
     ImGui::PushID(label);
     double changed = value;
-    const auto step = [&](const char* text, int step_order, int count) {
-        char what[32];
-        std::snprintf(what, sizeof what, "%s %g", count < 0 ? "less" : "more", std::pow(10.0, step_order));
-        if (small_button(text, what)) changed = shifted(value, step_order, count, range.lowest, range.highest);
+    const auto step = [&](int step_order, int count) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%+g", count * std::pow(10.0, step_order));
+        if (step_button(text)) changed = shifted(value, step_order, count, range.lowest, range.highest);
     };
-    step("-- ", order + 1, -1);
-    step("- ", order, -1);
+    step(order + 1, -1);
+    step(order, -1);
     if (double dragged = value; drag(dragged, std::pow(10.0, order) * 0.5, range, "%.5g")) changed = dragged;
-    step("+ ", order, 1);
-    step("++ ", order + 1, 1);
+    step(order, 1);
+    step(order + 1, 1);
     ImGui::TextUnformatted(label);
     ImGui::PopID();
     return std::exchange(value, changed) != changed;
@@ -140,7 +143,7 @@ void edit_power(LightEntry& entry) {
         return;
     }
     const bool dimmer = entry.kind == LightKind::kLuminaire;
-    factor_field(dimmer ? "dimmer, times the file's candela" : unit_of(entry), entry.power, dimmer ? 1 : 10, kPowers);
+    factor_field(dimmer ? "dimmer" : unit_of(entry), entry.power, dimmer ? 1 : 10, kPowers);
 }
 
 void edit_colour(LightEntry& entry) {
@@ -258,6 +261,10 @@ void LightPanel::draw(LightDesk& desk, const DeskView& view) {
         ImGui::Separator();
         draw_list(desk);
         draw_list_buttons(desk, view);
+        if (!edits.selected()) {
+            ImGui::TextDisabled(
+                "click a light; drag its arrows, its middle\nover surfaces, or its white dot to aim it");
+        }
         if (const auto selected = edits.selected()) {
             ImGui::Separator();
             ImGui::PushID(static_cast<int>(*selected));

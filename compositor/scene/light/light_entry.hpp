@@ -68,9 +68,10 @@ const char* unit_of(const LightEntry& entry);
 // What the entry says; its numbers within the limits above.
 Light light_of(const LightEntry& entry);
 
-// An entry for a light that comes from elsewhere: light_of() gives the same colours, places and angles, bit for bit,
-// for directional lights, points and spots whose beam is not wider than their cut-off, whose radius is within the
-// limits, and whose light either falls off by the square of the distance or is nowhere above `colour`.
+// An entry for a light that comes from elsewhere. Of it light_of() gives the same colours, places and directions, bit
+// for bit, and the same angles within rounding, for directional lights, and for points and spots whose beam is not
+// wider than their cut-off, whose radius is within the limits, and whose light either falls off by the square of the
+// distance or is nowhere above `colour`.
 LightEntry entry_of(const Light& light);
 
 // Axes of what is turned by `turn_rad` about its aim: along x across = -aim, so that an area of these halves shines to

@@ -4,7 +4,6 @@
 #include "compositor/viewer/views/framing.hpp"
 #include "compositor/window/visit.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "tests/compositor/objects.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/virtual_display.hpp"
 
@@ -55,8 +54,7 @@ protected:
         options.pictures = work_.path();
         options.lights = work_ / "profile.json";
         options.samples = 1;
-        auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true}, nullptr,
-                                                   std::make_unique<test::ObjectsInMemory>());
+        auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true});
         WindowOptions small{.title = "test", .width = 320, .height = 240, .wait_for_screen = false};
         small.context = {.debug = true, .at_end = [this](const std::vector<std::string>& left) { left_ = left; }};
         auto window = Window::create(small);

@@ -79,7 +79,7 @@ TEST_F(Handles, TheSurfaceUnderAPixelIsWhatItShows) {
         const auto floor = at({1.2, 0, 0.8});
         ASSERT_TRUE(floor);
         EXPECT_LT(glm::distance(floor->place, glm::dvec3(1.2, 0, 0.8)), 0.08);
-        EXPECT_LT(glm::distance(floor->normal, glm::dvec3(0, 1, 0)), 1e-3);
+        EXPECT_LT(glm::distance(floor->normal, glm::dvec3(0, 1, 0)), 5e-3);  // single precision
         const auto side = at({0.5, 0.5, 0.1});
         ASSERT_TRUE(side);
         EXPECT_NEAR(side->place.x, 0.5, 0.01);
