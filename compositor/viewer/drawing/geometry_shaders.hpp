@@ -38,7 +38,8 @@ inline constexpr const char* kSurfaceFragment = R"(
 const int kLights = kDirectional + kPoints + kSpots;
 // Five for each light, directional ones first, then points, then spots:
 // colour; ambient, radius; location, cut-off angle; towards, beam width; attenuation, the least of it
-uniform vec4 lights[5 * max(kLights, 1)];
+uniform vec4 lights[5 * (kCounted ? kMostCounted : max(kLights, 1))];
+uniform ivec4 light_counts;  // kCounted: directional ones, points, spots
 // diffuse, opacity; specular, exponent; emissive, ambient; ambient light of directional lights
 uniform vec4 material[4];
 layout(binding = 0) uniform sampler2D surface_picture;
@@ -100,11 +101,14 @@ vec3 lit(vec3 diffuse, vec3 ambient, vec3 n, vec3 to_eye) {
     vec3 sum = material[2].rgb + ambient;
     float eye_facing = dot(n, to_eye);
     if (kHeadlight) sum += reflected(diffuse, n, to_eye, eye_facing, -headlight, vec3(1.0));
-    for (int i = 0; i < kDirectional; ++i) sum += from_light(5 * i, false, false, diffuse, n, to_eye, eye_facing);
-    for (int i = kDirectional; i < kDirectional + kPoints; ++i) {
+    int directional = kCounted ? light_counts.x : kDirectional;
+    int points = directional + (kCounted ? light_counts.y : kPoints);
+    int all = points + (kCounted ? light_counts.z : kSpots);
+    for (int i = 0; i < directional; ++i) sum += from_light(5 * i, false, false, diffuse, n, to_eye, eye_facing);
+    for (int i = directional; i < points; ++i) {
         sum += from_light(5 * i, true, false, diffuse, n, to_eye, eye_facing);
     }
-    for (int i = kDirectional + kPoints; i < kLights; ++i) {
+    for (int i = points; i < all; ++i) {
         sum += from_light(5 * i, true, true, diffuse, n, to_eye, eye_facing);
     }
     return sum;

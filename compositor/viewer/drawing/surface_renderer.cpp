@@ -45,7 +45,8 @@ std::string constants_of(const SurfaceKind& kind) {
            shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kFog", kind.fog) +
            shaders::shader_constant("kPhong", kind.phong) +
            shaders::shader_constant("kCover", static_cast<int>(kind.cover)) +
-           shaders::shader_constant("kVeil", kind.veil);
+           shaders::shader_constant("kVeil", kind.veil) + shaders::shader_constant("kCounted", kind.counted) +
+           shaders::shader_constant("kMostCounted", kMostCountedLights);
 }
 
 namespace {
@@ -104,16 +105,16 @@ private:
     std::map<const SceneTexture*, AlphaUse> alphas_;
 };
 
-// What moves comes near to other lights in each frame: a dark one more, so that few kinds of shaders are needed.
-void pad(SurfaceKind& kind, std::vector<LightRow>& rows) {
-    const auto padded = [](int count) { return count < 3 ? count : count + (count % 2); };
-    const LightRow dark{glm::vec4(0), glm::vec4(0), glm::vec4(0, 0, 0, 1), glm::vec4(0, 0, -1, 0), {1, 0, 0, 1}};
-    const int points = padded(kind.points);
-    const int spots = padded(kind.spots);
-    rows.insert(rows.begin() + kind.directional + kind.points, static_cast<std::size_t>(points - kind.points), dark);
-    rows.resize(rows.size() + static_cast<std::size_t>(spots - kind.spots), dark);
-    kind.points = points;
-    kind.spots = spots;
+// Of lights with a place, which are others from piece to piece and from frame to frame.
+void count_lights(SurfaceKind& kind, std::vector<LightRow>& rows, glm::ivec4& counts) {
+    const auto room = static_cast<std::size_t>(kMostCountedLights);
+    counts = {kind.directional, kind.points, kind.spots, 0};
+    while (rows.size() > room) {  // more than anybody sees apart
+        rows.pop_back();
+        --(counts.z > 0 ? counts.z : counts.y > 0 ? counts.y : counts.x);
+    }
+    kind.directional = kind.points = kind.spots = 0;
+    kind.fading = kind.counted = true;
 }
 
 }  // namespace
@@ -134,7 +135,9 @@ Status SurfaceRenderer::put(Item& item) {
         node.moving ? lights_near(scene_, node, item.bounds) : lights_of(scene_, node, item.bounds);
     SurfaceKind kind = kind_of(scene_, node, item.alpha, lights.lights);
     item.lights = rows_of(scene_, lights.lights);
-    if (node.moving && kind.lit) pad(kind, item.lights);
+    if ((kind.phong || node.moving) && kind.points + kind.spots > 0) {
+        count_lights(kind, item.lights, item.light_counts);
+    }
     auto made = program(kind);
     if (!made) return made.error();
     item.program = std::move(*made);
@@ -219,6 +222,7 @@ void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const F
     // Rows of vec4 without gaps: surface_tables.cpp asserts their sizes.
     set("material", std::span(&item.material.diffuse_opacity, 4));
     if (!item.lights.empty()) set("lights", std::span(&item.lights.front().colour, 5 * item.lights.size()));
+    set("light_counts", item.light_counts);
     if (item.picture) item.picture->bind(0);
     state.clockwise = item.mirrored;
     gl::draw(program, *item.mesh, state);

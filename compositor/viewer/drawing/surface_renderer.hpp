@@ -38,6 +38,9 @@ struct SurfaceKind {
     int fog = 0;           // 0 none, 1 linear, 2 exponential
     bool phong = false;    // by Phong's formula
     Cover cover = Cover::kNone;
+    // How many lights there are is a number that it is told, not a constant: slower to draw, but a street at night
+    // would have dozens of kinds else, and making a shader takes as long as many frames.
+    bool counted = false;
     bool veil = false;  // nothing but the fog before it
     auto operator<=>(const SurfaceKind&) const = default;
 };
@@ -45,6 +48,8 @@ struct SurfaceKind {
 // `lights`: those that reach it, in any order.
 SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha,
                     const std::vector<std::uint32_t>& lights);
+
+inline constexpr int kMostCountedLights = 48;  // that a `counted` kind has room for
 
 // The head of its fragment shader.
 std::string constants_of(const SurfaceKind& kind);
@@ -85,6 +90,7 @@ private:
         std::shared_ptr<const gl::Program> veil;     // null where there is no fog
         MaterialRow material;
         std::vector<LightRow> lights;
+        glm::ivec4 light_counts{0};  // directional ones, points, spots
         glm::mat3 texture_transform{1};
         bool transparent = false;
         bool two_sided = true;
