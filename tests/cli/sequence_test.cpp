@@ -111,7 +111,9 @@ TEST_F(SequenceTool, AVideoNeedsTwoFrames) {
     EXPECT_THAT(refused.err, HasSubstr("a video needs 2 or more"));
     EXPECT_FALSE(fs::exists(in("one.mp4")));
     const test::ToolRun picture = view({"--sequence", in("one.obj"), "-o", in("one.jpg")});
-    if (picture.err.find("OpenGL: ") == std::string::npos) EXPECT_EQ(picture.exit_code, 0) << picture.err;
+    if (picture.err.find("OpenGL: ") == std::string::npos) {
+        EXPECT_EQ(picture.exit_code, 0) << picture.err;
+    }
 }
 
 TEST_F(SequenceTool, ABatchGoesOnAndTellsWhatFailed) {

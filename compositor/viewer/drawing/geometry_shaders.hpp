@@ -41,7 +41,9 @@ inline constexpr const char* kSurfaceFragment = R"(
 const int kLights = kDirectional + kPoints + kSpots;
 // Five for each light, directional ones first, then points, then spots:
 // colour; ambient, radius; location, cut-off angle; towards, beam width; attenuation, the least of it
-uniform vec4 lights[5 * max(kLights, 1)];
+uniform vec4 lights[5 * (kCounted ? kMostCounted : max(kLights, 1))];
+uniform ivec4 light_counts;  // kCounted: directional ones, points, spots
+uniform ivec4 shadow_counts;  // of them those with maps: directional ones, points, narrow spots, wide ones
 // diffuse, opacity; specular, exponent; emissive, ambient; ambient light of directional lights
 uniform vec4 material[4];
 layout(binding = 0) uniform sampler2D surface_picture;
@@ -132,16 +134,23 @@ vec3 lit(vec3 diffuse, vec3 ambient, vec3 n, vec3 even, vec3 to_eye) {
     vec3 sum = material[2].rgb + ambient;
     float eye_facing = dot(n, to_eye);
     if (kHeadlight) sum += reflected(diffuse, n, to_eye, eye_facing, -headlight, vec3(1.0));
-    for (int i = 0; i < kDirectional; ++i) {
-        sum += from_light(5 * i, false, false, i, i < kShadowedDirectional ? 1 : 0, diffuse, n, even, to_eye, eye_facing);
+    int directional = kCounted ? light_counts.x : kDirectional;
+    int points = kCounted ? light_counts.y : kPoints;
+    int spots = kCounted ? light_counts.z : kSpots;
+    // Directional ones with a map, points, spots with a single map, spots with a cube of them.
+    ivec4 mapped = kShadows == 0 ? ivec4(0)
+                 : kCounted      ? shadow_counts
+                                 : ivec4(kShadowedDirectional, kShadowedPoints, kNarrowSpots, kWideSpots);
+    for (int i = 0; i < directional; ++i) {
+        sum += from_light(5 * i, false, false, i, i < mapped.x ? 1 : 0, diffuse, n, even, to_eye, eye_facing);
     }
-    for (int i = 0; i < kPoints; ++i) {
-        sum += from_light(5 * (kDirectional + i), true, false, kShadowedDirectional + i, i < kShadowedPoints ? 3 : 0,
-                          diffuse, n, even, to_eye, eye_facing);
+    for (int i = 0; i < points; ++i) {
+        sum += from_light(5 * (directional + i), true, false, mapped.x + i, i < mapped.y ? 3 : 0, diffuse, n, even, to_eye,
+                          eye_facing);
     }
-    for (int i = 0; i < kSpots; ++i) {
-        sum += from_light(5 * (kDirectional + kPoints + i), true, true, kShadowedDirectional + kShadowedPoints + i,
-                          i < kNarrowSpots ? 2 : i < kNarrowSpots + kWideSpots ? 3 : 0, diffuse, n, even, to_eye, eye_facing);
+    for (int i = 0; i < spots; ++i) {
+        sum += from_light(5 * (directional + points + i), true, true, mapped.x + mapped.y + i,
+                          i < mapped.z ? 2 : i < mapped.z + mapped.w ? 3 : 0, diffuse, n, even, to_eye, eye_facing);
     }
     return sum;
 }

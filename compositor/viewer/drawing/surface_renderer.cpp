@@ -58,8 +58,10 @@ std::string constants_of(const SurfaceKind& kind) {
            shaders::shader_constant("kShadowedPoints", kind.shadowed_points) +
            shaders::shader_constant("kNarrowSpots", kind.narrow_spots) +
            shaders::shader_constant("kWideSpots", kind.wide_spots) +
-           shaders::shader_constant(
-               "kShadows", kind.shadowed_directional + kind.shadowed_points + kind.narrow_spots + kind.wide_spots) +
+           shaders::shader_constant("kShadows", kind.counted_shadows
+                                                    ? kMostCountedLights
+                                                    : kind.shadowed_directional + kind.shadowed_points +
+                                                          kind.narrow_spots + kind.wide_spots) +
            "const float kNear = " + std::to_string(kNear) + ";\n" + shaders::shader_constant("kFading", kind.fading) +
            shaders::shader_constant("kHeadlight", kind.headlight) + shaders::shader_constant("kLit", kind.lit) +
            shaders::shader_constant("kShiny", kind.shiny) + shaders::shader_constant("kPicture", kind.picture) +
@@ -67,7 +69,8 @@ std::string constants_of(const SurfaceKind& kind) {
            shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kRelief", kind.relief) +
            shaders::shader_constant("kFog", kind.fog) + shaders::shader_constant("kPhong", kind.phong) +
            shaders::shader_constant("kCover", static_cast<int>(kind.cover)) +
-           shaders::shader_constant("kVeil", kind.veil);
+           shaders::shader_constant("kVeil", kind.veil) + shaders::shader_constant("kCounted", kind.counted) +
+           shaders::shader_constant("kMostCounted", kMostCountedLights);
 }
 
 namespace {
@@ -136,18 +139,6 @@ private:
     std::map<const SceneTexture*, AlphaUse> alphas_;
 };
 
-// What moves comes near to other lights in each frame: a dark one more, so that few kinds of shaders are needed.
-void pad(SurfaceKind& kind, std::vector<LightRow>& rows) {
-    const auto padded = [](int count) { return count < 3 ? count : count + (count % 2); };
-    const LightRow dark{glm::vec4(0), glm::vec4(0), glm::vec4(0, 0, 0, 1), glm::vec4(0, 0, -1, 0), {1, 0, 0, 1}};
-    const int points = padded(kind.points);
-    const int spots = padded(kind.spots);
-    rows.insert(rows.begin() + kind.directional + kind.points, static_cast<std::size_t>(points - kind.points), dark);
-    rows.resize(rows.size() + static_cast<std::size_t>(spots - kind.spots), dark);
-    kind.points = points;
-    kind.spots = spots;
-}
-
 }  // namespace
 
 Result<std::shared_ptr<const gl::Program>> SurfaceRenderer::program(const SurfaceKind& kind) {
@@ -157,6 +148,28 @@ Result<std::shared_ptr<const gl::Program>> SurfaceRenderer::program(const Surfac
                                     constants_of(kind) + shaders::kShadowLookUp + shaders::kSurfaceFragment);
     if (!made) return made.error();
     return programs_.emplace(kind, std::make_shared<const gl::Program>(std::move(*made))).first->second;
+}
+
+// Of lights with a place, which are others from piece to piece and from frame to frame.
+void SurfaceRenderer::count_lights(SurfaceKind& kind, Item& item) {
+    const auto room = static_cast<std::size_t>(kMostCountedLights);
+    glm::ivec4& counts = item.light_counts;
+    glm::ivec4& mapped = item.shadow_counts;
+    counts = {kind.directional, kind.points, kind.spots, 0};
+    mapped = {kind.shadowed_directional, kind.shadowed_points, kind.narrow_spots, kind.wide_spots};
+    while (item.lights.size() > room) {  // more than anybody sees apart
+        item.lights.pop_back();
+        --(counts.z > 0 ? counts.z : counts.y > 0 ? counts.y : counts.x);
+    }
+    mapped.x = std::min(mapped.x, counts.x);
+    mapped.y = std::min(mapped.y, counts.y);
+    mapped.z = std::min(mapped.z, counts.z);
+    mapped.w = std::min(mapped.w, counts.z - mapped.z);
+    item.shadows.resize(static_cast<std::size_t>(mapped.x + mapped.y + mapped.z + mapped.w));
+    kind.directional = kind.points = kind.spots = 0;
+    kind.shadowed_directional = kind.shadowed_points = kind.narrow_spots = kind.wide_spots = 0;
+    kind.fading = kind.counted = true;
+    kind.counted_shadows = !item.shadows.empty();
 }
 
 // Bounds, lights and the shader for where the node is now.
@@ -169,7 +182,7 @@ Status SurfaceRenderer::put(Item& item) {
     const std::vector<std::uint32_t> ordered = in_shader_order(scene_, shadows_, lights.lights);
     item.lights = rows_of(scene_, ordered);
     item.shadows = rows_of(shadows_, ordered);
-    if (node.moving && kind.lit) pad(kind, item.lights);
+    if ((kind.phong || node.moving) && kind.points + kind.spots > 0) count_lights(kind, item);
     auto made = program(kind);
     if (!made) return made.error();
     item.program = std::move(*made);
@@ -300,6 +313,8 @@ void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const F
     set("material", std::span(&item.material.diffuse_opacity, 4));
     if (!item.lights.empty()) set("lights", std::span(&item.lights.front().colour, 5 * item.lights.size()));
     if (!item.shadows.empty()) set("shadows", std::span(&item.shadows.front().u, 4 * item.shadows.size()));
+    set("light_counts", item.light_counts);
+    set("shadow_counts", item.shadow_counts);
     if (item.picture) item.picture->bind(0);
     if (item.relief) item.relief->bind(4);
     state.clockwise = item.mirrored;

@@ -45,13 +45,19 @@ struct SurfaceKind {
     int fog = 0;           // 0 none, 1 linear, 2 exponential
     bool phong = false;    // by Phong's formula
     Cover cover = Cover::kNone;
-    bool veil = false;  // nothing but the fog before it
+    // How many lights there are is a number that it is told, not a constant: slower to draw, but a street at night
+    // would have dozens of kinds else, and making a shader takes as long as many frames.
+    bool counted = false;
+    bool counted_shadows = false;  // some of them have maps
+    bool veil = false;             // nothing but the fog before it
     auto operator<=>(const SurfaceKind&) const = default;
 };
 
 // `lights`: those that reach it, in any order.
 SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const GeometryNode& node, AlphaUse alpha,
                     const std::vector<std::uint32_t>& lights);
+
+inline constexpr int kMostCountedLights = 48;  // that a `counted` kind has room for
 
 // The head of its fragment shader.
 std::string constants_of(const SurfaceKind& kind);
@@ -113,6 +119,8 @@ private:
         std::vector<LightRow> lights;
         std::vector<ShadowRow> shadows;
         bool throws_shadows = false;
+        glm::ivec4 light_counts{0};   // directional ones, points, spots
+        glm::ivec4 shadow_counts{0};  // of them those with maps: directional ones, points, narrow spots, wide ones
         glm::mat3 texture_transform{1};
         bool transparent = false;
         bool two_sided = true;
@@ -122,6 +130,7 @@ private:
     SurfaceRenderer(const Scene& scene, const ShadowPlan& shadows) : scene_(scene), shadows_(shadows) {}
     Status make_casters();
     Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind);
+    static void count_lights(SurfaceKind& kind, Item& item);
     Status put(Item& item);
     void gather_ambient_light();
     void set_frame(const FrameView& view) const;
