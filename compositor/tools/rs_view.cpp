@@ -3,23 +3,20 @@
 #include "compositor/gl/context.hpp"
 #include "compositor/lighting/light_warnings.hpp"
 #include "compositor/scene/light/scene_lights.hpp"
-#include "compositor/scene/object_argument.hpp"
-#include "compositor/scene/scene_file.hpp"
 #include "compositor/tools/asked_cameras.hpp"
-#include "compositor/tools/asked_tracing.hpp"
+#include "compositor/tools/asked_scene.hpp"
 #include "compositor/tools/quilt_views.hpp"
 #include "compositor/tools/sequence_run.hpp"
+#include "compositor/tools/traced_run.hpp"
 #include "compositor/tools/view_options.hpp"
 #include "compositor/tools/view_tiles.hpp"
 #include "compositor/tools/wall_views.hpp"
+#include "compositor/tools/window_run.hpp"
 #include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/frame_times.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/window/visit.hpp"
-#include "compositor/window/wall_visit.hpp"
-#include "engine/executors/executor_table.hpp"
-#include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
@@ -30,8 +27,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -39,39 +34,6 @@
 
 namespace rs::compositor {
 namespace {
-
-constexpr double kRowSpacing = 2.2;  // between objects without a place of their own, object radii
-
-Result<Scene> asked_scene(const ViewArguments& arguments) {
-    Scene scene;
-    if (arguments.scene.empty()) {
-        scene.floor = Floor{};
-    } else {
-        Result<Scene> read = read_scene(arguments.scene);
-        if (!read) return read.error();
-        scene = std::move(*read);
-    }
-    if (!arguments.lights.empty()) {
-        Result<LightList> list = read_light_list(arguments.lights);
-        if (!list) return list.error();
-        if (Status added = add_lights(scene, std::move(*list), arguments.lights); !added) return added.error();
-    }
-    if (!arguments.path.empty()) {
-        const Result<Scene> walk = read_scene(arguments.path);
-        if (!walk) return walk.error();
-        if (!walk->camera)
-            return Error{arguments.path + ": has no camera path (compositor/README.md, JSON, \"camera\")"};
-        scene.camera = walk->camera;
-    }
-    const auto count = static_cast<double>(arguments.objects.size());
-    for (std::size_t i = 0; i < arguments.objects.size(); ++i) {
-        const double row_place = (static_cast<double>(i) - (count - 1) / 2) * kRowSpacing;
-        Result<RaySpaceNode> node = parse_object_argument(arguments.objects[i], {row_place, 0, 0});
-        if (!node) return node.error();
-        scene.objects.push_back(std::move(*node));
-    }
-    return scene;
-}
 
 // The frames with the cameras that saw them, as a set of pictures that other tools can open.
 Status write_folder(const std::function<Result<Image<Rgba8>>(const Camera&)>& compose,
@@ -89,67 +51,6 @@ Status write_folder(const std::function<Result<Image<Rgba8>>(const Camera&)>& co
     return staged->commit();
 }
 
-// Who draws with the core; null where that is alone.
-Result<std::unique_ptr<engine::Executor>> asked_executor(const ViewArguments& arguments) {
-    if (arguments.executor == "core") return std::unique_ptr<engine::Executor>();
-    return engine::make_executor(arguments.executor, {.instant_loads = true});
-}
-
-ObjectDepth asked_depth(const ViewArguments& arguments) {
-    return arguments.object_depth == "pixel" ? ObjectDepth::kPixel : ObjectDepth::kPlane;
-}
-
-void print_warnings(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings)
-        std::fprintf(stderr, "rs-view: warning: %s\n", printable(warning).c_str());
-}
-
-Result<Window> open_window(const ViewArguments& arguments, PixelSize size) {
-    return Window::create(
-        {.title = arguments.scene.empty() ? "rs-view" : arguments.scene, .width = size.width, .height = size.height});
-}
-
-// In a window: beginning where the first camera is, then at the scene's viewpoints.
-Status run_visit(Window window, const ViewArguments& arguments, const Scene& scene, std::unique_ptr<Showroom> showroom,
-                 const std::string& executor, const Camera& first) {
-    VisitOptions options;
-    options.wire_frame = arguments.wire_frame;
-    options.samples = arguments.samples;
-    options.exposure_ev = arguments.exposure_ev;
-    const Result<TracedOptions> tracing = asked_tracing(arguments);
-    if (!tracing) return tracing.error();
-    options.tracing = *tracing;
-    options.traced = asked_method(arguments).has_value();
-    if (!arguments.lights.empty()) options.lights = arguments.lights;
-    options.shadows = arguments.shadows == "on";
-    options.executor = executor;
-    options.object_depth = asked_depth(arguments);
-    options.object_samples = arguments.object_samples;
-    options.warn = print_warnings;
-    Viewpoint begin;
-    begin.world_from_camera = first.world_from_camera;
-    begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
-    options.viewpoints.push_back(begin);
-    options.viewpoints.insert(options.viewpoints.end(), scene.viewpoints.begin(), scene.viewpoints.end());
-    return visit(std::move(window), scene, std::move(showroom), options);
-}
-
-// A window for each wall.
-Status run_walls(const ViewArguments& arguments, const Scene& scene, const WallViews& views,
-                 std::unique_ptr<Showroom> showroom) {
-    if (asked_method(arguments)) return Error{"--renderer " + arguments.renderer + ": on walls it needs -o FOLDER"};
-    return visit_walls(scene, std::move(showroom),
-                       {.display = views.display,
-                        .heads = views.heads,
-                        .place = views.places.front(),
-                        .stereo = views.stereo,
-                        .samples = arguments.samples,
-                        .exposure_ev = arguments.exposure_ev,
-                        .object_depth = asked_depth(arguments),
-                        .object_samples = arguments.object_samples,
-                        .warn = print_warnings});
-}
-
 Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::vector<Camera>& cameras,
                     const std::function<Result<Image<Rgba8>>(const Camera&)>& compose, Progress& progress) {
     if (kind == OutputKind::video) {
@@ -159,67 +60,6 @@ Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::
     const Result<Image<Rgba8>> frame = compose(cameras.front());
     if (!frame) return frame.error();
     return write_png(arguments.output, *frame);
-}
-
-// Null for the raster renderer.
-Result<std::unique_ptr<TracedRenderer>> asked_tracer(const ViewArguments& arguments, const Scene& scene,
-                                                     Showroom& showroom) {
-    if (!asked_method(arguments) || !arguments.tiles.empty()) return std::unique_ptr<TracedRenderer>();
-    const Result<TracedOptions> options = asked_tracing(arguments);
-    if (!options) return options.error();
-    if (const Status status = showroom.wait_for_all({0, 0, 0}); !status) return status.error();
-    auto tracer = TracedRenderer::create(scene, showroom.placed(), *options);
-    if (!tracer) return Error{arguments.scene + ": " + tracer.error().message};
-    print_warnings(tracer->warnings());
-    return std::make_unique<TracedRenderer>(std::move(*tracer));
-}
-
-// By as many passes or seconds as were asked for, one pass at least.
-std::shared_ptr<const Image<Rgba8>> trace(TracedRenderer& tracer, const ViewArguments& arguments, const Camera& camera,
-                                          Progress& progress) {
-    constexpr int kUsualPasses = 64;
-    const int passes = arguments.passes > 0 ? arguments.passes : arguments.seconds > 0 ? 0 : kUsualPasses;
-    const auto begin = std::chrono::steady_clock::now();
-    const auto late = [&] {
-        const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - begin;
-        return arguments.seconds > 0 && gone.count() >= arguments.seconds;
-    };
-    tracer.look(camera);
-    if (passes > 0) progress.start("tracing", passes);
-    do {
-        tracer.add_pass();
-        if (passes > 0) progress.advance();
-    } while ((passes == 0 || tracer.passes() < passes) && !late());
-    if (passes > 0) progress.finish();
-    return std::make_shared<const Image<Rgba8>>(tracer.picture());
-}
-
-// A piece of one frame's traced picture.
-Status run_tile(const ViewArguments& arguments, const Scene& scene, Showroom& showroom,
-                const std::vector<Camera>& cameras) {
-    const Result<TileRequest> tile = parse_tile(arguments.tile, cameras);
-    if (!tile) return tile.error();
-    const Result<std::unique_ptr<TracedRenderer>> tracer = asked_tracer(arguments, scene, showroom);
-    if (!tracer) return tracer.error();
-    (*tracer)->set_part(tile->place);
-    ProgressBar progress(arguments.quiet);
-    return write_tile(arguments, *tile, *trace(**tracer, arguments, cameras[tile->frame], progress));
-}
-
-// The map of what reaches a place.
-Status run_probe(const ViewArguments& arguments) {
-    constexpr int kUsualSamples = 256;
-    const Result<Triple> place = parse_triple(arguments.probe, "--probe");
-    if (!place) return place.error();
-    const Result<Scene> scene = asked_scene(arguments);
-    if (!scene) return scene.error();
-    print_warnings(scene->warnings);
-    const auto tracer = TracedRenderer::create(*scene, {}, {});
-    if (!tracer) return Error{arguments.scene + ": " + tracer.error().message};
-    print_warnings(tracer->warnings());
-    ProgressBar progress(arguments.quiet);
-    const int samples = arguments.passes > 0 ? arguments.passes : kUsualSamples;
-    return write_exr(arguments.output, tracer->probe({place->x, place->y, place->z}, samples, progress));
 }
 
 Status run_view(ViewArguments arguments) {

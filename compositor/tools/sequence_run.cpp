@@ -3,6 +3,7 @@
 #include "compositor/gl/context.hpp"
 #include "compositor/playback/sequence_player.hpp"
 #include "compositor/sequence/converter.hpp"
+#include "compositor/tools/asked_scene.hpp"
 #include "compositor/tools/asked_tracing.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
@@ -67,11 +68,6 @@ Result<PlayerOptions> player_options(const ViewArguments& arguments) {
     return options;
 }
 
-void print_sequence_warnings(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings)
-        std::fprintf(stderr, "rs-view: warning: %s\n", printable(warning).c_str());
-}
-
 // A sequence with what draws it.
 struct Playing {
     std::optional<Converted> converted;  // the files, where they were made for us
@@ -91,7 +87,7 @@ Result<Playing> open_sequence(const ViewArguments& arguments, const std::string&
     Result<Sequence> sequence = read_sequence(files);
     if (!sequence) return sequence.error();
     if (playing.converted) sequence->name = fs::path(folder).stem().string();
-    print_sequence_warnings(sequence->scene.warnings);
+    print_warnings(sequence->scene.warnings);
     playing.sequence = std::make_shared<const Sequence>(std::move(*sequence));
     return playing;
 }
@@ -175,7 +171,7 @@ Status run_one(const ViewArguments& arguments) {
     Status status = *kind == Kind::kVideo    ? write_video(arguments, *playing, arguments.output, progress)
                     : *kind == Kind::kFolder ? write_pictures(*playing, arguments.output, progress)
                                              : write_frame(*playing, arguments.frame, arguments.output);
-    print_sequence_warnings(playing->player->take_warnings());
+    print_warnings(playing->player->take_warnings());
     playing->player.reset();
     return status;
 }
@@ -196,7 +192,7 @@ Status render_into(const ViewArguments& arguments, const std::string& folder, st
     const fs::path place = staged->temporary_path();
     Status status = write_video(arguments, *playing, (place / "sequence.mp4").string(), progress);
     if (status) status = write_frame(*playing, arguments.frame, (place / "snapshot.jpg").string());
-    print_sequence_warnings(playing->player->take_warnings());
+    print_warnings(playing->player->take_warnings());
     playing->player.reset();
     if (!status) return status;
     told = std::to_string(playing->sequence->frames.size()) + " frames -> " +

@@ -1,4 +1,5 @@
 #include "compositor/playback/sequence_player.hpp"
+#include "compositor/tools/asked_scene.hpp"
 #include "compositor/tools/asked_tracing.hpp"
 #include "compositor/tools/sequence_run.hpp"
 #include "compositor/window/visit.hpp"
@@ -13,11 +14,6 @@
 
 namespace rs::compositor {
 namespace {
-
-void warn_all(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings)
-        std::fprintf(stderr, "rs-view: warning: %s\n", printable(warning).c_str());
-}
 
 // Until it is closed, or another sequence is asked for.
 Status visit_sequence(const ViewArguments& arguments, PixelSize size, const std::shared_ptr<const Sequence>& sequence,
@@ -44,7 +40,7 @@ Status visit_sequence(const ViewArguments& arguments, PixelSize size, const std:
     if (!tracing) return tracing.error();
     options.tracing = *tracing;
     options.traced = asked_method(arguments).has_value();
-    options.warn = warn_all;
+    options.warn = print_warnings;
     options.open = [&next](const std::string& folder) { next = folder; };
     const Camera first = camera_of(*sequence, 0, size.width, size.height);
     Viewpoint begin;
@@ -65,10 +61,10 @@ Status run_sequence_window(const ViewArguments& arguments) {
     while (!next.empty()) {
         Result<Sequence> sequence = read_sequence(std::exchange(next, {}));
         if (sequence) {
-            warn_all(sequence->scene.warnings);
+            print_warnings(sequence->scene.warnings);
             shown = std::make_shared<const Sequence>(std::move(*sequence));
         } else if (shown) {
-            warn_all({sequence.error().message});  // what was shown before is shown on
+            print_warnings({sequence.error().message});  // what was shown before is shown on
         } else {
             return sequence.error();
         }

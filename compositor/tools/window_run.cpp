@@ -1,0 +1,58 @@
+#include "compositor/tools/window_run.hpp"
+
+#include "compositor/tools/asked_scene.hpp"
+#include "compositor/tools/asked_tracing.hpp"
+#include "compositor/window/visit.hpp"
+#include "compositor/window/wall_visit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rs::compositor {
+
+Result<Window> open_window(const ViewArguments& arguments, PixelSize size) {
+    return Window::create(
+        {.title = arguments.scene.empty() ? "rs-view" : arguments.scene, .width = size.width, .height = size.height});
+}
+
+Status run_visit(Window window, const ViewArguments& arguments, const Scene& scene, std::unique_ptr<Showroom> showroom,
+                 const std::string& executor, const Camera& first) {
+    VisitOptions options;
+    options.wire_frame = arguments.wire_frame;
+    options.samples = arguments.samples;
+    options.exposure_ev = arguments.exposure_ev;
+    const Result<TracedOptions> tracing = asked_tracing(arguments);
+    if (!tracing) return tracing.error();
+    options.tracing = *tracing;
+    options.traced = asked_method(arguments).has_value();
+    if (!arguments.lights.empty()) options.lights = arguments.lights;
+    options.shadows = arguments.shadows == "on";
+    options.executor = executor;
+    options.object_depth = asked_depth(arguments);
+    options.object_samples = arguments.object_samples;
+    options.warn = print_warnings;
+    Viewpoint begin;
+    begin.world_from_camera = first.world_from_camera;
+    begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
+    options.viewpoints.push_back(begin);
+    options.viewpoints.insert(options.viewpoints.end(), scene.viewpoints.begin(), scene.viewpoints.end());
+    return visit(std::move(window), scene, std::move(showroom), options);
+}
+
+Status run_walls(const ViewArguments& arguments, const Scene& scene, const WallViews& views,
+                 std::unique_ptr<Showroom> showroom) {
+    if (asked_method(arguments)) return Error{"--renderer " + arguments.renderer + ": on walls it needs -o FOLDER"};
+    return visit_walls(scene, std::move(showroom),
+                       {.display = views.display,
+                        .heads = views.heads,
+                        .place = views.places.front(),
+                        .stereo = views.stereo,
+                        .samples = arguments.samples,
+                        .exposure_ev = arguments.exposure_ev,
+                        .object_depth = asked_depth(arguments),
+                        .object_samples = arguments.object_samples,
+                        .warn = print_warnings});
+}
+
+}  // namespace rs::compositor
