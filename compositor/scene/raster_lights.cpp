@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace rs::compositor {
 namespace {
@@ -39,6 +40,26 @@ Light ambient_light(const char* name, const glm::vec3& radiance) {
     return light;
 }
 
+// punctual_of() searches a luminaire's beam in steps of a hundredth of a degree: once for all lights of its file.
+class PunctualLights {
+public:
+    Light of(const Light& light) {
+        if (light.kind != LightKind::kLuminaire) return punctual_of(light);
+        const auto [known, is_new] = spots_.try_emplace(light.luminaire.get());
+        if (is_new) known->second = punctual_of(light);
+        Light spot = known->second;
+        spot.name = light.name;
+        spot.everywhere = light.everywhere;
+        spot.location = light.location;
+        spot.towards = light.world_from_luminaire * glm::dvec3(0, -1, 0);
+        spot.colour = light.colour * static_cast<float>(light.luminaire->web.peak_candela() / (kLumensPerWatt * kPi));
+        return spot;
+    }
+
+private:
+    std::map<const Luminaire*, Light> spots_;
+};
+
 }  // namespace
 
 glm::vec3 reflected_light(const Scene& scene) {
@@ -54,7 +75,8 @@ glm::vec3 reflected_light(const Scene& scene) {
 
 std::vector<Light> raster_lights(const Scene& scene, double exposure_ev) {
     std::vector<Light> lights;
-    for (const Light& light : scene.lights) lights.push_back(punctual_of(light));
+    PunctualLights punctual;
+    for (const Light& light : scene.lights) lights.push_back(punctual.of(light));
     const glm::vec3 reflected = reflected_light(scene);
     if (reflected != glm::vec3(0)) lights.push_back(ambient_light("reflected", reflected));
     if (scene.environment) lights.push_back(ambient_light("environment", mean_of(*scene.environment)));

@@ -19,7 +19,7 @@ constexpr double kAhead = 3;    // where nothing is seen, scene units
 
 }  // namespace
 
-LightDesk::LightDesk(const Scene& scene, double exposure_ev, std::filesystem::path profile_file)
+LightDesk::LightDesk(const Scene& scene, double exposure_ev, const std::filesystem::path& profile_file)
     : profile(profile_file.string()),
       base_(std::make_shared<const Scene>(scene)),
       lit_(base_),

@@ -27,7 +27,7 @@ struct DeskView {
 
 class LightDesk {
 public:
-    LightDesk(const Scene& scene, double exposure_ev, std::filesystem::path profile);
+    LightDesk(const Scene& scene, double exposure_ev, const std::filesystem::path& profile);
 
     [[nodiscard]] const LightEdits& edits() const { return edits_; }
     [[nodiscard]] LightEdits& edits() { return edits_; }

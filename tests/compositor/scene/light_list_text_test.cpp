@@ -1,6 +1,7 @@
 // Lists of lights are written as they were read, and a scene's own lights as lists that give the same light.
 
 #include "compositor/scene/light/scene_lights.hpp"
+#include "compositor/scene/raster_lights.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/scene/vrml_file.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -142,6 +143,22 @@ Shape { geometry Box { size 2 2 2 } appearance Appearance { material Material {}
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("own.json: lights[0].scope"), std::string::npos);
     EXPECT_EQ(again.lights.size(), 3U);
+}
+
+TEST(RasterLights, OfTheSameFileAreEachTheirOwn) {
+    const test::TemporaryFolder scratch;
+    ASSERT_TRUE(write_file(scratch / "a.ies", kIes));
+    const auto list = light_list_from_json(
+        R"({"lights": [
+          {"kind": "luminaire", "name": "a", "file": "a.ies", "location": [1, 2, 3], "colour": [1, 0.5, 0.2]},
+          {"kind": "luminaire", "name": "b", "file": "a.ies", "location": [0, 2, 0], "aim": [1, -1, 0], "dimmer": 2}]})",
+        scratch / "a.json");
+    ASSERT_TRUE(list) << list.error().message;
+    Scene scene;
+    scene.lights = list->lights;
+    scene.lights[1].everywhere = false;
+    const std::vector<Light> lights = raster_lights(scene, 0);
+    for (std::size_t i = 0; i < 2; ++i) expect_same_light(lights.at(i), punctual_of(scene.lights[i]));
 }
 
 TEST(LightListText, WhatNoListMayHoldIsNotWritten) {
