@@ -62,7 +62,17 @@ void set_rows(const glm::dmat4& clip_from_world, int depth_row, LightShadow& sha
 
 class Planner {
 public:
-    Planner(const Scene& scene, const BoundingBox& casters) : scene_(scene), casters_(casters) {}
+    Planner(const Scene& scene, const BoundingBox& casters)
+        : scene_(scene), casters_(casters), is_key_(scene.lights.size()) {
+        for (const GeometryNode& node : scene.geometry) {
+            const std::uint32_t* key = nullptr;
+            for (const std::uint32_t& i : node.lights) {
+                if (shape_of_light(scene.lights[i]) != ShadowShape::kParallel) continue;
+                if (key == nullptr || brightness(i) > brightness(*key)) key = &i;
+            }
+            if (key != nullptr) is_key_[*key] = true;
+        }
+    }
 
     ShadowPlan plan() {
         plan_.of_light.resize(scene_.lights.size());
@@ -86,12 +96,12 @@ private:
         std::vector<std::uint32_t> found;
         for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) {
             const ShadowShape shape = shape_of_light(scene_.lights[i]);
-            if (shape != ShadowShape::kNone && (shape == ShadowShape::kCube) == cubes) found.push_back(i);
+            if (shape == ShadowShape::kNone || (shape == ShadowShape::kCube) != cubes) continue;
+            if (shape == ShadowShape::kParallel && !scene_.lights[i].everywhere && !is_key_[i]) continue;
+            found.push_back(i);
         }
-        const double size = glm::length(casters_.highest - casters_.lowest);
-        std::ranges::stable_sort(found, [&](std::uint32_t a, std::uint32_t b) {
-            return brightness_of(scene_.lights[a], size) > brightness_of(scene_.lights[b], size);
-        });
+        std::ranges::stable_sort(found,
+                                 [&](std::uint32_t a, std::uint32_t b) { return brightness(a) > brightness(b); });
         found.resize(std::min(found.size(), most));
         return found;
     }
@@ -172,8 +182,13 @@ private:
         return layer;
     }
 
+    [[nodiscard]] double brightness(std::uint32_t light) const {
+        return brightness_of(scene_.lights[light], glm::length(casters_.highest - casters_.lowest));
+    }
+
     const Scene& scene_;
     BoundingBox casters_;
+    std::vector<bool> is_key_;  // [light]: the brightest directional one of those that shine on some node only
     ShadowPlan plan_;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 // Which lights throw shadows in raster, and from where their maps are seen. Pure; thread-safe.
 //
-//   directional        one parallel map that just holds what throws shadows: beyond it all is lit
+//   directional        of those that shine on some nodes only, the brightest on each: the others stand for light that
+//                      walls reflect, which throws none. One parallel map that just holds what throws shadows: beyond
+//                      it all is lit
 //   narrow spots       one map seen from the light, as wide as its cone
 //   points, wide spots the faces of a cube about the light; spots leave out the face behind them
 //
@@ -59,7 +61,7 @@ struct ShadowPlan {
 
 // At most so many lights have maps, the brightest first; the others shine through everything.
 inline constexpr int kMostPlaneShadows = 16;  // directional lights and narrow spots
-inline constexpr int kMostCubeShadows = 40;   // points and wide spots
+inline constexpr int kMostCubeShadows = 48;   // points and wide spots
 // Maps are as fine as so many texels of each of the two arrays allow (64 MiB each), up to the sides below.
 inline constexpr int kMostShadowTexels = 1 << 24;
 inline constexpr int kLargestPlaneSide = 2048;

@@ -87,7 +87,7 @@ inline ShadowAgreement shadow_agreement(const compositor::Scene& scene,
     constexpr float kLit = 0.03F;
     for (int y = 0; y < camera.height; ++y) {
         for (int x = 0; x < camera.width; ++x) {
-            if (open(x, y) > kLit) by_rays(x, y) = traced(x, y).r > 0.5F * open(x, y) ? 1 : 2;
+            if (traced(x, y).a > 0.5F && open(x, y) > kLit) by_rays(x, y) = traced(x, y).r > 0.5F * open(x, y) ? 1 : 2;
         }
     }
     ShadowAgreement found;
