@@ -46,7 +46,9 @@ void add_display_options(CLI::App& app, ViewArguments& arguments) {
         ->capture_default_str()
         ->type_name("DEG")
         ->needs(quilt);
-    app.add_option("--focus", arguments.focus, "depth at which a quilt's views agree (of the middle of the scene)")
+    app.add_option(
+           "--focus", arguments.focus,
+           "depth at which a quilt's views agree (of the largest object in the picture, or the middle of the scene)")
         ->check(CLI::Range(1e-6, 1e6))
         ->type_name("DIST")
         ->needs(quilt);
