@@ -21,15 +21,29 @@ Result<Image<Rgba8>> drawn_quilt(const QuiltLayout& layout, const std::vector<Ca
     return quilt;
 }
 
-// Where the display shows what is at its own depth: the middle of all there is, as deep as the eye sees it.
+// The depth of the object that is largest in the picture; 0 where none is in it.
+double depth_of_largest(const Scene& scene, const Camera& middle) {
+    double depth = 0;
+    double largest = 0;
+    for (const RaySpaceNode& object : scene.objects) {
+        const Similarity place = world_from_node(object.chain);
+        const glm::dvec3 at = middle.project(place.translation);
+        const bool inside = at.z > 0 && at.x >= 0 && at.y >= 0 && at.x <= middle.width && at.y <= middle.height;
+        if (!inside || place.scale / at.z <= largest) continue;
+        largest = place.scale / at.z;
+        depth = at.z;
+    }
+    return depth;
+}
+
+// Where the display shows what is at its own depth.
 Result<double> asked_focus(const ViewArguments& arguments, const Scene& scene, const Camera& middle) {
     if (arguments.focus > 0) return arguments.focus;
+    if (const double depth = depth_of_largest(scene, middle); depth > 0) return depth;
     const BoundingBox box = bounds_from(scene, 0, 0);
     const double depth = box.empty() ? 0 : glm::dot(box.middle() - middle.centre(), middle.forward());
     if (depth > 0) return depth;
-    return Error{
-        "--quilt: the middle of the scene is not before the camera; give the depth that shall be in focus, "
-        "--focus DIST"};
+    return Error{"--quilt: nothing that could be in focus is before the camera; give its depth, --focus DIST"};
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         ->type_name("MM|f/N");
     app.add_option("--focus", arguments.focus,
                    "distance of what is sharp, along the line of sight: with --lens; with --quilt, of what all "
-                   "views agree on (of the middle of the scene)")
+                   "views agree on (of the largest object in the picture, or the middle of the scene)")
         ->check(CLI::Range(1e-6, 1e9))
         ->type_name("DISTANCE");
     app.add_option("--shadows", arguments.shadows,

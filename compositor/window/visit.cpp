@@ -173,56 +173,6 @@ Status Visit::obey(Key command) {
     return {};
 }
 
-std::shared_ptr<const Scene> Visit::scene_to_trace() const {
-    if (!playback_) return desk_.scene();
-    auto scene = std::make_shared<Scene>(playback_->scene());
-    scene->lights = desk_.scene()->lights;
-    scene->environment = desk_.scene()->environment;
-    scene->navigation.headlight = desk_.scene()->navigation.headlight;
-    return scene;
-}
-
-bool Visit::refine(const Camera& here) {
-    if (!panel_.traced) {
-        if (refined_) refinement_->end();
-        const bool was_traced = std::exchange(refined_, std::nullopt).has_value();
-        if (was_traced) compositor_.set_traced(nullptr);
-        return true;
-    }
-    // Objects come and go while one walks; what is traced has those that were there when it began.
-    if (!refined_ && (!refinement_ || traced_objects_ != showroom_->placed().size())) {
-        std::vector<PlacedObject> objects = showroom_->placed();
-        traced_objects_ = objects.size();
-        TracedOptions tracing = options_.tracing;
-        tracing.exposure_ev = desk_.edits().state().exposure_ev;
-        refinement_.emplace([scene = scene_to_trace(), tracing, there = std::move(objects)] {
-            return TracedRenderer::create(*scene, there, tracing);
-        });
-    }
-    if (const std::optional<Error> failed = refinement_->failure()) {
-        panel_.traced = false;
-        refined_.reset();
-        tell(failed->message);
-        return true;
-    }
-    const bool otherwise =
-        !refined_ || refined_->width != here.width || refined_->height != here.height || refined_by_ != panel_.method;
-    if (otherwise || relit_) {
-        refined_ = here;
-        refined_by_ = panel_.method;
-        if (otherwise) compositor_.set_traced(nullptr);
-        relit_ = false;
-        refinement_->begin(here, panel_.method);
-        panel_.passes = 0;
-        return true;
-    }
-    const std::optional<Refinement::Step> step = refinement_->take();
-    if (!step) return false;
-    panel_.passes = step->passes;
-    compositor_.set_traced(step->picture);
-    return true;
-}
-
 // Whether another frame of the sequence is shown.
 Result<bool> Visit::play(double seconds) {
     if (!playback_) return false;
@@ -242,32 +192,6 @@ Result<bool> Visit::play(double seconds) {
     refined_.reset();
     refinement_.reset();
     return true;
-}
-
-DeskView Visit::desk_view() const {
-    return {camera(), [this](const glm::dvec2& at) {
-                return compositor_.surface_at(static_cast<int>(at.x), static_cast<int>(at.y));
-            }};
-}
-
-Status Visit::relight() {
-    desk_.settle(desk_view());
-    if (std::string news = desk_.take_news(); !news.empty()) tell(news);
-    if (!desk_.take_change()) return {};
-    const double exposure_ev = desk_.edits().state().exposure_ev;
-    if (refinement_) refinement_->set_lights({desk_.scene(), exposure_ev});
-    relit_ = true;
-    return compositor_.set_lights(*desk_.scene(), exposure_ev);
-}
-
-Status Visit::show(const glm::ivec2& size) {
-    if (!desk_.is_open()) {
-        compositor_.show_in_window(size.x, size.y);
-        return {};
-    }
-    if (Status drawn = compositor_.draw_handles(desk_.strokes(camera())); !drawn) return drawn;
-    compositor_.handles()->shown().show_in_window(size.x, size.y);
-    return {};
 }
 
 Status Visit::take_pictures() {

@@ -16,7 +16,8 @@ using vrml::Fields;
 using vrml::MalformedVrml;
 using vrml::NodePointer;
 
-constexpr double kFarRadius = 1e9;  // of lights, which shine as far as they like
+constexpr std::size_t kMostPlaced = 100'000;  // shapes, lights and cameras: as many as a scene draws at most
+constexpr double kFarRadius = 1e9;            // of lights, which shine as far as they like
 
 vrml::Value triple_of(const glm::dvec3& v) {
     return numbers({v.x, v.y, v.z});
@@ -115,6 +116,8 @@ private:
 
     // What has its place in the state's coordinates.
     void place(const Tree& node, const State& state, std::vector<NodePointer> children) {
+        placed_ += children.size();
+        if (placed_ > kMostPlaced) throw lexer_.wrong(node.line, "USE unfolds to too much to be shown; use it less");
         if (state.matrix == glm::dmat4(1.0)) {
             for (NodePointer& child : children) emit(std::move(child));
             return;
@@ -183,6 +186,7 @@ private:
     std::vector<std::vector<NodePointer>> scopes_;  // what is made, by the directional light that shines on it
     std::vector<NodePointer> backgrounds_;          // one, or none
     double visits_ = 0;
+    std::size_t placed_ = 0;
     int depth_ = 0;
 };
 

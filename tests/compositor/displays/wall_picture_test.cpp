@@ -34,13 +34,13 @@ Image<Rgba8> cropped(const Image<Rgba8>& picture, int x, int y, int width, int h
     return part;
 }
 
-// Boxes in a room with a floor, and a drum among them.
-Scene boxes() {
+// Boxes in a room with a floor.
+Scene boxes(int count = 12) {
     Scene scene;
     scene.floor = Floor{};
     scene.background.sky = {{0.1F, 0.2F, 0.5F}, {0.6F, 0.6F, 0.7F}};
     scene.background.sky_angles_rad = {1.5};
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < count; ++i) {
         GeometryNode box;
         box.mesh = std::make_shared<const Mesh>(box_mesh({0.5, 0.3 + 0.2 * i, 0.4}));
         box.material.diffuse = {0.1F + 0.07F * static_cast<float>(i), 0.5F, 0.8F - 0.06F * static_cast<float>(i)};
@@ -95,30 +95,44 @@ protected:
     }
 };
 
-TEST_F(WallPicture, IsTheCropOfAnOversizedOne) {
-    const std::vector<PlacedObject> objects{test::placed_at(test::drum(), {.translation = {0.3, 1.2, -3.2}})};
-    const Image<Rgba8> wall = compose(boxes(), objects, wall_and_crop().wall, 1);
-    const Image<Rgba8> crop = crop_of_oversized(boxes(), objects, 1);
+TEST_F(WallPicture, IsTheCropOfAnOversizedOneBitForBit) {
+    Scene scene = boxes();
+    scene.floor.reset();
+    const std::vector<PlacedObject> objects{test::placed_at(test::drum(), {.translation = {0.3, 1.2, -3.2}}),
+                                            test::placed_at(test::drum(), {.translation = {-1.4, 1.9, -6}})};
+    const Image<Rgba8> wall = compose(scene, objects, wall_and_crop().wall, 1);
+    const Image<Rgba8> crop = crop_of_oversized(scene, objects, 1);
+    EXPECT_EQ(wall, crop);
+    EXPECT_GE(psnr(compose(scene, objects, wall_and_crop().wall, 4), crop_of_oversized(scene, objects, 4)), 50);
+}
+
+// The checker of the floor fades with the distance, a float that is interpolated over the picture: here and there it is
+// rounded to the next of 255 steps.
+TEST_F(WallPicture, IsTheCropOfAnOversizedOneWithAFloor) {
+    const Image<Rgba8> wall = compose(boxes(), {}, wall_and_crop().wall, 1);
+    const Image<Rgba8> crop = crop_of_oversized(boxes(), {}, 1);
     int different = 0;
     for (std::size_t i = 0; i < wall.pixels().size(); ++i) different += wall.pixels()[i] != crop.pixels()[i];
-    EXPECT_EQ(different, 0);
-    EXPECT_GE(psnr(compose(boxes(), objects, wall_and_crop().wall, 4), crop_of_oversized(boxes(), objects, 4)), 50);
+    EXPECT_LE(different, 16);
+    EXPECT_GE(psnr(wall, crop), 80);
 }
 
 TEST_F(WallPicture, IsTracedAsTheCropOfAnOversizedOne) {
     const WallAndCrop cameras = wall_and_crop();
-    Scene scene = boxes();
-    scene.floor.reset();
-    auto tracer = TracedRenderer::create(scene, {}, {.method = TracedMethod::kWhitted});
+    auto tracer = TracedRenderer::create(boxes(), {}, {.method = TracedMethod::kWhitted});
     ASSERT_TRUE(tracer.ok()) << tracer.error().message;
+    // Over black, as it is seen: the colour of a pixel that a single ray of many met says nothing.
     const auto traced = [&](const Camera& camera) {
         tracer->look(camera);
-        for (int pass = 0; pass < 256; ++pass) tracer->add_pass();
-        return tracer->picture();
+        for (int pass = 0; pass < 64; ++pass) tracer->add_pass();
+        Image<Rgba8> picture = tracer->picture();
+        for (Rgba8& pixel : picture.pixels()) pixel = over(pixel, {0, 0, 0, 255});
+        return picture;
     };
     const Image<Rgba8> wall = traced(cameras.wall);
     const Image<Rgba8> crop = cropped(traced(cameras.oversized), cameras.x, cameras.y, kWallSide_px, kWallSide_px);
     EXPECT_GE(psnr(wall, crop), 50);
+    EXPECT_LT(psnr(wall, Image<Rgba8>(kWallSide_px, kWallSide_px, {0, 0, 0, 255})), 40);
 }
 
 // A small bright square: where its middle is drawn for each eye.
