@@ -23,6 +23,7 @@ ROOM_VIEWS=${RAYSPACE_DEMO_ROOM_VIEWS:-48}
 ROOM_SIZE=${RAYSPACE_DEMO_ROOM_SIZE:-224x224}
 ROOM_SPP=${RAYSPACE_DEMO_ROOM_SPP:-8}
 WALK_SIZE=${RAYSPACE_DEMO_WALK_SIZE:-960x540}
+STREET_SIZE=${RAYSPACE_DEMO_STREET_SIZE:-640x360}
 
 PHOTOS=
 if [ $# -gt 0 ]; then
@@ -43,7 +44,7 @@ install_packages "${BUILD_PACKAGES[@]}"
 say "Building the tools"
 # No tests here: they would ask for packages that the tools do not need.
 configure build/release -DCMAKE_BUILD_TYPE=Release -DRAYSPACE_TESTS=OFF -DRAYSPACE_BENCH=OFF
-cmake --build build/release -j "$(nproc)" --target rs-capture rs-encode rs-engine rs-showroom rs-view
+cmake --build build/release -j "$(nproc)" --target rs-capture rs-encode rs-engine rs-showroom rs-street rs-view
 
 mkdir -p "$OUT"
 TABLE=()
@@ -83,6 +84,16 @@ traced_for_room() {
   for job in "${jobs[@]}"; do wait "$job" || fail "an object of the showroom could not be made; see above"; done
 }
 
+# show_toon: an object drawn as a cartoon, beside those that were photographed.
+show_toon() {
+  local world=$OUT/showroom
+  step "toon: trace 48 pictures" "$OUT/blocks-toon-set" "$BIN/rs-capture" synth datasets-synthetic/recipes/blocks-toon.json \
+    -o "$OUT/blocks-toon-set" --views 48 --size 224x224 --spp 4 -q
+  step "toon: encode" "$OUT/blocks-toon.rso" "$BIN/rs-encode" build "$OUT/blocks-toon-set" -o "$OUT/blocks-toon.rso" -q
+  step "toon: in the shop" "$OUT/showroom-toon.png" "$BIN/rs-view" "$world/showroom.wrl" --viewpoint table \
+    --object "$OUT/blocks-toon.rso@-1.3,0.8,4.05,-10,0.15" --size 800x450 -o "$OUT/showroom-toon.png"
+}
+
 # show_room: the shop and the museum, and the walk through both.
 show_room() {
   local rest=() name world=$OUT/showroom view
@@ -101,6 +112,23 @@ show_room() {
     --path "$world/showroom-walk.json" --size "$WALK_SIZE" -o "$OUT/showroom-walk.mp4"
 }
 
+# show_street: ten seconds of traffic, and one moment by day, by night and in every weather.
+show_street() {
+  local look pictures=() picture folder
+  step "street: by day" "$OUT/town" "$BIN/rs-street" -o "$OUT/town" --objects ..
+  step "street: by night" "$OUT/town-night" "$BIN/rs-street" -o "$OUT/town-night" --time night --objects ..
+  step "street: ten seconds" "$OUT/street.mp4" "$BIN/rs-view" --sequence "$OUT/town" --size "$STREET_SIZE" -o "$OUT/street.mp4"
+  for look in town:fair town:rain town:snow town:fog town-night:fair town-night:rain; do
+    folder=${look%%:*}
+    picture=$OUT/street-${look/:/-}.png
+    local weather=()
+    [ "${look##*:}" = fair ] || weather=(--weather "${look##*:}")
+    "$BIN/rs-view" --sequence "$OUT/$folder" "${weather[@]}" --frame 130 --size "$STREET_SIZE" -o "$picture"
+    pictures+=("$picture")
+  done
+  step "street: contact sheet" "$OUT/street-sheet.jpg" oiiotool "${pictures[@]}" --mosaic:pad=8 3x2 -o "$OUT/street-sheet.jpg"
+}
+
 if [ -n "$PHOTOS" ]; then
   NAME=$(basename "$(realpath "$PHOTOS")")
   step "$NAME: import photographs" "$OUT/$NAME-set" "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/$NAME-set" "$@"
@@ -114,7 +142,9 @@ else
     from_set "$name"
   done
   show_room
-  LOOK="showroom-walk.mp4, showroom-shop.png, showroom-museum.png and showroom-evening.png, the contact sheets and the orbit videos"
+  show_toon
+  show_street
+  LOOK="showroom-walk.mp4, street.mp4, showroom-shop.png, showroom-museum.png, showroom-evening.png, showroom-toon.png and street-sheet.jpg, the contact sheets and the orbit videos"
 fi
 
 printf '\n%-34s %9s  %7s  %s\n' "step" "time" "size" "file"

@@ -208,6 +208,14 @@ Result<Made> make_set(const Options& options, SceneFile file, Progress& progress
     set.render.seed = options.seed.value_or(file.seed);
     set.render.depth = options.depth;
     set.render.threads = options.threads;
+    if (file.toon) {
+        set.render.method = RenderMethod::kToon;
+        set.render.toon = *file.toon;
+    }
+    const Camera& first = rig->views.front().camera;
+    set.render.lens.aperture = file.camera.aperture_radii;
+    set.render.lens.focus =
+        file.camera.focus_radii > 0 ? file.camera.focus_radii : glm::dot(-first.centre(), first.forward());
     set.format = options.format == "exr" ? PictureFormat::exr : PictureFormat::png;
 
     const Result<Tracer> tracer = Tracer::create(std::move(file.scene));
@@ -219,6 +227,9 @@ Result<Made> make_set(const Options& options, SceneFile file, Progress& progress
 }
 
 Result<Made> make_photos(const Options& options, const SceneFile& file, Progress& progress) {
+    if (file.toon) {
+        return Error{options.scene.string() + ": \"look\": \"toon\" is no photograph; leave out --as-photos"};
+    }
     PhotoOptions photos = options.as_photos.photos;
     SessionOptions& session = photos.session;
     const PixelSize size = options.size.value_or(PixelSize{session.width, session.height});

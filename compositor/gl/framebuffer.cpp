@@ -1,5 +1,7 @@
 #include "compositor/gl/framebuffer.hpp"
 
+#include "compositor/gl/texture.hpp"
+
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -13,6 +15,16 @@ Handle<Kind::kRenderbuffer> new_renderbuffer(GLenum format, int width, int heigh
     glCreateRenderbuffers(1, &name);
     glNamedRenderbufferStorageMultisample(name, samples > 1 ? samples : 0, format, width, height);
     return Handle<Kind::kRenderbuffer>(name);
+}
+
+// Bytes as they are: the window is not one of sRGB, and its first row is the lowest.
+void copy_to_window(unsigned framebuffer, const glm::ivec2& from, const glm::ivec2& to) {
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    const GLenum filter = from == to ? GL_NEAREST : GL_LINEAR;
+    glBlitNamedFramebuffer(framebuffer, 0, 0, 0, from.x, from.y, 0, to.y, to.x, 0, GL_COLOR_BUFFER_BIT, filter);
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, to.x, to.y);
 }
 
 }  // namespace
@@ -62,26 +74,38 @@ void Framebuffer::resolve_to(const Framebuffer& target) const {
 }
 
 float Framebuffer::depth_at(int column, int row, const Framebuffer& scratch) const {
-    RS_CHECK(scratch.width_ == width_ && scratch.height_ == height_ && scratch.samples_ == 1);
-    if (&scratch != this) {
-        glBlitNamedFramebuffer(handle_.name(), scratch.handle_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
-                               GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-    }
+    return depths_at(column, row, 1, 1, scratch).front();
+}
+
+std::vector<float> Framebuffer::depths_at(int column, int row, int width, int height,
+                                          const Framebuffer& scratch) const {
+    RS_CHECK(column >= 0 && row >= 0 && column + width <= width_ && row + height <= height_);
+    if (&scratch != this) copy_depths_to(scratch);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, scratch.handle_.name());
-    float depth = 0;
-    glReadPixels(column, row, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
-    return depth;
+    std::vector<float> depths(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    glReadPixels(column, row, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+    return depths;
+}
+
+void Framebuffer::copy_depths_to(const Framebuffer& target) const {
+    RS_CHECK(target.width_ == width_ && target.height_ == height_ && target.samples_ == 1 && &target != this);
+    glBlitNamedFramebuffer(handle_.name(), target.handle_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
+                           GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
 void Framebuffer::show_in_window(int width, int height) const {
     RS_CHECK(samples_ == 1);
-    // Bytes as they are: the window is not one of sRGB, and its first row is the lowest.
-    glDisable(GL_FRAMEBUFFER_SRGB);
-    const GLenum filter = width == width_ && height == height_ ? GL_NEAREST : GL_LINEAR;
-    glBlitNamedFramebuffer(handle_.name(), 0, 0, 0, width_, height_, 0, height, width, 0, GL_COLOR_BUFFER_BIT, filter);
-    glEnable(GL_FRAMEBUFFER_SRGB);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, width, height);
+    copy_to_window(handle_.name(), {width_, height_}, {width, height});
+}
+
+void show_in_window(ConstImageView<Rgba8> picture, int width, int height) {
+    const Texture texture(picture.width(), picture.height());
+    texture.upload(picture);
+    unsigned name = 0;
+    glCreateFramebuffers(1, &name);
+    const Handle<Kind::kFramebuffer> handle(name);
+    texture.attach_to(name);
+    copy_to_window(name, {picture.width(), picture.height()}, {width, height});
 }
 
 Image<Rgba8> Framebuffer::read_picture() const {

@@ -7,6 +7,8 @@
 
 #include <glm/glm.hpp>
 
+#include <vector>
+
 namespace rs::gl {
 
 class Framebuffer {
@@ -25,6 +27,11 @@ public:
     // The depth at a pixel (column, row): near plane over distance, 0 where nothing was drawn. `scratch` has the same
     // size and one sample; its depths are lost, unless it is this framebuffer. Waits for all drawing.
     [[nodiscard]] float depth_at(int column, int row, const Framebuffer& scratch) const;
+    // The same of width x height pixels from there on, which lie inside, row by row.
+    [[nodiscard]] std::vector<float> depths_at(int column, int row, int width, int height,
+                                               const Framebuffer& scratch) const;
+    // In place of the depths of `target`, which has the same size and one sample and is another.
+    void copy_depths_to(const Framebuffer& target) const;
     // Puts the picture into the current window, stretched to width x height pixels, which then is what is drawn into
     // (for an overlay). One sample only.
     void show_in_window(int width, int height) const;
@@ -40,5 +47,8 @@ private:
     int height_ = 0;
     int samples_ = 1;
 };
+
+// Puts a picture into the current window, stretched to width x height pixels.
+void show_in_window(ConstImageView<Rgba8> picture, int width, int height);
 
 }  // namespace rs::gl

@@ -19,6 +19,8 @@ GLenum format_of(TexelKind kind) {
             return GL_R32F;
         case TexelKind::kLinear:
             return GL_RGBA16;
+        case TexelKind::kDirection:
+            return GL_RGBA16F;
         case TexelKind::kColour:
             break;
     }
@@ -61,6 +63,17 @@ Texture::Texture(ConstImageView<Rgba8> picture, const TextureWrap& wrap)
               std::bit_width(static_cast<unsigned>(std::max(picture.width(), picture.height())))) {
     const Image<glm::u16vec4> linear = linear_texels(picture);
     upload(linear.data(), linear.width(), linear.height(), linear.width(), GL_RGBA, GL_UNSIGNED_SHORT);
+    read_smoothly(wrap);
+}
+
+Texture::Texture(ConstImageView<RgbaF> directions, const TextureWrap& wrap)
+    : Texture(directions.width(), directions.height(), TexelKind::kDirection,
+              std::bit_width(static_cast<unsigned>(std::max(directions.width(), directions.height())))) {
+    upload(directions.data(), directions.width(), directions.height(), directions.stride(), GL_RGBA, GL_FLOAT);
+    read_smoothly(wrap);
+}
+
+void Texture::read_smoothly(const TextureWrap& wrap) const {
     const unsigned name = handle_.name();
     glGenerateTextureMipmap(name);
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
@@ -84,6 +97,10 @@ void Texture::upload(const void* texels, int width, int height, std::ptrdiff_t s
     glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(stride));
     glTextureSubImage2D(handle_.name(), 0, 0, 0, width, height, format, type, texels);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+void Texture::attach_to(unsigned framebuffer) const {
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, handle_.name(), 0);
 }
 
 void Texture::bind(unsigned unit) const {

@@ -15,7 +15,8 @@ struct TextureWrap {
 enum class TexelKind {
     kColour,  // 8-bit sRGB
     kLinear,  // 16-bit linear light: twice the memory, but drawn on a CPU it need not be decoded at every pixel
-    kFloat
+    kFloat,
+    kDirection
 };
 
 class Texture {
@@ -25,17 +26,22 @@ public:
     // A picture that does not change, for surfaces: kLinear, read with linear interpolation from levels of half the
     // size each.
     Texture(ConstImageView<Rgba8> picture, const TextureWrap& wrap);
+    // Directions that do not change (r, g, b), as half floats; read in the same way.
+    Texture(ConstImageView<RgbaF> directions, const TextureWrap& wrap);
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
 
     // Overwrites the top left corner; the picture must fit. Its first row becomes texel row 0.
     void upload(ConstImageView<Rgba8> picture) const;
     void upload(ConstImageView<float> picture) const;  // into kFloat
+    // As the colours of a framebuffer that is read from.
+    void attach_to(unsigned framebuffer) const;
     // To `uniform sampler2D` with layout(binding = unit).
     void bind(unsigned unit) const;
 
 private:
     Texture(int width, int height, TexelKind kind, int levels);
+    void read_smoothly(const TextureWrap& wrap) const;
     void upload(const void* texels, int width, int height, std::ptrdiff_t stride, unsigned format, unsigned type) const;
     Handle<Kind::kTexture> handle_;
     int width_ = 0;

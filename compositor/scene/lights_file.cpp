@@ -1,6 +1,7 @@
 #include "compositor/scene/lights_file.hpp"
 
 #include "compositor/scene/strict_json.hpp"
+#include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
@@ -14,124 +15,141 @@ namespace {
 
 constexpr std::uint64_t kMostListBytes = 4U << 20U;
 constexpr std::size_t kMostLights = 4096;
-constexpr double kMostDistant = 1e6;
-constexpr double kShortest = 1e-6;
-constexpr double kStrongest = 1e12;
-
-// Across and along an aim; along x across = -aim, so that an area of these halves shines to where it is aimed. Across
-// lies where +X is best seen, or +Z where the aim is along X.
-struct Axes {
-    glm::dvec3 across, along;
-};
-Axes axes_of(const glm::dvec3& aim, double turn_rad) {
-    const glm::dvec3 towards = std::abs(aim.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-    const glm::dvec3 across = glm::normalize(towards - glm::dot(towards, aim) * aim);
-    const glm::dvec3 quarter = glm::cross(-aim, across);  // counter-clockwise, seen from behind the light
-    return {std::cos(turn_rad) * across + std::sin(turn_rad) * quarter,
-            std::cos(turn_rad) * quarter - std::sin(turn_rad) * across};
-}
+constexpr double kMostTurned_deg = 36000;
+constexpr std::uint32_t kMostScope = 1U << 20U;
 
 class ListReader {
 public:
     explicit ListReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    Light read(JsonObject object) {
+    LightEntry read(JsonObject object) {
         const JsonValue kind_value = object.take("kind");
         const std::string kind = kind_value.text();
-        Light light;
-        const glm::vec3 colour =
-            object.has("colour") ? glm::vec3(object.take("colour").triple(0, kStrongest)) : glm::vec3(1);
-        if (kind == "directional") {
-            light = directional_light(object.take("aim").direction(), watts(object, "lux") * colour);
-        } else if (kind == "point" || kind == "spot") {
-            const glm::dvec3 location = object.take("location").triple(-kMostDistant, kMostDistant);
-            light = point_light(location, watts(object, "candela") * colour);
-            if (kind == "spot") read_cone(object, light);
-        } else if (kind == "rectangle" || kind == "disc") {
-            read_area(object, kind == "disc", colour, light);
-        } else if (kind == "luminaire") {
-            read_luminaire_light(object, light);
-            light.colour = colour;
-        } else {
+        LightEntry entry;
+        if (!known_kind(kind, entry.kind)) {
             throw kind_value.wrong("must be directional, point, spot, rectangle, disc or luminaire");
         }
-        if (object.has("name")) light.name = object.take("name").text();
+        if (object.has("colour")) entry.colour = object.take("colour").triple(0, kStrongest);
+        if (entry.kind != LightKind::kDirectional) {
+            entry.location = object.take("location").triple(-kMostDistant, kMostDistant);
+        }
+        switch (entry.kind) {
+            case LightKind::kDirectional:
+                entry.aim = aim_of(object);
+                entry.power = power_of(object, "lux");
+                break;
+            case LightKind::kPoint:
+            case LightKind::kSpot:
+                read_punctual(object, entry);
+                break;
+            case LightKind::kRectangle:
+            case LightKind::kDisc:
+                read_area(object, entry);
+                break;
+            case LightKind::kLuminaire:
+                read_luminaire_light(object, entry);
+                break;
+        }
+        if (object.has("ambient")) entry.ambient = object.take("ambient").triple(0, kStrongest);
+        if (object.has("scope")) {
+            entry.scope = static_cast<std::uint32_t>(object.take("scope").whole_number(0, kMostScope));
+        }
+        if (object.has("name")) entry.name = object.take("name").text();
         object.expect_all_taken();
-        if (Status fine = check_light(light); !fine) throw object.wrong(fine.error().message);
-        return light;
+        if (Status fine = check_light(light_of(entry)); !fine) throw object.wrong(fine.error().message);
+        return entry;
     }
 
-    [[nodiscard]] EnvironmentLight read_environment(JsonObject object) const {
+    [[nodiscard]] EnvironmentEntry read_environment(JsonObject object) const {
+        EnvironmentEntry entry;
         const JsonValue file = object.take("file");
-        Result<Image<RgbaF>> pixels = read_radiance(folder_ / file.text());
+        entry.file = folder_ / file.text();
+        Result<Image<RgbaF>> pixels = read_radiance(entry.file);
         if (!pixels) throw file.wrong(pixels.error().message);
-        EnvironmentLight light;
-        light.pixels = std::make_shared<const Image<RgbaF>>(std::move(*pixels));
-        if (object.has("scale")) light.scale = static_cast<float>(object.take("scale").number(0, kStrongest));
-        if (object.has("turn_deg")) {
-            light.turn_rad = static_cast<float>(radians(object.take("turn_deg").number(-36000, 36000)));
-        }
-        if (object.has("seen")) light.seen = object.take("seen").boolean();
+        entry.pixels = std::make_shared<const Image<RgbaF>>(std::move(*pixels));
+        if (object.has("scale")) entry.scale = object.take("scale").number(0, kStrongest);
+        entry.turn_deg = turn_of(object);
+        if (object.has("seen")) entry.seen = object.take("seen").boolean();
         object.expect_all_taken();
-        return light;
+        return entry;
     }
 
 private:
-    static float watts(JsonObject& object, const char* key) {
-        return static_cast<float>(object.take(key).number(0, kStrongest) / kLumensPerWatt);
+    static bool known_kind(const std::string& word, LightKind& kind) {
+        for (const LightKind known : {LightKind::kDirectional, LightKind::kPoint, LightKind::kSpot,
+                                      LightKind::kRectangle, LightKind::kDisc, LightKind::kLuminaire}) {
+            if (word != name_of(known)) continue;
+            kind = known;
+            return true;
+        }
+        return false;
     }
 
-    static void read_cone(JsonObject& object, Light& light) {
-        light.kind = LightKind::kSpot;
-        light.towards = object.take("aim").direction();
+    static double power_of(JsonObject& object, const char* key) { return object.take(key).number(0, kStrongest); }
+
+    static glm::dvec3 aim_of(JsonObject& object) {
+        const JsonValue aim = object.take("aim");
+        static_cast<void>(aim.direction());  // refuses what is none
+        return aim.triple(-kMostDistant, kMostDistant);
+    }
+
+    static double turn_of(JsonObject& object) {
+        return object.has("turn_deg") ? object.take("turn_deg").number(-kMostTurned_deg, kMostTurned_deg) : 0;
+    }
+
+    static void read_punctual(JsonObject& object, LightEntry& entry) {
+        if (object.has("intensity")) {
+            entry.radiance = object.take("intensity").triple(0, kStrongest);
+            if (object.has("attenuation")) {
+                const JsonValue attenuation = object.take("attenuation");
+                entry.attenuation = attenuation.triple(0, kStrongest);
+                if (entry.attenuation == glm::dvec3(0)) {
+                    throw attenuation.wrong("is nowhere above 0; give [1, 0, 0]");
+                }
+            }
+        } else {
+            entry.power = power_of(object, "candela");
+        }
+        if (object.has("reach")) entry.reach = object.take("reach").number(kShortest, kMostDistant);
+        if (entry.kind == LightKind::kPoint) return;
+        entry.aim = aim_of(object);
         const JsonValue cut_off = object.take("cut_off_deg");
-        light.cut_off_rad = radians(cut_off.number(0.1, 180)) / 2;
-        light.beam_width_rad = light.cut_off_rad;
-        if (object.has("beam_deg")) light.beam_width_rad = radians(object.take("beam_deg").number(0, 180)) / 2;
-        if (light.beam_width_rad > light.cut_off_rad) throw cut_off.wrong("must not be below beam_deg");
+        entry.cut_off_deg = cut_off.number(kLeastCutOff_deg, 180);
+        entry.beam_deg = object.has("beam_deg") ? object.take("beam_deg").number(0, 180) : entry.cut_off_deg;
+        if (entry.beam_deg > entry.cut_off_deg) throw cut_off.wrong("must not be below beam_deg");
     }
 
-    static void read_area(JsonObject& object, bool round, const glm::vec3& colour, Light& light) {
-        light.kind = round ? LightKind::kDisc : LightKind::kRectangle;
-        light.location = object.take("location").triple(-kMostDistant, kMostDistant);
-        const double turn = object.has("turn_deg") ? radians(object.take("turn_deg").number(-36000, 36000)) : 0;
-        const Axes axes = axes_of(object.take("aim").direction(), turn);
+    static void read_area(JsonObject& object, LightEntry& entry) {
+        entry.turn_deg = turn_of(object);
+        entry.aim = aim_of(object);
         const JsonValue size = object.take("size");
-        double across = 0, along = 0;
-        if (round) {
-            across = along = size.number(kShortest, kMostDistant);
+        if (entry.kind == LightKind::kDisc) {
+            entry.size = glm::dvec2(size.number(kShortest, kMostDistant));
         } else {
             size.list_size(2, 2);
-            across = size.item(0).number(kShortest, kMostDistant);
-            along = size.item(1).number(kShortest, kMostDistant);
+            entry.size = {size.item(0).number(kShortest, kMostDistant), size.item(1).number(kShortest, kMostDistant)};
         }
-        light.half_u = 0.5 * along * axes.along;
-        light.half_v = 0.5 * across * axes.across;
         if (object.has("lumens") == object.has("radiance")) throw object.wrong("must have either lumens or radiance");
         if (object.has("radiance")) {
-            light.colour = glm::vec3(object.take("radiance").triple(0, kStrongest)) * colour;
+            entry.radiance = object.take("radiance").triple(0, kStrongest);
         } else {
-            light.colour = watts(object, "lumens") / static_cast<float>(kPi * area_of(light)) * colour;
+            entry.power = power_of(object, "lumens");
         }
     }
 
-    void read_luminaire_light(JsonObject& object, Light& light) {
-        light.kind = LightKind::kLuminaire;
-        light.location = object.take("location").triple(-kMostDistant, kMostDistant);
-        const glm::dvec3 aim = object.has("aim") ? object.take("aim").direction() : glm::dvec3(0, -1, 0);
-        const double turn = object.has("turn_deg") ? radians(object.take("turn_deg").number(-36000, 36000)) : 0;
-        const Axes axes = axes_of(aim, turn);
-        // Its X, -Z and aim: planes C0 and C90, and the nadir.
-        light.world_from_luminaire = glm::dmat3(axes.across, -aim, -axes.along);
+    void read_luminaire_light(JsonObject& object, LightEntry& entry) {
+        if (object.has("aim")) entry.aim = aim_of(object);
+        entry.turn_deg = turn_of(object);
+        if (object.has("dimmer")) entry.power = power_of(object, "dimmer");
         const JsonValue file = object.take("file");
-        const std::filesystem::path path = folder_ / file.text();
-        auto& read = luminaires_[path.string()];
+        entry.file = folder_ / file.text();
+        auto& read = luminaires_[entry.file.string()];
         if (!read) {
-            Result<Luminaire> luminaire = read_luminaire(path);
+            Result<Luminaire> luminaire = read_luminaire(entry.file);
             if (!luminaire) throw file.wrong(luminaire.error().message);
             read = std::make_shared<const Luminaire>(std::move(*luminaire));
         }
-        light.luminaire = read;
+        entry.luminaire = read;
     }
 
     std::filesystem::path folder_;
@@ -140,6 +158,12 @@ private:
 
 }  // namespace
 
+std::optional<EnvironmentLight> environment_of(const std::optional<EnvironmentEntry>& entry) {
+    if (!entry) return std::nullopt;
+    return EnvironmentLight{entry->pixels, static_cast<float>(entry->scale),
+                            static_cast<float>(radians(entry->turn_deg)), entry->seen};
+}
+
 Result<LightList> light_list_from_json(const std::string& text, const std::filesystem::path& path) {
     try {
         const nlohmann::json json = parse_json_text(text, path.string());
@@ -147,14 +171,21 @@ Result<LightList> light_list_from_json(const std::string& text, const std::files
         LightList list;
         if (top.has("replace")) list.replace = top.take("replace").boolean();
         ListReader reader(path.parent_path());
+        if (top.has("headlight")) list.headlight = top.take("headlight").boolean();
         const JsonValue lights = top.take("lights");
         const std::size_t count = lights.list_size(0, kMostLights);
-        for (std::size_t i = 0; i < count; ++i) list.lights.push_back(reader.read(JsonObject(lights.item(i))));
-        if (top.has("environment")) list.environment = reader.read_environment(JsonObject(top.take("environment")));
+        for (std::size_t i = 0; i < count; ++i) {
+            list.entries.push_back(reader.read(JsonObject(lights.item(i))));
+            list.lights.push_back(light_of(list.entries.back()));
+        }
+        if (top.has("environment")) {
+            list.environment_entry = reader.read_environment(JsonObject(top.take("environment")));
+            list.environment = environment_of(list.environment_entry);
+        }
         top.expect_all_taken();
         return list;
     } catch (const MalformedJson& malformed) {
-        return Error{malformed.message};
+        return Error{printable(malformed.message)};  // files may have any names
     }
 }
 

@@ -17,6 +17,10 @@ AlphaUse alpha_use(const SceneTexture& texture) {
     return between * 20 > pixels.size() ? AlphaUse::kBlend : AlphaUse::kMask;
 }
 
+PhongTerms phong_terms(const Material& material) {
+    return material.phong.value_or(PhongTerms{material.diffuse * material.ambient, material.shininess * 128});
+}
+
 bool is_blended(const Material& material) {
     return material.opacity < 1 || (material.texture && alpha_use(*material.texture) == AlphaUse::kBlend);
 }

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace rs::compositor {
 
@@ -17,9 +18,18 @@ struct SceneTexture {
     bool modulates = false;  // multiplies the diffuse colour (grey pictures, glTF); else it replaces it
 };
 
+struct NormalMap;  // normal_map.hpp
+
 enum class AlphaUse { kNone = 0, kMask = 1, kBlend = 2 };
 // A picture whose alpha is nearly everywhere 0 or 255 cuts holes, with sharp edges and no order of drawing.
 AlphaUse alpha_use(const SceneTexture& texture);
+
+// What Phong's formula asks of a material beyond the rest (Shading::kPhong).
+struct PhongTerms {
+    glm::vec3 ambient{0.2F};  // reflected of the ambient light
+    float exponent = 25.6F;   // of the cosine between the reflected viewer and the light, >= 0
+    bool operator==(const PhongTerms&) const = default;
+};
 
 struct Material {
     glm::vec3 diffuse{0.8F};
@@ -30,8 +40,13 @@ struct Material {
     float opacity = 1;       // 1 - transparency
     bool lit = true;         // else it shows `diffuse` as it is
     std::shared_ptr<const SceneTexture> texture;
-    glm::mat3 texture_transform{1};  // of (s, t, 1)
+    std::shared_ptr<const NormalMap> normals;  // relief, at the same texture coordinates
+    glm::mat3 texture_transform{1};            // of (s, t, 1)
+    std::optional<PhongTerms> phong = {};      // else made of `ambient` and `shininess` (phong_terms)
+
+    bool operator==(const Material&) const = default;
 };
+PhongTerms phong_terms(const Material& material);
 
 // Whether other things shine through: such surfaces are drawn behind all others, the farthest first.
 bool is_blended(const Material& material);

@@ -22,4 +22,17 @@ namespace rs::compositor {
 // called from any thread.
 Result<Scene> read_model(const std::filesystem::path& path);
 
+// What a model's file calls its parts, for who wants to take it apart.
+struct ModelParts {
+    Scene scene;
+    // [geometry node of the scene]: of the node that it hangs on; in an OBJ its `o`, or `g` where that came after it.
+    std::vector<std::string> nodes;
+    struct Named {
+        std::string name;
+        Material material;
+    };
+    std::vector<Named> materials;  // in the file's order, those of an OBJ's libraries behind one of Assimp's own
+};
+Result<ModelParts> read_model_parts(const std::filesystem::path& path);
+
 }  // namespace rs::compositor

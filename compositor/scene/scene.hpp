@@ -3,6 +3,7 @@
 // Colours are linear light. Y is up; the unit of length is the scene's own.
 
 #include "compositor/scene/camera_path.hpp"
+#include "compositor/scene/light/light_entry.hpp"
 #include "compositor/scene/material.hpp"
 #include "compositor/scene/mesh.hpp"
 #include "compositor/scene/surroundings.hpp"
@@ -12,6 +13,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,6 +35,8 @@ struct GeometryNode {
     Material material;
     glm::dmat4 world_from_node{1.0};    // affine, with an inverse
     std::vector<std::uint32_t> lights;  // those of Scene::lights that shine here only, besides those everywhere
+    // Nodes that may be moved, all of the same number together; nothing: it stands still (TracedRenderer::move).
+    std::optional<std::uint32_t> moving = {};
 };
 
 // An object made of pictures. In the node's coordinates the unit is the object radius and Y the turntable's axis.
@@ -52,13 +56,37 @@ struct Room {
     BoundingBox box;  // in scene coordinates; empty where nothing is known of it
 };
 
+// How lights and surfaces make a colour.
+enum class Shading {
+    // ISO/IEC 14772-1, 4.14.4: the highlight about the half vector, ambient light from each light.
+    kVrml,
+    // B. T. Phong, Illumination for Computer Generated Pictures, 1975, with one ambient light A, the sum of that of all
+    // directional lights: emissive + kd sum f E (N.I) + ks sum f E (I.Os)^g + ka A, where Os is the direction towards
+    // the viewer reflected by the surface and f = min(1 / (c0 + c1 r + c2 r^2), 1).
+    kPhong
+};
+
+// What weather leaves on surfaces that look up.
+enum class Cover { kNone = 0, kWet = 1, kSnow = 2 };
+
+// Of lights that came from a list.
+struct ListedLights {
+    std::vector<LightEntry> entries;  // of the last lights of the scene
+    std::optional<EnvironmentEntry> environment;
+    // LightEntry::scope -> geometry nodes; filled once the scene's own lights are gone.
+    std::map<std::uint32_t, std::vector<std::uint32_t>> scopes;
+};
+
 struct Scene {
+    Shading shading = Shading::kVrml;  // of raster
+    Cover cover = Cover::kNone;        // of raster
     Background background;
     std::optional<Floor> floor;
     std::vector<Light> lights{{.colour = glm::vec3(0.75F),
                                .ambient = glm::vec3(0.4F),
                                .towards = glm::normalize(glm::dvec3(-0.45, -1, -0.6))}};
     std::optional<EnvironmentLight> environment;
+    ListedLights listed;  // what is known of them besides
     std::vector<GeometryNode> geometry;
     std::vector<RaySpaceNode> objects;
     std::vector<Room> rooms;

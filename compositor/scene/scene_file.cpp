@@ -195,10 +195,12 @@ Result<Scene> read_scene(const std::filesystem::path& path) {
     const auto is_one_of = [&](std::initializer_list<const char*> endings) {
         return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return name.ends_with(ending); });
     };
-    if (is_one_of({".wrl", ".wrl.gz", ".wrz", ".vrml"})) return read_vrml(path);
+    if (is_one_of({".wrl", ".wrl.gz", ".wrz", ".vrml", ".x3d", ".x3d.gz", ".x3dz", ".x3dv", ".x3dv.gz", ".x3dvz"}))
+        return read_vrml(path);
     if (is_one_of({".gltf", ".glb", ".obj"})) return read_model(path);
     if (!is_one_of({".json"})) {
-        return Error{path.string() + ": is no scene by its name; give a .wrl, .wrl.gz, .gltf, .glb, .obj or .json"};
+        return Error{path.string() +
+                     ": is no scene by its name; give a .wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj or .json"};
     }
     const Result<std::vector<std::byte>> bytes = read_file(path, kMaxScene_bytes);
     if (!bytes) return bytes.error();

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes from files: JSON (compositor/README.md), VRML97 (vrml_file.hpp), glTF 2.0 and OBJ (model_file.hpp).
+// Scenes from files: JSON (compositor/README.md), VRML and X3D (vrml_file.hpp), glTF 2.0 and OBJ (model_file.hpp).
 
 #include "compositor/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
@@ -9,8 +9,9 @@
 
 namespace rs::compositor {
 
-// By the file's name: .wrl, .wrl.gz, .wrz, .vrml; .gltf, .glb, .obj; .json. Files that the scene names are looked for
-// beside it; no .rso is opened here. Errors name the file and the line or key. Files beyond 64 MiB are refused.
+// By the file's name: .wrl, .wrl.gz, .wrz, .vrml, .x3d, .x3dz, .x3dv, ...; .gltf, .glb, .obj; .json. Files that the
+// scene names are looked for beside it; no .rso is opened here. Errors name the file and the line or key. Files beyond
+// 64 MiB are refused.
 Result<Scene> read_scene(const std::filesystem::path& path);
 
 // The text of a JSON scene; `path` names it in errors, and its folder is where object files are.

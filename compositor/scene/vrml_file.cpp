@@ -1,6 +1,8 @@
 #include "compositor/scene/vrml_file.hpp"
 
 #include "compositor/scene/vrml/flatten.hpp"
+#include "compositor/scene/vrml1/graph.hpp"
+#include "compositor/scene/x3d/xml_text.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/file/file_output.hpp"
 
@@ -71,8 +73,17 @@ Result<std::string> read_world_text(const std::filesystem::path& path) {
     return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
 }
 
+// Whatever its form, by how it begins.
+Result<vrml::Graph> graph_of(std::string_view text, const std::string& file) {
+    if (text.starts_with(vrml1::kHeader)) return vrml1::read_graph(text, file);
+    if (!x3d::is_xml(text)) return vrml::read_graph(text, file);
+    const Result<std::string> classic = x3d::classic_text(text, file);
+    if (!classic) return classic.error();
+    return vrml::read_headless_graph(*classic, file);
+}
+
 Result<std::shared_ptr<const vrml::LoadedFile>> load_text(std::string_view text, const std::filesystem::path& path) {
-    Result<vrml::Graph> graph = vrml::read_graph(text, path.string());
+    Result<vrml::Graph> graph = graph_of(text, path.string());
     if (!graph) return graph.error();
     return std::shared_ptr<const vrml::LoadedFile>(
         std::make_shared<vrml::LoadedFile>(vrml::LoadedFile{path, std::move(*graph)}));

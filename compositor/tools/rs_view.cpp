@@ -1,17 +1,23 @@
 // rs-view: a scene with ray-space objects -> composited frames.
 
 #include "compositor/gl/context.hpp"
-#include "compositor/scene/lights_file.hpp"
+#include "compositor/lighting/light_warnings.hpp"
+#include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/tools/asked_cameras.hpp"
+#include "compositor/tools/asked_tracing.hpp"
+#include "compositor/tools/quilt_views.hpp"
+#include "compositor/tools/sequence_run.hpp"
 #include "compositor/tools/view_options.hpp"
 #include "compositor/tools/view_tiles.hpp"
+#include "compositor/tools/wall_views.hpp"
 #include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/frame_times.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/window/visit.hpp"
+#include "compositor/window/wall_visit.hpp"
 #include "engine/executors/executor_table.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
@@ -48,13 +54,7 @@ Result<Scene> asked_scene(const ViewArguments& arguments) {
     if (!arguments.lights.empty()) {
         Result<LightList> list = read_light_list(arguments.lights);
         if (!list) return list.error();
-        if (list->replace) {
-            scene.lights.clear();
-            scene.navigation.headlight = false;
-            for (GeometryNode& node : scene.geometry) node.lights.clear();
-        }
-        scene.lights.insert(scene.lights.end(), list->lights.begin(), list->lights.end());
-        scene.environment = std::move(list->environment);
+        if (Status added = add_lights(scene, std::move(*list), arguments.lights); !added) return added.error();
     }
     if (!arguments.path.empty()) {
         const Result<Scene> walk = read_scene(arguments.path);
@@ -99,14 +99,6 @@ ObjectDepth asked_depth(const ViewArguments& arguments) {
     return arguments.object_depth == "pixel" ? ObjectDepth::kPixel : ObjectDepth::kPlane;
 }
 
-// Nothing: raster.
-std::optional<TracedMethod> asked_method(const ViewArguments& arguments) {
-    for (const NamedMethod& named : kTracedMethods) {
-        if (arguments.renderer == named.name) return named.method;
-    }
-    return std::nullopt;
-}
-
 void print_warnings(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings)
         std::fprintf(stderr, "rs-view: warning: %s\n", printable(warning).c_str());
@@ -124,9 +116,12 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
     options.wire_frame = arguments.wire_frame;
     options.samples = arguments.samples;
     options.exposure_ev = arguments.exposure_ev;
-    const auto traced = asked_method(arguments);
-    options.traced = traced.has_value();
-    options.method = traced.value_or(TracedMethod::kPath);
+    const Result<TracedOptions> tracing = asked_tracing(arguments);
+    if (!tracing) return tracing.error();
+    options.tracing = *tracing;
+    options.traced = asked_method(arguments).has_value();
+    if (!arguments.lights.empty()) options.lights = arguments.lights;
+    options.shadows = arguments.shadows == "on";
     options.executor = executor;
     options.object_depth = asked_depth(arguments);
     options.object_samples = arguments.object_samples;
@@ -137,6 +132,22 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
     options.viewpoints.push_back(begin);
     options.viewpoints.insert(options.viewpoints.end(), scene.viewpoints.begin(), scene.viewpoints.end());
     return visit(std::move(window), scene, std::move(showroom), options);
+}
+
+// A window for each wall.
+Status run_walls(const ViewArguments& arguments, const Scene& scene, const WallViews& views,
+                 std::unique_ptr<Showroom> showroom) {
+    if (asked_method(arguments)) return Error{"--renderer " + arguments.renderer + ": on walls it needs -o FOLDER"};
+    return visit_walls(scene, std::move(showroom),
+                       {.display = views.display,
+                        .heads = views.heads,
+                        .place = views.places.front(),
+                        .stereo = views.stereo,
+                        .samples = arguments.samples,
+                        .exposure_ev = arguments.exposure_ev,
+                        .object_depth = asked_depth(arguments),
+                        .object_samples = arguments.object_samples,
+                        .warn = print_warnings});
 }
 
 Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::vector<Camera>& cameras,
@@ -153,11 +164,11 @@ Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::
 // Null for the raster renderer.
 Result<std::unique_ptr<TracedRenderer>> asked_tracer(const ViewArguments& arguments, const Scene& scene,
                                                      Showroom& showroom) {
-    const auto method = asked_method(arguments);
-    if (!method || !arguments.tiles.empty()) return std::unique_ptr<TracedRenderer>();
+    if (!asked_method(arguments) || !arguments.tiles.empty()) return std::unique_ptr<TracedRenderer>();
+    const Result<TracedOptions> options = asked_tracing(arguments);
+    if (!options) return options.error();
     if (const Status status = showroom.wait_for_all({0, 0, 0}); !status) return status.error();
-    auto tracer =
-        TracedRenderer::create(scene, showroom.placed(), {.method = *method, .exposure_ev = arguments.exposure_ev});
+    auto tracer = TracedRenderer::create(scene, showroom.placed(), *options);
     if (!tracer) return Error{arguments.scene + ": " + tracer.error().message};
     print_warnings(tracer->warnings());
     return std::make_unique<TracedRenderer>(std::move(*tracer));
@@ -212,14 +223,21 @@ Status run_probe(const ViewArguments& arguments) {
 }
 
 Status run_view(ViewArguments arguments) {
-    const Result<PixelSize> size = parse_size(arguments.size);
+    const bool in_tiles = !arguments.quilt.empty();
+    const bool on_walls = !arguments.walls.empty();
+    Result<PixelSize> size = in_tiles ? asked_tile(arguments) : parse_size(arguments.size);
     if (!size) return size.error();
     Result<Scene> scene = asked_scene(arguments);
     if (!scene) return scene.error();
     print_warnings(scene->warnings);
+    print_warnings(light_warnings(*scene));
+    if (!arguments.save_lights.empty()) {
+        if (Status saved = write_light_list(lights_in_force(*scene), arguments.save_lights); !saved) return saved;
+        if (arguments.output.empty()) return {};
+    }
     std::optional<Window> window;
     bool in_place_of_window = false;
-    if (arguments.output.empty() && arguments.plan.empty()) {
+    if (arguments.output.empty() && arguments.plan.empty() && !on_walls) {
         Result<Window> opened = open_window(arguments, *size);
         if (opened) {
             window.emplace(std::move(*opened));
@@ -230,8 +248,8 @@ Status run_view(ViewArguments arguments) {
             print_warnings({opened.error().message + "; the first view goes to " + arguments.output});
         }
     }
-    const bool in_window = window.has_value();
     const bool plans = !arguments.plan.empty();
+    const bool in_window = window.has_value() || (on_walls && arguments.output.empty());
     const Result<OutputKind> kind = in_window || plans ? OutputKind::picture : output_kind(arguments.output);
     if (!kind) return kind.error();
     Result<std::unique_ptr<engine::Executor>> board = asked_executor(arguments);
@@ -251,12 +269,34 @@ Status run_view(ViewArguments arguments) {
     if (!cameras) return cameras.error();
     if (plans) return write_plan(arguments, *cameras);
     if (in_place_of_window) cameras->erase(cameras->begin() + 1, cameras->end());
+    std::optional<WallViews> walls;
+    std::optional<QuiltViews> quilt;
+    const std::size_t moments = cameras->size();
+    if (on_walls) {
+        Result<WallViews> asked = asked_walls(arguments, *scene, *cameras);
+        if (!asked) return asked.error();
+        walls = std::move(*asked);
+        if (*kind != OutputKind::folder && !in_window) {
+            return Error{arguments.output + ": walls go into a folder; give a folder to -o"};
+        }
+        cameras = wall_cameras(*walls);
+    } else if (in_tiles) {
+        Result<QuiltViews> asked = asked_quilt(arguments, *scene, *cameras);
+        if (!asked) return asked.error();
+        quilt = std::move(*asked);
+        if (*kind == OutputKind::video) return Error{arguments.output + ": quilts go into a .png or a folder"};
+        cameras = quilt->cameras();
+    }
+    if (!cameras) return cameras.error();
+    if (in_window && walls) {
+        return run_walls(arguments, *scene, *walls, std::move(showroom));
+    }
     if (in_window) {
         return run_visit(std::move(*window), arguments, *scene, std::move(showroom), drawer.name, cameras->front());
     }
     if (!arguments.tile.empty()) return run_tile(arguments, *scene, *showroom, *cameras);
-    if (*kind == OutputKind::picture && cameras->size() != 1) {
-        return Error{arguments.output + ": " + std::to_string(cameras->size()) +
+    if (*kind == OutputKind::picture && moments != 1) {
+        return Error{arguments.output + ": " + std::to_string(moments) +
                      " frames do not fit one picture; give a folder or an .mp4 to -o"};
     }
 
@@ -264,12 +304,14 @@ Status run_view(ViewArguments arguments) {
     if (!tracer) return tracer.error();
     Result<gl::Context> context = gl::Context::create_surfaceless();
     if (!context) return context.error();
+    size = PixelSize{cameras->front().width, cameras->front().height};
     const bool upright = arguments.upright || arguments.streaming || !drawer.tilted;
     Result<FrameCompositor> compositor = FrameCompositor::create(*scene, showroom->engine(), showroom->nodes(),
                                                                  {.width = size->width,
                                                                   .height = size->height,
                                                                   .samples = arguments.samples,
                                                                   .wire_frame = arguments.wire_frame,
+                                                                  .shadows = arguments.shadows == "on",
                                                                   .exposure_ev = arguments.exposure_ev,
                                                                   .object_depth = asked_depth(arguments),
                                                                   .object_samples = arguments.object_samples,
@@ -288,6 +330,9 @@ Status run_view(ViewArguments arguments) {
                 begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                             std::chrono::duration<double>(frame_s * static_cast<double>(times.frames()))));
         }
+        if (camera.width != compositor->width() || camera.height != compositor->height()) {
+            if (Status status = compositor->resize(camera.width, camera.height); !status) return status.error();
+        }
         if (!arguments.tiles.empty()) {
             Result<Image<Rgba8>> traced = read_tiles(arguments, static_cast<std::size_t>(times.frames()), camera);
             if (!traced) return traced.error();
@@ -305,7 +350,10 @@ Status run_view(ViewArguments arguments) {
     if (!*tracer || cameras->size() > 1) {
         progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
     }
-    if (Status status = write_frames(arguments, *kind, *cameras, compose, progress); !status) return status;
+    const Status written = walls   ? write_walls(*walls, arguments, compose, progress)
+                           : quilt ? write_quilts(*quilt, arguments, compose, progress)
+                                   : write_frames(arguments, *kind, *cameras, compose, progress);
+    if (!written) return written;
     progress.finish();
     if (waits && missing > 0) {
         print_warnings({std::to_string(missing) + " objects in view do not fit into --memory " +
@@ -326,6 +374,16 @@ int main(int argc, char** argv) {
     add_view_options(app, arguments, headless);
     std::function<rs::Status()> run;
     app.callback([&] {
+        check_sequence_options(arguments);
+        arguments.frames_per_second_given = app.count("--fps") > 0;
+        arguments.size_given = app.count("--size") > 0;
+        if (!arguments.sequences.empty()) {
+            run = [&] { return arguments.output.empty() ? run_sequence_window(arguments) : run_sequences(arguments); };
+            return;
+        }
+        if (!arguments.quilt.empty() && arguments.output.empty()) {
+            throw CLI::ValidationError("--quilt needs -o: the .png to write, or a folder");
+        }
         if (arguments.scene.empty() && arguments.objects.empty()) {
             throw CLI::ValidationError("nothing to show; give a scene file or --object FILE.rso");
         }
@@ -344,6 +402,9 @@ int main(int argc, char** argv) {
         const bool in_pieces = !arguments.tile.empty() || !arguments.tiles.empty();
         if (in_pieces && (arguments.renderer == "raster" || arguments.seconds > 0)) {
             throw CLI::ValidationError("--tile and --tiles are of a --renderer that traces, by --passes");
+        }
+        if (arguments.renderer == "raster" && !arguments.output.empty() && !arguments.lens.empty()) {
+            throw CLI::ValidationError("--lens is for traced pictures; add --renderer path, or another that traces");
         }
         run = [&] { return arguments.probe.empty() ? run_view(arguments) : run_probe(arguments); };
     });

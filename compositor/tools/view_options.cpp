@@ -1,12 +1,99 @@
 #include "compositor/tools/view_options.hpp"
 
+#include "compositor/displays/stereo_picture.hpp"
 #include "engine/executors/executor_table.hpp"
 
 namespace rs::compositor {
+namespace {
+
+void add_sequence_options(CLI::App& app, ViewArguments& arguments) {
+    CLI::Option* sequence =
+        app.add_option("--sequence", arguments.sequences,
+                       "in place of SCENE: maps whose anim/out/frames.json names a base scene and an extended OBJ for "
+                       "each frame (compositor/README.md), drawn by Phong's formula; -o takes .mp4, .jpg, .png or a "
+                       "folder of pictures. Several go into a folder, each as NAME/sequence.mp4 and NAME/snapshot.jpg")
+            ->type_name("FOLDER")
+            ->expected(1, 100000);
+    app.add_option("--weather", arguments.weather,
+                   "of a sequence, in place of its own: words from rain, snow and fog, with commas")
+        ->type_name("rain|snow|fog,...")
+        ->needs(sequence);
+    app.add_option("--seed", arguments.seed, "of the weather: the same gives the same drops and flakes")
+        ->check(CLI::Range(0, 1000000000))
+        ->needs(sequence)
+        ->capture_default_str();
+    app.add_option("--visibility", arguments.visibility, "in fog, metres: the distance at which nothing else is seen")
+        ->check(CLI::Range(1.0, 100000.0))
+        ->needs(sequence)
+        ->capture_default_str();
+    app.add_option("--frame", arguments.frame, "of a sequence, from 0: which one a .jpg or .png shows")
+        ->needs(sequence)
+        ->capture_default_str();
+    app.add_option("--convert", arguments.convert,
+                   "a command that makes a sequence's files of another format: {in} is what --sequence names, {out} "
+                   "the folder (or OBJ) to make. Run without a shell")
+        ->type_name("'CMD {in} {out}'")
+        ->needs(sequence);
+}
+
+void add_display_options(CLI::App& app, ViewArguments& arguments) {
+    CLI::Option* walls =
+        app.add_option("--walls", arguments.walls,
+                       "in place of one view, those of one who stands before walls: cave, power-wall, tabletop, or a "
+                       "file of corners in metres (compositor/README.md, Walls). With -o FOLDER a picture a wall, else "
+                       "a window a wall. The scene's view says where the room stands; --size: of all walls")
+            ->type_name("PRESET|FILE.json");
+    app.add_option("--wall", arguments.wall_names, "only these, such as front,left: a machine for each wall")
+        ->type_name("NAME,...")
+        ->needs(walls);
+    std::vector<std::string> forms;
+    for (const NamedStereoForm& named : kStereoForms) forms.emplace_back(named.name);
+    app.add_option("--stereo", arguments.stereo,
+                   "both eyes' pictures of each wall: folders left and right, side by side, one above the other, or an "
+                   "anaglyph for red and cyan glasses")
+        ->type_name("[folders|side-by-side|top-bottom|anaglyph]")
+        ->expected(0, 1)
+        ->default_str("folders")
+        ->check(CLI::IsMember(forms))
+        ->needs(walls);
+    app.add_option("--eye-distance", arguments.eye_distance_m,
+                   "between the eyes, metres (0.065, or of the walls' file)")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("M")
+        ->needs(walls);
+    app.add_option("--heads", arguments.heads, "where the head is in each frame (compositor/README.md, Walls)")
+        ->type_name("FILE.json")
+        ->needs(walls);
+    CLI::Option* quilt =
+        app.add_option("--quilt", arguments.quilt,
+                       "views from left to right as the tiles of one picture, for displays with horizontal parallax; "
+                       "-o FILE.png gets the layout into its name")
+            ->type_name("COLSxROWS")
+            ->excludes(walls);
+    app.add_option("--tile-size", arguments.tile_size, "of a quilt's tiles, WxH")->capture_default_str()->needs(quilt);
+    app.add_option("--cone", arguments.cone_deg, "over which a quilt's eyes spread, in degrees")
+        ->check(CLI::Range(0.01, 170.0))
+        ->capture_default_str()
+        ->type_name("DEG")
+        ->needs(quilt);
+}
+
+}  // namespace
+
+void check_sequence_options(const ViewArguments& arguments) {
+    if (arguments.sequences.empty()) return;
+    if (!arguments.scene.empty() || !arguments.objects.empty() || !arguments.probe.empty()) {
+        throw CLI::ValidationError("--sequence takes the place of SCENE, --object and --probe; give one of them");
+    }
+    if (arguments.sequences.size() > 1 && arguments.output.empty()) {
+        throw CLI::ValidationError("several sequences need -o: the folder to write");
+    }
+}
 
 void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
-    app.add_option("SCENE", arguments.scene,
-                   "scene: .wrl, .wrl.gz (VRML97), .gltf, .glb, .obj or .json (compositor/README.md)");
+    app.add_option(
+        "SCENE", arguments.scene,
+        "scene: .wrl, .wrl.gz (VRML97, VRML 1.0), .x3d, .x3dv, .gltf, .glb, .obj or .json (compositor/README.md)");
     app.add_option("--object", arguments.objects,
                    "FILE.rso[@X,Y,Z[,TURN_DEG[,SCALE]]]: an object whose foot stands at X,Y,Z, turned about Y; may be "
                    "repeated. Objects without a place stand in a row. Without SCENE they get a floor")
@@ -26,17 +113,21 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         ->type_name("FILE.json");
     app.add_option(
            "--renderer", arguments.renderer,
-           "of the geometry: raster (OpenGL); whitted: traced direct light with hard shadows and mirrors; radiosity: "
-           "and "
-           "what walls reflect, by virtual lights, smooth early; path: all light, grainy at first, true at last. In a "
+           "of the geometry: raster (OpenGL); toon: a cartoon, in few tones and with lines along edges, in mirrors, "
+           "too; "
+           "whitted: traced direct light with hard shadows and mirrors; radiosity: and what walls reflect, by virtual "
+           "lights, smooth early; path: all light, grainy at first, true at last. In a "
            "window T changes between raster and traced. Objects and blended surfaces are put into the traced picture "
            "by depth")
-        ->type_name("raster|whitted|radiosity|path")
-        ->check(CLI::IsMember({"raster", "whitted", "radiosity", "path"}))
+        ->type_name("raster|toon|whitted|radiosity|path")
+        ->check(CLI::IsMember({"raster", "toon", "whitted", "radiosity", "path"}))
         ->capture_default_str();
     app.add_option("--lights", arguments.lights,
                    "JSON list of lights, luminaires (IES, EULUMDAT) among them, beside the scene's or in their place "
                    "(compositor/README.md)")
+        ->type_name("FILE.json");
+    app.add_option("--save-lights", arguments.save_lights,
+                   "writes the lights in force as such a list, which replaces those of the scene; with -o also draws")
         ->type_name("FILE.json");
     app.add_option("--probe", arguments.probe,
                    "in place of a view: what light reaches X,Y,Z, as an .exr map that lights an object in "
@@ -60,6 +151,29 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
     app.add_option("--exposure", arguments.exposure_ev, "stops by which lights are brighter (0)")
         ->check(CLI::Range(-40.0, 40.0))
         ->type_name("EV");
+    app.add_flag(
+        "--soft-shadows", arguments.soft_shadows,
+        "whitted, toon: areas light from all over, not from their middle; in toon the soft rim has tones, too");
+    app.add_option("--toon-lines", arguments.toon_lines,
+                   "toon: how far from an edge its line reaches; 0: no lines (1/5000 of the scene's diagonal)")
+        ->check(CLI::Range(0.0, 1e6))
+        ->type_name("LENGTH");
+    app.add_option("--lens", arguments.lens,
+                   "traced pictures: the opening of the lens in mm (the scene counting metres), or "
+                   "f/N of a focal length on 36 mm film; all else than what --focus says is blurred. "
+                   "Objects that are put into the picture stay sharp")
+        ->type_name("MM|f/N");
+    app.add_option("--focus", arguments.focus,
+                   "distance of what is sharp, along the line of sight: with --lens; with --quilt, of what all "
+                   "views agree on (of the middle of the scene)")
+        ->check(CLI::Range(1e-6, 1e9))
+        ->type_name("DISTANCE");
+    app.add_option("--shadows", arguments.shadows,
+                   "of raster: lights throw shadows of geometry and objects onto geometry and floors. In a window O "
+                   "switches them")
+        ->type_name("on|off")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->capture_default_str();
     app.add_flag("--wire-frame", arguments.wire_frame, "only the edges of the geometry's triangles");
     app.add_option("--object-depth", arguments.object_depth,
                    "how deep objects are: one plane each, or every pixel by itself, so that objects, and objects and "
@@ -98,6 +212,8 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
     app.add_flag("--streaming", arguments.streaming,
                  "with -o: walk in real time, objects come when they are read, as a visitor sees it; else every frame "
                  "waits for its objects");
+    add_sequence_options(app, arguments);
+    add_display_options(app, arguments);
     app.add_flag("-q,--quiet", arguments.quiet, "no progress bar");
     app.footer(
         "Lengths are in the scene's units; an object of scale 1 has radius 1. Y is up.\n"
@@ -107,7 +223,13 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         "  rs-view --object vase.rso@-1.2,0,0 --object lamp.rso@1.2,0,0,45,0.8 --orbit 120 -o turn.mp4\n"
         "  rs-view world.wrl -o world.png\n"
         "  rs-view hall.wrl --renderer path --lights evening.json --passes 256 -o evening.png\n"
+        "  rs-view hall.wrl --renderer toon --passes 16 -o cartoon.png\n"
+        "  rs-view hall.wrl --renderer path --lens f/1.4 --focus 2.5 -o portrait.png\n"
         "  rs-view hall.wrl --lights evening.json --probe 0,0.9,0 -o evening.exr\n"
+        "  rs-view hall.wrl --save-lights hall_lights.json\n"
+        "  rs-view --sequence maps/street --weather rain -o street.mp4\n"
+        "  rs-view hall.wrl --walls cave --stereo side-by-side -o walls\n"
+        "  rs-view hall.wrl --quilt 5x9 -o hall.png\n"
         "  rs-view room.json --eye 0,1.2,6 --at 0,0.8,0 --fov 45 --size 1920x1080 -o room.png");
 }
 

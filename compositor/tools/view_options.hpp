@@ -1,6 +1,7 @@
 #pragma once
 // What was asked of rs-view, and the options that ask for it.
 
+#include "compositor/scene/weather.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 
@@ -31,6 +32,7 @@ struct ViewArguments {
     int object_samples = FrameOptions{}.object_samples;
     std::int64_t memory_mib = usual_memory_budget() >> 20;
     std::string lights;
+    std::string save_lights;
     std::string renderer = "raster";
     std::string probe;
     std::string plan;
@@ -39,11 +41,37 @@ struct ViewArguments {
     int passes = 0;
     double seconds = 0;
     double exposure_ev = 0;
+    bool soft_shadows = false;
+    double toon_lines = -1;  // radius; < 0: as the scene is large
+    std::string lens;
+    double focus = 0;  // of the lens, and of quilts; 0: not said
+    std::string walls;
+    std::string wall_names;
+    std::string heads;
+    std::string stereo;
+    double eye_distance_m = -1;  // as the walls' file says
+    std::string quilt;
+    std::string tile_size = "420x560";  // of a quilt
+    double cone_deg = 40;
+    bool size_given = false;  // by the command line
+    std::string shadows = "on";
     bool upright = false;
     bool streaming = false;
     bool wire_frame = false;
     bool quiet = false;
+
+    // Sequences.
+    std::vector<std::string> sequences;
+    std::string weather;
+    std::uint32_t seed = 1;
+    double visibility = Weather{}.visibility;
+    std::size_t frame = 0;  // of a picture
+    std::string convert;
+    bool frames_per_second_given = false;
 };
+
+// Throws CLI::ValidationError where options do not go together.
+void check_sequence_options(const ViewArguments& arguments);
 
 // `headless` is the flag, which means no more than that `output` must be there.
 void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless);

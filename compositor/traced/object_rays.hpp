@@ -14,6 +14,8 @@ class ObjectRays : public capture::RayPrimitive {
 public:
     // Shines with its pictures' colours times `brightness`; what is less than half opaque is not there.
     ObjectRays(PlacedObject placed, float brightness);
+    // Not while anybody asks.
+    void set_brightness(float brightness) { brightness_ = brightness; }
     [[nodiscard]] Box bounds() const override { return box_; }
     [[nodiscard]] std::optional<Answer> answer(const glm::vec3& origin, const glm::vec3& direction) const override;
 

@@ -35,6 +35,14 @@ void Refinement::begin(const Camera& camera, TracedMethod method) {
     changed_.notify_all();
 }
 
+void Refinement::set_lights(Lighting lighting) {
+    const std::lock_guard lock(mutex_);
+    lighting_ = std::move(lighting);
+    wanted_.reset();
+    newest_.reset();
+    stop_ = true;
+}
+
 void Refinement::end() {
     const std::lock_guard lock(mutex_);
     wanted_.reset();
@@ -68,13 +76,16 @@ void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
         }
         for (;;) {
             View view;
+            std::optional<Lighting> lighting;
             {
                 std::unique_lock lock(mutex_);
                 changed_.wait(lock, [this] { return leaving_ || wanted_; });
                 if (leaving_) return;
                 view = *std::exchange(wanted_, std::nullopt);
+                lighting = std::exchange(lighting_, std::nullopt);
                 stop_ = false;
             }
+            if (lighting) made->set_lights(*lighting->scene, lighting->exposure_ev);
             made->set_method(view.method);
             refine(*made, view.camera);
         }

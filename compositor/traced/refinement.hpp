@@ -28,6 +28,12 @@ public:
 
     // Drops what was begun before.
     void begin(const Camera& camera, TracedMethod method = TracedMethod::kPath);
+    // Other light from now on (TracedRenderer::set_lights); begin() must follow.
+    struct Lighting {
+        std::shared_ptr<const Scene> scene;
+        double exposure_ev = 0;
+    };
+    void set_lights(Lighting lighting);
     void end();
 
     struct Step {
@@ -50,7 +56,8 @@ private:
         Camera camera;
         TracedMethod method;
     };
-    std::optional<View> wanted_;  // not yet begun
+    std::optional<View> wanted_;        // not yet begun
+    std::optional<Lighting> lighting_;  // not yet taken over
     std::optional<Step> newest_;
     std::optional<Error> failure_;
     bool leaving_ = false;

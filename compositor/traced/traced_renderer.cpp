@@ -1,6 +1,7 @@
 #include "compositor/traced/traced_renderer.hpp"
 
 #include "capture/tracer/integrator/light_probe.hpp"
+#include "capture/tracer/scene/scene_check.hpp"
 #include "compositor/scene/raster_lights.hpp"
 #include "compositor/traced/object_rays.hpp"
 #include "compositor/traced/traced_room.hpp"
@@ -13,6 +14,8 @@ namespace rs::compositor {
 
 namespace {
 
+constexpr int kToonShadowRays = 16;
+
 glm::vec3 ambient_of(const Scene& scene) {
     glm::vec3 ambient = reflected_light(scene);
     for (const Light& light : scene.lights) {
@@ -21,30 +24,50 @@ glm::vec3 ambient_of(const Scene& scene) {
     return ambient;
 }
 
+// Lines are twice as wide within a surface, and as wide as this at its outline: a pixel or two where the whole scene is
+// in view.
+double usual_line_radius(const Scene& scene) {
+    constexpr double kOfDiagonal = 1.0 / 5000;
+    const BoundingBox bounds = bounds_of(scene);
+    return bounds.empty() ? capture::ToonStyle{}.edge_radius
+                          : kOfDiagonal * glm::distance(bounds.lowest, bounds.highest);
+}
+
 }  // namespace
+
+capture::ThinLens CameraLens::of(const Camera& camera) const {
+    constexpr double kFilm_mm = 36;
+    const double focal_mm = kFilm_mm * camera.fl_x / camera.width;
+    return {units_per_mm * (f_number > 0 ? focal_mm / f_number : aperture_mm), focus};
+}
 
 Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                               const TracedOptions& options) {
     TracedRoom room = traced_room(scene);
     const auto darker = static_cast<float>(std::exp2(-options.exposure_ev));
+    std::vector<std::shared_ptr<ObjectRays>> rays;
     for (const PlacedObject& object : objects) {
-        room.scene.primitives.push_back(std::make_shared<const ObjectRays>(object, darker));
+        rays.push_back(std::make_shared<ObjectRays>(object, darker));
+        room.scene.primitives.push_back(rays.back());
     }
     std::vector<Light> lights = room.scene.lights;
-    const bool shines = !lights.empty() || scene.environment ||
-                        std::ranges::any_of(room.scene.materials,
-                                            [](const auto& material) { return material.emission != glm::vec3(0); });
+    const bool glows = std::ranges::any_of(room.scene.materials,
+                                           [](const auto& material) { return material.emission != glm::vec3(0); });
     auto tracer = capture::Tracer::create(std::move(room.scene));
     if (!tracer) return tracer.error();
     TracedRenderer renderer(std::move(*tracer), options);
     renderer.background_ = scene.background;
     renderer.render_.method = options.method;
-    renderer.render_.ambient = ambient_of(scene);
     renderer.render_.max_bounces = options.max_bounces;
+    renderer.render_.soft_shadows = options.soft_shadows;
+    renderer.render_.toon.edge_radius = static_cast<float>(options.line_radius.value_or(usual_line_radius(scene)));
+    renderer.render_.toon.shadow_rays = options.soft_shadows ? kToonShadowRays : 0;
+    renderer.render_.toon.brightness = darker;  // tones are tones, however bright the lights are
     renderer.render_.see_areas = true;
-    renderer.render_.see_environment = scene.environment && scene.environment->seen;
-    renderer.headlight_ = scene.navigation.headlight && !shines;
-    renderer.lights_ = std::move(lights);
+    renderer.moving_ = std::move(room.moving);
+    renderer.glows_ = glows;
+    renderer.objects_ = std::move(rays);
+    renderer.describe_lights(scene, std::move(lights));
     if (room.without_own_lights > 0) {
         renderer.warnings_.push_back(std::to_string(room.without_own_lights) +
                                      " lights that shine on parts of the scene only are not traced");
@@ -52,26 +75,73 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
     return renderer;
 }
 
-void TracedRenderer::carry_headlight(const Camera& camera) {
+bool TracedRenderer::move(std::uint32_t id, const glm::dmat4& moved, const std::optional<glm::dmat4>& at_close) {
+    std::vector<std::pair<std::size_t, capture::Instance>> wanted;
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+        if (moving_[i].id != id) continue;
+        capture::Instance placed;
+        placed.world_from_part = moved * moving_[i].world_from_node;
+        if (at_close) placed.at_close = *at_close * moving_[i].world_from_node;
+        if (!capture::check_placement(placed)) return false;
+        wanted.emplace_back(i, placed);
+    }
+    for (const auto& [i, placed] : wanted) {
+        if (!tracer_.move(i, placed.world_from_part, placed.at_close)) return false;
+    }
+    return !wanted.empty();
+}
+
+void TracedRenderer::describe_lights(const Scene& scene, std::vector<Light> lights) {
+    render_.ambient = ambient_of(scene);
+    render_.see_environment = scene.environment && scene.environment->seen;
+    headlight_ = scene.navigation.headlight && lights.empty() && !scene.environment && !glows_;
+    lights_ = std::move(lights);
+    environment_ = scene.environment ? scene.environment->pixels : nullptr;
+}
+
+void TracedRenderer::set_lights(const Scene& scene, double exposure_ev) {
+    std::vector<Light> lights = traced_lights(scene);
+    const auto& pixels = scene.environment ? scene.environment->pixels : nullptr;
+    if (pixels != environment_) {
+        tracer_.set_environment(traced_environment(scene));
+    } else if (pixels) {
+        tracer_.set_environment(scene.environment->scale, scene.environment->turn_rad);
+    }
+    tracer_.set_lights(lights);
+    options_.exposure_ev = exposure_ev;
+    const auto darker = static_cast<float>(std::exp2(-exposure_ev));
+    render_.toon.brightness = darker;
+    for (const auto& object : objects_) object->set_brightness(darker);
+    describe_lights(scene, std::move(lights));
+}
+
+void TracedRenderer::begin(const Camera& camera) {
+    tracer_.commit();
     if (!headlight_) return;
     std::vector<Light> lights = lights_;
     lights.push_back(headlight_of(camera.forward()));
     tracer_.set_lights(std::move(lights));
 }
 
+capture::RenderOptions TracedRenderer::render_options(const Camera& camera) const {
+    capture::RenderOptions render = render_;
+    if (options_.lens) render.lens = options_.lens->of(camera);
+    return render;
+}
+
 void TracedRenderer::look(const Camera& camera) {
     camera_ = camera;
     sum_ = {};
-    carry_headlight(camera);
+    begin(camera);
 }
 
 bool TracedRenderer::add_pass(Progress* progress, const std::atomic<bool>* stop) {
-    return tracer_.accumulate(camera_, render_, 1, sum_, progress, stop);
+    return tracer_.accumulate(camera_, render_options(camera_), 1, sum_, progress, stop);
 }
 
 std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera, int side,
                                                            const std::atomic<bool>* stop) {
-    carry_headlight(camera);
+    begin(camera);
     Camera coarse = camera;
     coarse.width = (camera.width + side - 1) / side;
     coarse.height = (camera.height + side - 1) / side;
@@ -80,7 +150,7 @@ std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera,
     coarse.cx /= side;
     coarse.cy /= side;
     capture::Accumulation sum;
-    if (!tracer_.accumulate(coarse, render_, 1, sum, nullptr, stop)) return std::nullopt;
+    if (!tracer_.accumulate(coarse, render_options(coarse), 1, sum, nullptr, stop)) return std::nullopt;
     const Image<Rgba8> small = shown(sum.mean());
     Image<Rgba8> picture(camera.width, camera.height);
     for (int y = 0; y < camera.height; ++y) {

@@ -8,12 +8,15 @@
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "compositor/scene/scene.hpp"
+#include "compositor/traced/traced_room.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
 
 #include <array>
 #include <atomic>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,14 +29,28 @@ struct NamedMethod {
     TracedMethod method;
 };
 // In the order from quick to true.
-inline constexpr std::array kTracedMethods{NamedMethod{"whitted", TracedMethod::kWhitted},
-                                           NamedMethod{"radiosity", TracedMethod::kRadiosity},
-                                           NamedMethod{"path", TracedMethod::kPath}};
+inline constexpr std::array kTracedMethods{
+    NamedMethod{"toon", TracedMethod::kToon}, NamedMethod{"whitted", TracedMethod::kWhitted},
+    NamedMethod{"radiosity", TracedMethod::kRadiosity}, NamedMethod{"path", TracedMethod::kPath}};
+
+// A camera's lens: either its opening, or how many times that goes into a focal length on 36 mm wide film.
+struct CameraLens {
+    double aperture_mm = 0;  // diameter, where f_number is 0
+    double f_number = 0;
+    double focus = 1;            // axial distance of what is sharp, scene units
+    double units_per_mm = 1e-3;  // of the scene
+    [[nodiscard]] capture::ThinLens of(const Camera& camera) const;
+};
+
+class ObjectRays;
 
 struct TracedOptions {
     TracedMethod method = TracedMethod::kPath;
     double exposure_ev = 0;  // pictures are 2^_ times as bright
     int max_bounces = 16;
+    bool soft_shadows = false;            // whitted, toon; the others have no others
+    std::optional<double> line_radius{};  // toon: how far from an edge its line reaches; a share of the scene if empty
+    std::optional<CameraLens> lens{};
 };
 
 // Move-only; one thread, but for `stop`.
@@ -44,10 +61,19 @@ public:
     static Result<TracedRenderer> create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                          const TracedOptions& options);
 
+    // Takes the nodes of this number (GeometryNode::moving) from where the scene has them to `moved` times there; with
+    // `at_close`, they move on to that while the shutter is open, and pictures show it. Seen in pictures that begin
+    // after this. False, with nothing changed, where no node has the number, or a matrix has no inverse or is not
+    // finite.
+    bool move(std::uint32_t id, const glm::dmat4& moved, const std::optional<glm::dmat4>& at_close = {});
+
     // For pictures that begin after this.
     void set_method(TracedMethod method) { render_.method = method; }
     // Only these pixels of pictures that begin after this are traced; they have the bytes that they have in whole ones.
     void set_part(const capture::PixelRectangle& part) { render_.part = part; }
+    // The lights, environment and headlight of `scene`, whose geometry is that of the scene that this was made of, and
+    // another exposure. What is traced then is what a renderer made of `scene` would trace, bit for bit.
+    void set_lights(const Scene& scene, double exposure_ev);
     // Begins a picture anew.
     void look(const Camera& camera);
     // One more sample of each pixel. False, with nothing changed, where `stop` became true before it was there.
@@ -74,15 +100,21 @@ private:
     TracedRenderer(capture::Tracer tracer, const TracedOptions& options)
         : tracer_(std::move(tracer)), options_(options) {}
 
-    void carry_headlight(const Camera& camera);
+    void begin(const Camera& camera);
+    void describe_lights(const Scene& scene, std::vector<Light> lights);
+    [[nodiscard]] capture::RenderOptions render_options(const Camera& camera) const;
     [[nodiscard]] Image<Rgba8> shown(Image<RgbaF> radiance) const;
 
     capture::Tracer tracer_;
     TracedOptions options_;
     capture::RenderOptions render_;
     Background background_;
+    std::vector<TracedRoom::Moving> moving_;  // of each of the tracer's instances
+    bool glows_ = false;                      // something of the scene's surfaces shines
     bool headlight_ = false;
-    std::vector<Light> lights_;  // without the headlight
+    std::vector<Light> lights_;                         // without the headlight
+    std::shared_ptr<const Image<RgbaF>> environment_;   // whose light it is
+    std::vector<std::shared_ptr<ObjectRays>> objects_;  // of the tracer's scene
     std::vector<std::string> warnings_;
     Camera camera_;
     capture::Accumulation sum_;

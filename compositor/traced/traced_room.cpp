@@ -1,10 +1,13 @@
 #include "compositor/traced/traced_room.hpp"
 
+#include "capture/tracer/scene/flatten.hpp"
+#include "compositor/scene/normal_map.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -51,21 +54,18 @@ capture::Material surface_of(const Material& from, const glm::vec3& vertex_colou
     return material;
 }
 
+// In the node's coordinates.
 capture::Mesh mesh_of(const GeometryNode& node) {
     capture::Mesh mesh;
-    const glm::dmat3 turned = glm::transpose(glm::inverse(glm::dmat3(node.world_from_node)));
-    const bool mirrors = glm::determinant(glm::dmat3(node.world_from_node)) < 0;
     for (const MeshVertex& vertex : node.mesh->vertices) {
-        mesh.positions.emplace_back(node.world_from_node * glm::dvec4(vertex.position, 1));
-        const glm::dvec3 normal = turned * glm::dvec3(vertex.normal);
-        const double length = glm::length(normal);
-        mesh.normals.emplace_back(length > 0 ? normal / length : glm::dvec3(0));
+        mesh.positions.push_back(vertex.position);
+        mesh.normals.push_back(vertex.normal);
         mesh.uvs.emplace_back(node.material.texture_transform * glm::vec3(vertex.texture, 1));
         if (node.mesh->has_colours) mesh.colours.push_back(glm::max(glm::vec3(vertex.colour), glm::vec3(0)));
     }
     const std::vector<std::uint32_t>& indices = node.mesh->indices;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        mesh.triangles.emplace_back(indices[i], indices[i + (mirrors ? 2 : 1)], indices[i + (mirrors ? 1 : 2)]);
+        mesh.triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
     }
     return mesh;
 }
@@ -111,47 +111,88 @@ void add_floor(const Floor& floor, capture::Scene& scene) {
     scene.meshes.push_back(std::move(mesh));
 }
 
+// Appends to a scene the materials and textures of the nodes that it takes.
+class NodeTaker {
+public:
+    explicit NodeTaker(capture::Scene& scene) : scene_(scene) {}
+
+    // In the node's coordinates.
+    capture::Mesh take(const GeometryNode& node, const std::string& name) {
+        capture::Mesh mesh = mesh_of(node);
+        mesh.name = name;
+        mesh.material = static_cast<int>(scene_.materials.size());
+        capture::Material material = surface_of(node.material, mean_of(mesh.colours));
+        material.name = name;
+        material.two_sided = node.mesh->two_sided;
+        if (node.material.texture) {
+            const auto [found, is_new] = textures_.try_emplace(node.material.texture.get(), -1);
+            if (is_new) {
+                found->second = static_cast<int>(scene_.textures.size());
+                scene_.textures.push_back(linear_texture(*node.material.texture));
+            }
+            material.texture = found->second;
+            if (!node.material.lit) material.emission_texture = found->second;
+        }
+        if (node.material.normals && node.material.lit) {
+            const NormalMap& map = *node.material.normals;
+            const auto [found, is_new] = reliefs_.try_emplace(&map, static_cast<int>(scene_.reliefs.size()));
+            if (is_new) scene_.reliefs.push_back({"relief", map.directions, map.repeat_s, map.repeat_t});
+            material.relief = found->second;
+        }
+        scene_.materials.push_back(std::move(material));
+        return mesh;
+    }
+
+private:
+    capture::Scene& scene_;
+    std::map<const SceneTexture*, int> textures_;
+    std::map<const NormalMap*, int> reliefs_;
+};
+
 }  // namespace
+
+std::vector<Light> traced_lights(const Scene& scene) {
+    std::vector<Light> lights;
+    std::ranges::copy_if(scene.lights, std::back_inserter(lights), [](const Light& light) { return light.everywhere; });
+    return lights;
+}
+
+capture::Environment traced_environment(const Scene& scene) {
+    if (!scene.environment) return {};
+    return {*scene.environment->pixels, scene.environment->scale, scene.environment->turn_rad};
+}
 
 TracedRoom traced_room(const Scene& scene) {
     TracedRoom room;
-    std::map<const SceneTexture*, int> textures;
+    NodeTaker taker(room.scene);
+    std::vector<std::pair<const GeometryNode*, std::size_t>> parts;  // the first node of each
     for (std::size_t n = 0; n < scene.geometry.size(); ++n) {
         const GeometryNode& node = scene.geometry[n];
         if (node.mesh->topology != Topology::kTriangles || is_blended(node.material)) {
             ++room.left_to_raster;
             continue;
         }
-        capture::Mesh mesh = mesh_of(node);
-        mesh.name = "node " + std::to_string(n + 1);
-        mesh.material = static_cast<int>(room.scene.materials.size());
-        capture::Material material = surface_of(node.material, mean_of(mesh.colours));
-        material.name = mesh.name;
-        material.two_sided = node.mesh->two_sided;
-        if (node.material.texture) {
-            const auto [found, is_new] = textures.try_emplace(node.material.texture.get(), -1);
-            if (is_new) {
-                found->second = static_cast<int>(room.scene.textures.size());
-                room.scene.textures.push_back(linear_texture(*node.material.texture));
-            }
-            material.texture = found->second;
-            if (!node.material.lit) material.emission_texture = found->second;
+        if (!node.moving) {
+            room.scene.meshes.push_back(
+                capture::placed_mesh(taker.take(node, "node " + std::to_string(n + 1)), node.world_from_node));
+            continue;
         }
-        room.scene.materials.push_back(std::move(material));
-        room.scene.meshes.push_back(std::move(mesh));
+        const auto same = [&](const auto& known) {
+            return known.first->mesh == node.mesh && known.first->material == node.material;
+        };
+        auto known = std::ranges::find_if(parts, same);
+        if (known == parts.end()) {
+            const std::string name = "node " + std::to_string(n + 1);
+            known = parts.insert(known, {&node, room.scene.parts.size()});
+            room.scene.parts.push_back({name, {taker.take(node, name)}});
+        }
+        room.scene.instances.push_back({known->second, node.world_from_node});
+        room.moving.push_back({*node.moving, node.world_from_node});
     }
     if (scene.floor) add_floor(*scene.floor, room.scene);
-    if (scene.environment) {
-        const EnvironmentLight& light = *scene.environment;
-        room.scene.environment = {*light.pixels, light.scale, light.turn_rad};
-    }
-    for (const Light& light : scene.lights) {
-        if (light.everywhere) {
-            room.scene.lights.push_back(light);
-        } else {
-            ++room.without_own_lights;
-        }
-    }
+    room.scene.environment = traced_environment(scene);
+    room.scene.lights = traced_lights(scene);
+    room.without_own_lights = static_cast<int>(scene.lights.size() - room.scene.lights.size());
     return room;
 }
 

@@ -13,15 +13,28 @@
 #include "capture/tracer/scene/scene.hpp"
 #include "compositor/scene/scene.hpp"
 
+#include <cstdint>
+#include <vector>
+
 namespace rs::compositor {
 
+// Nodes that may be moved become instances; those of the same mesh and look share a part.
 struct TracedRoom {
     capture::Scene scene;
+    struct Moving {
+        std::uint32_t id;            // GeometryNode::moving
+        glm::dmat4 world_from_node;  // as the scene has it
+    };
+    std::vector<Moving> moving;  // of each of scene.instances
     int left_to_raster = 0;      // nodes that are blended, or have no area
     int without_own_lights = 0;  // lights that shine on some nodes only, which the tracer does not know
 };
 
-// Pure; thread-safe.
+// The lights and the environment of it.
+std::vector<Light> traced_lights(const Scene& scene);
+capture::Environment traced_environment(const Scene& scene);
+
+// Pure; thread-safe, as all here.
 TracedRoom traced_room(const Scene& scene);
 
 // Goes along with the viewer where the scene wants that (Navigation::headlight) and nothing else shines.

@@ -156,6 +156,14 @@ Status Showroom::update(const glm::dvec3& eye, double seconds, const std::option
     return status;
 }
 
+void Showroom::move_object(std::size_t node, const std::optional<TransformChain>& chain) {
+    ShownNode& shown = (*nodes_)[node];
+    shown.hidden = !chain;
+    if (!chain) return;
+    scene_nodes_[node].description.chain = *chain;
+    if (shown.object) shown.object = place(shown.object->object, scene_nodes_[node].description);
+}
+
 std::string Showroom::absence(std::size_t node) const {
     if (scene_nodes_[node].failed) return "cannot be shown";
     const float progress = cache_.progress(plan_.file_of_node(node));

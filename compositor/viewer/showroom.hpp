@@ -46,6 +46,9 @@ public:
     // on foot. Fails where a required object cannot be read.
     Status update(const glm::dvec3& eye, double seconds, const std::optional<glm::dvec3>& destination = std::nullopt);
 
+    // From the next frame on an object stands elsewhere, or nowhere.
+    void move_object(std::size_t node, const std::optional<TransformChain>& chain);
+
     // Waits for all objects that are wanted at `eye` and fit.
     Status wait_for_all(const glm::dvec3& eye);
     // Of a node without its object: a word or two about why.

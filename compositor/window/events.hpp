@@ -27,9 +27,18 @@ enum class Key {
     kHelp,               // F1, H
     kPanel,              // tab
     kWireFrame,          // F
+    kShadows,            // O
     kTrace,              // T
+    kLights,             // L
+    kUndo,               // control Z
+    kRedo,               // control Y, control shift Z
+    kDuplicate,          // control D
+    kDelete,             // delete
     kScreenshot,         // P
     kRecord,             // R
+    kPlay,               // K
+    kFrameBack,          // comma
+    kFrameOn,            // full stop
     kQuit,               // escape
 };
 

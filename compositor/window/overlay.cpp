@@ -32,8 +32,13 @@ constexpr std::array kHelp = {
     HelpLine{"home", "where the visit began"},
     HelpLine{"click", "pick an object"},
     HelpLine{"F", "wire frame"},
+    HelpLine{"O", "shadows, on and off"},
     HelpLine{"T", "trace the light, and back"},
+    HelpLine{"L", "edit the lights: click one, drag its arrows, its middle or its aim"},
+    HelpLine{"control Z, Y", "undo, redo a change of light"},
+    HelpLine{"control D, delete", "duplicate, delete the light"},
     HelpLine{"P  R", "screenshot, record"},
+    HelpLine{"K  , .", "sequences: play, a frame back, on"},
     HelpLine{"tab", "this panel"},
     HelpLine{"H", "this help"},
     HelpLine{"escape", "leave"},
@@ -92,6 +97,8 @@ void draw_switches(PanelState& state) {
     if (ImGui::SliderFloat("speed", &speed, 0.01F, 100, "%.2f /s", ImGuiSliderFlags_Logarithmic)) state.speed = speed;
     ImGui::Checkbox("wire frame", &state.wire_frame);
     ImGui::SameLine();
+    ImGui::Checkbox("shadows", &state.shadows);
+    ImGui::SameLine();
     ImGui::Checkbox("traced light", &state.traced);
     if (state.traced) {
         for (const NamedMethod& named : kTracedMethods) {
@@ -114,6 +121,7 @@ void draw_panel(PanelState& state) {
     if (ImGui::Begin("panel", nullptr, kPlain)) {
         draw_figures(state);
         draw_switches(state);
+        if (state.playback != nullptr) state.playback->draw_controls();
         draw_objects(state);
         if (state.picked >= 0 && state.picked < static_cast<int>(state.objects.size())) {
             auto turn = static_cast<float>(degrees(state.turn_rad));
@@ -174,11 +182,12 @@ bool Overlay::wants_keys() const {
     return ImGui::GetIO().WantTextInput;
 }
 
-void Overlay::draw(PanelState& state) {
+void Overlay::draw(PanelState& state, const std::function<void()>& more) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     if (state.show_panel) draw_panel(state);
+    if (more) more();
     if (state.show_help) draw_help();
     if (!state.news.empty()) draw_news(state.news);
     ImGui::Render();

@@ -3,8 +3,10 @@
 
 #include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/views/navigation.hpp"
+#include "compositor/window/playback.hpp"
 #include "compositor/window/window.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,7 @@ struct PanelState {
     bool show_panel = true;
     bool show_help = false;
     bool wire_frame = false;
+    bool shadows = true;
     bool traced = false;  // the view stands still and refines
     TracedMethod method = TracedMethod::kPath;
     int passes = 0;  // of it
@@ -44,9 +47,10 @@ struct PanelState {
     double budget_mib = 0;  // that they may take
     std::string device;
     std::vector<ObjectLine> objects;
-    int picked = -1;      // of `objects`
-    double turn_rad = 0;  // by which the visitor has turned it
-    std::string news;     // empty: none
+    int picked = -1;               // of `objects`
+    double turn_rad = 0;           // by which the visitor has turned it
+    std::string news;              // empty: none
+    Playback* playback = nullptr;  // of a sequence
 };
 
 // Stands between a window and its owner's drawing; one a process. Destroyed before the window.
@@ -61,8 +65,8 @@ public:
     [[nodiscard]] bool wants_mouse() const;
     [[nodiscard]] bool wants_keys() const;
 
-    // Draws into the window; after the picture, before swap().
-    void draw(PanelState& state);
+    // Draws into the window; after the picture, before swap(). `more` draws other panels.
+    void draw(PanelState& state, const std::function<void()>& more = nullptr);
 };
 
 }  // namespace rs::compositor

@@ -34,9 +34,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
       compositor_(std::move(compositor)),
       overlay_(std::make_unique<Overlay>(window_)),
       options_(options),
-      make_tracer_([scene, exposure_ev = options.exposure_ev](const std::vector<PlacedObject>& objects) {
-          return TracedRenderer::create(scene, objects, {.exposure_ev = exposure_ev});
-      }),
+      desk_(scene, options.exposure_ev, options.lights),
       last_(std::chrono::steady_clock::now()) {
     navigation_.speed = scene.navigation.speed;
     if (const BoundingBox bounds = bounds_of(scene); !bounds.empty()) middle_ = bounds.middle();
@@ -48,10 +46,13 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
     panel_.mode = mode_of(scene.navigation);
     panel_.speed = navigation_.speed;
     panel_.wire_frame = options.wire_frame;
+    panel_.shadows = options.shadows;
     panel_.traced = options.traced;
-    panel_.method = options.method;
+    panel_.method = options.tracing.method;
     panel_.executor = options.executor;
     panel_.device = window_.context().device_name();
+    if (options.sequence) playback_.emplace(options.sequence, options.weather);
+    panel_.playback = playback_ ? &*playback_ : nullptr;
     tell("press H for help");
 }
 
@@ -67,6 +68,7 @@ Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, 
                                                                  {.width = size.x,
                                                                   .height = size.y,
                                                                   .samples = options.samples,
+                                                                  .shadows = options.shadows,
                                                                   .exposure_ev = options.exposure_ev,
                                                                   .object_depth = options.object_depth,
                                                                   .object_samples = options.object_samples,
@@ -77,6 +79,9 @@ Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, 
 }
 
 Camera Visit::camera() const {
+    if (playback_) {
+        if (const auto camera = playback_->camera(compositor_.width(), compositor_.height())) return *camera;
+    }
     const Viewpoint here = viewpoint_of(visitor_, options_.viewpoints[viewpoint_]);
     return camera_at(here, compositor_.width(), compositor_.height());
 }
@@ -108,6 +113,7 @@ void Visit::pick(const glm::dvec2& at_px) {
 
 Status Visit::obey(Key command) {
     const std::size_t count = options_.viewpoints.size();
+    if (desk_.obey(command)) return {};
     switch (command) {
         case Key::kWalk:
             panel_.mode = NavigationMode::kWalk;
@@ -137,11 +143,23 @@ Status Visit::obey(Key command) {
         case Key::kWireFrame:
             panel_.wire_frame = !panel_.wire_frame;
             break;
+        case Key::kShadows:
+            panel_.shadows = !panel_.shadows;
+            break;
         case Key::kTrace:
             panel_.traced = !panel_.traced;
             break;
         case Key::kScreenshot:
             panel_.take_screenshot = true;
+            break;
+        case Key::kPlay:
+            if (playback_) playback_->toggle();
+            break;
+        case Key::kFrameBack:
+        case Key::kFrameOn:
+            if (!playback_) break;
+            playback_->stop();
+            playback_->step(command == Key::kFrameOn ? 1 : -1);
             break;
         case Key::kRecord:
             panel_.recording = !panel_.recording;
@@ -155,6 +173,15 @@ Status Visit::obey(Key command) {
     return {};
 }
 
+std::shared_ptr<const Scene> Visit::scene_to_trace() const {
+    if (!playback_) return desk_.scene();
+    auto scene = std::make_shared<Scene>(playback_->scene());
+    scene->lights = desk_.scene()->lights;
+    scene->environment = desk_.scene()->environment;
+    scene->navigation.headlight = desk_.scene()->navigation.headlight;
+    return scene;
+}
+
 bool Visit::refine(const Camera& here) {
     if (!panel_.traced) {
         if (refined_) refinement_->end();
@@ -166,7 +193,11 @@ bool Visit::refine(const Camera& here) {
     if (!refined_ && (!refinement_ || traced_objects_ != showroom_->placed().size())) {
         std::vector<PlacedObject> objects = showroom_->placed();
         traced_objects_ = objects.size();
-        refinement_.emplace([make = make_tracer_, there = std::move(objects)] { return make(there); });
+        TracedOptions tracing = options_.tracing;
+        tracing.exposure_ev = desk_.edits().state().exposure_ev;
+        refinement_.emplace([scene = scene_to_trace(), tracing, there = std::move(objects)] {
+            return TracedRenderer::create(*scene, there, tracing);
+        });
     }
     if (const std::optional<Error> failed = refinement_->failure()) {
         panel_.traced = false;
@@ -176,10 +207,11 @@ bool Visit::refine(const Camera& here) {
     }
     const bool otherwise =
         !refined_ || refined_->width != here.width || refined_->height != here.height || refined_by_ != panel_.method;
-    if (otherwise) {
+    if (otherwise || relit_) {
         refined_ = here;
         refined_by_ = panel_.method;
-        compositor_.set_traced(nullptr);
+        if (otherwise) compositor_.set_traced(nullptr);
+        relit_ = false;
         refinement_->begin(here, panel_.method);
         panel_.passes = 0;
         return true;
@@ -191,7 +223,60 @@ bool Visit::refine(const Camera& here) {
     return true;
 }
 
+// Whether another frame of the sequence is shown.
+Result<bool> Visit::play(double seconds) {
+    if (!playback_) return false;
+    if (panel_.traced && !playback_->saving()) playback_->stop();
+    if (playback_->saved_all()) {
+        playback_->end_saving();
+        panel_.recording = false;
+    }
+    if (playback_->saving()) {
+        panel_.traced = false;
+        panel_.recording = true;
+    }
+    const bool other = playback_->advance(seconds);
+    if (!other) return false;
+    if (Status status = playback_->show(compositor_, *showroom_); !status) return status.error();
+    if (refined_) compositor_.set_traced(nullptr);
+    refined_.reset();
+    refinement_.reset();
+    return true;
+}
+
+DeskView Visit::desk_view() const {
+    return {camera(), [this](const glm::dvec2& at) {
+                return compositor_.surface_at(static_cast<int>(at.x), static_cast<int>(at.y));
+            }};
+}
+
+Status Visit::relight() {
+    desk_.settle(desk_view());
+    if (std::string news = desk_.take_news(); !news.empty()) tell(news);
+    if (!desk_.take_change()) return {};
+    const double exposure_ev = desk_.edits().state().exposure_ev;
+    if (refinement_) refinement_->set_lights({desk_.scene(), exposure_ev});
+    relit_ = true;
+    return compositor_.set_lights(*desk_.scene(), exposure_ev);
+}
+
+Status Visit::show(const glm::ivec2& size) {
+    if (!desk_.is_open()) {
+        compositor_.show_in_window(size.x, size.y);
+        return {};
+    }
+    if (Status drawn = compositor_.draw_handles(desk_.strokes(camera())); !drawn) return drawn;
+    compositor_.handles()->shown().show_in_window(size.x, size.y);
+    return {};
+}
+
 Status Visit::take_pictures() {
+    if (playback_ && playback_->take_jpeg()) {
+        constexpr int kQuality = 92;
+        const std::filesystem::path path = free_name(options_.pictures, "screenshot", ".jpg", shots_);
+        const Status written = write_jpeg(path, compositor_.picture(), kQuality);
+        tell(written ? path.string() : written.error().message);
+    }
     if (!panel_.take_screenshot) return {};
     panel_.take_screenshot = false;
     const std::filesystem::path path = free_name(options_.pictures, "screenshot", ".png", shots_);
@@ -204,8 +289,8 @@ Status Visit::record() {
     if (panel_.recording && !video_) {
         int number = 0;
         const std::filesystem::path path = free_name(options_.pictures, "recording", ".mp4", number);
-        Result<VideoWriter> video =
-            VideoWriter::open(path, compositor_.width(), compositor_.height(), kRecordedFrames_per_s);
+        const double rate = playback_ && playback_->saving() ? playback_->frames_per_second() : kRecordedFrames_per_s;
+        Result<VideoWriter> video = VideoWriter::open(path, compositor_.width(), compositor_.height(), rate);
         if (!video) {
             panel_.recording = false;
             tell(video.error().message);
@@ -284,7 +369,7 @@ Result<bool> Visit::step(std::optional<double> seconds) {
                               (std::holds_alternative<ButtonEvent>(event) && std::get<ButtonEvent>(event).down);
         if (of_mouse && overlay_->wants_mouse()) continue;
         if (std::holds_alternative<KeyEvent>(event) && overlay_->wants_keys()) continue;
-        input_.take(event);
+        if (!desk_.take(event, desk_view())) input_.take(event);
     }
     for (const Key command : input_.commands()) {
         if (Status status = obey(command); !status) return status.error();
@@ -297,14 +382,28 @@ Result<bool> Visit::step(std::optional<double> seconds) {
         if (video_) panel_.recording = false;  // a video has one size
     }
 
+    if (Status status = relight(); !status) return status.error();
     const bool turned = move(passed);
+    const Result<bool> played = play(passed);
+    if (!played) return played.error();
+    if (playback_) {
+        const std::string folder = playback_->take_folder();
+        if (!folder.empty() && options_.open) {
+            options_.open(folder);
+            return false;
+        }
+    }
     compositor_.set_wire_frame(panel_.wire_frame);
+    if (const Status status = compositor_.set_shadows(panel_.shadows); !status) {
+        panel_.shadows = compositor_.shadows();
+        tell(status.error().message);
+    }
     const std::optional<glm::dvec3> destination = travel_ ? std::optional(travel_->to.eye) : std::nullopt;
     if (Status status = showroom_->update(visitor_.eye, passed, destination); !status) return status.error();
     hear_showroom();
     const Camera here = camera();
     // A view that stands still is drawn again when it is better, or something in it may have changed.
-    const bool changed = refine(here) || turned || !showroom_->settled();
+    const bool changed = refine(here) || turned || *played || !showroom_->settled();
     if (changed) {
         if (Status status = compositor_.draw(here); !status) return status.error();
     } else {
@@ -314,9 +413,11 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     if (Status status = take_pictures(); !status) return status.error();
     if (Status status = record(); !status) return status.error();
     refresh_panel(passed);
-    compositor_.show_in_window(size.x, size.y);
+    if (Status status = show(size); !status) return status.error();
     const int picked_before = panel_.picked;
-    overlay_->draw(panel_);
+    overlay_->draw(panel_, [this] {
+        if (desk_.is_open()) light_panel_.draw(desk_, desk_view());
+    });
     if (panel_.picked != picked_before && panel_.picked >= 0) {
         panel_.turn_rad = turns_rad_[static_cast<std::size_t>(panel_.picked)];
     }

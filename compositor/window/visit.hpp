@@ -8,7 +8,10 @@
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/viewer/views/navigation.hpp"
+#include "compositor/window/light_desk.hpp"
+#include "compositor/window/light_panel.hpp"
 #include "compositor/window/overlay.hpp"
+#include "compositor/window/playback.hpp"
 #include "compositor/window/visitor_input.hpp"
 #include "compositor/window/window.hpp"
 #include "rayspace/base/result.hpp"
@@ -32,9 +35,14 @@ struct VisitOptions {
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = FrameOptions{}.object_samples;
     double exposure_ev = 0;
-    bool traced = false;  // from the beginning
-    TracedMethod method = TracedMethod::kPath;
-    std::string executor = "software core";                     // of the engine, for the panel
+    std::filesystem::path lights = "lights.json";  // the profile that edited light is saved to
+    bool shadows = true;
+    bool traced = false;                       // from the beginning
+    TracedOptions tracing{};                   // with the exposure above
+    std::string executor = "software core";    // of the engine, for the panel
+    std::shared_ptr<const Sequence> sequence;  // to be played, in this weather
+    std::optional<Weather> weather;
+    std::function<void(const std::string&)> open;               // another sequence is wanted; the visit ends
     std::function<void(const std::vector<std::string>&)> warn;  // of objects that cannot be shown; may be empty
 };
 
@@ -51,6 +59,7 @@ public:
     [[nodiscard]] Window& window() { return window_; }
     [[nodiscard]] const Visitor& visitor() const { return visitor_; }
     [[nodiscard]] const PanelState& panel() const { return panel_; }
+    [[nodiscard]] LightDesk& lights() { return desk_; }
     // Of the last frame, without the overlay.
     [[nodiscard]] Image<Rgba8> picture() const { return compositor_.picture(); }
 
@@ -63,8 +72,15 @@ private:
     void begin_travel(const Visitor& to);
     bool move(double seconds);
     void pick(const glm::dvec2& at_px);
+    [[nodiscard]] DeskView desk_view() const;
+    // Gives light that was edited to both renderers.
+    Status relight();
+    Status show(const glm::ivec2& size);
+    // As it is lit and stands now.
+    [[nodiscard]] std::shared_ptr<const Scene> scene_to_trace() const;
     // Whether there is a new picture to show.
     bool refine(const Camera& here);
+    Result<bool> play(double seconds);
     Status take_pictures();
     Status record();
     void refresh_panel(double seconds);
@@ -95,8 +111,11 @@ private:
     std::optional<Refinement> refinement_;
     std::optional<Camera> refined_;  // what is traced now
     TracedMethod refined_by_ = TracedMethod::kPath;
-    std::function<Result<TracedRenderer>(const std::vector<PlacedObject>&)> make_tracer_;
+    bool relit_ = false;  // since the tracer began
+    LightDesk desk_;
+    LightPanel light_panel_;
     std::size_t traced_objects_ = 0;
+    std::optional<Playback> playback_;
     std::optional<VideoWriter> video_;
     int shots_ = 0;
     double news_seconds_ = 0;

@@ -43,8 +43,14 @@ constexpr std::array kBindings = {
     Binding{GLFW_KEY_TAB, Key::kPanel},
     Binding{GLFW_KEY_F, Key::kWireFrame},
     Binding{GLFW_KEY_T, Key::kTrace},
+    Binding{GLFW_KEY_L, Key::kLights},
+    Binding{GLFW_KEY_DELETE, Key::kDelete},
+    Binding{GLFW_KEY_O, Key::kShadows},
     Binding{GLFW_KEY_P, Key::kScreenshot},
     Binding{GLFW_KEY_R, Key::kRecord},
+    Binding{GLFW_KEY_K, Key::kPlay},
+    Binding{GLFW_KEY_COMMA, Key::kFrameBack},
+    Binding{GLFW_KEY_PERIOD, Key::kFrameOn},
     Binding{GLFW_KEY_ESCAPE, Key::kQuit},
 };
 
@@ -52,6 +58,15 @@ std::optional<Key> key_of(int glfw_key) {
     for (const Binding& binding : kBindings) {
         if (binding.glfw_key == glfw_key) return binding.key;
     }
+    return std::nullopt;
+}
+
+// With control held.
+std::optional<Key> chord_of(int glfw_key, int modifiers) {
+    const bool shift = (modifiers & GLFW_MOD_SHIFT) != 0;
+    if (glfw_key == GLFW_KEY_Z) return shift ? Key::kRedo : Key::kUndo;
+    if (glfw_key == GLFW_KEY_Y) return Key::kRedo;
+    if (glfw_key == GLFW_KEY_D) return Key::kDuplicate;
     return std::nullopt;
 }
 
@@ -84,21 +99,27 @@ struct Window::State {
     std::optional<gl::Context> context;
     std::vector<Event> events;
 
-    State() = default;
+    static inline int open = 0;  // all windows; with the last one GLFW ends
+
+    State() { ++open; }
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     ~State() {
+        if (context) glfwMakeContextCurrent(window);
         context.reset();
         if (window != nullptr) glfwDestroyWindow(window);
-        glfwTerminate();
+        if (--open == 0) glfwTerminate();
     }
 
     static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
 
     void listen() {
         glfwSetWindowUserPointer(window, this);
-        glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
-            if (const auto known = key_of(key); known && action != GLFW_REPEAT) {
+        glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+            // A key that goes up goes up, whatever it meant.
+            if ((modifiers & GLFW_MOD_CONTROL) != 0 && action == GLFW_PRESS) {
+                if (const auto chord = chord_of(key, modifiers)) of(w).events.emplace_back(KeyEvent{*chord, true});
+            } else if (const auto known = key_of(key); known && action != GLFW_REPEAT) {
                 of(w).events.emplace_back(KeyEvent{*known, action == GLFW_PRESS});
             }
         });
@@ -148,6 +169,10 @@ Result<Window> Window::create(const WindowOptions& options) {
 
 gl::Context& Window::context() {
     return *state_->context;
+}
+
+void Window::make_current() {
+    glfwMakeContextCurrent(state_->window);
 }
 
 bool Window::wants_to_close() const {

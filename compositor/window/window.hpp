@@ -22,7 +22,7 @@ struct WindowOptions {
     gl::ContextOptions context = {};
 };
 
-// Move-only; one at a time.
+// Move-only. Several may be open; what is drawn goes to the one that was created or made current last.
 class Window {
 public:
     // Fails, saying why, without a display, or where the driver has no OpenGL 4.5 core.
@@ -32,6 +32,8 @@ public:
     ~Window();
 
     [[nodiscard]] gl::Context& context();
+    // What is drawn from now on goes here, by this window's context.
+    void make_current();
     [[nodiscard]] bool wants_to_close() const;
     void close();
 

@@ -1,5 +1,6 @@
 // rs-view as a user runs it: scenes of all kinds, without a display.
 
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/run_tool.hpp"
@@ -110,6 +111,29 @@ TEST_F(View, LightIsTracedWhereThatIsAskedFor) {
     EXPECT_EQ(info->width, 512);
 }
 
+TEST_F(View, CartoonsHaveTonesWhateverTheExposure) {
+    write("hall.wrl", kShadedFloor);
+    write("evening.json", R"({"replace": true, "lights": [{"kind": "directional", "aim": [0, -1, 0], "lux": 2000}]})");
+    const std::vector<std::string> base = {
+        in("hall.wrl"), "--lights", in("evening.json"), "--renderer", "toon", "--passes", "1", "-o", in("x.png")};
+    const auto tone = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), base.begin(), base.end());
+        run_ = view(more);
+        const auto picture = run_.exit_code == 0 ? read_picture(in("x.png")) : Result<Image<Rgba8>>(Error{run_.err});
+        return picture ? static_cast<int>((*picture)(8, 24).g) : -1;
+    };
+    const int lit = tone({});
+    if (lit < 0 && run_.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run_.err;
+    EXPECT_EQ(lit, 255) << run_.err;
+    EXPECT_EQ(tone({"--exposure", "-2"}), 255);
+    EXPECT_EQ(tone({"--soft-shadows", "--toon-lines", "0", "--lens", "f/2", "--focus", "6"}), 255) << run_.err;
+    EXPECT_EQ(tone({"--lens", "25"}), -1);
+    EXPECT_EQ(run_.err, "rs-view: error: --lens 25: nothing would be sharp; add --focus DISTANCE\n");
+    EXPECT_EQ(tone({"--lens", "f/wide", "--focus", "2"}), -1);
+    EXPECT_THAT(run_.err, HasSubstr("--lens f/wide: must be the opening in mm, as 25, or an f-number, as f/2.8"));
+    EXPECT_EQ(view({in("hall.wrl"), "--lens", "25", "--focus", "2", "-o", in("y.png")}).exit_code, 2);
+}
+
 TEST_F(View, ListsOfLightsThatMakeNoSenseAreRefused) {
     write("hall.wrl", kShadedFloor);
     write("evening.json", R"({"lights": [{"kind": "luminaire", "file": "none.ies", "location": [0, 1, 0]}]})");
@@ -120,6 +144,28 @@ TEST_F(View, ListsOfLightsThatMakeNoSenseAreRefused) {
     EXPECT_FALSE(std::filesystem::exists(in("x.png")));
     EXPECT_EQ(view({in("hall.wrl"), "--probe=0,1,0", "-o", in("x.png")}).exit_code, 2);
     EXPECT_EQ(view({in("hall.wrl"), "--passes", "2", "--seconds", "1", "-o", in("x.png")}).exit_code, 2);
+}
+
+// A scene's own lights and those of a list, in one list that replaces them all.
+TEST_F(View, SavedLightsGiveTheSamePicture) {
+    write("hall.wrl", std::string(kShadedFloor) +
+                          "PointLight { location 0.3 0.8 0.2 intensity 0.4 color 1 0.9 0.7 attenuation 1 0.3 0.1 }\n"
+                          "Transform { translation 0 0.5 0 children Shape { geometry Box { size 0.2 0.2 0.2 } } }\n");
+    write("lamp.ies", "TILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1 9\n0 180\n0\n9000 9000\n");
+    write("lamp.json",
+          R"({"lights": [{"kind": "luminaire", "file": "lamp.ies", "location": [0.4, 1.7, 0.1], "turn_deg": 12.34},
+                         {"kind": "point", "name": "buried", "location": [0, 0.5, 0], "candela": 1},
+                         {"kind": "disc", "name": "off", "location": [0, 1, 0], "aim": [0, -1, 0], "size": 0.1, "lumens": 0}]})");
+    test::ToolRun run = view({in("hall.wrl"), "--lights", in("lamp.json"), "--save-lights", in("all.json")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("'buried' stands inside of a solid"));
+    EXPECT_THAT(run.err, HasSubstr("'off' has no power"));
+    run = view({in("hall.wrl"), "--lights", in("lamp.json"), "-o", in("a.png")});
+    if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
+    ASSERT_EQ(view({in("hall.wrl"), "--lights", in("all.json"), "-o", in("b.png")}).exit_code, 0);
+    EXPECT_EQ(read_picture(in("a.png")).value(), read_picture(in("b.png")).value());
+    ASSERT_EQ(view({in("hall.wrl"), "--lights", in("all.json"), "--save-lights", in("again.json")}).exit_code, 0);
+    EXPECT_EQ(read_file(in("all.json"), 1 << 20).value(), read_file(in("again.json"), 1 << 20).value());
 }
 
 TEST_F(View, AnObjectThatIsNotThereIsLeftOut) {

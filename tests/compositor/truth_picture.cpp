@@ -170,7 +170,7 @@ TruthPicture TruthScene::render(const Camera& camera, const TruthOptions& option
             const glm::dvec3 ray = glm::normalize(camera.ray(x + offset.x, y + offset.y));
             capture::SurfacePoint hit;
             double nearest = std::numeric_limits<double>::infinity();
-            const bool met = room_->rays->intersect(glm::vec3(camera.centre()), glm::vec3(ray), hit);
+            const bool met = room_->rays->intersect(glm::vec3(camera.centre()), glm::vec3(ray), 0.0F, hit);
             if (met) nearest = static_cast<double>(hit.distance);
             std::optional<std::size_t> seen;
             bool any = false;
@@ -178,9 +178,8 @@ TruthPicture TruthScene::render(const Camera& camera, const TruthOptions& option
                 const double radius = nodes_[i].object->object_radius();
                 const glm::vec3 origin(from_world[i].point(camera.centre()) * radius);
                 capture::SurfacePoint on_object;
-                if (!nodes_[i].object->rays().intersect(origin, glm::vec3(from_world[i].direction(ray)), on_object)) {
-                    continue;
-                }
+                const glm::vec3 direction(from_world[i].direction(ray));
+                if (!nodes_[i].object->rays().intersect(origin, direction, 0.0F, on_object)) continue;
                 any = true;
                 const double distance =
                     static_cast<double>(on_object.distance) / radius * nodes_[i].world_from_object.scale;
@@ -201,7 +200,7 @@ TruthPicture TruthScene::render(const Camera& camera, const TruthOptions& option
                 capture::Sampler further(capture::mix_bits(key + 1 + *seen),
                                          static_cast<std::uint32_t>(s * options.paths_per_sample + path));
                 glm::vec3 radiance(0);
-                tracers[*seen].trace(origin, glm::vec3(from_world[*seen].direction(ray)), further, radiance);
+                tracers[*seen].trace(origin, glm::vec3(from_world[*seen].direction(ray)), 0.0F, further, radiance);
                 sums[*seen] += radiance / static_cast<float>(options.paths_per_sample);
             }
         }

@@ -20,14 +20,19 @@ int fuzz_rig(const std::uint8_t* data, std::size_t size);
 // The bytes as a Middlebury *_par.txt.
 int fuzz_middlebury(const std::uint8_t* data, std::size_t size);
 
-// The bytes as a VRML97 world.
+// The bytes as a world of VRML or X3D, by how they begin; behind the header of VRML 1.0; as XML, behind a "<".
 int fuzz_vrml(const std::uint8_t* data, std::size_t size);
+int fuzz_vrml1(const std::uint8_t* data, std::size_t size);
+int fuzz_x3d(const std::uint8_t* data, std::size_t size);
 
 // The bytes as a model: a glTF file (binary where it begins with "glTF"), an OBJ, and the MTL of a sound OBJ; each as a
 // room and as an object to photograph.
 int fuzz_gltf(const std::uint8_t* data, std::size_t size);
 int fuzz_obj(const std::uint8_t* data, std::size_t size);
 int fuzz_mtl(const std::uint8_t* data, std::size_t size);
+
+// The bytes as a frame of a sequence (extended OBJ), and as a frames.json.
+int fuzz_sequence(const std::uint8_t* data, std::size_t size);
 
 // The bytes as a photograph: JPEG or PNG, by how it begins.
 int fuzz_picture(const std::uint8_t* data, std::size_t size);
@@ -37,5 +42,11 @@ int fuzz_luminaire(const std::uint8_t* data, std::size_t size);
 
 // The bytes as a farm's manifest, and as a list of inputs.
 int fuzz_manifest(const std::uint8_t* data, std::size_t size);
+
+// The bytes as a file of a display's walls, and as one of heads before them.
+int fuzz_walls(const std::uint8_t* data, std::size_t size);
+
+// The bytes as a list of lights; what is read is written and read again.
+int fuzz_lights(const std::uint8_t* data, std::size_t size);
 
 }  // namespace rs::fuzz

@@ -75,12 +75,32 @@ TEST(FuzzReplay, Vrml) {
     replay("vrml", fuzz::fuzz_vrml);
 }
 
+TEST(FuzzReplay, Sequence) {
+    replay("sequence", fuzz::fuzz_sequence);
+}
+
+TEST(FuzzReplay, Vrml1) {
+    replay("vrml1", fuzz::fuzz_vrml1);
+}
+
+TEST(FuzzReplay, X3d) {
+    replay("x3d", fuzz::fuzz_x3d);
+}
+
 TEST(FuzzReplay, Luminaire) {
     replay("luminaire", fuzz::fuzz_luminaire);
 }
 
 TEST(FuzzReplay, Manifest) {
     replay("manifest", fuzz::fuzz_manifest);
+}
+
+TEST(FuzzReplay, Walls) {
+    replay("walls", fuzz::fuzz_walls);
+}
+
+TEST(FuzzReplay, Lights) {
+    replay("lights", fuzz::fuzz_lights);
 }
 TEST(FuzzReplay, Gltf) {
     replay("gltf", fuzz::fuzz_gltf);
@@ -97,9 +117,11 @@ TEST(FuzzReplay, Picture) {
 
 TEST(FuzzReplay, FaultyWorldsAreReadOrRefused) {
     std::vector<std::string> worlds;
-    for (const fs::path& file : corpus("vrml")) {
-        const auto input = contents(file);
-        worlds.emplace_back(input.begin(), input.end());
+    for (const char* const form : {"vrml", "vrml1", "x3d"}) {
+        for (const fs::path& file : corpus(form)) {
+            const auto input = contents(file);
+            worlds.emplace_back(input.begin(), input.end());
+        }
     }
     constexpr std::uint64_t kSeed = 1;
     SCOPED_TRACE(kSeed);
@@ -140,7 +162,11 @@ TEST(FuzzReplay, SeedsAreValid) {
         EXPECT_TRUE(turn.ok()) << turn.error().message;
         ++seeds;
     }
-    for (const fs::path& file : corpus("vrml")) {
+    std::vector<fs::path> of_worlds = corpus("vrml");
+    for (const char* const form : {"vrml1", "x3d"}) {
+        for (const fs::path& file : corpus(form)) of_worlds.push_back(file);
+    }
+    for (const fs::path& file : of_worlds) {
         if (file.filename().string().rfind("seed-", 0) != 0) continue;
         const auto input = contents(file);
         const auto scene =
@@ -160,7 +186,7 @@ TEST(FuzzReplay, SeedsAreValid) {
         EXPECT_TRUE(read_picture(file).ok()) << file;
         ++seeds;
     }
-    EXPECT_GE(seeds, 14);
+    EXPECT_GE(seeds, 16);
 }
 
 }  // namespace

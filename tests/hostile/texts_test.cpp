@@ -98,6 +98,10 @@ std::vector<Kind> kinds() {
          R"({"object":"triangle","parameters":{"size":1.5,"colour":[1,0,0]},"camera":{"views":12,"elevation_deg":20,"distance":3.5},)"
          R"("lights":[{"type":"sun","direction":[0,-1,0],"colour":[1,1,1],"strength":2}],"seed":4})",
          [](const fs::path& path) { return one_line(capture::load_scene_file(path, a_triangle)); }},
+        {"recipe.json",
+         R"({"object":{"generator":"triangle"},"look":"toon","toon":{"thresholds":[0.9,0.4],"values":[1,0.6,0.2],)"
+         R"("edge_radius":0.01,"edge_angle_deg":30,"shadow_rays":4},"camera":{"aperture_radii":0.1,"focus_radii":3}})",
+         [](const fs::path& path) { return one_line(capture::load_scene_file(path, a_triangle)); }},
     };
 }
 

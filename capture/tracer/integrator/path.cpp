@@ -4,13 +4,13 @@
 
 namespace rs::capture {
 
-bool PathTracer::trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+bool PathTracer::trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                        glm::vec3& radiance) const {
     constexpr int kRouletteFrom = 3;
     using Met = LightTransport::Met;
     radiance = glm::vec3(0.0F);
     glm::vec3 throughput(1.0F);
-    LightTransport::Segment segment = LightTransport::camera_segment(origin, direction);
+    LightTransport::Segment segment = LightTransport::camera_segment(origin, direction, time);
     MediumStack media;  // that the segment runs in
 
     for (int bounce = 0;; ++bounce) {

@@ -16,7 +16,7 @@ class PathTracer final : public Integrator {
 public:
     PathTracer(const LightTransport& transport, int max_bounces) : transport_(transport), max_bounces_(max_bounces) {}
 
-    bool trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+    bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
 
 private:

@@ -21,6 +21,7 @@ constexpr int kLightSamples = 8;
 constexpr std::uint64_t kOfCameraPoints = 0x63616D657261ULL;
 constexpr std::uint64_t kOfPilot = 0x70696C6F74ULL;
 constexpr std::uint64_t kOfPasses = 0x706173736573ULL;
+constexpr std::uint64_t kOfTimes = 0x74696D6573ULL;
 
 float away_from_zero(float cosine) {
     return std::max(std::abs(cosine), 1e-2F);
@@ -39,15 +40,15 @@ float adjoint_factor(const LightTransport::Vertex& vertex, const glm::vec3& in, 
 
 RadiosityTracer::RadiosityTracer(const LightTransport& transport, const RadiosityOptions& options,
                                  const RayPicture& picture, std::uint64_t key, int first, int count)
-    : transport_(transport), options_(options), first_(first) {
+    : transport_(transport), options_(options), key_(key), first_(first) {
     const glm::vec3 diagonal = transport.rays().upper() - transport.rays().lower();
     bound_ = kBound / std::max(glm::dot(diagonal, diagonal) / 4, 1e-12F);
     passes_.resize(static_cast<std::size_t>(count));
     if (transport_.lights().empty()) return;
-    if (options_.importance) find_camera_points(picture, key);
-    plan_photons(key);
+    if (options_.importance) find_camera_points(picture);
+    plan_photons();
     for_each_index(count, 0, [&](std::int64_t i) {
-        passes_[static_cast<std::size_t>(i)] = lights_of(key, first_ + static_cast<int>(i));
+        passes_[static_cast<std::size_t>(i)] = lights_of(first_ + static_cast<int>(i));
     });
 }
 
@@ -57,9 +58,9 @@ std::size_t RadiosityTracer::light_count() const {
     return count;
 }
 
-void RadiosityTracer::find_camera_points(const RayPicture& picture, std::uint64_t key) {
+void RadiosityTracer::find_camera_points(const RayPicture& picture) {
     for (int i = 0; i < kCameraPoints; ++i) {
-        Sampler sampler(mix_bits(key ^ kOfCameraPoints), static_cast<std::uint32_t>(i));
+        Sampler sampler(mix_bits(key_ ^ kOfCameraPoints), static_cast<std::uint32_t>(i));
         const glm::vec2 at = sampler.next_2d();
         const glm::dvec3 ray =
             picture.ray(at.x * static_cast<float>(picture.width), at.y * static_cast<float>(picture.height));
@@ -84,15 +85,15 @@ void RadiosityTracer::find_camera_points(const RayPicture& picture, std::uint64_
 }
 
 // How many photons give as many virtual lights as are wanted, and what one brings. The same for every pass.
-void RadiosityTracer::plan_photons(std::uint64_t key) {
+void RadiosityTracer::plan_photons() {
     std::vector<float> importance;
     double sum = 0;
     int photons = 0, useful = 0;
     do {
         VirtualLights found;
         for (const int end = photons + kPilotPhotons; photons < end; ++photons) {
-            Sampler sampler(mix_bits(key ^ kOfPilot), static_cast<std::uint32_t>(photons));
-            follow_photon(sampler, found);
+            Sampler sampler(mix_bits(key_ ^ kOfPilot), static_cast<std::uint32_t>(photons));
+            follow_photon(0.0F, sampler, found);
         }
         for (const VirtualLight& light : found) {
             importance.push_back(importance_of(light));
@@ -111,17 +112,18 @@ void RadiosityTracer::plan_photons(std::uint64_t key) {
     photons_ = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(kMostPhotons)));
 }
 
-void RadiosityTracer::follow_photon(Sampler& sampler, VirtualLights& lights) const {
+void RadiosityTracer::follow_photon(float time, Sampler& sampler, VirtualLights& lights) const {
     const glm::vec2 source = sampler.next_2d();
     const glm::vec2 place = sampler.next_2d();
     const auto photon = transport_.lights().emit(source.x, place, sampler.next_2d());
     if (!photon) return;
-    LightTransport::Segment segment{photon->origin + photon->normal * transport_.rays().step_off(), photon->direction};
+    LightTransport::Segment segment{photon->origin + photon->normal * transport_.rays().step_off(), photon->direction,
+                                    time};
     MediumStack media;
     glm::vec3 flux(0.0F);
     for (int depth = 1; depth < options_.max_bounces; ++depth) {
         SurfacePoint point;
-        if (!transport_.rays().intersect(segment.origin, segment.direction, point)) return;
+        if (!transport_.rays().intersect(segment.origin, segment.direction, time, point)) return;
         if (transport_.rays().ask_primitives(segment.origin, segment.direction, point.distance)) return;
         if (depth == 1) flux = photon->flux_at(point.position);
         flux *= media.passed(point.distance);
@@ -148,13 +150,14 @@ void RadiosityTracer::follow_photon(Sampler& sampler, VirtualLights& lights) con
     }
 }
 
-RadiosityTracer::VirtualLights RadiosityTracer::lights_of(std::uint64_t key, int pass) const {
+RadiosityTracer::VirtualLights RadiosityTracer::lights_of(int pass) const {
     VirtualLights kept;
+    const float time = time_of(pass);
     for (int i = 0; i < photons_; ++i) {
         // One sequence for all passes, so that their photons are stratified together.
-        Sampler sampler(mix_bits(key ^ kOfPasses), static_cast<std::uint32_t>(pass * photons_ + i));
+        Sampler sampler(mix_bits(key_ ^ kOfPasses), static_cast<std::uint32_t>(pass * photons_ + i));
         VirtualLights found;
-        follow_photon(sampler, found);
+        follow_photon(time, sampler, found);
         for (VirtualLight& light : found) {
             light.flux /= static_cast<float>(photons_);
             if (mean_importance_ > 0.0F) {
@@ -168,6 +171,11 @@ RadiosityTracer::VirtualLights RadiosityTracer::lights_of(std::uint64_t key, int
         }
     }
     return kept;
+}
+
+float RadiosityTracer::time_of(int pass) const {
+    if (!transport_.rays().blurred()) return 0.0F;
+    return Sampler(mix_bits(key_ ^ kOfTimes), static_cast<std::uint32_t>(pass)).next_2d().x;
 }
 
 float RadiosityTracer::importance_of(const VirtualLight& light) const {
@@ -203,17 +211,19 @@ glm::vec3 RadiosityTracer::light_from(const VirtualLight& light, const Vertex& v
     const glm::vec3 end = from.start_of(-direction, true);
     const glm::vec3 ray = end - start;
     const float length = glm::length(ray);
-    if (!(length > 0.0F) || transport_.rays().occluded(start, ray / length, length * (1.0F - 1e-4F))) return dark;
+    const float reach = length * (1.0F - 1e-4F);
+    if (!(length > 0.0F) || transport_.rays().occluded(start, ray / length, reach, vertex.point.time)) return dark;
     return here * there * light.flux * geometry;
 }
 
-bool RadiosityTracer::trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+bool RadiosityTracer::trace(const glm::vec3& origin, const glm::vec3& direction, float /*time*/, Sampler& sampler,
                             glm::vec3& radiance) const {
     using Met = LightTransport::Met;
     const VirtualLights& lights = passes_[sampler.sample() - static_cast<std::uint32_t>(first_)];
     radiance = glm::vec3(0.0F);
     glm::vec3 throughput(1.0F);
-    LightTransport::Segment segment = LightTransport::camera_segment(origin, direction);
+    LightTransport::Segment segment =
+        LightTransport::camera_segment(origin, direction, time_of(static_cast<int>(sampler.sample())));
     MediumStack media;
 
     // Where virtual lights stand for what the segment would find on a surface, up to their bound: the cosine at its

@@ -13,7 +13,8 @@
 // found by paths, which go on from a surface only where the term exceeds the bound (T. Kollig, A. Keller, "Illumination
 // in the Presence of Weak Singularities", MCQMC 2004). So the mean of the passes goes to what a path tracer finds.
 //
-// Left out is the light of primitives that reaches the camera over more than one surface.
+// Left out is the light that reaches the camera over more than one surface from primitives, and from surfaces that
+// shine and move while the shutter is open.
 
 #include "capture/tracer/integrator/ray_picture.hpp"
 #include "capture/tracer/integrator/transport.hpp"
@@ -36,7 +37,8 @@ public:
     RadiosityTracer(const LightTransport& transport, const RadiosityOptions& options, const RayPicture& picture,
                     std::uint64_t key, int first, int count);
 
-    bool trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+    // At the time of the sampler's pass, whatever `time` is.
+    bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
 
     // Of the passes that are ready.
@@ -55,16 +57,19 @@ private:
     };
     using VirtualLights = std::vector<VirtualLight>;
 
-    void find_camera_points(const RayPicture& picture, std::uint64_t key);
-    void plan_photons(std::uint64_t key);
-    void follow_photon(Sampler& sampler, VirtualLights& lights) const;
-    [[nodiscard]] VirtualLights lights_of(std::uint64_t key, int pass) const;
+    void find_camera_points(const RayPicture& picture);
+    void plan_photons();
+    void follow_photon(float time, Sampler& sampler, VirtualLights& lights) const;
+    [[nodiscard]] VirtualLights lights_of(int pass) const;
+    // A pass is a moment, for its virtual lights and all that they shine on. 0 where nothing moves.
+    [[nodiscard]] float time_of(int pass) const;
     // What the camera points get, visibility included; luminance.
     [[nodiscard]] float importance_of(const VirtualLight& light) const;
     [[nodiscard]] glm::vec3 light_from(const VirtualLight& light, const Vertex& vertex) const;
 
     LightTransport transport_;
     RadiosityOptions options_;
+    std::uint64_t key_;
     int first_;
     float bound_;  // of the geometry term, cosines over squared distance
     int photons_ = 1;

@@ -7,26 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <string>
+#include <utility>
 
 namespace rs::capture {
-
-// Embree calls this for each candidate hit of a geometry that has holes.
-struct CutoutFilter {
-    static void reject_holes(const RTCFilterFunctionNArguments* arguments) {
-        const auto& cutout = *static_cast<const RayScene::Cutout*>(arguments->geometryUserPtr);
-        for (unsigned i = 0; i < arguments->N; ++i) {
-            if (arguments->valid[i] == 0) continue;
-            const unsigned primitive = RTCHitN_primID(arguments->hit, arguments->N, i);
-            const float u = RTCHitN_u(arguments->hit, arguments->N, i);
-            const float v = RTCHitN_v(arguments->hit, arguments->N, i);
-            const glm::vec2 uv = interpolate_uv(*cutout.mesh, primitive, u, v);
-            if (sample_texture_alpha(*cutout.texture, uv) < kHoleAlpha) arguments->valid[i] = 0;
-        }
-    }
-};
 
 namespace {
 
@@ -59,9 +43,26 @@ void intersect_primitive(const RTCIntersectFunctionNArguments* arguments) {
     reinterpret_cast<PrimitiveQuery*>(arguments->context)->nearest = answer;
 }
 
+// From the triangle's edges in space and on the texture; 0 where it has no area there.
+void set_texture_axes(const Mesh& mesh, const glm::uvec3& t, const glm::vec3* corners, SurfacePoint& point) {
+    point.along_u = point.along_v = glm::vec3(0.0F);
+    if (mesh.uvs.empty()) return;
+    const glm::vec2 d1 = mesh.uvs[t.y] - mesh.uvs[t.x], d2 = mesh.uvs[t.z] - mesh.uvs[t.x];
+    const glm::vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
+    const float area = d1.x * d2.y - d2.x * d1.y;
+    if (area == 0.0F) return;
+    point.along_u = (e1 * d2.y - e2 * d1.y) / area;
+    point.along_v = (e2 * d1.x - e1 * d2.x) / area;
+}
+
 void occlude_primitive(const RTCOccludedFunctionNArguments* arguments) {
     auto& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
     if (ask(arguments->geometryUserPtr, ray)) ray.tfar = -std::numeric_limits<float>::infinity();
+}
+
+glm::vec3 unit_or_zero(const glm::vec3& v) {
+    const float length = glm::length(v);
+    return length > 0.0F ? v / length : glm::vec3(0.0F);
 }
 
 }  // namespace
@@ -96,13 +97,6 @@ std::optional<RayPrimitive::Answer> RayScene::ask_primitives(const glm::vec3& or
     return query.nearest;
 }
 
-void RayScene::Release::operator()(RTCDeviceTy* device) const {
-    rtcReleaseDevice(device);
-}
-void RayScene::Release::operator()(RTCSceneTy* scene) const {
-    rtcReleaseScene(scene);
-}
-
 Result<RayScene> RayScene::create(const Scene& scene) {
     // The order of the tree decides which of two triangles a ray through their common edge hits, so it must not depend
     // on scheduling or on the number of processors: Embree takes the size of its own arena from the one it is started
@@ -120,93 +114,102 @@ Result<RayScene> RayScene::build(const Scene& scene) {
                          ? "ray tracing: Embree cannot start on this processor"
                          : "ray tracing: Embree cannot start; is there enough memory (ulimit -v)?"};
     }
-    result.embree_scene_.reset(rtcNewScene(result.device_.get()));
-    rtcSetSceneFlags(result.embree_scene_.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(result.embree_scene_.get(), RTC_BUILD_QUALITY_HIGH);
-
-    glm::vec3 lower(std::numeric_limits<float>::infinity());
-    glm::vec3 upper(-std::numeric_limits<float>::infinity());
-    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-        const Mesh& mesh = scene.meshes[m];
-        if (mesh.triangles.empty()) continue;
-        RTCGeometry geometry = rtcNewGeometry(result.device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        // Copied into buffers of Embree's own, which have the padding that its vector loads need.
-        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 sizeof(glm::vec3), mesh.positions.size());
-        void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                sizeof(glm::uvec3), mesh.triangles.size());
-        if (vertices == nullptr || indices == nullptr) {
-            rtcReleaseGeometry(geometry);
-            return Error{"ray tracing: no memory for mesh \"" + mesh.name + "\" with " +
-                         std::to_string(mesh.triangles.size()) + " triangles; use a smaller mesh"};
-        }
-        std::memcpy(vertices, mesh.positions.data(), mesh.positions.size() * sizeof(glm::vec3));
-        std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3));
-        for (const glm::uvec3& t : mesh.triangles) {
-            for (int corner = 0; corner < 3; ++corner) {
-                lower = glm::min(lower, mesh.positions[t[corner]]);
-                upper = glm::max(upper, mesh.positions[t[corner]]);
-            }
-        }
-        const int texture = scene.materials[static_cast<std::size_t>(mesh.material)].texture;
-        if (texture >= 0 && !mesh.uvs.empty() && has_holes(scene.textures[static_cast<std::size_t>(texture)])) {
-            result.cutouts_.push_back(
-                std::make_unique<Cutout>(Cutout{&mesh, &scene.textures[static_cast<std::size_t>(texture)]}));
-            rtcSetGeometryUserData(geometry, result.cutouts_.back().get());
-            rtcSetGeometryIntersectFilterFunction(geometry, CutoutFilter::reject_holes);
-            rtcSetGeometryOccludedFilterFunction(geometry, CutoutFilter::reject_holes);
-        }
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(result.embree_scene_.get(), geometry, static_cast<unsigned>(m));
-        rtcReleaseGeometry(geometry);
+    Result<MeshTree> still = MeshTree::build(result.device_.get(), scene.meshes, scene);
+    if (!still) return still.error();
+    result.still_ = std::move(*still);
+    if (!scene.instances.empty()) {
+        Result<MovingParts> moving = MovingParts::build(result.device_.get(), scene);
+        if (!moving) return moving.error();
+        result.moving_ = std::move(*moving);
     }
-    rtcCommitScene(result.embree_scene_.get());
     result.add_primitives();
     if (rtcGetDeviceError(result.device_.get()) != RTC_ERROR_NONE) {
         return Error{"ray tracing: Embree could not build its acceleration structure; use smaller meshes"};
     }
-    if (lower.x <= upper.x) {
-        result.lower_ = lower;
-        result.upper_ = upper;
-        const glm::vec3 extent = glm::max(glm::abs(lower), glm::abs(upper));
-        result.step_off_ = 1e-5F * std::max(extent.x, std::max(extent.y, extent.z));
-    }
+    result.measure();
     return result;
 }
 
-bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, SurfacePoint& point) const {
+void RayScene::measure() {
+    glm::vec3 lower(std::numeric_limits<float>::infinity());
+    glm::vec3 upper(-std::numeric_limits<float>::infinity());
+    if (!still_->empty()) {
+        lower = still_->lower();
+        upper = still_->upper();
+    }
+    if (moving_ && !moving_->empty()) {
+        lower = glm::min(lower, moving_->lower());
+        upper = glm::max(upper, moving_->upper());
+    }
+    if (lower.x > upper.x) return;
+    lower_ = lower;
+    upper_ = upper;
+    const glm::vec3 extent = glm::max(glm::abs(lower), glm::abs(upper));
+    step_off_ = 1e-5F * std::max(extent.x, std::max(extent.y, extent.z));
+}
+
+void RayScene::update(std::span<const std::size_t> moved) {
+    if (!moving_) return;
+    moving_->update(moved);
+    measure();
+}
+
+RayScene::Builds RayScene::builds() const {
+    return {1 + static_cast<std::int64_t>(moving_ ? scene_->parts.size() : 0), moving_ ? moving_->top_builds() : 0};
+}
+
+bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit query{};
     query.ray = {origin.x,    origin.y,    origin.z,
                  0.0F,        direction.x, direction.y,
-                 direction.z, 0.0F,        std::numeric_limits<float>::infinity(),
+                 direction.z, time,        std::numeric_limits<float>::infinity(),
                  0xFFFFFFFFU, 0,           0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(embree_scene_.get(), &context, &query);
+    rtcIntersect1(still_->embree(), &context, &query);
+    if (moving_) rtcIntersect1(moving_->embree(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
 
-    const Mesh& mesh = scene_->meshes[query.hit.geomID];
+    const unsigned instance = query.hit.instID[0];
+    const bool moves = instance != RTC_INVALID_GEOMETRY_ID;
+    const Mesh& mesh = moves ? scene_->parts[scene_->instances[instance].part].meshes[query.hit.geomID]
+                             : scene_->meshes[query.hit.geomID];
     const glm::uvec3 t = mesh.triangles[query.hit.primID];
-    const glm::vec3 corners[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
+    glm::vec3 corners[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
+    glm::vec3 normals[3] = {};
+    if (!mesh.normals.empty()) {
+        for (int i = 0; i < 3; ++i) normals[i] = mesh.normals[t[i]];
+    }
+    float winding = 1.0F;  // -1 where an instance mirrors
+    if (moves) {
+        const PlacedAt placed = moving_->placed_at(instance, time);
+        for (glm::vec3& corner : corners) corner = glm::vec3(placed.world_from_part * glm::vec4(corner, 1.0F));
+        for (glm::vec3& normal : normals) normal = unit_or_zero(placed.normals * normal);
+        if (glm::determinant(placed.normals) < 0.0F) winding = -1.0F;
+    }
     const float weights[3] = {1.0F - query.hit.u - query.hit.v, query.hit.u, query.hit.v};
+    point.time = time;
+    point.light_drawn = !moves || !scene_->instances[instance].at_close;
     point.position = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
     point.distance = query.ray.tfar;
     point.material = mesh.material;
     point.uv = interpolate_uv(mesh, query.hit.primID, query.hit.u, query.hit.v);
     point.colour = interpolate_colour(mesh, query.hit.primID, query.hit.u, query.hit.v);
 
-    const glm::vec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const glm::vec3 cross = winding * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const float length = glm::length(cross);
     point.geometric_normal = length > 0.0F ? cross / length : -direction;
     point.front_side = glm::dot(point.geometric_normal, direction) < 0.0F;
     if (!point.front_side) point.geometric_normal = -point.geometric_normal;
+    if (scene_->materials[static_cast<std::size_t>(mesh.material)].relief >= 0) {
+        set_texture_axes(mesh, t, corners, point);
+    }
     point.shading_normal = point.geometric_normal;
     point.lifted_position = point.position;
     if (mesh.normals.empty()) return true;
 
-    const glm::vec3 normals[3] = {mesh.normals[t.x], mesh.normals[t.y], mesh.normals[t.z]};
     const glm::vec3 blended = normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2];
     const float blended_length = glm::length(blended);
     if (!(blended_length > 1e-6F)) return true;
@@ -221,12 +224,43 @@ bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, Su
     return true;
 }
 
-bool RayScene::occluded(const glm::vec3& origin, const glm::vec3& direction, float distance) const {
+RayScene::Bundle RayScene::distances(const std::array<glm::vec3, kBundle>& origins, const glm::vec3& direction,
+                                     float time) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    alignas(32) const std::array<int, kBundle> valid{-1, -1, -1, -1, -1, -1, -1, -1};
+    RTCRayHit8 query{};
+    for (std::size_t i = 0; i < kBundle; ++i) {
+        query.ray.org_x[i] = origins[i].x;
+        query.ray.org_y[i] = origins[i].y;
+        query.ray.org_z[i] = origins[i].z;
+        query.ray.dir_x[i] = direction.x;
+        query.ray.dir_y[i] = direction.y;
+        query.ray.dir_z[i] = direction.z;
+        query.ray.time[i] = time;
+        query.ray.tfar[i] = std::numeric_limits<float>::infinity();
+        query.ray.mask[i] = 0xFFFFFFFFU;
+        query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect8(valid.data(), still_->embree(), &context, &query);
+    if (moving_) rtcIntersect8(valid.data(), moving_->embree(), &context, &query);
+    Bundle found;
+    for (std::size_t i = 0; i < kBundle; ++i) {
+        found[i] =
+            query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity() : query.ray.tfar[i];
+    }
+    return found;
+}
+
+bool RayScene::occluded(const glm::vec3& origin, const glm::vec3& direction, float distance, float time) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay ray{origin.x,    origin.y, origin.z, 0.0F,        direction.x, direction.y,
-               direction.z, 0.0F,     distance, 0xFFFFFFFFU, 0,           0};
-    rtcOccluded1(embree_scene_.get(), &context, &ray);
+               direction.z, time,     distance, 0xFFFFFFFFU, 0,           0};
+    rtcOccluded1(still_->embree(), &context, &ray);
+    if (ray.tfar >= 0.0F && moving_) rtcOccluded1(moving_->embree(), &context, &ray);
     if (ray.tfar >= 0.0F && primitives_) rtcOccluded1(primitives_.get(), &context, &ray);
     return ray.tfar < 0.0F;
 }

@@ -1,16 +1,24 @@
 #pragma once
-// The meshes of a scene in Embree's acceleration structure: nearest hits and occlusion, with the holes of textures cut
-// out.
+// The surfaces of a scene in Embree's acceleration structures: nearest hits and occlusion, with the holes of textures
+// cut out.
+//
+//     meshes       one flattened tree                                              built once
+//     instances    a tree of each part, built once; above them a tree of instances built anew when something moves
+//     primitives   a tree of their boxes                                           built once
+//
+// Each ray asks one after the other, what it met before being its end. Rays have a time, 0 where the shutter opens and
+// 1 where it closes, at which they see what moves.
 
+#include "capture/tracer/integrator/mesh_tree.hpp"
+#include "capture/tracer/integrator/moving_parts.hpp"
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
-
-struct RTCDeviceTy;
-struct RTCSceneTy;
 
 namespace rs::capture {
 
@@ -23,28 +31,51 @@ struct SurfacePoint {
     glm::vec3 lifted_position;
     glm::vec3 geometric_normal;
     glm::vec3 shading_normal;
+    glm::vec3 along_u, along_v;  // how the place moves with uv; set where the material has relief only
     glm::vec2 uv;
     glm::vec3 colour;  // of the vertices
     float distance;
     int material;
-    bool front_side;  // the side that the triangle's winding calls the outer one
+    bool front_side;   // the side that the triangle's winding calls the outer one
+    float time;        // of the ray
+    bool light_drawn;  // where it shines, LightSet draws points of it: it stands still while the shutter is open
 };
 
 class RayScene {
 public:
-    // Refers to `scene`, which must stay where it is and unchanged. Its indices must be valid (see check_scene). Fails
-    // where Embree has no memory.
+    // Refers to `scene`, which must stay where it is and unchanged, but for update(). Its indices must be valid (see
+    // check_scene). Fails where Embree has no memory.
     static Result<RayScene> create(const Scene& scene);
 
-    // The nearest hit beyond `origin`; `direction` has unit length. Thread-safe, as is occluded().
-    bool intersect(const glm::vec3& origin, const glm::vec3& direction, SurfacePoint& point) const;
+    // After matrices of these instances of the scene have changed. Not while rays are traced.
+    void update(std::span<const std::size_t> moved);
+
+    // The nearest hit beyond `origin`; `direction` has unit length, `time` is 0..1. Thread-safe, as is occluded().
+    bool intersect(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const;
+    // How far it is to the nearest hits of kBundle rays of one direction, which are near to each other; infinity where
+    // a ray meets nothing.
+    static constexpr int kBundle = 8;
+    using Bundle = std::array<float, kBundle>;
+    [[nodiscard]] Bundle distances(const std::array<glm::vec3, kBundle>& origins, const glm::vec3& direction,
+                                   float time) const;
     // What a primitive answers that is nearer than `distance`.
     [[nodiscard]] std::optional<RayPrimitive::Answer> ask_primitives(const glm::vec3& origin,
                                                                      const glm::vec3& direction, float distance) const;
     // Anything between origin and origin + direction * distance, primitives included.
-    [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float distance) const;
+    [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float distance, float time) const;
 
-    [[nodiscard]] const glm::vec3& lower() const { return lower_; }  // of all vertices that triangles use
+    // Whether anything moves while the shutter is open; else the time of rays counts nothing.
+    [[nodiscard]] bool blurred() const { return moving_ && moving_->blurred(); }
+
+    // How often trees of triangles were built, and the tree of instances above them.
+    struct Builds {
+        std::int64_t of_triangles = 0;
+        std::int64_t of_instances = 0;
+    };
+    [[nodiscard]] Builds builds() const;
+
+    // Of all vertices that triangles use; of instances, of their parts' boxes.
+    [[nodiscard]] const glm::vec3& lower() const { return lower_; }
     [[nodiscard]] const glm::vec3& upper() const { return upper_; }
     [[nodiscard]] bool empty() const { return lower_.x > upper_.x; }
     // By how much to step off a surface before the next ray, against hitting it again.
@@ -54,26 +85,16 @@ private:
     RayScene() = default;
     static Result<RayScene> build(const Scene& scene);
     void add_primitives();
-
-    struct Cutout {
-        const Mesh* mesh;
-        const Texture* texture;
-    };
-    struct Release {
-        void operator()(RTCDeviceTy* device) const;
-        void operator()(RTCSceneTy* scene) const;
-    };
+    void measure();
 
     const Scene* scene_ = nullptr;
-    std::unique_ptr<RTCDeviceTy, Release> device_;
-    std::unique_ptr<RTCSceneTy, Release> embree_scene_;
-    std::unique_ptr<RTCSceneTy, Release> primitives_;  // null where there are none
-    std::vector<std::unique_ptr<Cutout>> cutouts_;     // fixed addresses: Embree keeps pointers to them
+    EmbreeDevice device_;
+    std::optional<MeshTree> still_;
+    std::optional<MovingParts> moving_;  // nothing where there are no instances
+    EmbreeScene primitives_;             // null where there are none
     glm::vec3 lower_{1.0F};
     glm::vec3 upper_{-1.0F};
     float step_off_ = 0.0F;
-
-    friend struct CutoutFilter;
 };
 
 }  // namespace rs::capture

@@ -2,6 +2,7 @@
 
 #include "capture/tracer/integrator/path.hpp"
 #include "capture/tracer/integrator/radiosity.hpp"
+#include "capture/tracer/integrator/toon.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "rayspace/base/check.hpp"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -70,6 +72,11 @@ std::uint64_t picture_key(std::uint64_t seed, const Camera& camera) {
     return picture_key(seed, {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2]), glm::dvec3(m[3])});
 }
 
+LightSet::Extent extent_of(const RayScene& rays) {
+    if (rays.empty()) return {};
+    return {0.5F * (rays.upper() + rays.lower()), 0.5F * glm::length(rays.upper() - rays.lower())};
+}
+
 RayPicture rays_of(const Camera& camera) {
     return {camera.width, camera.height, camera.centre(), camera.forward(),
             [camera](double x, double y) { return camera.ray(x, y); }};
@@ -83,7 +90,7 @@ Image<float> first_depths(const RayPicture& rays, const PixelRectangle& visible,
         for (int x = visible.x0; x < visible.x1; ++x) {
             const glm::dvec3 ray = glm::normalize(rays.ray(x + 0.5, y + 0.5));
             SurfacePoint point;
-            if (!scene.intersect(glm::vec3(rays.centre), glm::vec3(ray), point)) continue;
+            if (!scene.intersect(glm::vec3(rays.centre), glm::vec3(ray), 0.0F, point)) continue;
             depths(x, y) = static_cast<float>(glm::dot(glm::dvec3(point.position) - rays.centre, rays.forward));
         }
     });
@@ -102,6 +109,7 @@ struct Tracer::Frame {
 // in `lights` only.
 struct Tracer::State {
     Scene scene;
+    std::vector<std::size_t> moved;  // instances since the last commit
     std::optional<RayScene> rays;
     std::optional<LightSet> lights;
     std::vector<SurfaceModel> models;
@@ -125,7 +133,8 @@ void Tracer::turn_lights(double angle_rad) {
 }
 
 Tracer::Frame Tracer::frame_of(const Camera& camera, const RenderOptions& options) const {
-    const bool anywhere = options.see_areas || options.see_environment;
+    // What is out of focus is wider than it is.
+    const bool anywhere = options.see_areas || options.see_environment || options.lens.aperture > 0;
     return {anywhere ? PixelRectangle{0, 0, camera.width, camera.height} : visible_rectangle(camera, *state_->rays),
             picture_key(options.seed, camera)};
 }
@@ -140,7 +149,12 @@ std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& 
                                                      picture, key, first, count);
         case RenderMethod::kWhitted:
             return std::make_unique<WhittedTracer>(transport, IrradianceMap(transport.lights().environment()),
-                                                   options.ambient, std::min(options.max_bounces, kWhittedDepth));
+                                                   options.ambient, std::min(options.max_bounces, kWhittedDepth),
+                                                   options.soft_shadows);
+        case RenderMethod::kToon:
+            return std::make_unique<ToonTracer>(transport, IrradianceMap(transport.lights().environment()),
+                                                options.ambient, std::min(options.max_bounces, kWhittedDepth),
+                                                options.toon);
         case RenderMethod::kPath:
             break;
     }
@@ -185,7 +199,7 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
     const std::unique_ptr<const Integrator> integrator =
         make_integrator(transport, rays, frame.key, options, into.samples, count);
     const PixelRectangle visible = options.part ? overlap(frame.visible, *options.part) : frame.visible;
-    const glm::vec3 centre(rays.centre);
+    const bool blurred = state_->rays->blurred();
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);
 
     const auto add_samples = [&](int x, int y) {
@@ -195,9 +209,14 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
         for (int s = into.samples; s < into.samples + count; ++s) {
             Sampler sampler(pixel_key, static_cast<std::uint32_t>(s));
             const glm::dvec2 offset = (glm::dvec2(sampler.next_2d()) - 0.5) * filter_width_px;
-            const glm::vec3 direction(glm::normalize(rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)));
+            ThinLens::Ray ray{rays.centre, rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)};
+            const float time = blurred ? sampler.next_2d().x : 0.0F;
+            if (options.lens.aperture > 0) {
+                ray = options.lens.through(ray.origin, rays.forward, ray.direction, sampler.next_2d());
+            }
+            const glm::vec3 direction(glm::normalize(ray.direction));
             glm::vec3 radiance;
-            if (!integrator->trace(centre, direction, sampler, radiance)) continue;
+            if (!integrator->trace(glm::vec3(ray.origin), direction, time, sampler, radiance)) continue;
             pixel.r += radiance.r;
             pixel.g += radiance.g;
             pixel.b += radiance.b;
@@ -240,11 +259,51 @@ const std::vector<Light>& Tracer::lights() const {
 
 bool Tracer::sees(const glm::dvec3& place, const glm::dvec3& direction, double distance) const {
     constexpr double kJustShort = 1 - 1e-4;
-    return !state_->rays->occluded(glm::vec3(place), glm::vec3(direction), static_cast<float>(distance * kJustShort));
+    return !state_->rays->occluded(glm::vec3(place), glm::vec3(direction), static_cast<float>(distance * kJustShort),
+                                   0.0F);
 }
 
 void Tracer::set_lights(std::vector<Light> lights) {
     state_->scene.lights = std::move(lights);
+    state_->lights->set_lights(state_->scene.lights);
+}
+
+std::size_t Tracer::instance_count() const {
+    return state_->scene.instances.size();
+}
+
+Status Tracer::move(std::size_t instance, const glm::dmat4& world_from_part,
+                    const std::optional<glm::dmat4>& at_close) {
+    RS_CHECK(instance < state_->scene.instances.size());
+    Instance& there = state_->scene.instances[instance];
+    const Instance placed{there.part, world_from_part, at_close};
+    if (Status fine = check_placement(placed); !fine) {
+        return Error{"instance " + std::to_string(instance + 1) + ": " + fine.error().message};
+    }
+    there = placed;
+    state_->moved.push_back(instance);
+    return {};
+}
+
+void Tracer::commit() {
+    if (state_->moved.empty()) return;
+    state_->rays->update(state_->moved);
+    state_->moved.clear();
+    state_->lights->update_instances(extent_of(*state_->rays));
+}
+
+Tracer::Builds Tracer::builds() const {
+    const RayScene::Builds builds = state_->rays->builds();
+    return {builds.of_triangles, builds.of_instances};
+}
+
+void Tracer::set_environment(Environment environment) {
+    state_->lights->set_environment(std::move(environment));
+    state_->lights->set_lights(state_->scene.lights);
+}
+
+void Tracer::set_environment(float scale, float turn_rad) {
+    state_->lights->set_environment(scale, turn_rad);
     state_->lights->set_lights(state_->scene.lights);
 }
 
@@ -255,12 +314,8 @@ Result<Tracer> Tracer::create(Scene scene) {
     Result<RayScene> rays = RayScene::create(state->scene);
     if (!rays) return rays.error();
     state->rays = std::move(rays).value();
-    const glm::vec3 diagonal = state->rays->upper() - state->rays->lower();
-    LightSet::Extent extent;
-    if (!state->rays->empty())
-        extent = {0.5F * (state->rays->upper() + state->rays->lower()), 0.5F * glm::length(diagonal)};
     Environment environment = std::exchange(state->scene.environment, Environment{});
-    state->lights.emplace(state->scene, std::move(environment), extent);
+    state->lights.emplace(state->scene, std::move(environment), extent_of(*state->rays));
     state->models = make_surface_models(state->scene.materials);
     return Tracer(std::move(state));
 }

@@ -8,6 +8,7 @@
 
 #include "capture/tracer/integrator/ray_picture.hpp"
 #include "capture/tracer/scene/scene.hpp"
+#include "capture/tracer/scene/toon_style.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -24,6 +25,7 @@ enum class RenderMethod {
     kPath,       // path.hpp
     kRadiosity,  // radiosity.hpp; each sample of all pixels is a pass
     kWhitted,    // whitted.hpp
+    kToon,       // toon.hpp
 };
 
 // Pixels [x0, x1) x [y0, y1).
@@ -41,16 +43,20 @@ struct RenderOptions {
     // What stands in the picture itself; else it is seen in reflections and through glass only.
     bool see_areas = false;
     bool see_environment = false;
-    glm::vec3 ambient{0.0F};  // whitted: what stands for light that surfaces reflect, as the radiance of white matter
-    int threads = 0;          // 0 = as many as the processor has
+    glm::vec3 ambient{
+        0.0F};  // whitted, toon: what stands for light that surfaces reflect, as the radiance of white matter
+    bool soft_shadows = false;  // whitted: areas light from all over; of toon the style says so
+    ToonStyle toon{};
+    ThinLens lens{};
+    int threads = 0;                     // 0 = as many as the processor has
     std::optional<PixelRectangle> part;  // of accumulate(): other pixels get no samples; these have the bits they have
                                          // without it
 };
 
 struct Rendering {
     Image<RgbaF> picture;  // linear light, straight alpha = share of camera rays that hit a surface
-    Image<float>
-        depth;  // axial depth of the first surface through the pixel's centre, 0 = none; empty if not asked for
+    // Axial, of the first surface through the pixel's centre at time 0; 0 = none; empty if not asked for.
+    Image<float> depth;
 };
 
 // A picture that gains samples: sums, so that passes of one sample each and one pass of as many give the same bits.
@@ -90,9 +96,26 @@ public:
 
     // Other lights than the scene came with; they must be as check_light() wants them. Not while anything is drawn.
     void set_lights(std::vector<Light> lights);
+    // Another environment, whose pixels are finite and not negative, or the same one brighter and turned (the fields of
+    // Environment), which costs nothing. Not while anything is drawn.
+    void set_environment(Environment environment);
+    void set_environment(float scale, float turn_rad);
+
+    // Places an instance of the scene anew (scene.hpp, Instance); refused, with nothing changed, where a matrix has no
+    // inverse. Seen after commit(), which costs what the tree over the instances costs: no tree of triangles is built
+    // again. `instance` < instance_count(). Not while anything is drawn.
+    Status move(std::size_t instance, const glm::dmat4& world_from_part,
+                const std::optional<glm::dmat4>& at_close = {});
+    void commit();
+    [[nodiscard]] std::size_t instance_count() const;
+    // How often trees of triangles were built, and the tree of instances above them.
+    struct Builds {
+        std::int64_t of_triangles, of_instances;
+    };
+    [[nodiscard]] Builds builds() const;
 
     [[nodiscard]] const std::vector<Light>& lights() const;  // of the scene, not turned
-    // Whether nothing stands between a place and what is `distance` away in a direction of unit length.
+    // Whether nothing stands between a place and what is `distance` away in a direction of unit length, at time 0.
     [[nodiscard]] bool sees(const glm::dvec3& place, const glm::dvec3& direction, double distance) const;
 
     // Turns the scene's lights and environment, but not surfaces that shine, about Y by `angle_rad` from where the

@@ -20,6 +20,23 @@ glm::vec3 facing_normal(const glm::vec3& normal, const glm::vec3& to_viewer) {
     return glm::normalize(normal + to_viewer * (kLeastCos - cos_viewer));
 }
 
+// The shading normal where the material has relief. Sides that are seen from behind have the front's, turned over.
+glm::vec3 normal_in_relief(const Scene& scene, const Material& material, const SurfacePoint& point) {
+    const glm::vec3 even = point.shading_normal;
+    if (material.relief < 0) return even;
+    const RgbaF texel = sample_texture(scene.reliefs[static_cast<std::size_t>(material.relief)], point.uv);
+    if (texel.r == 0.0F && texel.g == 0.0F) return even;
+    const float side = point.front_side ? 1.0F : -1.0F;
+    const glm::vec3 n = even * side;
+    const glm::vec3 u = point.along_u - n * glm::dot(n, point.along_u);
+    const glm::vec3 v = point.along_v - n * glm::dot(n, point.along_v);
+    const float u_length = glm::length(u), v_length = glm::length(v);
+    if (!(u_length > 0.0F && v_length > 0.0F)) return even;
+    const glm::vec3 sum = u * (texel.r / u_length) + v * (texel.g / v_length) + n * texel.b;
+    const float length = glm::length(sum);
+    return length > 1e-6F ? sum * (side / length) : even;
+}
+
 glm::vec3 surface_colour(const Scene& scene, const Material& material, const SurfacePoint& point) {
     if (material.texture < 0) return material.colour * point.colour;
     const RgbaF texel = sample_texture(scene.textures[static_cast<std::size_t>(material.texture)], point.uv);
@@ -31,7 +48,7 @@ glm::vec3 surface_colour(const Scene& scene, const Material& material, const Sur
 LightTransport::Vertex LightTransport::vertex_at(const SurfacePoint& point, const glm::vec3& direction) const {
     const Material& material = material_of(point);
     const glm::vec3 to_viewer = -direction;
-    const Frame frame(facing_normal(point.shading_normal, to_viewer));
+    const Frame frame(facing_normal(normal_in_relief(scene_, material, point), to_viewer));
     return {
         point, frame,
         Surface(model_of(point), surface_colour(scene_, material, point), frame.to_local(to_viewer), !point.front_side),
@@ -40,7 +57,7 @@ LightTransport::Vertex LightTransport::vertex_at(const SurfacePoint& point, cons
 
 LightTransport::Met LightTransport::meet(const Segment& segment, const MediumStack& media, glm::vec3& throughput,
                                          glm::vec3& radiance, SurfacePoint& point) const {
-    const bool hit = rays_.intersect(segment.origin, segment.direction, point);
+    const bool hit = rays_.intersect(segment.origin, segment.direction, segment.time, point);
     const float reach = hit ? point.distance : std::numeric_limits<float>::infinity();
     if (!segment.of_camera) {
         if (const auto shown = rays_.ask_primitives(segment.origin, segment.direction, reach)) {
@@ -80,7 +97,7 @@ glm::vec3 LightTransport::emission_of(const SurfacePoint& point, const Segment& 
     const Material& material = material_of(point);
     if (max_component(material.emission) <= 0.0F || (!point.front_side && !material.two_sided)) return glm::vec3(0.0F);
     const glm::vec3 emission = lights_.emission(point.material, point.uv);
-    if (segment.specular || max_component(emission) <= 0.0F) return emission;
+    if (segment.specular || !point.light_drawn || max_component(emission) <= 0.0F) return emission;
     const float cos_light = std::max(-glm::dot(point.geometric_normal, segment.direction), 1e-6F);
     return emission *
            weight_of(segment, lights_.emitter_pdf(segment.selection, point.material, point.distance, cos_light));
@@ -95,7 +112,8 @@ glm::vec3 LightTransport::light_sample(const Vertex& vertex, float u_source, con
     if (max_component(value.f_cos) <= 0.0F) return dark;
     const glm::vec3 start = vertex.start_of(light->direction, wi.z > 0.0F);
     // Just short of the light, which may be a surface itself.
-    if (rays_.occluded(start, light->direction, light->distance * (1.0F - 1e-4F))) return dark;
+    const float reach = light->distance * (1.0F - 1e-4F);
+    if (rays_.occluded(start, light->direction, reach, vertex.point.time)) return dark;
     const auto samples = static_cast<float>(count);
     const float weight = light->delta ? 1.0F : mis_weight(samples * light->pdf, value.pdf);
     return value.f_cos * light->radiance * (weight / (samples * light->pdf));
@@ -104,6 +122,7 @@ glm::vec3 LightTransport::light_sample(const Vertex& vertex, float u_source, con
 LightTransport::Segment LightTransport::segment_from(const Vertex& vertex, const SurfaceSample& drawn,
                                                      int light_samples) const {
     Segment segment;
+    segment.time = vertex.point.time;
     segment.direction = glm::normalize(vertex.frame.to_world(drawn.direction));
     segment.pdf = drawn.pdf;
     segment.specular = drawn.specular;

@@ -28,8 +28,9 @@ public:
     Integrator(const Integrator&) = default;
     Integrator& operator=(const Integrator&) = delete;
     virtual ~Integrator() = default;
-    // False where the ray meets nothing; then `radiance` is 0. `direction` has unit length. Thread-safe.
-    virtual bool trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+    // False where the ray meets nothing; then `radiance` is 0. `direction` has unit length, `time` is 0..1 as
+    // ray_scene.hpp has it. Thread-safe.
+    virtual bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                        glm::vec3& radiance) const = 0;
 };
 
@@ -45,14 +46,16 @@ public:
     struct Segment {
         glm::vec3 origin;
         glm::vec3 direction;
+        float time = 0.0F;  // the same for all of a path
         float pdf = 0.0F;
         bool specular = true;  // no light sample could have given it
         bool of_camera = false;
         LightSet::Selection selection{};  // of the light samples at its beginning,
         int light_samples = 1;            // as many
     };
-    [[nodiscard]] static Segment camera_segment(const glm::vec3& origin, const glm::vec3& direction) {
-        Segment segment{origin, direction};
+    [[nodiscard]] static Segment camera_segment(const glm::vec3& origin, const glm::vec3& direction,
+                                                float time = 0.0F) {
+        Segment segment{origin, direction, time};
         segment.of_camera = true;
         return segment;
     }

@@ -8,28 +8,22 @@ constexpr float kLeastThroughput = 1.0F / 256;
 
 }  // namespace
 
-bool WhittedTracer::trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& /*sampler*/,
+bool WhittedTracer::trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                           glm::vec3& radiance) const {
     radiance = glm::vec3(0.0F);
-    return follow({LightTransport::camera_segment(origin, direction)}, radiance);
+    return follow({LightTransport::camera_segment(origin, direction, time)}, sampler, radiance);
 }
 
-bool WhittedTracer::follow(Ray ray, glm::vec3& radiance) const {
+bool WhittedTracer::follow(Ray ray, Sampler& sampler, glm::vec3& radiance) const {
     using Met = LightTransport::Met;
     SurfacePoint point;
     const Met met = transport_.meet(ray.segment, ray.media, ray.throughput, radiance, point);
     if (met != Met::kSurface) return ray.depth > 0 || met != Met::kNothing;
     const LightTransport::Vertex vertex = transport_.vertex_at(point, ray.segment.direction);
-    const bool metal = transport_.model_of(point).kind == SurfaceKind::metal;
-    if (!vertex.surface.is_specular()) {
-        if (!metal) radiance += ray.throughput * matte_light(vertex);
-        // As far as it is from where shadow rays start.
-        const glm::vec3 place = vertex.start_of(point.geometric_normal, true);
-        transport_.lights().visit_middles(place, [&](const LightSample& light) {
-            if (!metal || light.delta) radiance += ray.throughput * light_of(vertex, light);
-        });
-    }
-    if (ray.depth >= max_depth_) return true;
+    glm::vec3 sent(0.0F);
+    const bool goes_on = shade(vertex, ray.segment.direction, sampler, sent);
+    radiance += ray.throughput * sent;
+    if (!goes_on || ray.depth >= max_depth_) return true;
     for (const SurfaceSample& way : vertex.surface.specular_ways()) {
         Ray next = ray;
         next.throughput *= way.weight;
@@ -37,7 +31,26 @@ bool WhittedTracer::follow(Ray ray, glm::vec3& radiance) const {
         next.segment = transport_.segment_from(vertex, way);
         if (vertex.surface.passes(way)) next.media.cross(transport_.material_of(point), point.front_side);
         ++next.depth;
-        follow(next, radiance);
+        follow(next, sampler, radiance);
+    }
+    return true;
+}
+
+bool WhittedTracer::shade(const LightTransport::Vertex& vertex, const glm::vec3& /*direction*/, Sampler& sampler,
+                          glm::vec3& radiance) const {
+    if (vertex.surface.is_specular()) return true;
+    const bool metal = transport_.model_of(vertex.point).kind == SurfaceKind::metal;
+    if (!metal) radiance += matte_light(vertex);
+    // As far as it is from where shadow rays start.
+    const glm::vec3 place = vertex.start_of(vertex.point.geometric_normal, true);
+    const auto add = [&](const LightSample& light) {
+        if (!metal || light.delta) radiance += light_of(vertex, light);
+    };
+    if (soft_shadows_) {
+        transport_.lights().visit_points(
+            place, [&] { return sampler.next_2d(); }, add);
+    } else {
+        transport_.lights().visit_middles(place, add);
     }
     return true;
 }
@@ -55,7 +68,8 @@ glm::vec3 WhittedTracer::light_of(const LightTransport::Vertex& vertex, const Li
     const glm::vec3 f_cos = vertex.surface.evaluate(wi).f_cos;
     if (!(max_component(f_cos) > 0.0F)) return glm::vec3(0.0F);
     const glm::vec3 start = vertex.start_of(light.direction, wi.z > 0.0F);
-    if (transport_.rays().occluded(start, light.direction, light.distance * (1.0F - 1e-4F))) return glm::vec3(0.0F);
+    const float reach = light.distance * (1.0F - 1e-4F);
+    if (transport_.rays().occluded(start, light.direction, reach, vertex.point.time)) return glm::vec3(0.0F);
     return f_cos * light.radiance / light.pdf;
 }
 

@@ -2,7 +2,9 @@
 // Ray tracing as T. Whitted has it ("An Improved Illumination Model for Shaded Display", CACM 23(6), 1980): direct
 // light with hard shadows, mirrors and glass to a depth of 8, and nothing at random.
 //
-//     direct       each light from one point: areas and surfaces that shine from their middle
+//     direct       each light from one point: areas and surfaces that shine from their middle, or, for soft shadows,
+//                  from a place of theirs that each sample draws anew (R. Cook, T. Porter, L. Carpenter, "Distributed
+//                  Ray Tracing", SIGGRAPH 1984): then this is random, too
 //     environment  cosine-convolved, without shadows; seen in mirrors and through glass as it is
 //     the rest     a constant, `ambient`
 //     metal        a mirror of its colour, whatever its roughness, with the highlights of lights without an area
@@ -16,13 +18,25 @@
 
 namespace rs::capture {
 
-class WhittedTracer final : public Integrator {
+class WhittedTracer : public Integrator {
 public:
-    WhittedTracer(const LightTransport& transport, IrradianceMap irradiance, const glm::vec3& ambient, int max_depth)
-        : transport_(transport), irradiance_(std::move(irradiance)), ambient_(ambient), max_depth_(max_depth) {}
+    WhittedTracer(const LightTransport& transport, IrradianceMap irradiance, const glm::vec3& ambient, int max_depth,
+                  bool soft_shadows = false)
+        : transport_(transport),
+          irradiance_(std::move(irradiance)),
+          ambient_(ambient),
+          max_depth_(max_depth),
+          soft_shadows_(soft_shadows) {}
 
-    bool trace(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+    bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
+
+protected:
+    // What a surface sends back along `direction`, beside what it reflects or lets pass. False where it does neither.
+    virtual bool shade(const LightTransport::Vertex& vertex, const glm::vec3& direction, Sampler& sampler,
+                       glm::vec3& radiance) const;
+    [[nodiscard]] const LightTransport& transport() const { return transport_; }
+    [[nodiscard]] const IrradianceMap& irradiance() const { return irradiance_; }
 
 private:
     struct Ray {
@@ -31,7 +45,7 @@ private:
         MediumStack media{};
         int depth = 0;
     };
-    bool follow(Ray ray, glm::vec3& radiance) const;
+    bool follow(Ray ray, Sampler& sampler, glm::vec3& radiance) const;
     [[nodiscard]] glm::vec3 matte_light(const LightTransport::Vertex& vertex) const;
     [[nodiscard]] glm::vec3 light_of(const LightTransport::Vertex& vertex, const LightSample& light) const;
 
@@ -39,6 +53,7 @@ private:
     IrradianceMap irradiance_;
     glm::vec3 ambient_;
     int max_depth_;
+    bool soft_shadows_;
 };
 
 }  // namespace rs::capture

@@ -41,13 +41,11 @@ CdfSample sample_cdf(std::span<const float> cdf, float u) {
 
 }  // namespace
 
-EnvironmentMap::EnvironmentMap(Environment environment) : turn_rad_(environment.turn_rad) {
+EnvironmentMap::EnvironmentMap(Environment environment) : turn_rad_(environment.turn_rad), scale_(environment.scale) {
     const int width = environment.pixels.width();
     const int height = environment.pixels.height();
-    if (environment.pixels.empty() || environment.scale <= 0.0F) return;
+    if (environment.pixels.empty()) return;
     pixels_ = std::move(environment.pixels);
-    for (RgbaF& p : pixels_.pixels())
-        p = {p.r * environment.scale, p.g * environment.scale, p.b * environment.scale, 1};
 
     cos_of_edge_.resize(static_cast<std::size_t>(height) + 1);
     for (int y = 0; y <= height; ++y) {
@@ -110,7 +108,7 @@ glm::vec3 EnvironmentMap::radiance(const glm::vec3& towards_sky) const {
         return glm::vec3(p.r, p.g, p.b);
     };
     const float fx = x - left;
-    return glm::mix(glm::mix(vec(x0, y0), vec(x1, y0), fx), glm::mix(vec(x0, y1), vec(x1, y1), fx), y - top);
+    return scale_ * glm::mix(glm::mix(vec(x0, y0), vec(x1, y0), fx), glm::mix(vec(x0, y1), vec(x1, y1), fx), y - top);
 }
 
 float EnvironmentMap::pdf(const glm::vec3& towards_sky) const {

@@ -15,11 +15,12 @@ public:
     // Pixel values must be finite and not negative.
     explicit EnvironmentMap(Environment environment);
 
-    // As Environment::turn_rad.
+    // As in Environment.
     void set_turn(float turn_rad) { turn_rad_ = turn_rad; }
+    void set_scale(float scale) { scale_ = scale; }
 
     // No light at all: radiance() is 0 everywhere and sample() must not be called.
-    [[nodiscard]] bool is_black() const { return row_cdf_.empty(); }
+    [[nodiscard]] bool is_black() const { return row_cdf_.empty() || !(scale_ > 0.0F); }
 
     // Radiance arriving from unit direction `towards_sky`.
     [[nodiscard]] glm::vec3 radiance(const glm::vec3& towards_sky) const;
@@ -34,7 +35,7 @@ public:
     [[nodiscard]] Sample sample(const glm::vec2& u) const;
 
     // Mean luminance over the sphere.
-    [[nodiscard]] float mean_luminance() const { return mean_luminance_; }
+    [[nodiscard]] float mean_luminance() const { return scale_ * mean_luminance_; }
 
 private:
     struct MapPosition {
@@ -43,9 +44,10 @@ private:
     };
     [[nodiscard]] MapPosition position_of(const glm::vec3& direction) const;
 
-    Image<RgbaF> pixels_;  // multiplied by the environment's scale
+    Image<RgbaF> pixels_;
     float turn_rad_;
-    float mean_luminance_ = 0.0F;
+    float scale_;
+    float mean_luminance_ = 0.0F;     // of the pixels
     std::vector<float> row_cdf_;      // height + 1, from 0 to 1
     std::vector<float> column_cdf_;   // height * (width + 1): row y begins at y * (width + 1)
     std::vector<float> cos_of_edge_;  // height + 1: cosine of the polar angle of the edge above row y

@@ -64,4 +64,22 @@ void LightSet::visit_middles(const glm::vec3& position, const std::function<void
     }
 }
 
+void LightSet::visit_points(const glm::vec3& position, const std::function<glm::vec2()>& draw,
+                            const std::function<void(const LightSample&)>& visit) const {
+    for (const Source& source : sources_) {
+        if (source.kind == SourceKind::environment || !(estimate(source, position) > 0.0F)) continue;
+        std::optional<LightSample> light;
+        if (source.kind == SourceKind::area) {
+            light = sample_area(areas_[source.index], position, 1.0F, draw());
+        } else if (source.kind == SourceKind::emitters) {
+            const Selection alone{position, source.power, 1.0F};  // drawn for certain
+            const float which = draw().x;
+            light = sample_emitter(alone, which, draw());
+        } else {
+            light = sample_light(lights_[source.index], position, 1.0F);
+        }
+        if (light) visit(*light);
+    }
+}
+
 }  // namespace rs::capture

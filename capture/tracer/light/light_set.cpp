@@ -1,6 +1,7 @@
 #include "capture/tracer/light/light_set.hpp"
 
 #include "capture/tracer/light/directions.hpp"
+#include "capture/tracer/scene/flatten.hpp"
 #include "capture/tracer/scene/texture_lookup.hpp"
 
 #include <algorithm>
@@ -46,8 +47,28 @@ LightSet::LightSet(const Scene& scene, Environment environment, const Extent& ex
       environment_turn_rad_(environment.turn_rad),
       environment_(std::move(environment)),
       extent_{extent.centre, std::max(extent.radius, 1e-6F)} {
+    for (const Material& material : scene_.materials) {
+        brightness_.push_back(brightness_of(material, scene_.textures));
+    }
     gather_emitters();
     set_lights(scene.lights);
+}
+
+void LightSet::update_instances(const Extent& extent) {
+    extent_ = {extent.centre, std::max(extent.radius, 1e-6F)};
+    if (instances_shine_) gather_emitters();
+    if (emitter_source_.has_value() != (emitter_power_ > 0)) {
+        const float turned = turn_rad_;
+        set_lights(std::vector<Light>(still_));
+        turn(turned);
+        return;
+    }
+    if (emitter_source_) sources_[*emitter_source_].power = emitters_irradiance();
+    sum_flux();
+}
+
+float LightSet::emitters_irradiance() const {
+    return static_cast<float>(emitter_power_) / (extent_.radius * extent_.radius);
 }
 
 void LightSet::set_lights(const std::vector<Light>& lights) {
@@ -63,13 +84,24 @@ void LightSet::set_lights(const std::vector<Light>& lights) {
     }
     if (emitter_power_ > 0) {
         emitter_source_ = sources_.size();
-        sources_.push_back(
-            {SourceKind::emitters, 0, static_cast<float>(emitter_power_) / (extent_.radius * extent_.radius)});
+        sources_.push_back({SourceKind::emitters, 0, emitters_irradiance()});
     }
     for (const Light& light : lights) add_light(light);
     lights_ = still_;
+    turn_rad_ = 0.0F;
     place_lights(0.0F);
     sum_flux();
+}
+
+void LightSet::set_environment(Environment environment) {
+    environment_turn_rad_ = environment.turn_rad;
+    environment_ = EnvironmentMap(std::move(environment));
+}
+
+void LightSet::set_environment(float scale, float turn_rad) {
+    environment_turn_rad_ = turn_rad;
+    environment_.set_scale(scale);
+    environment_.set_turn(turn_rad);
 }
 
 void LightSet::add_light(const Light& light) {
@@ -97,6 +129,7 @@ void LightSet::add_light(const Light& light) {
 }
 
 void LightSet::turn(float angle_rad) {
+    turn_rad_ = angle_rad;
     environment_.set_turn(environment_turn_rad_ + angle_rad);
     place_lights(angle_rad);
 }
@@ -155,24 +188,35 @@ LightSet::Selection LightSet::select(const glm::vec3& position) const {
 }
 
 void LightSet::gather_emitters() {
-    for (const Material& material : scene_.materials) {
-        brightness_.push_back(brightness_of(material, scene_.textures));
-    }
-    for (const Mesh& mesh : scene_.meshes) {
-        const float brightness = brightness_[static_cast<std::size_t>(mesh.material)];
-        if (!(brightness > 0.0F)) continue;
-        gather_glow(mesh);
-        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-            const glm::uvec3& t = mesh.triangles[i];
-            const glm::vec3 corner = mesh.positions[t.x];
-            const float area =
-                0.5F * glm::length(glm::cross(mesh.positions[t.y] - corner, mesh.positions[t.z] - corner));
-            if (!(area > 0.0F)) continue;
-            emitter_power_ += static_cast<double>(area * brightness);
-            emitters_.push_back({&mesh, i, static_cast<float>(emitter_power_)});
+    placed_.clear();
+    emitters_.clear();
+    glows_.clear();
+    emitter_power_ = 0;
+    for (const Mesh& mesh : scene_.meshes) gather_emitter(mesh);
+    for (const Instance& instance : scene_.instances) {
+        for (const Mesh& mesh : scene_.parts[instance.part].meshes) {
+            if (!(brightness_[static_cast<std::size_t>(mesh.material)] > 0.0F)) continue;
+            instances_shine_ = true;
+            if (instance.at_close) continue;
+            placed_.push_back(std::make_unique<const Mesh>(placed_mesh(mesh, instance.world_from_part)));
+            gather_emitter(*placed_.back());
         }
     }
     for (Emitter& emitter : emitters_) emitter.cumulative /= static_cast<float>(emitter_power_);
+}
+
+void LightSet::gather_emitter(const Mesh& mesh) {
+    const float brightness = brightness_[static_cast<std::size_t>(mesh.material)];
+    if (!(brightness > 0.0F)) return;
+    gather_glow(mesh);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const glm::uvec3& t = mesh.triangles[i];
+        const glm::vec3 corner = mesh.positions[t.x];
+        const float area = 0.5F * glm::length(glm::cross(mesh.positions[t.y] - corner, mesh.positions[t.z] - corner));
+        if (!(area > 0.0F)) continue;
+        emitter_power_ += static_cast<double>(area * brightness);
+        emitters_.push_back({&mesh, i, static_cast<float>(emitter_power_)});
+    }
 }
 
 std::optional<LightSample> LightSet::sample(const Selection& selection, float u_source, const glm::vec2& u) const {

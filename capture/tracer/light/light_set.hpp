@@ -13,6 +13,7 @@
 #include "rayspace/light/light.hpp"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -38,6 +39,14 @@ public:
 
     // In place of those that were there.
     void set_lights(const std::vector<Light>& lights);
+
+    // After instances of the scene have moved: those that shine are gathered anew. What moves while the shutter is open
+    // is no source of samples: it shines where drawn directions meet it.
+    void update_instances(const Extent& extent);
+
+    // Another environment, or the same one brighter and turned; set_lights() must follow.
+    void set_environment(Environment environment);
+    void set_environment(float scale, float turn_rad);
 
     // Turns the lights and the environment about Y, from where they were at construction; positive angles take
     // +Z to +X. Surfaces that shine stay.
@@ -65,6 +74,10 @@ public:
     // Each source but the environment as one point that stands for all of it: areas, and each mesh that shines, by
     // their middle. `radiance / pdf` is irradiance.
     void visit_middles(const glm::vec3& position, const std::function<void(const LightSample&)>& visit) const;
+
+    // The same, but each area by a point of it, and all meshes that shine by one point together; `draw` says where.
+    void visit_points(const glm::vec3& position, const std::function<glm::vec2()>& draw,
+                      const std::function<void(const LightSample&)>& visit) const;
 
     [[nodiscard]] const EnvironmentMap& environment() const { return environment_; }
     // Density with which sample() gives this direction through the environment.
@@ -131,6 +144,7 @@ private:
 
     static Cone cone_of(const Light& light);
     void gather_emitters();
+    void gather_emitter(const Mesh& mesh);
     void gather_glow(const Mesh& mesh);
     void add_light(const Light& light);
     void place_lights(float turn_rad);
@@ -146,6 +160,7 @@ private:
     [[nodiscard]] std::optional<LightSample> sample_emitter(const Selection& selection, float u_emitter,
                                                             const glm::vec2& u) const;
 
+    [[nodiscard]] float emitters_irradiance() const;  // estimated
     [[nodiscard]] EmitterPoint point_on(const Emitter& emitter, const glm::vec2& u) const;
     [[nodiscard]] float flux_of(const Source& source) const;
     void sum_flux();
@@ -158,15 +173,18 @@ private:
     const Scene& scene_;
     float environment_turn_rad_;  // at construction
     EnvironmentMap environment_;
+    float turn_rad_ = 0.0F;      // since construction
     Extent extent_;              // nearer than its radius, surfaces that shine are not thought to be brighter
     std::vector<Light> lights_;  // those of the scene that shine, as they are turned now
     std::vector<Light> still_;   // the same as they were at construction
     std::vector<Cone> cones_;    // of lights_
     std::vector<Area> areas_;
+    std::vector<std::unique_ptr<const Mesh>> placed_;  // meshes of instances that shine, in the world
     std::vector<Emitter> emitters_;
     std::vector<Glow> glows_;
     std::vector<float> brightness_;  // of each material: luminance of its emission, mean over the texture
-    double emitter_power_ = 0;       // sum of area * brightness
+    bool instances_shine_ = false;
+    double emitter_power_ = 0;  // sum of area * brightness
     std::vector<Source> sources_;
     std::vector<float> flux_;  // share of this and all sources before it
     std::optional<std::size_t> environment_source_;

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace rs::capture {
 
@@ -91,7 +94,43 @@ void read_light(RecipeReader& reader, Scene& scene) {
     reader.finish();
 }
 
+// Numbers from 0 to 1 in place of `values`.
+void read_shares(RecipeReader& reader, const char* key, std::vector<float>& values) {
+    const nlohmann::json* list = reader.child(key);
+    if (list == nullptr) return;
+    std::vector<float> read;
+    for (const nlohmann::json& value : *list) {
+        if (!value.is_number() || value.get<double>() < 0 || value.get<double>() > 1) break;
+        read.push_back(value.get<float>());
+    }
+    if (!list->is_array() || read.size() != list->size() || read.size() > ToonStyle::kMostTones) {
+        return reader.complain(
+            key, "must be a list of at most " + std::to_string(ToonStyle::kMostTones) + " numbers from 0 to 1");
+    }
+    values = std::move(read);
+}
+
 }  // namespace
+
+void read_toon(const nlohmann::json& json, RecipeErrors& errors, ToonStyle& style) {
+    RecipeReader reader(json, "toon", errors);
+    double angle_deg = 30;
+    read_shares(reader, "thresholds", style.thresholds);
+    read_shares(reader, "values", style.values);
+    reader.read("edge_radius", style.edge_radius, 0, 1);
+    reader.read("edge_depth", style.edge_depth, 0, 2);
+    reader.read("edge_angle_deg", angle_deg, 1, 180);
+    reader.read("edge_colour", style.edge_colour, 0, 1);
+    reader.read("shadow_rays", style.shadow_rays, 0, 1024);
+    reader.finish();
+    style.edge_angle_rad = static_cast<float>(radians(angle_deg));
+    if (style.values.size() != style.thresholds.size() + 1) {
+        reader.complain("values", "must be one more than \"thresholds\": a tone for what is less than all of them");
+    }
+    if (!std::ranges::is_sorted(style.thresholds, std::ranges::greater())) {
+        reader.complain("thresholds", "must fall: the brightest first");
+    }
+}
 
 void read_material(const nlohmann::json& json, const std::string& place, RecipeErrors& errors, Material& material) {
     RecipeReader reader(json, place, errors);
@@ -125,6 +164,8 @@ void read_camera(const nlohmann::json& json, RecipeErrors& errors, CameraRecipe&
     reader.read("width", camera.width, 1, kMaxPictureSide_px);
     reader.read("height", camera.height, 1, kMaxPictureSide_px);
     reader.read("spp", camera.samples_per_pixel, 1, 65536);
+    reader.read("aperture_radii", camera.aperture_radii, 0, 10);
+    reader.read("focus_radii", camera.focus_radii, 0.001, 1000);
     reader.finish();
 }
 

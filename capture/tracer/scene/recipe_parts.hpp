@@ -4,6 +4,7 @@
 
 #include "capture/tracer/scene/recipe_reader.hpp"
 #include "capture/tracer/scene/scene.hpp"
+#include "capture/tracer/scene/toon_style.hpp"
 
 #include <filesystem>
 
@@ -19,12 +20,15 @@ struct CameraRecipe {
     int width = 512;
     int height = 512;
     int samples_per_pixel = 64;
+    double aperture_radii = 0;  // diameter of the lens' opening; 0 = a pinhole
+    double focus_radii = 0;     // what is sharp, from the camera; 0 = the axis
 };
 
 // Each reads its JSON value over what `material`, `camera` ... hold; errors go to `errors`, under `place`.
 void read_material(const nlohmann::json& json, const std::string& place, RecipeErrors& errors, Material& material);
 void read_camera(const nlohmann::json& json, RecipeErrors& errors, CameraRecipe& camera);
 void read_lights(const nlohmann::json& json, RecipeErrors& errors, Scene& scene);
+void read_toon(const nlohmann::json& json, RecipeErrors& errors, ToonStyle& style);
 // Files are relative to `folder`.
 void read_environment(const nlohmann::json& json, const std::filesystem::path& folder, RecipeErrors& errors,
                       Environment& environment);

@@ -35,6 +35,7 @@ struct Material {
     float ior = 1.5F;
     glm::vec3 emission{0.0F};   // radiance, W/(m^2 sr) in arbitrary units; multiplied by emission_texture
     int emission_texture = -1;  // index into Scene::textures, -1 = none; its alpha counts nothing
+    int relief = -1;            // index into Scene::reliefs, -1 = none
     bool two_sided = true;      // thin surfaces (petals, leaves): shaded the same from both sides
     float translucency = 0.0F;  // diffuse only: share of the light that leaves on the other side (petals), 0..1
 };
@@ -86,11 +87,32 @@ public:
     [[nodiscard]] virtual std::optional<Answer> answer(const glm::vec3& origin, const glm::vec3& direction) const = 0;
 };
 
-struct Scene {
+// Meshes that stay together, in coordinates of their own. Nothing is seen of a part but through instances.
+struct Part {
     std::string name;
     std::vector<Mesh> meshes;
+};
+
+// A part as it stands in the scene, as often as one likes. Matrices are affine, finite and have an inverse; they may
+// mirror and stretch.
+struct Instance {
+    std::size_t part = 0;  // index into Scene::parts
+    glm::dmat4 world_from_part{1.0};
+    // Where it moves while the shutter is open: its place at the end (ray time 1). Between them the matrix goes evenly,
+    // element by element: what turns by more than half a radian meanwhile becomes visibly smaller on its way.
+    std::optional<glm::dmat4> at_close = {};
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Mesh> meshes;  // what stands still
+    std::vector<Part> parts;
+    std::vector<Instance> instances;
     std::vector<Material> materials;
     std::vector<Texture> textures;
+    // Normal maps: a texel's r, g, b are a direction of any length along u, v and the normal; (0, 0, 1) leaves the
+    // normal as it is.
+    std::vector<Texture> reliefs;
     std::vector<Light> lights;  // ambient parts count nothing here; areas are not seen by the camera
     Environment environment;
     std::vector<std::shared_ptr<const RayPrimitive>> primitives;  // not seen by the camera itself

@@ -57,12 +57,39 @@ Problem check_mesh(const Mesh& mesh, std::size_t material_count) {
     return std::nullopt;
 }
 
-Problem check_material(const Material& material, std::size_t texture_count) {
+bool can_be_undone(const glm::dmat4& m) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(static_cast<float>(m[column][row]))) return false;
+        }
+    }
+    const double lengths = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
+    const bool affine = m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1;
+    return affine && lengths > 1e-30 && std::abs(glm::determinant(glm::dmat3(m))) > 1e-9 * lengths;
+}
+
+Problem check_instances(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const std::string name = "instance " + std::to_string(i + 1) + ": ";
+        if (instance.part >= scene.parts.size()) {
+            return name + "part " + std::to_string(instance.part) + " does not exist; there are " +
+                   std::to_string(scene.parts.size());
+        }
+        if (Status fine = check_placement(instance); !fine) return name + fine.error().message;
+    }
+    return std::nullopt;
+}
+
+Problem check_material(const Material& material, std::size_t texture_count, std::size_t relief_count) {
     const std::string name = "material \"" + material.name + "\": ";
     for (const int texture : {material.texture, material.emission_texture}) {
         if (texture < -1 || (texture >= 0 && static_cast<std::size_t>(texture) >= texture_count)) {
             return name + "texture " + std::to_string(texture) + " does not exist";
         }
+    }
+    if (material.relief < -1 || (material.relief >= 0 && static_cast<std::size_t>(material.relief) >= relief_count)) {
+        return name + "relief " + std::to_string(material.relief) + " does not exist";
     }
     if (!is_light(material.colour) || glm::any(glm::greaterThan(material.colour, glm::vec3(1.0F)))) {
         return name + "colour must be within 0..1";
@@ -96,12 +123,26 @@ Problem check_parts(const Scene& scene) {
             return "texture \"" + texture.name + "\" has pixels that are negative or not finite";
         }
     }
+    for (const Texture& relief : scene.reliefs) {
+        const bool finite = std::ranges::all_of(relief.pixels.pixels(), [](const RgbaF& p) {
+            return std::isfinite(p.r) && std::isfinite(p.g) && std::isfinite(p.b);
+        });
+        if (relief.pixels.empty() || !finite) return "relief \"" + relief.name + "\" needs pixels that are finite";
+    }
     for (const Material& material : scene.materials) {
-        if (Problem problem = check_material(material, scene.textures.size())) return problem;
+        if (Problem problem = check_material(material, scene.textures.size(), scene.reliefs.size())) return problem;
     }
     for (const Mesh& mesh : scene.meshes) {
         if (Problem problem = check_mesh(mesh, scene.materials.size())) return problem;
     }
+    for (const Part& part : scene.parts) {
+        for (const Mesh& mesh : part.meshes) {
+            if (Problem problem = check_mesh(mesh, scene.materials.size())) {
+                return "part \"" + part.name + "\": " + *problem;
+            }
+        }
+    }
+    if (Problem problem = check_instances(scene)) return problem;
     if (Problem problem = check_lights(scene)) return problem;
     if (!in_range(scene.environment.scale, 0.0F, 1e9F)) return "environment: scale must be within 0..1e9";
     if (!std::isfinite(scene.environment.turn_rad)) return "environment: the turn must be finite";
@@ -110,6 +151,11 @@ Problem check_parts(const Scene& scene) {
 }
 
 }  // namespace
+
+Status check_placement(const Instance& instance) {
+    if (can_be_undone(instance.world_from_part) && (!instance.at_close || can_be_undone(*instance.at_close))) return {};
+    return Error{"its matrix must be affine and finite and have an inverse; no axis may be scaled to 0"};
+}
 
 Status check_scene(const Scene& scene) {
     if (const Problem problem = check_parts(scene)) {

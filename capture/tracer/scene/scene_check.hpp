@@ -10,4 +10,7 @@ namespace rs::capture {
 // texture pixels must be finite and not negative. A scene without triangles is renderable: it is empty.
 Status check_scene(const Scene& scene);
 
+// Of an instance's matrices, as Instance has it; the error names no instance.
+Status check_placement(const Instance& instance);
+
 }  // namespace rs::capture

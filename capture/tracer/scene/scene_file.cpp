@@ -100,6 +100,17 @@ void override_materials(const nlohmann::json& json, RecipeErrors& errors, Scene&
     }
 }
 
+void read_look(RecipeReader& reader, SceneFile& file) {
+    std::string look = "photo";
+    reader.read("look", look);
+    if (look != "photo" && look != "toon") reader.complain("look", "must be \"photo\" or \"toon\"");
+    const nlohmann::json* style = reader.child("toon");
+    if (style != nullptr && look != "toon") reader.complain("toon", "is for \"look\": \"toon\"; add that");
+    if (look != "toon") return;
+    file.toon.emplace();
+    if (style != nullptr) read_toon(*style, reader.errors(), *file.toon);
+}
+
 Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path, ObjectCentre centre) {
     if (!is_lit(file.scene)) file.scene.environment = make_studio_environment(default_studio());
     // First the check: normalisation relies on valid indices.
@@ -129,6 +140,7 @@ Result<SceneFile> load_recipe(const std::filesystem::path& path, const Generator
     const nlohmann::json* camera = reader.child("camera");
     const nlohmann::json* environment = reader.child("environment");
     const nlohmann::json* lights = reader.child("lights");
+    read_look(reader, file);
     reader.finish();
     if (object == nullptr) errors.add("object", "is missing; give {\"mesh\": ...} or {\"generator\": ...}");
     ObjectCentre centre = ObjectCentre::bounding_box;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace rs::capture {
@@ -20,6 +21,7 @@ struct SceneFile {
     double object_radius = 1;  // the largest distance of a vertex from the Y axis
     double foot_height = 0;    // Y of the lowest vertex
     CameraRecipe camera;
+    std::optional<ToonStyle> toon;  // it is drawn as a cartoon
     std::uint64_t seed = 1;
 };
 

@@ -1,9 +1,9 @@
 #include "capture/tracer/session/photo_session.hpp"
 
-#include "capture/tracer/integrator/coverage.hpp"
 #include "capture/tracer/integrator/sampler.hpp"
 #include "capture/tracer/integrator/tracer.hpp"
 #include "capture/tracer/session/capture_set.hpp"
+#include "capture/tracer/session/coverage.hpp"
 #include "capture/tracer/session/recentring.hpp"
 #include "capture/tracer/session/sensor.hpp"
 #include "capture/tracer/session/still_backdrop.hpp"

@@ -58,8 +58,8 @@ std::shared_ptr<const Mesh> convert(const aiMesh& source, bool two_sided) {
 
 class ModelWalk {
 public:
-    ModelWalk(const aiScene& model, model::ModelMaterials& materials, Scene& scene)
-        : model_(model), materials_(materials), scene_(scene) {}
+    ModelWalk(const aiScene& model, model::ModelMaterials& materials, ModelParts& parts)
+        : model_(model), materials_(materials), scene_(parts.scene), names_(parts.nodes) {}
 
     // False where there is too much.
     bool walk(const aiNode& node, const glm::dmat4& world_from_parent, int height) {
@@ -72,7 +72,7 @@ public:
         const bool visible = std::isfinite(determinant) && std::abs(determinant) > 1e-30;
         for (unsigned i = 0; visible && i < node.mNumMeshes; ++i) {
             if (scene_.geometry.size() > kMaxDraws) return false;
-            add(node.mMeshes[i], world_from_node);
+            add(node.mMeshes[i], world_from_node, node.mName.C_Str());
         }
         for (unsigned i = 0; i < node.mNumChildren; ++i) {
             if (!walk(*node.mChildren[i], world_from_node, height + 1)) return false;
@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    void add(unsigned index, const glm::dmat4& world_from_node) {
+    void add(unsigned index, const glm::dmat4& world_from_node, const char* name) {
         const aiMesh& source = *model_.mMeshes[index];
         const model::ModelMaterial& look = materials_.at(source.mMaterialIndex);
         std::shared_ptr<const Mesh>& mesh = meshes_[index];
@@ -91,22 +91,32 @@ private:
         if (mesh->topology != Topology::kTriangles) {
             node.material.lit = false;
             node.material.texture = nullptr;
+            node.material.normals = nullptr;
         }
         scene_.geometry.push_back(std::move(node));
+        names_.emplace_back(name);
     }
 
     const aiScene& model_;
     model::ModelMaterials& materials_;
     Scene& scene_;
+    std::vector<std::string>& names_;
     std::map<unsigned, std::shared_ptr<const Mesh>> meshes_;
 };
 
 }  // namespace
 
 Result<Scene> read_model(const std::filesystem::path& path) {
+    Result<ModelParts> parts = read_model_parts(path);
+    if (!parts) return parts.error();
+    return std::move(parts->scene);
+}
+
+Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
     const Result<std::vector<std::byte>> bytes = read_file(path, kMaxModel_bytes);
     if (!bytes) return bytes.error();
-    Scene scene;
+    ModelParts parts;
+    Scene& scene = parts.scene;
     scene.lights.clear();
     const std::string extension = path.extension().string();
     const bool is_gltf = extension.size() > 1 && (extension[1] == 'g' || extension[1] == 'G');
@@ -132,18 +142,21 @@ Result<Scene> read_model(const std::filesystem::path& path) {
             const std::string message =
                 path.string() + ": cannot be read: " + shown_error(importer.GetErrorString()) + "; export it again";
             // Objects alone make a scene, but Assimp does not take a file without meshes.
-            if (is_gltf && !scene.objects.empty() && !has_meshes) return scene;
+            if (is_gltf && !scene.objects.empty() && !has_meshes) return parts;
             return Error{message};
         }
         model::ModelMaterials materials(*model, path);
-        if (!ModelWalk(*model, materials, scene).walk(*model->mRootNode, glm::dmat4(1.0), 0)) {
+        if (!ModelWalk(*model, materials, parts).walk(*model->mRootNode, glm::dmat4(1.0), 0)) {
             return Error{path.string() + ": has too many meshes, or nodes too deep; make it smaller"};
+        }
+        for (unsigned i = 0; i < model->mNumMaterials; ++i) {
+            parts.materials.push_back({model->mMaterials[i]->GetName().C_Str(), materials.at(i).material});
         }
         scene.warnings.insert(scene.warnings.end(), materials.warnings.begin(), materials.warnings.end());
     } catch (const std::exception& exception) {
         return Error{path.string() + ": cannot be read: " + shown_error(exception.what()) + "; export it again"};
     }
-    return scene;
+    return parts;
 }
 
 }  // namespace rs::compositor

@@ -4,17 +4,21 @@
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <assimp/GltfMaterial.h>
+#include <assimp/ObjMaterial.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <optional>
 
 namespace rs::compositor::model {
 namespace {
+
+constexpr float kMostRelief = 1000;
 
 template <class T>
 std::optional<T> property(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
@@ -96,6 +100,10 @@ ModelMaterial ModelMaterials::convert(const aiMaterial& source) {
         material.diffuse = vec(property<aiColor3D>(source, AI_MATKEY_COLOR_DIFFUSE).value_or(aiColor3D(0.8F)));
         material.specular = vec(property<aiColor3D>(source, AI_MATKEY_COLOR_SPECULAR).value_or(aiColor3D(0)));
         material.shininess = std::clamp(property<float>(source, AI_MATKEY_SHININESS).value_or(0) / 128, 0.0F, 1.0F);
+        // Assimp's OBJ reader makes exponents four times as large, as the half vector wants them.
+        const float exponent = std::max(property<float>(source, AI_MATKEY_SHININESS).value_or(0) / 4, 0.0F);
+        material.phong =
+            PhongTerms{vec(property<aiColor3D>(source, AI_MATKEY_COLOR_AMBIENT).value_or(aiColor3D(0))), exponent};
         if (material.shininess == 0) material.specular = glm::vec3(0);
         material.opacity = std::clamp(property<float>(source, AI_MATKEY_OPACITY).value_or(1), 0.0F, 1.0F);
     }
@@ -111,7 +119,23 @@ ModelMaterial ModelMaterials::convert(const aiMaterial& source) {
         texture->has_alpha = texture->has_alpha && blends;
         material.texture = std::move(texture);
     }
+    material.normals = relief(source);
     return result;
+}
+
+// glTF's normal texture, MTL's norm; else MTL's bump map. Where there are two, directions say more than heights.
+std::shared_ptr<const NormalMap> ModelMaterials::relief(const aiMaterial& source) {
+    for (const aiTextureType type : {aiTextureType_NORMALS, aiTextureType_HEIGHT}) {
+        aiString name;
+        if (source.GetTexture(type, 0, &name) != AI_SUCCESS || name.length == 0) continue;
+        const auto read = picture(name.C_Str(), repeats(source, type, true), repeats(source, type, false));
+        if (!read) continue;
+        float strength = property<float>(source, AI_MATKEY_GLTF_TEXTURE_SCALE(type, 0)).value_or(1);
+        strength = property<float>(source, AI_MATKEY_OBJ_BUMPMULT(type, 0)).value_or(strength);
+        strength = std::isfinite(strength) ? std::clamp(strength, -kMostRelief, kMostRelief) : 1;
+        return type == aiTextureType_HEIGHT ? normal_map_of_heights(*read, strength) : normal_map(*read, strength);
+    }
+    return nullptr;
 }
 
 }  // namespace rs::compositor::model

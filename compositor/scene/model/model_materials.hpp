@@ -1,6 +1,7 @@
 #pragma once
 // Assimp's materials -> ours. Private to the reader of models; not thread-safe.
 
+#include "compositor/scene/normal_map.hpp"
 #include "compositor/scene/scene_pictures.hpp"
 
 #include <filesystem>
@@ -28,6 +29,7 @@ public:
 
 private:
     ModelMaterial convert(const aiMaterial& source);
+    std::shared_ptr<const NormalMap> relief(const aiMaterial& source);
     std::shared_ptr<const SceneTexture> picture(const std::string& name, bool repeat_s, bool repeat_t);
 
     const aiScene& model_;

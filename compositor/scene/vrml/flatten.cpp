@@ -4,6 +4,7 @@
 #include "compositor/scene/vrml/shape_lists.hpp"
 #include "compositor/scene/vrml/surroundings_nodes.hpp"
 #include "compositor/scene/vrml/triangulate.hpp"
+#include "compositor/scene/vrml/x3d_shapes.hpp"
 #include "rayspace/base/printable.hpp"
 
 #include <algorithm>
@@ -114,9 +115,11 @@ private:
     }
 
     // Null where there is nothing to draw.
-    std::shared_ptr<const Mesh> mesh_of(const Node& geometry) {
-        const auto [entry, is_new] = meshes_.emplace(&geometry, nullptr);
+    std::shared_ptr<const Mesh> mesh_of(const Node& given) {
+        const auto [entry, is_new] = meshes_.emplace(&given, nullptr);
         if (!is_new) return entry->second;
+        const NodePointer converted = as_vrml97(given);
+        const Node& geometry = converted ? *converted : given;
         const ShapeCheck check = check_shape(geometry);
         if (!check.fault.empty()) {
             warn(geometry, check.fault + "; left out");

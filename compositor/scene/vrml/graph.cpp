@@ -63,11 +63,14 @@ struct Scope {
 
 class GraphReader {
 public:
-    GraphReader(std::string_view text, const std::string& file) : lexer_(text, file) {
-        if (text.substr(0, kHeader.size()) == kHeader) return;
+    GraphReader(std::string_view text, const std::string& file) : lexer_(text, file) {}
+
+    void check_header(std::string_view text) const {
+        if (text.starts_with(kHeader) || text.starts_with("#X3D V3") || text.starts_with("#X3D V4")) return;
         const std::string_view start = text.substr(0, text.find_first_of("\r\n"));
         if (start.starts_with("#VRML V1") || start.starts_with("#Inventor") || start.starts_with("#X3D")) {
-            throw lexer_.wrong(1, "is " + shown({TokenKind::word, start, 1}) + ", not VRML97; convert it to VRML97");
+            throw lexer_.wrong(1, "is " + shown({TokenKind::word, start, 1}) +
+                                      ", not VRML97, VRML 1.0 ascii or X3D; convert it to VRML97");
         }
         throw lexer_.wrong(1, "does not begin with '" + std::string(kHeader) + "'; is it VRML97?");
     }
@@ -86,9 +89,28 @@ public:
     }
 
 private:
+    // What X3D says of itself, and needs.
+    bool take_x3d_statement() {
+        if (lexer_.take_word("PROFILE") || lexer_.take_word("COMPONENT")) {
+            lexer_.expect(TokenKind::word, "a name");
+            return true;
+        }
+        if (lexer_.take_word("META")) {
+            lexer_.expect(TokenKind::text, "a text");
+            lexer_.expect(TokenKind::text, "a text");
+            return true;
+        }
+        if (!lexer_.take_word("UNIT")) return false;
+        lexer_.expect(TokenKind::word, "a category");
+        lexer_.expect(TokenKind::word, "a name");
+        lexer_.expect(TokenKind::number, "a number");
+        return true;
+    }
+
     // Takes a statement that is no node: PROTO, EXTERNPROTO, ROUTE.
     bool take_statement() {
         const int line = lexer_.peek().line;
+        if (take_x3d_statement()) return true;
         if (lexer_.take_word("ROUTE")) {
             lexer_.expect(TokenKind::word, "NODE.event");
             if (!lexer_.take_word("TO")) throw lexer_.wrong("TO should stand here, not " + shown(lexer_.peek()));
@@ -181,7 +203,11 @@ private:
     template <class Ignores>
     void take_given(const FieldSpecs& specs, int opened, Node& node, Pattern& pattern, const Ignores& ignores) {
         while (const auto field = next_field(opened)) {
-            const auto found = specs.find(field->text);
+            auto found = specs.find(field->text);
+            // X3D has one name for what VRML97 calls by what it is for.
+            for (const char* older : {"level", "choice"}) {
+                if (found == specs.end() && field->text == "children") found = specs.find(older);
+            }
             if (found == specs.end()) {
                 if (!ignores(*field)) {
                     builder_.warn(field->line, node.type + " has no field " + shown(*field) + "; left out");
@@ -193,7 +219,12 @@ private:
             if (lexer_.take_word("IS")) {
                 take_is(found->first, found->second, line, pattern);
             } else {
-                node.fields[found->first] = take_value(found->second, found->first);
+                Value value = take_value(found->second, found->first);
+                Value& known = node.fields[found->first];
+                // X3D's XML has children one by one.
+                if (!found->second.many || found->second.type != FieldType::kNode) known.nodes.clear();
+                value.nodes.insert(value.nodes.begin(), known.nodes.begin(), known.nodes.end());
+                known = std::move(value);
             }
         }
     }
@@ -282,8 +313,10 @@ private:
         while (!lexer_.take_kind(TokenKind::close_list)) {
             if (lexer_.peek().kind == TokenKind::end) throw lexer_.wrong(opened, "the [ is not closed; add a ]");
             const Token kind = lexer_.expect(TokenKind::word, "field, exposedField, eventIn or eventOut");
-            const bool is_event = kind.text == "eventIn" || kind.text == "eventOut";
-            if (!is_event && kind.text != "field" && kind.text != "exposedField") {
+            const bool is_event = kind.text == "eventIn" || kind.text == "eventOut" || kind.text == "inputOnly" ||
+                                  kind.text == "outputOnly";
+            if (!is_event && kind.text != "field" && kind.text != "exposedField" && kind.text != "initializeOnly" &&
+                kind.text != "inputOutput") {
                 throw lexer_.wrong(kind.line,
                                    "field, exposedField, eventIn or eventOut should stand here, not " + shown(kind));
             }
@@ -324,6 +357,16 @@ private:
 }  // namespace
 
 Result<Graph> read_graph(std::string_view text, const std::string& file) {
+    try {
+        GraphReader reader(text, file);
+        reader.check_header(text);
+        return reader.read();
+    } catch (const MalformedVrml& malformed) {
+        return Error{malformed.message};
+    }
+}
+
+Result<Graph> read_headless_graph(std::string_view text, const std::string& file) {
     try {
         return GraphReader(text, file).read();
     } catch (const MalformedVrml& malformed) {

@@ -1,5 +1,5 @@
 #pragma once
-// The graph of nodes that VRML97 text describes: PROTO unfolded, DEF and USE followed.
+// The graph of nodes that VRML97 text describes, or X3D in its classic encoding: PROTO unfolded, DEF and USE followed.
 //
 //   file -> read_graph -> flatten.hpp (shapes are cut into triangles by Coin: triangulate.hpp) -> Scene
 
@@ -55,5 +55,8 @@ struct Graph {
 // goes beyond the limits above refuse the text. `file` names it in messages; an error names the line. Pure;
 // thread-safe.
 Result<Graph> read_graph(std::string_view text, const std::string& file);
+
+// The same of X3D text without its header, as x3d/xml_text.hpp makes it of XML.
+Result<Graph> read_headless_graph(std::string_view text, const std::string& file);
 
 }  // namespace rs::compositor::vrml

@@ -38,10 +38,11 @@ constexpr const char* kNodes[] = {
     "PixelTexture texture image SFImage 0 0 0 repeatS SFBool TRUE repeatT SFBool TRUE",
     "TextureTransform textureTransform center SFVec2f 0 0 rotation SFFloat 0 scale SFVec2f 1 1 "
     "translation SFVec2f 0 0",
-    "Box geometry size SFVec3f 2 2 2",
-    "Cone geometry bottomRadius SFFloat 1 height SFFloat 2 side SFBool TRUE bottom SFBool TRUE",
-    "Cylinder geometry bottom SFBool TRUE height SFFloat 2 radius SFFloat 1 side SFBool TRUE top SFBool TRUE",
-    "Sphere geometry radius SFFloat 1",
+    "Box geometry size SFVec3f 2 2 2 solid SFBool TRUE",
+    "Cone geometry bottomRadius SFFloat 1 height SFFloat 2 side SFBool TRUE bottom SFBool TRUE solid SFBool TRUE",
+    "Cylinder geometry bottom SFBool TRUE height SFFloat 2 radius SFFloat 1 side SFBool TRUE top SFBool TRUE "
+    "solid SFBool TRUE",
+    "Sphere geometry radius SFFloat 1 solid SFBool TRUE",
     "ElevationGrid geometry color SFNode color normal SFNode normal texCoord SFNode texCoord height MFFloat [ ] "
     "ccw SFBool TRUE colorPerVertex SFBool TRUE creaseAngle SFFloat 0 normalPerVertex SFBool TRUE solid SFBool TRUE "
     "xDimension SFInt32 0 xSpacing SFFloat 1 zDimension SFInt32 0 zSpacing SFFloat 1",
@@ -60,6 +61,7 @@ constexpr const char* kNodes[] = {
     "language SFString \"\" leftToRight SFBool TRUE size SFFloat 1 spacing SFFloat 1 style SFString \"PLAIN\" "
     "topToBottom SFBool TRUE",
     "Coordinate coord point MFVec3f [ ]",
+    "ColorRGBA color color MFColorRGBA [ ]",
     "Color color color MFColor [ ]",
     "Normal normal vector MFVec3f [ ]",
     "TextureCoordinate texCoord point MFVec2f [ ]",
@@ -78,10 +80,25 @@ constexpr const char* kNodes[] = {
     "Background child groundAngle MFFloat [ ] groundColor MFColor [ ] skyAngle MFFloat [ ] skyColor MFColor [ ] "
     "backUrl MFString [ ] bottomUrl MFString [ ] frontUrl MFString [ ] leftUrl MFString [ ] rightUrl MFString [ ] "
     "topUrl MFString [ ]",
+    "StaticGroup child children MFNode child bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1",
+    "LineSet geometry color SFNode color coord SFNode coord vertexCount MFInt32 [ ]",
+    "Rectangle2D geometry size SFVec2f 2 2 solid SFBool FALSE",
     "WorldInfo child info MFString [ ] title SFString \"\"",
 };
 
-constexpr std::array<std::pair<const char*, FieldType>, 11> kTypes = {{
+// X3D's sets of faces differ in one field, which says which points make a face.
+constexpr const char* kFaceSets[] = {
+    "IndexedTriangleSet index",      "TriangleSet",
+    "IndexedTriangleFanSet index",   "TriangleFanSet fanCount",
+    "IndexedTriangleStripSet index", "TriangleStripSet stripCount",
+    "IndexedQuadSet index",          "QuadSet",
+};
+constexpr const char* kFaceSetFields =
+    "geometry color SFNode color coord SFNode coord normal SFNode normal texCoord SFNode texCoord ccw SFBool TRUE "
+    "colorPerVertex SFBool TRUE normalPerVertex SFBool TRUE solid SFBool TRUE";
+
+// The first name is the one that messages use; the others are X3D's.
+constexpr std::array<std::pair<const char*, FieldType>, 16> kTypes = {{
     {"Bool", FieldType::kBool},
     {"Int32", FieldType::kInt32},
     {"Float", FieldType::kFloat},
@@ -93,11 +110,22 @@ constexpr std::array<std::pair<const char*, FieldType>, 11> kTypes = {{
     {"String", FieldType::kString},
     {"Image", FieldType::kImage},
     {"Node", FieldType::kNode},
+    {"Double", FieldType::kFloat},
+    {"Vec2d", FieldType::kVec2f},
+    {"Vec3d", FieldType::kVec3f},
+    {"ColorRGBA", FieldType::kRotation},
+    {"Vec4f", FieldType::kRotation},
 }};
 
 std::map<std::string, NodeSpec, std::less<>> parsed_table() {
     std::map<std::string, NodeSpec, std::less<>> table;
-    for (const char* row : kNodes) {
+    std::vector<std::string> rows(std::begin(kNodes), std::end(kNodes));
+    for (const std::string set : kFaceSets) {
+        const std::size_t space = set.find(' ');
+        rows.push_back(set.substr(0, space) + " " + kFaceSetFields);
+        if (space != std::string::npos) rows.back() += set.substr(space) + " MFInt32 [ ]";
+    }
+    for (const std::string& row : rows) {
         Lexer lexer(row, "node table");
         NodeSpec& spec = table[std::string(lexer.take().text)];
         spec.slot = lexer.take().text;
@@ -126,20 +154,38 @@ const NodeSpec* find_node(std::string_view type) {
 bool is_behaviour(std::string_view type) {
     static const std::set<std::string, std::less<>> kTypesOfTime = {
         "AudioClip",
+        "BooleanFilter",
+        "BooleanSequencer",
+        "BooleanToggle",
+        "BooleanTrigger",
         "ColorInterpolator",
         "CoordinateInterpolator",
+        "CoordinateInterpolator2D",
         "CylinderSensor",
+        "IntegerSequencer",
+        "IntegerTrigger",
+        "KeySensor",
+        "LoadSensor",
+        "MetadataBoolean",
+        "MetadataDouble",
+        "MetadataFloat",
+        "MetadataInteger",
+        "MetadataSet",
+        "MetadataString",
         "MovieTexture",
         "NormalInterpolator",
         "OrientationInterpolator",
         "PlaneSensor",
         "PositionInterpolator",
+        "PositionInterpolator2D",
         "ProximitySensor",
         "ScalarInterpolator",
         "Script",
         "Sound",
         "SphereSensor",
+        "StringSensor",
         "TimeSensor",
+        "TimeTrigger",
         "TouchSensor",
         "VisibilitySensor",
     };

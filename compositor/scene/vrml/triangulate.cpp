@@ -186,7 +186,7 @@ private:
             const Value& value = from.field(name);
             const bool usable =
                 std::find(check_.unusable.begin(), check_.unusable.end(), name) == check_.unusable.end();
-            if (name.ends_with("Index") || !usable) continue;
+            if (field == nullptr || name.ends_with("Index") || !usable) continue;  // X3D's `solid` of a Box
             if (spec.type != FieldType::kNode) {
                 set_field(*field, value);
                 continue;
@@ -208,8 +208,8 @@ private:
 
 // Whether only the front of the shape is to be seen.
 bool is_solid(const Node& node) {
-    if (node.has("solid")) return node.flag("solid");
-    // The others are closed where nothing is taken off.
+    if (node.has("solid") && !node.flag("solid")) return false;
+    // Cones and cylinders are closed where nothing is taken off.
     for (const char* part : {"side", "bottom", "top"}) {
         if (node.has(part) && !node.flag(part)) return false;
     }

@@ -2,8 +2,8 @@
 
 #include "compositor/gl/draw.hpp"
 #include "compositor/gl/texture.hpp"
-#include "compositor/viewer/drawing/background_shaders.hpp"
 #include "compositor/scene/raster_lights.hpp"
+#include "compositor/viewer/drawing/background_shaders.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
 #include "compositor/viewer/views/engine_views.hpp"
 #include "engine/core/views/depth_picture.hpp"
@@ -11,10 +11,24 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace rs::compositor {
 namespace {
+
+// With the objects that are there, also where the scene does not name them.
+BoundingBox bounds_of_casters(const Scene& scene, const ShownNodes& nodes) {
+    BoundingBox all = compositor::bounds_of_casters(scene);
+    for (const ShownNode& node : nodes) {
+        if (!node.object || node.object->object->bounds.empty()) continue;
+        const Similarity& place = node.object->world_from_object;
+        const glm::dvec3 reach(1.1 * place.scale);
+        all.include(place.translation - reach);
+        all.include(place.translation + reach);
+    }
+    return all;
+}
 
 // How much of an object's own light is left at a distance.
 float kept_in_fog(const std::optional<Fog>& fog, double distance) {
@@ -50,16 +64,61 @@ Result<FrameCompositor::Frame> FrameCompositor::Frame::create(int width, int hei
     return Frame{std::move(*drawn), std::move(*resolved)};
 }
 
+// Nothing without shadows.
+Result<std::optional<ShadowMaps>> FrameCompositor::Lit::make_maps(const Scene& scene, const ShownNodes& nodes,
+                                                                  bool shadows) {
+    if (!shadows) return std::optional<ShadowMaps>();
+    auto made = ShadowMaps::create(plan_shadows(scene, bounds_of_casters(scene, nodes)));
+    if (!made) return made.error();
+    return std::optional<ShadowMaps>(std::move(*made));
+}
+
+Result<FrameCompositor::Lit> FrameCompositor::Lit::create(const Scene& scene, const ShownNodes& nodes, bool shadows) {
+    auto maps = make_maps(scene, nodes, shadows);
+    if (!maps) return maps.error();
+    const ShadowPlan plan = *maps ? (*maps)->plan() : ShadowPlan{};
+    auto surfaces = SurfaceRenderer::create(scene, plan);
+    if (!surfaces) return surfaces.error();
+    std::optional<FloorRenderer> floor;
+    if (scene.floor) {
+        auto made = FloorRenderer::create(scene, plan);
+        if (!made) return made.error();
+        floor.emplace(std::move(*made));
+    }
+    return Lit{std::move(*surfaces), std::move(floor), std::move(*maps)};
+}
+
+// As scene_ says, with or without shadows.
+Status FrameCompositor::light_anew(bool shadows) {
+    Lit& lit = renderers_.lit;
+    auto maps = Lit::make_maps(scene_, *nodes_, shadows);
+    if (!maps) return maps.error();
+    const ShadowPlan plan = *maps ? (*maps)->plan() : ShadowPlan{};
+    if (Status status = lit.surfaces.set_lights(scene_, plan); !status) return status;
+    if (lit.floor) {
+        auto floor = FloorRenderer::create(scene_, plan);
+        if (!floor) return floor.error();
+        lit.floor.emplace(std::move(*floor));
+    }
+    if (*maps && lit.shadows) (*maps)->take_shells(*lit.shadows);
+    lit.shadows = std::move(*maps);
+    return {};
+}
+
+Status FrameCompositor::set_shadows(bool shadows) {
+    return shadows == this->shadows() ? Status() : light_anew(shadows);
+}
+
 Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::shared_ptr<engine::DataModule> engine,
                                                 std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options) {
     Scene scene = lit_scene;
     scene.lights = raster_lights(lit_scene, options.exposure_ev);
     auto background = BackgroundRenderer::create(scene.background);
     if (!background) return background.error();
-    auto surfaces = SurfaceRenderer::create(scene);
-    if (!surfaces) return surfaces.error();
-    auto floor = gl::Program::create("floor", shaders::kFloorVertex, shaders::kFloorFragment);
-    if (!floor) return floor.error();
+    auto lit = Lit::create(scene, *nodes, options.shadows);
+    if (!lit) return lit.error();
+    auto weather = WeatherRenderer::create(scene);
+    if (!weather) return weather.error();
     auto traced = gl::Program::create("traced picture", shaders::kWholeFrameVertex, shaders::kPictureFragment);
     if (!traced) return traced.error();
     auto objects = ObjectRenderer::create(nodes->size(), options.object_depth);
@@ -68,9 +127,9 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::sha
     if (!placeholders) return placeholders.error();
     auto frame = Frame::create(options.width, options.height, options.samples);
     if (!frame) return frame.error();
-    return FrameCompositor(scene, std::move(engine), std::move(nodes),
-                           {std::move(*floor), std::move(*traced), std::move(*objects), std::move(*placeholders),
-                            std::move(*background), std::move(*surfaces), std::move(*frame)},
+    return FrameCompositor(std::move(scene), std::move(engine), std::move(nodes),
+                           {std::move(*traced), std::move(*objects), std::move(*placeholders), std::move(*background),
+                            std::move(*lit), std::move(*weather), std::move(*frame)},
                            options);
 }
 
@@ -82,12 +141,10 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& scene, const std::v
     return create(scene, engine, std::move(*nodes), options);
 }
 
-FrameCompositor::FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+FrameCompositor::FrameCompositor(Scene scene, std::shared_ptr<engine::DataModule> engine,
                                  std::shared_ptr<const ShownNodes> nodes, Renderers renderers,
                                  const FrameOptions& options)
-    : floor_(scene.floor),
-      floor_background_(background_colour(scene.background, {0, 0, -1})),
-      fog_(scene.fog),
+    : scene_(std::move(scene)),
       engine_(std::move(engine)),
       nodes_(std::move(nodes)),
       turns_rad_(nodes_->size()),
@@ -98,11 +155,23 @@ FrameCompositor::FrameCompositor(const Scene& scene, std::shared_ptr<engine::Dat
       object_depth_(options.object_depth),
       object_samples_(options.object_samples),
       upright_pictures_(options.upright_pictures),
-      rectangle_(4) {
-    for (const Light& light : scene.lights) {
-        if (light.kind != LightKind::kDirectional || !light.everywhere) continue;
-        floor_light_ += light.ambient + light.colour * static_cast<float>(std::max(-light.towards.y, 0.0));
-    }
+      rectangle_(4) {}
+
+Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
+    scene_.lights = raster_lights(scene, exposure_ev);
+    scene_.environment = scene.environment;
+    scene_.navigation.headlight = scene.navigation.headlight;
+    for (std::size_t n = 0; n < scene.geometry.size(); ++n) scene_.geometry[n].lights = scene.geometry[n].lights;
+    return light_anew(shadows());
+}
+
+Status FrameCompositor::move_geometry(std::size_t index, const std::optional<glm::dmat4>& world_from_node) {
+    Lit& lit = renderers_.lit;
+    if (lit.surfaces.stands(index, world_from_node)) return {};
+    if (lit.shadows) lit.shadows->touch(lit.surfaces.caster_bounds(index));
+    if (Status status = lit.surfaces.move(index, world_from_node); !status) return status;
+    if (lit.shadows) lit.shadows->touch(lit.surfaces.caster_bounds(index));
+    return {};
 }
 
 Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {
@@ -112,11 +181,15 @@ Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {
 
 std::optional<ObjectView> FrameCompositor::view_of_node(std::size_t index, const Camera& camera) const {
     const ShownNode& node = (*nodes_)[index];
-    if (!node.object) return std::nullopt;
-    PlacedObject placed = *node.object;
+    if (!node.object || node.hidden) return std::nullopt;
+    return view_of_object(turned(index), camera, {object_samples_, upright_pictures_});
+}
+
+PlacedObject FrameCompositor::turned(std::size_t index) const {
+    PlacedObject placed = *(*nodes_)[index].object;
     const double angle = placed.world_from_object.mirrors() ? -turns_rad_[index] : turns_rad_[index];
     placed.world_from_object = placed.world_from_object * NodeTransform{.angle_rad = angle}.parent_from_node();
-    return view_of_object(placed, camera, {object_samples_, upright_pictures_});
+    return placed;
 }
 
 std::vector<FrameCompositor::SeenNode> FrameCompositor::seen_nodes(const Camera& camera) const {
@@ -146,12 +219,17 @@ Status FrameCompositor::draw(const Camera& camera) {
     EngineViews views(*engine_);
     if (const Status status = views.submit(std::move(requests)); !status) return status.error();
 
+    if (shadows()) draw_shadows();
+    statistics_.shadows_s = clock.lap();
     renderers_.frame.drawn.begin(renderers_.background.zenith());
     if (!renderers_.background.plain()) renderers_.background.draw(camera);
-    const auto transparent = renderers_.surfaces.draw_opaque(view, wire_frame_);
-    statistics_.geometry_in_view = renderers_.surfaces.nodes_in_view();
-    if (floor_) draw_floor(view);
-    if (traced_) draw_traced(camera);
+    const auto transparent = renderers_.lit.surfaces.draw_opaque(view, wire_frame_);
+    statistics_.geometry_in_view = renderers_.lit.surfaces.nodes_in_view();
+    if (renderers_.lit.floor) renderers_.lit.floor->draw(view);
+    if (traced_) {
+        draw_traced(camera);
+        renderers_.lit.surfaces.draw_veil(view);
+    }
     gl::flush();
     statistics_.geometry_s = clock.lap();
 
@@ -183,7 +261,7 @@ void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparen
     for (const SeenNode& node : nodes) blended.push_back({node.view.plane_distance, nullptr, &node, nullptr});
     for (std::size_t i = 0; i < nodes_->size(); ++i) {
         const auto& placeholder = (*nodes_)[i].placeholder;
-        if (!placeholder || !may_be_seen(bounds_of(*placeholder), view)) continue;
+        if (!placeholder || (*nodes_)[i].hidden || !may_be_seen(bounds_of(*placeholder), view)) continue;
         statistics_.nodes[i].missing = !(*nodes_)[i].object;
         statistics_.nodes_missing += statistics_.nodes[i].missing ? 1 : 0;
         const double distance = glm::distance(placeholder->world_from_object.translation, view.camera.centre());
@@ -191,11 +269,19 @@ void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparen
     }
     std::stable_sort(blended.begin(), blended.end(),
                      [](const Blended& a, const Blended& b) { return a.distance > b.distance; });
+    // What falls is drawn by distance between them, for objects leave no depth.
+    double beyond = std::numeric_limits<double>::infinity();
+    const auto fall = [&](double nearest) {
+        if (weather_ && nearest < beyond) renderers_.weather.draw(*weather_, weather_seconds_, view, nearest, beyond);
+        beyond = std::min(beyond, nearest);
+    };
     for (const Blended& item : blended) {
-        if (item.surface != nullptr) renderers_.surfaces.draw_transparent(*item.surface, view, wire_frame_);
+        if (item.node != nullptr || item.placeholder != nullptr) fall(item.distance);
+        if (item.surface != nullptr) renderers_.lit.surfaces.draw_transparent(*item.surface, view, wire_frame_);
         if (item.node != nullptr) draw_object(*item.node);
         if (item.placeholder != nullptr) renderers_.placeholders.draw(*item.placeholder, view);
     }
+    fall(0);
 }
 
 Status FrameCompositor::resize(int width, int height) {
@@ -208,6 +294,29 @@ Status FrameCompositor::resize(int width, int height) {
 
 void FrameCompositor::turn_object(std::size_t index, double angle_rad) {
     turns_rad_[index] = angle_rad;
+}
+
+Status FrameCompositor::draw_handles(const std::vector<HandleStroke>& strokes) {
+    RS_CHECK(camera_.has_value());
+    if (!handles_) {
+        auto made = HandleRenderer::create();
+        if (!made) return made.error();
+        handles_ = std::move(*made);
+    }
+    return handles_->draw(strokes, *camera_, renderers_.frame.shown(), renderers_.frame.drawn);
+}
+
+std::optional<SurfacePoint> FrameCompositor::surface_at(int x, int y) const {
+    constexpr int kAround = kDepthsAcross / 2;
+    if (!camera_ || x < kAround || y < kAround || x >= width() - kAround || y >= height() - kAround) {
+        return std::nullopt;
+    }
+    const Frame& frame = renderers_.frame;
+    const std::vector<float> depths =
+        frame.drawn.depths_at(x - kAround, y - kAround, kDepthsAcross, kDepthsAcross, frame.shown());
+    DepthsAround inverse{};
+    for (std::size_t i = 0; i < inverse.size(); ++i) inverse[i] = static_cast<double>(depths[i]) / kNear;
+    return surface_from_depths(*camera_, x, y, inverse);
 }
 
 std::optional<double> FrameCompositor::distance_ahead() const {
@@ -255,16 +364,16 @@ void FrameCompositor::draw_traced(const Camera& camera) {
              {.depth_test = false, .depth_write = false, .blending = gl::Blending::kOverPremultiplied});
 }
 
-void FrameCompositor::draw_floor(const FrameView& view) const {
-    const gl::Program& program = renderers_.floor;
-    program.set("clip_from_world", glm::mat4(view.clip_from_world));
-    program.set("height", static_cast<float>(floor_->height));
-    program.set("radius", static_cast<float>(floor_->radius));
-    program.set("square", static_cast<float>(floor_->square));
-    program.set("colour_a", floor_->colour_a * floor_light_);
-    program.set("colour_b", floor_->colour_b * floor_light_);
-    program.set("background", floor_background_);
-    gl::draw(program, rectangle_, {});
+void FrameCompositor::draw_shadows() {
+    constexpr float kThere = 0.5F;  // opacity from which on an object that fades in throws its shadow
+    std::vector<std::optional<PlacedObject>> objects(nodes_->size());
+    for (std::size_t i = 0; i < nodes_->size(); ++i) {
+        const ShownNode& node = (*nodes_)[i];
+        if (node.object && !node.hidden && node.opacity >= kThere) objects[i] = turned(i);
+    }
+    statistics_.shadow_maps_drawn = renderers_.lit.shadows->update(
+        objects, [&](const ShadowFace& face) { renderers_.lit.surfaces.draw_casters(face); });
+    renderers_.lit.shadows->bind();
 }
 
 void FrameCompositor::upload(const SeenNode& node) {
@@ -287,8 +396,8 @@ void FrameCompositor::upload(const SeenNode& node) {
 void FrameCompositor::draw_object(const SeenNode& node) const {
     renderers_.objects.draw(node.index, node.view,
                             {.screen_px = {width(), height()},
-                             .fog = fog_ ? fog_->colour : glm::vec3(0),
-                             .own_light = kept_in_fog(fog_, node.view.plane_distance),
+                             .fog = scene_.fog ? scene_.fog->colour : glm::vec3(0),
+                             .own_light = kept_in_fog(scene_.fog, node.view.plane_distance),
                              .opacity = (*nodes_)[node.index].opacity});
 }
 

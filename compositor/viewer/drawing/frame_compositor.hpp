@@ -4,7 +4,7 @@
 //
 // A frame:  views of the nodes that can be seen: camera into the node's coordinates (equation 3), only the pixels that
 //           the node can cover -> engine, which draws them while
-//           background -> opaque geometry -> floor  are drawn
+//           (shadow maps in which something has changed ->) background -> opaque geometry -> floor  are drawn
 //           -> transparent geometry and the engine's pictures, the farthest first: texture -> rectangle at the depth of
 //           its planes (object_view.hpp), tested against the geometry, blended over.
 //
@@ -13,13 +13,18 @@
 #include "compositor/gl/framebuffer.hpp"
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/vertex_array.hpp"
+#include "compositor/lighting/surface_point.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/background_renderer.hpp"
+#include "compositor/viewer/drawing/floor_renderer.hpp"
+#include "compositor/viewer/drawing/handle_renderer.hpp"
 #include "compositor/viewer/drawing/object_renderer.hpp"
 #include "compositor/viewer/drawing/placeholder_renderer.hpp"
 #include "compositor/viewer/drawing/shown_parts.hpp"
 #include "compositor/viewer/drawing/surface_renderer.hpp"
+#include "compositor/viewer/drawing/weather_renderer.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
+#include "compositor/viewer/shadows/shadow_maps.hpp"
 #include "compositor/viewer/views/object_view.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
 #include "engine/driver/data_module.hpp"
@@ -38,6 +43,7 @@ struct FrameOptions {
     int height = 720;
     int samples = 4;          // per pixel, for the edges of geometry
     bool wire_frame = false;  // of the geometry, floor excepted
+    bool shadows = false;     // geometry and objects throw them onto geometry and floor (shadow_plan.hpp)
     double exposure_ev = 0;   // the scene's lights are 2^_ times as bright; objects, background, unlit surfaces stay
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples =
@@ -66,6 +72,8 @@ struct FrameStatistics {
     int nodes_missing = 0;             // placeholders in view
     std::int64_t pixels_rendered = 0;  // by the engine
     int geometry_in_view = 0;          // geometry nodes that were drawn
+    int shadow_maps_drawn = 0;         // because something in them has changed
+    double shadows_s = 0;              // of drawing them
     double geometry_s = 0;             // background, geometry, floor
     double engine_s = 0;               // of drawing the views, at the same time as the geometry
     double engine_wait_s = 0;          // the part of it that the frame waited for
@@ -93,6 +101,26 @@ public:
     Status draw(const Camera& camera);
     [[nodiscard]] Image<Rgba8> picture() const { return renderers_.frame.shown().read_picture(); }
     void show_in_window(int width, int height) const { renderers_.frame.shown().show_in_window(width, height); }
+    // Handles over a copy of the frame, to be shown in its place; picture() is still without.
+    Status draw_handles(const std::vector<HandleStroke>& strokes);
+    [[nodiscard]] const HandleRenderer* handles() const { return handles_ ? &*handles_ : nullptr; }
+
+    // The lights, environment and headlight of `scene`, whose geometry is that of the scene that this was made of, and
+    // another exposure: frames are then those of a compositor made of `scene`, bit for bit. Fails where the
+    // driver refuses a shader.
+    Status set_lights(const Scene& scene, double exposure_ev);
+
+    // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Its mesh stays where it
+    // is.
+    Status move_geometry(std::size_t index, const std::optional<glm::dmat4>& world_from_node);
+    // Meshes and pictures of geometry given to the driver since create() began: none after it.
+    [[nodiscard]] int uploads() const { return renderers_.lit.surfaces.uploads(); }
+    // What falls in the next frame, `seconds` after the sequence's beginning; nothing: it is dry. The weather's fog and
+    // what it leaves on surfaces are the scene's (in_weather).
+    void set_weather(const std::optional<Weather>& weather, double seconds) {
+        weather_ = weather;
+        weather_seconds_ = seconds;
+    }
 
     // From now on `picture`, of the frame's size, stands for the background and all geometry that is not blended, which
     // give their depth only; where its alpha is below 1, the background shows. nullptr: they are drawn again.
@@ -102,6 +130,8 @@ public:
     [[nodiscard]] const FrameStatistics& statistics() const { return statistics_; }
     // Which ray-space node is seen at a pixel of the last frame.
     [[nodiscard]] std::optional<std::size_t> object_at(int x, int y) const;
+    // The surface that is seen at a pixel of the last frame: of geometry, and of objects where they have depth.
+    [[nodiscard]] std::optional<SurfacePoint> surface_at(int x, int y) const;
     // How far geometry is along the middle pixel's ray in the last frame, scene units; nothing where there is none.
     [[nodiscard]] std::optional<double> distance_ahead() const;
 
@@ -110,6 +140,9 @@ public:
     // Frames of another size from now on. Fails, with nothing changed, where the driver cannot.
     Status resize(int width, int height);
     void set_wire_frame(bool wire_frame) { wire_frame_ = wire_frame; }
+    // Fails, with nothing changed, where the driver cannot. Some tenths of a second.
+    Status set_shadows(bool shadows);
+    [[nodiscard]] bool shadows() const { return renderers_.lit.shadows.has_value(); }
     // Turns a node about its object's axis: counter-clockwise seen from above, from where the scene has put it.
     void turn_object(std::size_t index, double angle_rad);
 
@@ -122,17 +155,27 @@ private:
         [[nodiscard]] const gl::Framebuffer& shown() const { return resolved ? *resolved : drawn; }
         [[nodiscard]] float depth_at(int x, int y) const { return drawn.depth_at(x, y, shown()); }
     };
+    // What the scene's lights fall on.
+    struct Lit {
+        SurfaceRenderer surfaces;
+        std::optional<FloorRenderer> floor;
+        std::optional<ShadowMaps> shadows;
+
+        // `scene` with raster's lights.
+        static Result<std::optional<ShadowMaps>> make_maps(const Scene& scene, const ShownNodes& nodes, bool shadows);
+        static Result<Lit> create(const Scene& scene, const ShownNodes& nodes, bool shadows);
+    };
     struct Renderers {
-        gl::Program floor;
         gl::Program traced;
         ObjectRenderer objects;
         PlaceholderRenderer placeholders;
         BackgroundRenderer background;
-        SurfaceRenderer surfaces;
+        Lit lit;
+        WeatherRenderer weather;
         Frame frame;
     };
-    FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
-                    std::shared_ptr<const ShownNodes> nodes, Renderers renderers, const FrameOptions& options);
+    FrameCompositor(Scene scene, std::shared_ptr<engine::DataModule> engine, std::shared_ptr<const ShownNodes> nodes,
+                    Renderers renderers, const FrameOptions& options);
 
     struct SeenNode {
         std::size_t index = 0;
@@ -142,16 +185,15 @@ private:
     [[nodiscard]] std::optional<ObjectView> view_of_node(std::size_t index, const Camera& camera) const;
     [[nodiscard]] std::vector<SeenNode> seen_nodes(const Camera& camera) const;
     void draw_traced(const Camera& camera);
-    void draw_floor(const FrameView& view) const;
+    Status light_anew(bool shadows);
+    void draw_shadows();
+    [[nodiscard]] PlacedObject turned(std::size_t index) const;
     void upload(const SeenNode& node);
     void draw_object(const SeenNode& node) const;
     void draw_blended(const std::vector<SurfaceRenderer::Transparent>& surfaces, const std::vector<SeenNode>& nodes,
                       const FrameView& view);
 
-    std::optional<Floor> floor_;
-    glm::vec3 floor_light_{0};       // that falls on it from above
-    glm::vec3 floor_background_{0};  // into which it fades
-    std::optional<Fog> fog_;
+    Scene scene_;  // with raster's lights
     std::shared_ptr<engine::DataModule> engine_;
     std::shared_ptr<const ShownNodes> nodes_;
     std::vector<double> turns_rad_;  // [node]: by which the visitor has turned it
@@ -164,7 +206,10 @@ private:
     int object_samples_;
     bool upright_pictures_;
     std::shared_ptr<const Image<Rgba8>> traced_;
+    std::optional<Weather> weather_;
+    double weather_seconds_ = 0;
     gl::VertexArray rectangle_;
+    std::optional<HandleRenderer> handles_;  // once there were some
     FrameStatistics statistics_;
 };
 

@@ -1,7 +1,12 @@
 #pragma once
 // The GLSL of the scene's geometry: VRML97's lighting (ISO/IEC 14772-1, 4.14.4) at every pixel, in linear light.
 //
-//   colour = fog * (1 - f) + f * (emissive + sum over lights: attenuation * spot * (ambient + diffuse + specular))
+//   colour = fog * (1 - f) + f * (emissive + sum over lights: attenuation * spot * (ambient + s * (diffuse +
+//   specular)))
+//
+// where s is how much of the light's shadow map is open there (shadow_shaders.hpp), 1 without.
+//
+// or Phong's (Shading::kPhong), where the ambient term is the material's own.
 //
 // A shader for every kind of surface (surface_renderer.hpp): what kinds differ in are constants at its head, so that
 // loops over lights are unrolled and what a surface does not have costs nothing. Drawn on a CPU that is several times
@@ -31,7 +36,7 @@ void main() {
     vertex_colour = colour;
 })";
 
-// Behind the constants of constants_of(SurfaceKind).
+// Behind the constants of constants_of(SurfaceKind) and kShadowLookUp.
 inline constexpr const char* kSurfaceFragment = R"(
 const int kLights = kDirectional + kPoints + kSpots;
 // Five for each light, directional ones first, then points, then spots:
@@ -40,8 +45,10 @@ uniform vec4 lights[5 * max(kLights, 1)];
 // diffuse, opacity; specular, exponent; emissive, ambient; ambient light of directional lights
 uniform vec4 material[4];
 layout(binding = 0) uniform sampler2D surface_picture;
+layout(binding = 4) uniform sampler2D relief_map;  // NormalMap
 uniform vec3 eye;
 uniform vec3 headlight;      // its direction of travel
+uniform vec3 cover_light;    // ambient light on snow
 uniform vec3 fog;
 uniform float fog_visibility;
 in vec3 place_in_world;
@@ -50,20 +57,53 @@ in vec2 place_on_texture;
 in vec4 vertex_colour;
 out vec4 result;
 
+// What the surface reflects as a highlight: its material's, or the water's on it.
+vec3 specular = material[1].rgb;
+float exponent = material[1].w;
+
 // Directions towards the eye and the light have unit length: of the one halfway, (to_light + to_eye) / |to_light + to_eye|,
 // only what it has in common with the normal is needed.
 vec3 reflected(vec3 diffuse, vec3 n, vec3 to_eye, float eye_facing, vec3 to_light, vec3 colour) {
     float facing = dot(n, to_light);
     vec3 sum = diffuse * max(facing, 0.0);
-    if (kShiny) {
+    if (kPhong && kShiny) {
+        // (to the light) . (to the eye, reflected)
+        float along = 2.0 * facing * eye_facing - dot(to_light, to_eye);
+        sum += specular * (facing > 0.0 && along > 0.0 ? pow(along, exponent) : 0.0);
+    } else if (kShiny) {
         float along = (facing + eye_facing) * inversesqrt(max(2.0 + 2.0 * dot(to_light, to_eye), 1e-12));
-        float gloss = pow(max(along, 1e-20), material[1].w);
-        sum += material[1].rgb * (facing > 0.0 ? gloss : 0.0);
+        float gloss = pow(max(along, 1e-20), exponent);
+        sum += specular * (facing > 0.0 ? gloss : 0.0);
     }
     return sum * colour;
 }
 
-vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, vec3 to_eye, float eye_facing) {
+// The normal where the surface has relief: along the texture's axes as they lie on the triangle.
+vec3 in_relief(vec3 n) {
+    vec3 direction = texture(relief_map, place_on_texture).xyz;
+    vec3 px = dFdx(place_in_world), py = dFdy(place_in_world);
+    vec2 tx = dFdx(place_on_texture), ty = dFdy(place_on_texture);
+    float area = tx.x * ty.y - ty.x * tx.y;
+    vec3 s = (px * ty.y - py * tx.y) * sign(area);
+    vec3 t = (px * ty.x - py * tx.x) * sign(area);  // up: rows go down
+    s -= n * dot(n, s);
+    t -= n * dot(n, t);
+    bool flat_there = direction.xy == vec2(0.0) || area == 0.0;
+    vec3 sum = s * (direction.x * inversesqrt(max(dot(s, s), 1e-30))) +
+               t * (direction.y * inversesqrt(max(dot(t, t), 1e-30))) + n * direction.z;
+    return flat_there || dot(sum, sum) < 1e-12 ? n : normalize(sum);
+}
+
+// Of the light's map, the numbers of which begin at row `shadow`.
+float open_to_light(int first, int shadow, int shape, vec3 n) {
+    if (shape == 1) return parallel_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
+    if (shape == 2) return cone_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
+    if (shape == 3) return cube_shadow(4 * shadow, place_in_world, n, lights[first + 2].xyz);
+    return 1.0;
+}
+
+vec3 from_light(int first, bool has_place, bool is_spot, int shadow, int shape, vec3 diffuse, vec3 n, vec3 even,
+                vec3 to_eye, float eye_facing) {
     vec3 to_light = -lights[first + 3].xyz;
     float strength = 1.0;
     if (has_place) {
@@ -81,20 +121,27 @@ vec3 from_light(int first, bool has_place, bool is_spot, vec3 diffuse, vec3 n, v
             strength = angle > cut_off ? 0.0 : strength * within;
         }
     }
-    vec3 ambient = has_place ? lights[first + 1].rgb * diffuse * material[2].w : vec3(0.0);
-    return strength * (ambient + reflected(diffuse, n, to_eye, eye_facing, to_light, lights[first].rgb));
+    vec3 ambient = has_place && !kPhong ? lights[first + 1].rgb * diffuse * material[2].w : vec3(0.0);
+    vec3 direct = reflected(diffuse, n, to_eye, eye_facing, to_light, lights[first].rgb);
+    if (shape != 0) direct *= open_to_light(first, shadow, shape, even);
+    return strength * (ambient + direct);
 }
 
-vec3 lit(vec3 diffuse, vec3 n, vec3 to_eye) {
-    vec3 sum = material[2].rgb + material[3].rgb * diffuse * material[2].w;
+// `even`: the normal without relief.
+vec3 lit(vec3 diffuse, vec3 ambient, vec3 n, vec3 even, vec3 to_eye) {
+    vec3 sum = material[2].rgb + ambient;
     float eye_facing = dot(n, to_eye);
     if (kHeadlight) sum += reflected(diffuse, n, to_eye, eye_facing, -headlight, vec3(1.0));
-    for (int i = 0; i < kDirectional; ++i) sum += from_light(5 * i, false, false, diffuse, n, to_eye, eye_facing);
-    for (int i = kDirectional; i < kDirectional + kPoints; ++i) {
-        sum += from_light(5 * i, true, false, diffuse, n, to_eye, eye_facing);
+    for (int i = 0; i < kDirectional; ++i) {
+        sum += from_light(5 * i, false, false, i, i < kShadowedDirectional ? 1 : 0, diffuse, n, even, to_eye, eye_facing);
     }
-    for (int i = kDirectional + kPoints; i < kLights; ++i) {
-        sum += from_light(5 * i, true, true, diffuse, n, to_eye, eye_facing);
+    for (int i = 0; i < kPoints; ++i) {
+        sum += from_light(5 * (kDirectional + i), true, false, kShadowedDirectional + i, i < kShadowedPoints ? 3 : 0,
+                          diffuse, n, even, to_eye, eye_facing);
+    }
+    for (int i = 0; i < kSpots; ++i) {
+        sum += from_light(5 * (kDirectional + kPoints + i), true, true, kShadowedDirectional + kShadowedPoints + i,
+                          i < kNarrowSpots ? 2 : i < kNarrowSpots + kWideSpots ? 3 : 0, diffuse, n, even, to_eye, eye_facing);
     }
     return sum;
 }
@@ -102,25 +149,43 @@ vec3 lit(vec3 diffuse, vec3 n, vec3 to_eye) {
 void main() {
     vec3 diffuse = kColours ? vertex_colour.rgb : material[0].rgb;
     float opacity = material[0].w;
+    vec3 shade = vec3(1.0);  // of the picture
     if (kPicture != 0) {
         vec4 texel = texture(surface_picture, place_on_texture);
         diffuse = kPicture == 2 ? diffuse * texel.rgb : texel.rgb;
+        if (kPhong) shade = texel.rgb;
         if (kPictureAlpha == 1 && texel.a < 0.5) discard;
         if (kPictureAlpha == 2) opacity = kPicture == 2 ? opacity * texel.a : texel.a;
     }
     vec3 colour = diffuse;
     vec3 to_eye = eye - place_in_world;
     if (kLit && normal_in_world != vec3(0.0)) {
-        vec3 n = normalize(normal_in_world) * (gl_FrontFacing ? 1.0 : -1.0);
-        colour = lit(diffuse, n, normalize(to_eye));
+        float side = gl_FrontFacing ? 1.0 : -1.0;
+        vec3 even = normalize(normal_in_world) * side;
+        vec3 n = kRelief ? in_relief(even * side) * side : even;
+        vec3 ambient = kPhong ? material[3].rgb * shade : material[3].rgb * diffuse * material[2].w;
+        if (kCover == 1) {  // wet: darker, and it mirrors lights
+            float up = smoothstep(0.6, 0.95, even.y);
+            diffuse *= 1.0 - 0.45 * up;
+            ambient *= 1.0 - 0.45 * up;
+            specular = mix(specular, vec3(0.35), up);
+            exponent = mix(exponent, 90.0, up);
+        } else if (kCover == 2) {
+            float up = 0.9 * smoothstep(0.55, 0.85, even.y);
+            diffuse = mix(diffuse, vec3(0.86), up);
+            ambient = mix(ambient, vec3(0.86) * cover_light, up);
+            specular *= 1.0 - up;
+        }
+        colour = lit(diffuse, ambient, n, even, normalize(to_eye));
     }
+    float kept = 1.0;
     if (kFog != 0) {
         float d = length(to_eye);
-        float kept = d >= fog_visibility ? 0.0
+        kept = d >= fog_visibility ? 0.0
                    : kFog == 2 ? exp(-d / (fog_visibility - d)) : (fog_visibility - d) / fog_visibility;
         colour = mix(fog, colour, kept);
     }
-    result = vec4(colour * opacity, opacity);
+    result = kVeil ? vec4(fog * (1.0 - kept), 1.0 - kept) : vec4(colour * opacity, opacity);
 })";
 
 }  // namespace rs::compositor::shaders

@@ -26,13 +26,17 @@ void main() {
     on_floor = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1) * radius;
     gl_Position = clip_from_world * vec4(on_floor.x, height, on_floor.y, 1.0);
 })";
-inline constexpr const char* kFloorFragment = R"(#version 450 core
+// Behind the constant kShadows (of directional lights) and kShadowLookUp.
+inline constexpr const char* kFloorFragment = R"(
 in vec2 on_floor;
+uniform float height;
 uniform float radius;
 uniform float square;
 uniform vec3 colour_a;
 uniform vec3 colour_b;
 uniform vec3 background;
+uniform vec3 unshadowed;                       // light that always arrives
+uniform vec4 shadowed[2 * max(kShadows, 1)];  // of each light: what arrives where it is not shadowed; its direction
 out vec4 result;
 void main() {
     float away = length(on_floor) / radius;
@@ -43,6 +47,14 @@ void main() {
     vec2 behind = abs(fract((p + 0.5 * footprint) * 0.5) - 0.5);
     vec2 mean = 2.0 * (before - behind) / footprint;
     vec3 checker = mix(colour_a, colour_b, 0.5 - 0.5 * mean.x * mean.y);
+    if (kShadows > 0) {
+        vec3 arriving = unshadowed;
+        for (int i = 0; i < kShadows; ++i) {
+            vec3 place = vec3(on_floor.x, height, on_floor.y);
+            arriving += shadowed[2 * i].rgb * parallel_shadow(4 * i, place, vec3(0.0, 1.0, 0.0), shadowed[2 * i + 1].xyz);
+        }
+        checker *= arriving;
+    }
     result = vec4(mix(checker, background, smoothstep(0.15, 1.0, away)), 1.0);
 })";
 

@@ -37,6 +37,7 @@ struct ShownNode {
     engine::ObjectHandle handle;  // of the object, in the frame's data module
     float opacity = 1;            // of the object, 0 .. 1
     std::optional<Placeholder> placeholder;
+    bool hidden = false;  // nowhere in this frame
 };
 using ShownNodes = std::vector<ShownNode>;
 

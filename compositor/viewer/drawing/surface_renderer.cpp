@@ -1,7 +1,9 @@
 #include "compositor/viewer/drawing/surface_renderer.hpp"
 
+#include "compositor/scene/normal_map.hpp"
 #include "compositor/viewer/drawing/geometry_shaders.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
+#include "compositor/viewer/shadows/shadow_shaders.hpp"
 
 #include <algorithm>
 #include <map>
@@ -10,7 +12,7 @@
 
 namespace rs::compositor {
 
-SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha,
+SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const GeometryNode& node, AlphaUse alpha,
                     const std::vector<std::uint32_t>& lights) {
     SurfaceKind kind;
     kind.lit = node.material.lit;
@@ -20,6 +22,19 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
             ++(light == LightKind::kDirectional ? kind.directional
                : light == LightKind::kPoint     ? kind.points
                                                 : kind.spots);
+            switch (shadows.shape_of(i)) {
+                case ShadowShape::kNone:
+                    break;
+                case ShadowShape::kParallel:
+                    ++kind.shadowed_directional;
+                    break;
+                case ShadowShape::kCone:
+                    ++kind.narrow_spots;
+                    break;
+                case ShadowShape::kCube:
+                    ++(light == LightKind::kPoint ? kind.shadowed_points : kind.wide_spots);
+                    break;
+            }
             kind.fading |= light != LightKind::kDirectional && scene.lights[i].attenuation != glm::vec3(1, 0, 0);
         }
         kind.headlight = scene.navigation.headlight;
@@ -28,6 +43,10 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
     kind.picture = !node.material.texture ? 0 : node.material.texture->modulates ? 2 : 1;
     kind.picture_alpha = alpha;
     kind.colours = node.mesh->has_colours;
+    kind.phong = scene.shading == Shading::kPhong;
+    kind.cover = kind.lit ? scene.cover : Cover::kNone;
+    kind.shiny |= kind.cover == Cover::kWet;
+    kind.relief = kind.lit && node.material.normals != nullptr;
     if (scene.fog) kind.fog = scene.fog->kind == FogKind::kLinear ? 1 : 2;
     return kind;
 }
@@ -35,11 +54,20 @@ SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha
 std::string constants_of(const SurfaceKind& kind) {
     return "#version 450 core\n" + shaders::shader_constant("kDirectional", kind.directional) +
            shaders::shader_constant("kPoints", kind.points) + shaders::shader_constant("kSpots", kind.spots) +
-           shaders::shader_constant("kFading", kind.fading) + shaders::shader_constant("kHeadlight", kind.headlight) +
-           shaders::shader_constant("kLit", kind.lit) + shaders::shader_constant("kShiny", kind.shiny) +
-           shaders::shader_constant("kPicture", kind.picture) +
+           shaders::shader_constant("kShadowedDirectional", kind.shadowed_directional) +
+           shaders::shader_constant("kShadowedPoints", kind.shadowed_points) +
+           shaders::shader_constant("kNarrowSpots", kind.narrow_spots) +
+           shaders::shader_constant("kWideSpots", kind.wide_spots) +
+           shaders::shader_constant(
+               "kShadows", kind.shadowed_directional + kind.shadowed_points + kind.narrow_spots + kind.wide_spots) +
+           "const float kNear = " + std::to_string(kNear) + ";\n" + shaders::shader_constant("kFading", kind.fading) +
+           shaders::shader_constant("kHeadlight", kind.headlight) + shaders::shader_constant("kLit", kind.lit) +
+           shaders::shader_constant("kShiny", kind.shiny) + shaders::shader_constant("kPicture", kind.picture) +
            shaders::shader_constant("kPictureAlpha", static_cast<int>(kind.picture_alpha)) +
-           shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kFog", kind.fog);
+           shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kRelief", kind.relief) +
+           shaders::shader_constant("kFog", kind.fog) + shaders::shader_constant("kPhong", kind.phong) +
+           shaders::shader_constant("kCover", static_cast<int>(kind.cover)) +
+           shaders::shader_constant("kVeil", kind.veil);
 }
 
 namespace {
@@ -84,82 +112,183 @@ public:
         return uploaded;
     }
 
+    std::shared_ptr<const gl::Texture> relief(const NormalMap& map) {
+        auto& uploaded = reliefs_[&map];
+        if (!uploaded) {
+            uploaded =
+                std::make_shared<const gl::Texture>(map.directions.view(), gl::TextureWrap{map.repeat_s, map.repeat_t});
+        }
+        return uploaded;
+    }
+
     AlphaUse alpha(const SceneTexture& texture) {
         const auto [found, is_new] = alphas_.try_emplace(&texture, AlphaUse::kNone);
         if (is_new) found->second = alpha_use(texture);
         return found->second;
     }
 
-    Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind) {
-        auto& made = programs_[kind];
-        if (!made) {
-            auto program =
-                gl::Program::create("surface", shaders::kSurfaceVertex, constants_of(kind) + shaders::kSurfaceFragment);
-            if (!program) return program.error();
-            made = std::make_shared<const gl::Program>(std::move(*program));
-        }
-        return made;
-    }
-    [[nodiscard]] std::vector<std::shared_ptr<const gl::Program>> programs() const {
-        std::vector<std::shared_ptr<const gl::Program>> all;
-        for (const auto& [kind, program] : programs_) all.push_back(program);
-        return all;
-    }
+    [[nodiscard]] int count() const { return static_cast<int>(meshes_.size() + pictures_.size() + reliefs_.size()); }
 
 private:
-    std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;
     std::map<const Mesh*, std::shared_ptr<const gl::VertexArray>> meshes_;
     std::map<const SceneTexture*, std::shared_ptr<const gl::Texture>> pictures_;
+    std::map<const NormalMap*, std::shared_ptr<const gl::Texture>> reliefs_;
     std::map<const SceneTexture*, AlphaUse> alphas_;
 };
 
+// What moves comes near to other lights in each frame: a dark one more, so that few kinds of shaders are needed.
+void pad(SurfaceKind& kind, std::vector<LightRow>& rows) {
+    const auto padded = [](int count) { return count < 3 ? count : count + (count % 2); };
+    const LightRow dark{glm::vec4(0), glm::vec4(0), glm::vec4(0, 0, 0, 1), glm::vec4(0, 0, -1, 0), {1, 0, 0, 1}};
+    const int points = padded(kind.points);
+    const int spots = padded(kind.spots);
+    rows.insert(rows.begin() + kind.directional + kind.points, static_cast<std::size_t>(points - kind.points), dark);
+    rows.resize(rows.size() + static_cast<std::size_t>(spots - kind.spots), dark);
+    kind.points = points;
+    kind.spots = spots;
+}
+
 }  // namespace
 
-Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene) {
-    SurfaceRenderer renderer;
-    renderer.fog_ = scene.fog;
-    renderer.headlight_ = scene.navigation.headlight;
+Result<std::shared_ptr<const gl::Program>> SurfaceRenderer::program(const SurfaceKind& kind) {
+    const auto known = programs_.find(kind);
+    if (known != programs_.end()) return known->second;
+    auto made = gl::Program::create("surface", shaders::kSurfaceVertex,
+                                    constants_of(kind) + shaders::kShadowLookUp + shaders::kSurfaceFragment);
+    if (!made) return made.error();
+    return programs_.emplace(kind, std::make_shared<const gl::Program>(std::move(*made))).first->second;
+}
+
+// Bounds, lights and the shader for where the node is now.
+Status SurfaceRenderer::put(Item& item) {
+    const GeometryNode& node = scene_.geometry[item.node];
+    item.bounds = item.bounds_in_node.moved(item.world_from_node);
+    const SurfaceLights lights =
+        node.moving ? lights_near(scene_, node, item.bounds) : lights_of(scene_, node, item.bounds);
+    SurfaceKind kind = kind_of(scene_, shadows_, node, item.alpha, lights.lights);
+    const std::vector<std::uint32_t> ordered = in_shader_order(scene_, shadows_, lights.lights);
+    item.lights = rows_of(scene_, ordered);
+    item.shadows = rows_of(shadows_, ordered);
+    if (node.moving && kind.lit) pad(kind, item.lights);
+    auto made = program(kind);
+    if (!made) return made.error();
+    item.program = std::move(*made);
+    if (kind.fog != 0) {
+        SurfaceKind veil{.fog = kind.fog, .veil = true};
+        if (kind.picture_alpha == AlphaUse::kMask) {
+            veil.picture = kind.picture;
+            veil.picture_alpha = kind.picture_alpha;
+        }
+        auto veiled = program(veil);
+        if (!veiled) return veiled.error();
+        item.veil = std::move(*veiled);
+    }
+    const glm::vec3 reflected = kind.phong ? phong_terms(node.material).ambient * lights.ambient : lights.ambient;
+    item.material.ambient_light = glm::vec4(reflected, 0);
+    item.mirrored = glm::determinant(glm::dmat3(item.world_from_node)) < 0;
+    return {};
+}
+
+void SurfaceRenderer::gather_ambient_light() {
+    ambient_light_ = glm::vec3(0);
+    for (const Light& light : scene_.lights) {
+        if (light.kind == LightKind::kDirectional && light.everywhere) ambient_light_ += light.ambient;
+    }
+}
+
+Status SurfaceRenderer::make_casters() {
+    if (shadows_.faces.empty() || caster_) return {};
+    auto caster = gl::Program::create("shadow", shaders::kCasterVertex, shaders::kCasterFragment);
+    if (!caster) return caster.error();
+    auto masked = gl::Program::create("shadow with holes", shaders::kCasterVertex, shaders::kMaskedCasterFragment);
+    if (!masked) return masked.error();
+    caster_.emplace(std::move(*caster));
+    masked_caster_.emplace(std::move(*masked));
+    return {};
+}
+
+Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const ShadowPlan& shadows) {
+    SurfaceRenderer renderer(scene, shadows);
+    if (const Status status = renderer.make_casters(); !status) return status.error();
+    renderer.gather_ambient_light();
     Uploads uploads;
-    for (const GeometryNode& node : scene.geometry) {
+    renderer.item_of_node_.resize(scene.geometry.size());
+    for (std::size_t i = 0; i < scene.geometry.size(); ++i) {
+        const GeometryNode& node = scene.geometry[i];
         if (node.mesh->indices.empty()) continue;
         Item item;
+        item.node = i;
         item.mesh = uploads.mesh(node.mesh);
         item.world_from_node = node.world_from_node;
-        item.bounds = bounds_of(*node.mesh).moved(node.world_from_node);
-        AlphaUse alpha = AlphaUse::kNone;
+        item.bounds_in_node = bounds_of(*node.mesh);
         if (node.material.texture) {
             item.picture = uploads.picture(*node.material.texture);
-            alpha = uploads.alpha(*node.material.texture);
+            item.alpha = uploads.alpha(*node.material.texture);
         }
-        const SurfaceLights lights = lights_of(scene, node, item.bounds);
-        auto program = uploads.program(kind_of(scene, node, alpha, lights.lights));
-        if (!program) return program.error();
-        item.program = std::move(*program);
-        item.material = row_of(node.material);
-        item.material.ambient_light = glm::vec4(lights.ambient, 0);
-        item.lights = rows_of(scene, lights.lights);
+        if (node.material.lit && node.material.normals) item.relief = uploads.relief(*node.material.normals);
+        item.throws_shadows = throws_shadows(node);
+        item.material = row_of(node.material, scene.shading);
+        if (const Status status = renderer.put(item); !status) return status.error();
         item.texture_transform = node.material.texture_transform;
-        item.transparent = node.material.opacity < 1 || alpha == AlphaUse::kBlend;
+        item.transparent = node.material.opacity < 1 || item.alpha == AlphaUse::kBlend;
         item.two_sided = node.mesh->two_sided;
-        item.mirrored = glm::determinant(glm::dmat3(node.world_from_node)) < 0;
+        renderer.item_of_node_[i] = renderer.items_.size();
         renderer.items_.push_back(std::move(item));
     }
-    renderer.programs_ = uploads.programs();
+    renderer.uploads_ = uploads.count();
     return renderer;
 }
 
+Status SurfaceRenderer::move(std::size_t node, const std::optional<glm::dmat4>& world_from_node) {
+    RS_CHECK(node < scene_.geometry.size() && scene_.geometry[node].moving);
+    if (!item_of_node_[node]) return {};
+    Item& item = items_[*item_of_node_[node]];
+    item.hidden = !world_from_node;
+    if (item.hidden || *world_from_node == item.world_from_node) return {};
+    item.world_from_node = *world_from_node;
+    return put(item);
+}
+
+Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows) {
+    scene_.lights = scene.lights;
+    scene_.environment = scene.environment;
+    scene_.navigation.headlight = scene.navigation.headlight;
+    for (std::size_t n = 0; n < scene.geometry.size(); ++n) scene_.geometry[n].lights = scene.geometry[n].lights;
+    shadows_ = shadows;
+    if (Status status = make_casters(); !status) return status;
+    gather_ambient_light();
+    for (Item& item : items_) {
+        if (Status status = put(item); !status) return status;
+    }
+    return {};
+}
+
+bool SurfaceRenderer::stands(std::size_t node, const std::optional<glm::dmat4>& world_from_node) const {
+    if (!item_of_node_[node]) return true;
+    const Item& item = items_[*item_of_node_[node]];
+    return world_from_node ? !item.hidden && *world_from_node == item.world_from_node : item.hidden;
+}
+
+BoundingBox SurfaceRenderer::caster_bounds(std::size_t node) const {
+    if (!item_of_node_[node]) return {};
+    const Item& item = items_[*item_of_node_[node]];
+    return item.hidden || !item.throws_shadows ? BoundingBox{} : item.bounds;
+}
+
 void SurfaceRenderer::set_frame(const FrameView& view) const {
-    for (const auto& program : programs_) {
+    const auto& fog = scene_.fog;
+    for (const auto& [kind, program] : programs_) {
         if (program->uses("eye")) program->set("eye", glm::vec3(view.camera.centre()));
         if (program->uses("headlight")) program->set("headlight", glm::vec3(view.camera.forward()));
-        if (!fog_) continue;
-        if (program->uses("fog")) program->set("fog", fog_->colour);
-        if (program->uses("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog_->visibility));
+        if (program->uses("cover_light")) program->set("cover_light", ambient_light_);
+        if (!fog) continue;
+        if (program->uses("fog")) program->set("fog", fog->colour);
+        if (program->uses("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog->visibility));
     }
 }
 
-void SurfaceRenderer::draw(const Item& item, const FrameView& view, gl::DrawState state) const {
-    const gl::Program& program = *item.program;
+void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const FrameView& view,
+                           gl::DrawState state) const {
     const auto set = [&](const char* name, const auto& value) {
         if (program.uses(name)) program.set(name, value);
     };
@@ -170,7 +299,9 @@ void SurfaceRenderer::draw(const Item& item, const FrameView& view, gl::DrawStat
     // Rows of vec4 without gaps: surface_tables.cpp asserts their sizes.
     set("material", std::span(&item.material.diffuse_opacity, 4));
     if (!item.lights.empty()) set("lights", std::span(&item.lights.front().colour, 5 * item.lights.size()));
+    if (!item.shadows.empty()) set("shadows", std::span(&item.shadows.front().u, 4 * item.shadows.size()));
     if (item.picture) item.picture->bind(0);
+    if (item.relief) item.relief->bind(4);
     state.clockwise = item.mirrored;
     gl::draw(program, *item.mesh, state);
 }
@@ -182,7 +313,7 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
     std::vector<std::size_t> opaque;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
-        if (!may_be_seen(item.bounds, view)) continue;
+        if (item.hidden || !may_be_seen(item.bounds, view)) continue;
         ++nodes_in_view_;
         if (item.transparent) {
             transparent.push_back({i, glm::distance(item.bounds.middle(), view.camera.centre())});
@@ -203,8 +334,37 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
     };
     std::stable_sort(opaque.begin(), opaque.end(),
                      [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
-    for (const std::size_t i : opaque) draw(items_[i], view, state_of(items_[i]));
+    for (const std::size_t i : opaque) draw(items_[i], *items_[i].program, view, state_of(items_[i]));
     return transparent;
+}
+
+void SurfaceRenderer::draw_veil(const FrameView& view) const {
+    for (const Item& item : items_) {
+        if (!item.veil || item.hidden || item.transparent || !may_be_seen(item.bounds, view)) continue;
+        draw(item, *item.veil, view,
+             {.depth_write = false,
+              .blending = gl::Blending::kOverPremultiplied,
+              .culling = item.two_sided ? gl::Culling::kNone : gl::Culling::kBack});
+    }
+}
+
+void SurfaceRenderer::draw_casters(const ShadowFace& face) const {
+    for (const Item& item : items_) {
+        if (!item.throws_shadows || item.hidden || !may_throw(item.bounds, face)) continue;
+        const std::vector<std::uint32_t>& own_lights = scene_.geometry[item.node].lights;
+        if (!scene_.lights[face.light].everywhere && std::ranges::find(own_lights, face.light) == own_lights.end()) {
+            continue;
+        }
+        const bool masked = item.alpha == AlphaUse::kMask;
+        const gl::Program& program = masked ? *masked_caster_ : *caster_;
+        program.set("clip_from_node", glm::mat4(face.clip_from_world * item.world_from_node));
+        if (masked) {
+            program.set("texture_transform", item.texture_transform);
+            item.picture->bind(0);
+        }
+        gl::draw(program, *item.mesh,
+                 {.culling = item.two_sided ? gl::Culling::kNone : gl::Culling::kBack, .clockwise = item.mirrored});
+    }
 }
 
 void SurfaceRenderer::draw_transparent(const Transparent& transparent, const FrameView& view, bool wire_frame) const {
@@ -214,10 +374,10 @@ void SurfaceRenderer::draw_transparent(const Transparent& transparent, const Fra
     // The inner sides lie behind the outer ones.
     if (item.two_sided) {
         state.culling = gl::Culling::kFront;
-        draw(item, view, state);
+        draw(item, *item.program, view, state);
     }
     state.culling = gl::Culling::kBack;
-    draw(item, view, state);
+    draw(item, *item.program, view, state);
 }
 
 }  // namespace rs::compositor

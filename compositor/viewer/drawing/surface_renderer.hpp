@@ -9,11 +9,14 @@
 #include "compositor/gl/vertex_array.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/surface_tables.hpp"
+#include "compositor/viewer/shadows/shadow_plan.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
 #include "rayspace/base/result.hpp"
 
 #include <compare>
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +30,10 @@ struct SurfaceKind {
     int directional = 0;  // lights that reach it
     int points = 0;
     int spots = 0;
+    int shadowed_directional = 0;  // the first so many of them throw shadows
+    int shadowed_points = 0;
+    int narrow_spots = 0;  // the first so many, with a single map; then those with a cube of them
+    int wide_spots = 0;
     bool fading = false;  // some of these lights are weaker farther away
     bool headlight = false;
     bool lit = false;
@@ -34,12 +41,16 @@ struct SurfaceKind {
     int picture = 0;  // 0 none, 1 in place of the material's colour, 2 times it
     AlphaUse picture_alpha = AlphaUse::kNone;
     bool colours = false;  // of its own at the corners
+    bool relief = false;   // NormalMap
     int fog = 0;           // 0 none, 1 linear, 2 exponential
+    bool phong = false;    // by Phong's formula
+    Cover cover = Cover::kNone;
+    bool veil = false;  // nothing but the fog before it
     auto operator<=>(const SurfaceKind&) const = default;
 };
 
 // `lights`: those that reach it, in any order.
-SurfaceKind kind_of(const Scene& scene, const GeometryNode& node, AlphaUse alpha,
+SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const GeometryNode& node, AlphaUse alpha,
                     const std::vector<std::uint32_t>& lights);
 
 // The head of its fragment shader.
@@ -48,7 +59,13 @@ std::string constants_of(const SurfaceKind& kind);
 // Needs a gl::Context that is current, and outlives it; one thread. Move-only.
 class SurfaceRenderer {
 public:
-    static Result<SurfaceRenderer> create(const Scene& scene);
+    // Those lights throw shadows that have maps by `shadows`; where there are any, they are bound (ShadowMaps::bind)
+    // when surfaces are drawn.
+    static Result<SurfaceRenderer> create(const Scene& scene, const ShadowPlan& shadows = {});
+
+    // The lights, environment and headlight of `scene`, whose geometry is that of the scene that this was made of, and
+    // which of them throw shadows. Fails where the driver refuses a shader.
+    Status set_lights(const Scene& scene, const ShadowPlan& shadows);
 
     struct Transparent {
         std::size_t index;
@@ -56,7 +73,26 @@ public:
     };
     // Draws what is opaque and returns what is not but may be in the picture, to be drawn from the farthest on.
     std::vector<Transparent> draw_opaque(const FrameView& view, bool wire_frame);
+    // The fog before what is opaque, over a picture of it that has none. Nothing where there is no fog.
+    void draw_veil(const FrameView& view) const;
     void draw_transparent(const Transparent& item, const FrameView& view, bool wire_frame) const;
+
+    // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Only its numbers change,
+    // unless lights reach it in a number for which there is no shader yet.
+    Status move(std::size_t node, const std::optional<glm::dmat4>& world_from_node);
+    // Whether it stands there, or nowhere, already.
+    [[nodiscard]] bool stands(std::size_t node, const std::optional<glm::dmat4>& world_from_node) const;
+
+    // From where a node throws shadows, in scene coordinates; empty where it throws none.
+    [[nodiscard]] BoundingBox caster_bounds(std::size_t node) const;
+
+    // Meshes and pictures that were given to the driver since create() began, and shaders.
+    [[nodiscard]] int uploads() const { return uploads_; }
+    [[nodiscard]] int shaders_made() const { return static_cast<int>(programs_.size()); }
+
+    // What throws shadows on a map that has begun: opaque surfaces, with the holes of their pictures, from the sides
+    // from which they are seen.
+    void draw_casters(const ShadowFace& face) const;
 
     // Of the last draw_opaque(): geometry nodes that the frustum let pass.
     [[nodiscard]] int nodes_in_view() const { return nodes_in_view_; }
@@ -65,24 +101,41 @@ private:
     struct Item {
         std::shared_ptr<const gl::VertexArray> mesh;
         std::shared_ptr<const gl::Texture> picture;
+        std::shared_ptr<const gl::Texture> relief;
         glm::dmat4 world_from_node;
+        BoundingBox bounds_in_node;
         BoundingBox bounds;                          // in scene coordinates
+        std::size_t node = 0;                        // of Scene::geometry
+        AlphaUse alpha = AlphaUse::kNone;            // of its picture
         std::shared_ptr<const gl::Program> program;  // of its kind
+        std::shared_ptr<const gl::Program> veil;     // null where there is no fog
         MaterialRow material;
         std::vector<LightRow> lights;
+        std::vector<ShadowRow> shadows;
+        bool throws_shadows = false;
         glm::mat3 texture_transform{1};
         bool transparent = false;
         bool two_sided = true;
         bool mirrored = false;  // by its matrix
+        bool hidden = false;
     };
-    SurfaceRenderer() = default;
+    SurfaceRenderer(const Scene& scene, const ShadowPlan& shadows) : scene_(scene), shadows_(shadows) {}
+    Status make_casters();
+    Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind);
+    Status put(Item& item);
+    void gather_ambient_light();
     void set_frame(const FrameView& view) const;
-    void draw(const Item& item, const FrameView& view, gl::DrawState state) const;
+    void draw(const Item& item, const gl::Program& program, const FrameView& view, gl::DrawState state) const;
 
-    std::vector<std::shared_ptr<const gl::Program>> programs_;  // one for each kind of surface that there is
+    Scene scene_;
+    ShadowPlan shadows_;
+    std::optional<gl::Program> caster_;
+    std::optional<gl::Program> masked_caster_;
+    std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;  // one for each kind of surface that there is
     std::vector<Item> items_;
-    std::optional<Fog> fog_;
-    bool headlight_ = false;
+    std::vector<std::optional<std::size_t>> item_of_node_;
+    glm::vec3 ambient_light_{0};  // of all directional lights that shine everywhere
+    int uploads_ = 0;
     int nodes_in_view_ = 0;
 };
 

@@ -1,10 +1,11 @@
 #include "compositor/viewer/drawing/surface_tables.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rs::compositor {
 
-static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 64);
+static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 64 && sizeof(ShadowRow) == 64);
 
 namespace {
 
@@ -56,14 +57,23 @@ LightRow row_of(const Light& light) {
             {light.attenuation, light.least_attenuation}};
 }
 
-MaterialRow row_of(const Material& material) {
+MaterialRow row_of(const Material& material, Shading shading) {
+    if (shading == Shading::kPhong) {
+        return {{material.diffuse, material.opacity},
+                {material.specular, phong_terms(material).exponent},
+                {material.emissive, 0},
+                {}};
+    }
     return {{material.diffuse, material.opacity},
             {material.specular, material.shininess * 128},
             {material.emissive, material.ambient},
             {}};
 }
 
-SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world) {
+namespace {
+
+std::vector<std::uint32_t> lights_that_reach(const Scene& scene, const GeometryNode& node,
+                                             const BoundingBox& box_in_world) {
     std::vector<std::uint32_t> reaching = node.lights;
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
@@ -73,9 +83,23 @@ SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const Boun
             reaching.push_back(i);
         }
     }
+    return reaching;
+}
+
+}  // namespace
+
+SurfaceLights lights_near(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world) {
+    SurfaceLights found{lights_that_reach(scene, node, box_in_world), glm::vec3(0)};
+    for (const std::uint32_t i : found.lights) {
+        if (scene.lights[i].kind == LightKind::kDirectional) found.ambient += scene.lights[i].ambient;
+    }
+    return found;
+}
+
+SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world) {
     SurfaceLights found;
     const SurfaceInWorld surface(node);
-    for (const std::uint32_t i : reaching) {
+    for (const std::uint32_t i : lights_that_reach(scene, node, box_in_world)) {
         const Light& light = scene.lights[i];
         const bool directional = light.kind == LightKind::kDirectional;
         if (directional) found.ambient += light.ambient;
@@ -86,12 +110,34 @@ SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const Boun
     return found;
 }
 
+std::vector<std::uint32_t> in_shader_order(const Scene& scene, const ShadowPlan& shadows,
+                                           std::vector<std::uint32_t> lights) {
+    const auto place = [&](std::uint32_t i) {
+        const LightKind kind = scene.lights[i].kind;
+        const ShadowShape shape = shadows.shape_of(i);
+        return std::pair(kind == LightKind::kDirectional ? 0
+                         : kind == LightKind::kPoint     ? 1
+                                                         : 2,
+                         shape == ShadowShape::kNone   ? 2
+                         : shape == ShadowShape::kCube ? 1
+                                                       : 0);
+    };
+    std::ranges::stable_sort(lights, {}, place);
+    return lights;
+}
+
 std::vector<LightRow> rows_of(const Scene& scene, const std::vector<std::uint32_t>& lights) {
     std::vector<LightRow> rows;
-    for (const LightKind kind : {LightKind::kDirectional, LightKind::kPoint, LightKind::kSpot}) {
-        for (const std::uint32_t i : lights) {
-            if (scene.lights[i].kind == kind) rows.push_back(row_of(scene.lights[i]));
-        }
+    for (const std::uint32_t i : lights) rows.push_back(row_of(scene.lights[i]));
+    return rows;
+}
+
+std::vector<ShadowRow> rows_of(const ShadowPlan& shadows, const std::vector<std::uint32_t>& lights) {
+    std::vector<ShadowRow> rows;
+    for (const std::uint32_t i : lights) {
+        if (shadows.shape_of(i) == ShadowShape::kNone) continue;
+        const LightShadow& shadow = shadows.of_light[i];
+        rows.push_back({shadow.row_u, shadow.row_v, shadow.row_depth, shadow.layer_texel});
     }
     return rows;
 }

@@ -208,7 +208,7 @@ TEST(Radiosity, KeepsVirtualLightsThatTheCameraSeesTheLightOf) {
                 Sampler sampler(mix_bits(static_cast<std::uint64_t>(pixel)), static_cast<std::uint32_t>(pass));
                 const glm::dvec3 ray = glm::normalize(camera.ray(pixel % 12 + 0.5, pixel / 12 + 0.5));
                 glm::vec3 radiance;
-                tracer.trace(glm::vec3(camera.centre()), glm::vec3(ray), sampler, radiance);
+                tracer.trace(glm::vec3(camera.centre()), glm::vec3(ray), 0.0F, sampler, radiance);
                 of_pass += static_cast<double>(radiance.g) / 144;
             }
             sum += of_pass;

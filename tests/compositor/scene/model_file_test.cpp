@@ -1,5 +1,6 @@
 #include "compositor/scene/model_file.hpp"
 
+#include "compositor/scene/normal_map.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -140,6 +141,36 @@ TEST_F(ModelFile, PicturesBesideTheFileModulate) {
     EXPECT_TRUE(scene->geometry[0].material.texture->modulates);
     EXPECT_FALSE(scene->geometry[0].material.texture->has_alpha) << "an opaque material ignores alpha";
     EXPECT_FALSE(scene->geometry[0].mesh->two_sided);
+}
+
+TEST_F(ModelFile, NormalAndBumpMapsBecomeRelief) {
+    ASSERT_TRUE(write_png(folder_ / "bent.png", Image<Rgba8>(4, 4, Rgba8{255, 128, 255, 255})).ok());
+    Image<Rgba8> step(4, 4, Rgba8{0, 0, 0, 255});
+    for (int y = 0; y < 4; ++y) step(2, y) = step(3, y) = {255, 255, 255, 255};
+    ASSERT_TRUE(write_png(folder_ / "step.png", step).ok());
+    const auto bent = read(gltf(R"({"mesh": 0})", R"(, "materials": [{"normalTexture": {"index": 0, "scale": 0.5}}],
+        "textures": [{"source": 0}], "images": [{"uri": "bent.png"}])"));
+    ASSERT_TRUE(bent) << bent.error().message;
+    ASSERT_TRUE(bent->geometry.at(0).material.normals);
+    EXPECT_EQ(bent->geometry[0].material.normals->directions(1, 1), (RgbaF{0.5F, 0, 1, 1}));
+    EXPECT_FALSE(bent->geometry[0].material.texture);
+
+    const std::string triangle =
+        "mtllib hall.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n";
+    const auto of_mtl = [&](const std::string& lines) {
+        std::ofstream(folder_ / "hall.mtl") << "newmtl m\nKd 0.5 0.5 0.5\n" << lines;
+        return read(triangle, "hall.obj");
+    };
+    for (const char* keyword : {"map_bump", "map_Bump", "bump"}) {
+        const auto scene = of_mtl(keyword + std::string(" -bm 0.25 step.png\n"));
+        ASSERT_TRUE(scene) << scene.error().message;
+        ASSERT_TRUE(scene->geometry.at(0).material.normals) << keyword;
+        EXPECT_FLOAT_EQ(scene->geometry[0].material.normals->directions(1, 1).r, -0.25F * 4) << keyword;
+    }
+    const auto scene = of_mtl("norm bent.png\n");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene->geometry.at(0).material.normals);
+    EXPECT_EQ(scene->geometry[0].material.normals->directions(0, 0), (RgbaF{1, 0, 1, 1}));
 }
 
 TEST_F(ModelFile, ABinaryFileIsRead) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <chrono>
 #include <cmath>
@@ -176,6 +177,71 @@ TEST(TracedRenderer, PassesGiveTheSameBitsInAnyNumberOfThreads) {
     }
 }
 
+Scene moving_room() {
+    Scene scene = small_room();
+    scene.geometry[1].moving = 7;
+    for (const double x : {-2.0, 2.0}) {
+        scene.geometry.push_back(scene.geometry[1]);
+        scene.geometry.back().world_from_node[3] = {x, 0.5, 0, 1};
+        scene.geometry.back().world_from_node[0] = {0.3, 0.2, 0, 0};
+    }
+    scene.geometry[3].moving = 8;
+    return scene;
+}
+
+TEST(TracedRoom, WhatMayMoveIsAPartThatNodesShare) {
+    Scene scene = moving_room();
+    scene.geometry.push_back(scene.geometry[3]);
+    scene.geometry.back().material.diffuse = glm::vec3(0.5F);  // looks otherwise
+    const TracedRoom room = traced_room(scene);
+    EXPECT_EQ(room.scene.meshes.size(), 1U);
+    EXPECT_EQ(room.scene.parts.size(), 2U);
+    ASSERT_EQ(room.scene.instances.size(), 4U);
+    EXPECT_EQ(room.moving[2].id, 8U);
+    EXPECT_EQ(room.scene.instances[1].part, room.scene.instances[2].part);
+}
+
+// What moves looks as what was read at its new place.
+TEST(TracedRenderer, MovedNodesLookAsReadThere) {
+    const Camera camera = looking_from({3, 3, 5}, {0, 0.4, 0}, 64);
+    const auto picture_of = [&](TracedRenderer& renderer) {
+        renderer.look(camera);
+        EXPECT_TRUE(renderer.add_pass());
+        return renderer.radiance();
+    };
+    Scene scene = moving_room();
+    auto moved = renderer_of(scene);
+    ASSERT_TRUE(moved);
+    moved->set_method(TracedMethod::kWhitted);
+    const Image<RgbaF> before = picture_of(*moved);
+    const glm::dmat4 way = glm::translate(glm::dmat4(1), {0.3, 0.2, 1});
+    ASSERT_TRUE(moved->move(7, way));
+    EXPECT_FALSE(moved->move(9, way));            // no such node
+    EXPECT_FALSE(moved->move(8, glm::dmat4(0)));  // no inverse
+    const Image<RgbaF> after = picture_of(*moved);
+    for (GeometryNode& node : scene.geometry) {
+        if (node.moving == 7U) node.world_from_node = way * node.world_from_node;
+        node.moving.reset();
+    }
+    auto still = renderer_of(scene);
+    ASSERT_TRUE(still);
+    still->set_method(TracedMethod::kWhitted);
+    const Image<RgbaF> expected = picture_of(*still);
+    int other = 0, wrong = 0;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            other += std::abs(before(x, y).r - expected(x, y).r) > 1e-3F;
+            wrong += std::abs(after(x, y).r - expected(x, y).r) > 1e-3F;
+        }
+    }
+    EXPECT_GT(other, 200);
+    EXPECT_LT(wrong, 10);
+    // While the shutter is open a shadow's edge goes on: pictures become grey there.
+    ASSERT_TRUE(moved->move(7, way, glm::translate(way, {0.5, 0, 0})));
+    const Image<RgbaF> blurred = picture_of(*moved);
+    EXPECT_NE(blurred, after);
+}
+
 TEST(TracedRenderer, ExposureCountsInStops) {
     const Camera camera = looking_from({0, 5, 0.1}, {0, 0, 0}, 9);
     auto plain = renderer_of(small_room(), -2);
@@ -188,6 +254,48 @@ TEST(TracedRenderer, ExposureCountsInStops) {
     EXPECT_EQ(plain->radiance()(1, 1), brighter->radiance()(1, 1));
     const auto linear = [](std::uint8_t code) { return std::pow((code / 255.0 + 0.055) / 1.055, 2.4); };
     EXPECT_NEAR(linear(brighter->picture()(1, 1).g) / linear(plain->picture()(1, 1).g), 2, 0.1);
+}
+
+// Whatever is changed of the light, and back again, the bits are those of a renderer that began with it.
+TEST(TracedRenderer, EditedLightGivesThePicturesOfASceneThatHasIt) {
+    const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 33);
+    Scene first = small_room();
+    EnvironmentLight sky;
+    sky.pixels = std::make_shared<const Image<RgbaF>>(4, 2, RgbaF{1, 2, 4, 1});
+    sky.scale = 0.1F;
+    first.environment = sky;
+    Scene moved = first;
+    moved.lights[0].location = {-1, 2, 0};
+    Scene turned = moved;
+    turned.environment->turn_rad = 1;
+    turned.environment->scale = 0.3F;
+    Scene other = turned;
+    other.environment->pixels = std::make_shared<const Image<RgbaF>>(2, 2, RgbaF{3, 1, 0, 1});
+    other.environment->seen = true;
+    Scene none = small_room();
+    none.lights = {rectangle_light({-1, 4, -1}, {2, 0, 0}, {0, 0, 2}, glm::vec3(3))};
+    Scene dark = none;
+    dark.lights.clear();
+    dark.navigation.headlight = true;
+    const auto picture = [&](TracedRenderer& renderer) {
+        renderer.look(camera);
+        for (int pass = 0; pass < 2; ++pass) EXPECT_TRUE(renderer.add_pass());
+        return std::pair(renderer.radiance(), renderer.picture());
+    };
+    for (const NamedMethod& named : kTracedMethods) {
+        auto edited = renderer_of(first);
+        ASSERT_TRUE(edited);
+        edited->set_method(named.method);
+        double exposure_ev = 0;
+        for (const Scene* scene : {&moved, &turned, &other, &none, &dark, &first}) {
+            exposure_ev += 0.5;
+            edited->set_lights(*scene, exposure_ev);
+            auto fresh = renderer_of(*scene, exposure_ev);
+            ASSERT_TRUE(fresh);
+            fresh->set_method(named.method);
+            EXPECT_EQ(picture(*edited), picture(*fresh)) << named.name << " " << exposure_ev;
+        }
+    }
 }
 
 TEST(TracedRenderer, TheHeadlightIsCarriedWhereNothingElseShines) {
@@ -235,6 +343,39 @@ TEST(Refinement, GoesFromCoarseToFineAndBeginsAnew) {
     EXPECT_EQ(other->width(), 20);
     refinement.end();
     EXPECT_FALSE(refinement.failure());
+}
+
+TEST(Refinement, ChangesItsLightWithoutANewTracer) {
+    std::atomic<int> made{0};
+    Refinement refinement([&made] {
+        ++made;
+        return renderer_of(small_room());
+    });
+    const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 40);
+    const auto first_pass = [&] {
+        const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+        for (std::shared_ptr<const Image<Rgba8>> first; std::chrono::steady_clock::now() < patience;) {
+            const auto step = refinement.take();
+            if (step && step->passes == 1) first = step->picture;
+            if (first) return *first;
+            // The first pass may have been overtaken.
+            if (step && step->passes > 1) refinement.begin(camera);
+            std::this_thread::yield();
+        }
+        return Image<Rgba8>();
+    };
+    refinement.begin(camera);
+    const Image<Rgba8> before = first_pass();
+    Scene moved = small_room();
+    moved.lights[0].location = {-2, 3, 0};
+    refinement.set_lights({std::make_shared<const Scene>(moved), 0});
+    refinement.begin(camera);
+    const Image<Rgba8> after = first_pass();
+    EXPECT_NE(after, before);
+    refinement.set_lights({std::make_shared<const Scene>(small_room()), 0});
+    refinement.begin(camera);
+    EXPECT_EQ(first_pass(), before);
+    EXPECT_EQ(made, 1);
 }
 
 TEST(Refinement, AGridIsTheMiddleOfItsPixels) {

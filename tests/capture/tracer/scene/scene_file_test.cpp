@@ -179,6 +179,45 @@ TEST_F(SceneFileTest, UnknownKeysAreErrorsThatNameThem) {
                 HasSubstr("environment: unknown key \"gamma\""));
 }
 
+TEST_F(SceneFileTest, CartoonsHaveAStyle) {
+    const Result<SceneFile> plain = load(R"({"object": {"mesh": "bare.obj"}, "look": "toon"})");
+    ASSERT_TRUE(plain) << plain.error().message;
+    ASSERT_TRUE(plain->toon);
+    EXPECT_EQ(plain->toon->thresholds, ToonStyle{}.thresholds);
+    EXPECT_FALSE(load(R"({"object": {"mesh": "bare.obj"}})")->toon);
+    const Result<SceneFile> styled = load(R"({"object": {"mesh": "bare.obj"}, "look": "toon",
+        "camera": {"aperture_radii": 0.1, "focus_radii": 3},
+        "toon": {"thresholds": [0.7, 0.2], "values": [0.9, 0.6, 0.2], "edge_radius": 0.01, "edge_depth": 0.05,
+                 "edge_angle_deg": 45, "edge_colour": [0.1, 0, 0.2], "shadow_rays": 8}})");
+    ASSERT_TRUE(styled) << styled.error().message;
+    EXPECT_EQ(styled->camera.aperture_radii, 0.1);
+    EXPECT_EQ(styled->camera.focus_radii, 3);
+    const ToonStyle& style = *styled->toon;
+    EXPECT_EQ(style.tone(0.7F), 0.9F);
+    EXPECT_EQ(style.tone(0.69F), 0.6F);
+    EXPECT_EQ(style.tone(0.1F), 0.2F);
+    EXPECT_EQ(style.edge_radius, 0.01F);
+    EXPECT_EQ(style.edge_depth, 0.05F);
+    EXPECT_NEAR(style.edge_angle_rad, kPi / 4, 1e-6);
+    EXPECT_EQ(style.edge_colour, glm::vec3(0.1F, 0, 0.2F));
+    EXPECT_EQ(style.shadow_rays, 8);
+}
+
+TEST_F(SceneFileTest, WrongStylesOfCartoonsAreErrors) {
+    const auto wrong = [&](const std::string& style) {
+        return error(R"({"object": {"mesh": "bare.obj"}, "look": "toon", "toon": )" + style + "}");
+    };
+    EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "look": "oil"})"), HasSubstr("look: must be"));
+    EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "toon": {}})"), HasSubstr("toon: is for \"look\": \"toon\""));
+    EXPECT_THAT(wrong(R"({"thresholds": [0.5]})"), HasSubstr("toon.values: must be one more than \"thresholds\""));
+    EXPECT_THAT(wrong(R"({"thresholds": [0.1, 0.2, 0.3, 0.4]})"), HasSubstr("toon.thresholds: must fall"));
+    EXPECT_THAT(wrong(R"({"thresholds": [0.9, 0.8, 0.7, -0.1]})"), HasSubstr("toon.thresholds: must be a list"));
+    EXPECT_THAT(wrong(R"({"values": 3})"), HasSubstr("toon.values: must be a list"));
+    EXPECT_THAT(wrong(R"({"values": "abcde"})"), HasSubstr("toon.values: must be a list"));
+    EXPECT_THAT(wrong(R"({"edge_radius": -1})"), HasSubstr("toon.edge_radius: must be a number"));
+    EXPECT_THAT(wrong(R"({"width": 2})"), HasSubstr("unknown key \"width\""));
+}
+
 TEST_F(SceneFileTest, WrongValuesAreErrorsThatNameThePlace) {
     EXPECT_THAT(error("{"), HasSubstr("is not valid JSON"));
     EXPECT_THAT(error("[]"), HasSubstr("must be an object"));

@@ -1,4 +1,4 @@
-#include "capture/tracer/integrator/coverage.hpp"
+#include "capture/tracer/session/coverage.hpp"
 
 #include "capture/tracer/integrator/sampler.hpp"
 #include "rayspace/base/parallel.hpp"
@@ -20,7 +20,7 @@ float covered_share(const RayScene& scene, const RayPicture& rays, int x, int y,
     for (int i = 0; i < count; ++i) {
         const glm::dvec2 offset(Sampler(key, static_cast<std::uint32_t>(i)).next_2d());
         const glm::vec3 direction(glm::normalize(rays.ray(x + offset.x, y + offset.y)));
-        hits += scene.occluded(centre, direction, std::numeric_limits<float>::infinity()) ? 1 : 0;
+        hits += scene.occluded(centre, direction, std::numeric_limits<float>::infinity(), 0.0F) ? 1 : 0;
     }
     return static_cast<float>(hits) / static_cast<float>(count);
 }

@@ -1,0 +1,215 @@
+#include "compositor/displays/walls_file.hpp"
+
+#include "compositor/scene/strict_json.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/file/file_output.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace rs::compositor {
+namespace {
+
+constexpr std::uint64_t kMostWalls_bytes = std::uint64_t{4} << 20;
+constexpr std::uint64_t kMostHeads_bytes = std::uint64_t{64} << 20;
+constexpr std::size_t kMostWalls = 64;
+constexpr std::size_t kMostHeads = 100000;
+constexpr double kFarthest_m = 1e4;
+constexpr double kFarthestPlace = 1e6;  // scene units
+constexpr double kMostTurn_deg = 36000;
+constexpr double kFittedShare = 0.8;  // of the table's shorter side
+
+double angle(JsonObject& object, const char* key) {
+    return object.has(key) ? radians(object.take(key).number(-kMostTurn_deg, kMostTurn_deg)) : 0;
+}
+
+glm::dvec3 corner(JsonObject& object, const char* key) {
+    return object.take(key).triple(-kFarthest_m, kFarthest_m);
+}
+
+// Fit for a file: letters, digits, '-', '_', '.', not at the beginning.
+bool is_file_name(const std::string& name) {
+    return name.size() <= 64 && name.front() != '.' && name.front() != '-' &&
+           std::all_of(name.begin(), name.end(), [](char c) {
+               return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                      c == '_' || c == '.';
+           });
+}
+
+Wall take_wall(JsonObject object) {
+    Wall wall;
+    const JsonValue name = object.take("name");
+    wall.name = name.text();
+    if (!is_file_name(wall.name)) {
+        throw name.wrong(
+            "names files: it must have 1 to 64 letters, digits, '-', '_' and '.', and begin with a letter "
+            "or digit");
+    }
+    wall.lower_left = corner(object, "lower_left");
+    wall.lower_right = corner(object, "lower_right");
+    wall.upper_left = corner(object, "upper_left");
+    const JsonValue pixels = object.take("pixels");
+    pixels.list_size(2, 2);
+    wall.width = pixels.item(0).whole_number(1, kMaxPictureSide_px);
+    wall.height = pixels.item(1).whole_number(1, kMaxPictureSide_px);
+    object.expect_all_taken();
+    if (const Status fine = check_wall(wall); !fine) throw object.wrong(fine.error().message);
+    return wall;
+}
+
+Head take_head(JsonObject object) {
+    Head head;
+    head.position = corner(object, "position");
+    head.heading_rad = angle(object, "heading_deg");
+    head.pitch_rad = angle(object, "pitch_deg");
+    head.roll_rad = angle(object, "roll_deg");
+    object.expect_all_taken();
+    return head;
+}
+
+RoomPlace take_place(JsonObject object) {
+    RoomPlace place;
+    place.position = object.take("position").triple(-kFarthestPlace, kFarthestPlace);
+    place.heading_rad = angle(object, "heading_deg");
+    object.expect_all_taken();
+    return place;
+}
+
+Wall standing(const char* name, const glm::dvec3& lower_left, const glm::dvec3& lower_right, double height,
+              int width_px, int height_px) {
+    return {name, lower_left, lower_right, lower_left + glm::dvec3(0, height, 0), width_px, height_px};
+}
+
+WallDisplay cave() {
+    WallDisplay display;
+    constexpr double kHalf = 1.5;
+    constexpr int kPixels = 1024;
+    const glm::dvec3 back_left(-kHalf, 0, kHalf), back_right(kHalf, 0, kHalf);
+    const glm::dvec3 front_left(-kHalf, 0, -kHalf), front_right(kHalf, 0, -kHalf);
+    display.walls = {standing("left", back_left, front_left, 2 * kHalf, kPixels, kPixels),
+                     standing("front", front_left, front_right, 2 * kHalf, kPixels, kPixels),
+                     standing("right", front_right, back_right, 2 * kHalf, kPixels, kPixels),
+                     {"floor", back_left, back_right, front_left, kPixels, kPixels}};
+    return display;
+}
+
+WallDisplay power_wall() {
+    WallDisplay display;
+    display.walls = {standing("front", {-2.4, 0.3, -2.5}, {2.4, 0.3, -2.5}, 2.7, 1920, 1080)};
+    return display;
+}
+
+WallDisplay tabletop() {
+    WallDisplay display;
+    constexpr double kHeight = 0.8;
+    display.walls = {{"table", {-0.6, kHeight, 0.4}, {0.6, kHeight, 0.4}, {-0.6, kHeight, -0.4}, 1200, 800}};
+    display.head = {.position = {0, 1.6, 0.9}, .pitch_rad = radians(-40)};
+    display.fits_scene = true;
+    return display;
+}
+
+template <class Read>
+auto caught(const std::string& text, const std::filesystem::path& path, const Read& read)
+    -> Result<decltype(read(std::declval<JsonObject&>()))> {
+    try {
+        const nlohmann::json json = parse_json_text(text, path.string());
+        JsonObject top(JsonValue(json, path.string(), ""));
+        auto made = read(top);
+        top.expect_all_taken();
+        return made;
+    } catch (const MalformedJson& malformed) {
+        return Error{malformed.message};
+    }
+}
+
+}  // namespace
+
+std::optional<WallDisplay> preset_display(const std::string& name) {
+    if (name == "cave") return cave();
+    if (name == "power-wall") return power_wall();
+    if (name == "tabletop") return tabletop();
+    return std::nullopt;
+}
+
+Result<WallDisplay> walls_from_json(const std::string& text, const std::filesystem::path& path) {
+    return caught(text, path, [](JsonObject& top) {
+        WallDisplay display;
+        const JsonValue walls = top.take("walls");
+        const std::size_t count = walls.list_size(1, kMostWalls);
+        std::set<std::string> names;
+        for (std::size_t i = 0; i < count; ++i) {
+            display.walls.push_back(take_wall(JsonObject(walls.item(i))));
+            if (!names.insert(display.walls.back().name).second) {
+                throw walls.item(i).wrong("is another wall '" + display.walls.back().name + "'; rename one");
+            }
+        }
+        if (top.has("head")) display.head = take_head(JsonObject(top.take("head")));
+        if (top.has("eye_distance")) display.eye_distance_m = top.take("eye_distance").number(0, 1);
+        if (top.has("units_per_metre")) display.units_per_metre = top.take("units_per_metre").number(1e-6, 1e6);
+        if (top.has("fit_scene")) display.fits_scene = top.take("fit_scene").boolean();
+        if (top.has("place")) {
+            const JsonValue place = top.take("place");
+            if (display.fits_scene) throw place.wrong("cannot stand beside \"fit_scene\": true; leave one out");
+            display.place = take_place(JsonObject(place));
+            display.place->units_per_metre = display.units_per_metre;
+        }
+        return display;
+    });
+}
+
+Result<WallDisplay> read_walls(const std::filesystem::path& path) {
+    const auto bytes = read_file(path, kMostWalls_bytes);
+    if (!bytes) return bytes.error();
+    return walls_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
+}
+
+Result<std::vector<Head>> heads_from_json(const std::string& text, const std::filesystem::path& path) {
+    return caught(text, path, [](JsonObject& top) {
+        const JsonValue list = top.take("heads");
+        const std::size_t count = list.list_size(1, kMostHeads);
+        std::vector<Head> heads;
+        for (std::size_t i = 0; i < count; ++i) heads.push_back(take_head(JsonObject(list.item(i))));
+        return heads;
+    });
+}
+
+Result<std::vector<Head>> read_heads(const std::filesystem::path& path) {
+    const auto bytes = read_file(path, kMostHeads_bytes);
+    if (!bytes) return bytes.error();
+    return heads_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
+}
+
+Status keep_walls(WallDisplay& display, const std::string& names) {
+    std::set<std::string> wanted;
+    for (std::size_t begin = 0; begin <= names.size();) {
+        const std::size_t end = std::min(names.find(',', begin), names.size());
+        wanted.insert(names.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    std::string known;
+    for (const Wall& wall : display.walls) known += (known.empty() ? "" : ", ") + wall.name;
+    for (const std::string& name : wanted) {
+        const bool there = std::any_of(display.walls.begin(), display.walls.end(),
+                                       [&](const Wall& wall) { return wall.name == name; });
+        if (!there) return Error{"there is no wall '" + printable(name) + "'; there are " + known};
+    }
+    std::erase_if(display.walls, [&](const Wall& wall) { return !wanted.contains(wall.name); });
+    return {};
+}
+
+RoomPlace fitted_place(const Wall& table, const BoundingBox& scene_box) {
+    const glm::dvec3 across = table.lower_right - table.lower_left;
+    const glm::dvec3 along = table.upper_left - table.lower_left;
+    const glm::dvec3 size = scene_box.highest - scene_box.lowest;
+    const double shorter_m = kFittedShare * std::min(glm::length(across), glm::length(along));
+    RoomPlace place;
+    place.units_per_metre = std::max(std::max(size.x, size.z), 1e-6) / shorter_m;
+    const glm::dvec3 foot((scene_box.lowest.x + scene_box.highest.x) / 2, scene_box.lowest.y,
+                          (scene_box.lowest.z + scene_box.highest.z) / 2);
+    place.position = foot - place.units_per_metre * (table.lower_left + 0.5 * (across + along));
+    return place;
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,33 @@
+#pragma once
+// Depth pictures of one size that are drawn into one by one and read by comparison: shadow maps.
+
+#include "compositor/gl/handle.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+
+namespace rs::gl {
+
+class DepthArray {
+public:
+    // Float depths, `side` x `side` texels each. Fails where the driver cannot.
+    static Result<DepthArray> create(int side, int layers);
+    [[nodiscard]] int side() const { return side_; }
+    [[nodiscard]] int layers() const { return layers_; }
+
+    // Draws go into this layer from now on, depths only. Clears it (to infinity).
+    void begin(int layer) const;
+    // To `uniform sampler2DArrayShadow` with layout(binding = unit): how much of the nearest four texels is not nearer
+    // than the reference, by their weights; all of it beyond the border. Depth is reversed (context.hpp).
+    void bind(unsigned unit) const;
+    // Waits for all drawing.
+    [[nodiscard]] Image<float> read(int layer) const;
+
+private:
+    DepthArray() = default;
+    Handle<Kind::kTexture> texture_;
+    Handle<Kind::kFramebuffer> handle_;
+    int side_ = 0;
+    int layers_ = 0;
+};
+
+}  // namespace rs::gl

@@ -1,0 +1,154 @@
+#include "compositor/lighting/light_edits.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+constexpr std::size_t kMostSteps = 256;
+constexpr std::size_t kMostKept = 1U << 18U;  // lights in all steps together: some 100 MiB
+
+}  // namespace
+
+LightingState state_of(const LightList& list, double exposure_ev) {
+    return {list.entries, list.environment_entry, list.headlight, exposure_ev};
+}
+
+LightList list_of(const LightingState& state) {
+    LightList list;
+    list.replace = true;
+    list.headlight = state.headlight;
+    list.entries = state.entries;
+    for (const LightEntry& entry : state.entries) list.lights.push_back(light_of(entry));
+    list.environment_entry = state.environment;
+    list.environment = environment_of(state.environment);
+    return list;
+}
+
+void LightEdits::remember(Step step) {
+    after_.clear();
+    before_.push_back(std::move(step));
+    const std::size_t each = now_.state.entries.size() + 1;
+    while (before_.size() > std::clamp<std::size_t>(kMostKept / each, 1, kMostSteps)) before_.pop_front();
+}
+
+void LightEdits::select(std::optional<std::size_t> light) {
+    now_.selected = light && *light < now_.state.entries.size() ? light : std::nullopt;
+}
+
+void LightEdits::set(LightingState state) {
+    if (state == now_.state) return;
+    if (!gesture_) remember(now_);
+    now_.state = std::move(state);
+    select(now_.selected);
+    ++revision_;
+}
+
+void LightEdits::set_light(std::size_t index, LightEntry entry) {
+    if (index >= now_.state.entries.size() || entry == now_.state.entries[index]) return;
+    if (!gesture_) remember(now_);
+    now_.state.entries[index] = std::move(entry);
+    ++revision_;
+}
+
+void LightEdits::add(LightEntry entry) {
+    LightingState changed = now_.state;
+    changed.entries.push_back(std::move(entry));
+    set(std::move(changed));
+    select(now_.state.entries.size() - 1);
+}
+
+void LightEdits::duplicate(const glm::dvec3& beside) {
+    if (!now_.selected) return;
+    LightEntry copy = now_.state.entries[*now_.selected];
+    if (copy.kind != LightKind::kDirectional) copy.location += beside;
+    if (!copy.name.empty()) copy.name = free_light_name(now_.state, copy.name);
+    add(std::move(copy));
+}
+
+void LightEdits::remove_selected() {
+    if (!now_.selected) return;
+    LightingState changed = now_.state;
+    changed.entries.erase(changed.entries.begin() + static_cast<std::ptrdiff_t>(*now_.selected));
+    if (!gesture_) remember(now_);
+    now_ = {std::move(changed), std::nullopt};
+    ++revision_;
+}
+
+void LightEdits::begin_gesture() {
+    if (!gesture_) gesture_ = now_;
+}
+
+void LightEdits::end_gesture() {
+    if (!gesture_) return;
+    Step began = std::move(*gesture_);
+    gesture_.reset();
+    if (!(began.state == now_.state)) remember(std::move(began));
+}
+
+void LightEdits::cancel_gesture() {
+    if (!gesture_) return;
+    if (!(gesture_->state == now_.state)) ++revision_;
+    now_ = std::move(*gesture_);
+    gesture_.reset();
+}
+
+bool LightEdits::travel(std::deque<Step>& from, std::deque<Step>& to) {
+    if (gesture_ || from.empty()) return false;
+    to.push_back(std::move(now_));
+    now_ = std::move(from.back());
+    from.pop_back();
+    ++revision_;
+    return true;
+}
+
+bool LightEdits::undo() {
+    return travel(before_, after_);
+}
+
+bool LightEdits::redo() {
+    return travel(after_, before_);
+}
+
+LightEntry new_light(LightKind kind, const glm::dvec3& location, const glm::dvec3& aim) {
+    LightEntry entry;
+    entry.kind = kind;
+    entry.location = location;
+    entry.aim = aim;
+    switch (kind) {
+        case LightKind::kDirectional:
+            entry.power = 1000;
+            break;
+        case LightKind::kPoint:
+            entry.power = 100;
+            break;
+        case LightKind::kSpot:
+            entry.power = 500;
+            break;
+        case LightKind::kRectangle:
+            entry.power = 2000;
+            entry.size = {0.6, 0.3};
+            break;
+        case LightKind::kDisc:
+            entry.power = 1000;
+            entry.size = glm::dvec2(0.3);
+            break;
+        case LightKind::kLuminaire:
+            break;
+    }
+    return entry;
+}
+
+std::string free_light_name(const LightingState& state, const std::string& like) {
+    const std::size_t digits = like.find_last_not_of("0123456789");
+    const bool numbered = digits != std::string::npos && digits + 1 < like.size() && like[digits] == ' ';
+    const std::string stem = numbered ? like.substr(0, digits) : like;
+    for (std::size_t number = 2;; ++number) {
+        std::string name = stem + " " + std::to_string(number);
+        if (std::ranges::none_of(state.entries, [&](const LightEntry& entry) { return entry.name == name; }))
+            return name;
+    }
+}
+
+}  // namespace rs::compositor

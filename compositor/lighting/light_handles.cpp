@@ -1,0 +1,293 @@
+#include "compositor/lighting/light_handles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace rs::compositor {
+namespace {
+
+constexpr double kAxis_px = 80;
+constexpr double kAim_px = 120;
+constexpr double kArrow_px = 34;
+constexpr double kCone_px = 46;
+constexpr double kWeb_px = 46;
+constexpr double kSun_px = 12;
+constexpr double kNearest = 1e-3;  // axial depth: what is nearer is not shown
+
+constexpr double kDotReach_px = 11;
+constexpr double kLineReach_px = 6;
+constexpr float kThin_px = 1.6F;
+constexpr float kThick_px = 2.4F;
+constexpr glm::vec3 kSelected{1, 0.45F, 0.02F};
+constexpr glm::vec3 kUnderPointer{1, 0.9F, 0.25F};
+constexpr glm::vec3 kWhite{1};
+constexpr std::array kAxisColours = {glm::vec3(0.9F, 0.05F, 0.05F), glm::vec3(0.1F, 0.65F, 0.05F),
+                                     glm::vec3(0.08F, 0.2F, 1)};
+
+double units_per_px(const glm::dvec3& place, const Camera& camera) {
+    return std::max(glm::dot(place - camera.centre(), camera.forward()), kNearest) / camera.fl_x;
+}
+
+bool is_area(const LightEntry& entry) {
+    return entry.kind == LightKind::kRectangle || entry.kind == LightKind::kDisc;
+}
+
+// Its own colour, bright enough to be seen.
+glm::vec3 colour_of(const LightEntry& entry) {
+    const glm::dvec3 colour = entry.radiance ? *entry.radiance * entry.colour : entry.colour;
+    const double most = std::max({colour.x, colour.y, colour.z});
+    if (!(most > 0)) return glm::vec3(0.3F);
+    return glm::vec3(glm::mix(glm::dvec3(0.5), colour / most, 0.7));
+}
+
+// Strokes of one light.
+class Icon {
+public:
+    Icon(const LightEntry& entry, const Camera& camera, const glm::vec3& colour, float width_px)
+        : entry_(entry),
+          camera_(camera),
+          place_(handle_place(entry, camera)),
+          px_(units_per_px(place_, camera)),
+          colour_(colour),
+          width_px_(width_px) {
+        aim_ = unit_of(entry.aim);
+        axes_ = axes_of(aim_, radians(entry.turn_deg));
+        dot(place_, 7);
+        switch (entry.kind) {
+            case LightKind::kDirectional:
+                arrow(dome_of(camera).middle);
+                sun();
+                break;
+            case LightKind::kPoint:
+                sun();
+                break;
+            case LightKind::kSpot:
+                cone();
+                break;
+            case LightKind::kRectangle:
+            case LightKind::kDisc:
+                outline();
+                arrow(place_ + kArrow_px * px_ * aim_);
+                break;
+            case LightKind::kLuminaire:
+                web();
+                break;
+        }
+    }
+
+    [[nodiscard]] const std::vector<HandleStroke>& strokes() const { return strokes_; }
+
+private:
+    void line(const glm::dvec3& from, const glm::dvec3& to) { strokes_.push_back({from, to, colour_, width_px_}); }
+    void dot(const glm::dvec3& at, float width_px) { strokes_.push_back({at, at, colour_, width_px}); }
+
+    void arrow(const glm::dvec3& to) {
+        constexpr double kHead = 0.25;
+        const glm::dvec3 way = to - place_;
+        const glm::dvec3 aside = glm::cross(way, camera_.forward());
+        line(place_, to);
+        for (const double side : {-0.5, 0.5}) line(to, to - kHead * (way + side * aside));
+    }
+
+    void sun() {
+        constexpr int kRays = 8;
+        for (int i = 0; i < kRays; ++i) {
+            const double turn = 2 * kPi * i / kRays;
+            const glm::dvec3 out = std::cos(turn) * camera_.right() + std::sin(turn) * camera_.up();
+            line(place_ + 0.55 * kSun_px * px_ * out, place_ + kSun_px * px_ * out);
+        }
+    }
+
+    // Points at `angle_rad` from the aim, kCone_px away.
+    void circle(double angle_rad, int sides) {
+        constexpr int kCorners = 32;
+        glm::dvec3 last(0);
+        for (int i = 0; i <= kCorners; ++i) {
+            const double turn = 2 * kPi * i / kCorners;
+            const glm::dvec3 out = std::cos(turn) * axes_.across + std::sin(turn) * axes_.along;
+            const glm::dvec3 here = place_ + kCone_px * px_ * (std::cos(angle_rad) * aim_ + std::sin(angle_rad) * out);
+            if (i > 0) line(last, here);
+            if (sides > 0 && i < kCorners && i % (kCorners / sides) == 0) line(place_, here);
+            last = here;
+        }
+    }
+
+    void cone() {
+        circle(radians(entry_.cut_off_deg / 2), 4);
+        if (entry_.beam_deg > 0 && entry_.beam_deg < entry_.cut_off_deg) circle(radians(entry_.beam_deg / 2), 0);
+    }
+
+    void outline() {
+        const bool round = entry_.kind == LightKind::kDisc;
+        const int corners = round ? 32 : 4;
+        const glm::dvec3 u = 0.5 * entry_.size.x * axes_.across;
+        const glm::dvec3 v = 0.5 * entry_.size.y * axes_.along;
+        const auto corner = [&](int i) {
+            const double turn = 2 * kPi * (i + (round ? 0 : 0.5)) / corners;
+            const double out = round ? 1 : std::sqrt(2.0);
+            return place_ + out * (std::cos(turn) * u + std::sin(turn) * v);
+        };
+        for (int i = 0; i < corners; ++i) line(corner(i), corner(i + 1));
+    }
+
+    void web() {
+        constexpr int kSteps = 48;
+        if (!entry_.luminaire) {
+            sun();
+            return;
+        }
+        const PhotometricWeb& shape = entry_.luminaire->web;
+        for (const int plane : {0, 90}) {
+            const glm::dvec3 out = plane == 0 ? axes_.across : axes_.along;
+            glm::dvec3 last(0);
+            for (int i = 0; i <= kSteps; ++i) {
+                const double angle = 2 * kPi * i / kSteps - kPi;
+                const double reach = candela_in_plane(shape, plane, angle) / shape.peak_candela();
+                const glm::dvec3 here =
+                    place_ + kWeb_px * px_ * reach * (std::cos(angle) * aim_ + std::sin(angle) * out);
+                if (i > 0 && here != last) line(last, here);
+                last = here;
+            }
+        }
+    }
+
+    const LightEntry& entry_;
+    const Camera& camera_;
+    glm::dvec3 place_;
+    double px_;  // scene units
+    glm::vec3 colour_;
+    float width_px_;
+    glm::dvec3 aim_{0};
+    AimedAxes axes_{};
+    std::vector<HandleStroke> strokes_;
+};
+
+// From a position to a line on the screen, pixels; infinite where it is behind the camera.
+double distance_px(const HandleStroke& stroke, const Camera& camera, const glm::dvec2& at) {
+    const glm::dvec3 a = camera.project(stroke.from);
+    const glm::dvec3 b = camera.project(stroke.to);
+    if (!(a.z > kNearest && b.z > kNearest)) return std::numeric_limits<double>::infinity();
+    const glm::dvec2 from(a);
+    const glm::dvec2 way = glm::dvec2(b) - from;
+    const double length2 = glm::dot(way, way);
+    const double t = length2 > 0 ? std::clamp(glm::dot(at - from, way) / length2, 0.0, 1.0) : 0.0;
+    return glm::distance(at, from + t * way);
+}
+
+HandleStroke dot_at(const glm::dvec3& place) {
+    return {place, place, kWhite, 1};
+}
+
+std::optional<HandlePart> part_at(const LightEntry& entry, const Camera& camera, const glm::dvec2& at_px) {
+    if (const auto aim = aim_place(entry, camera)) {
+        if (distance_px(dot_at(*aim), camera, at_px) <= kDotReach_px) return HandlePart::kAim;
+    }
+    if (entry.kind == LightKind::kDirectional) return std::nullopt;
+    const glm::dvec3 place = handle_place(entry, camera);
+    std::optional<HandlePart> nearest;
+    double least = kLineReach_px;
+    for (const HandlePart axis : kAxisParts) {
+        // Not from the middle, which is the light's own.
+        const glm::dvec3 end = axis_end(entry, axis, camera);
+        const double distance = std::min(distance_px({glm::mix(place, end, 0.2), end, kWhite, 1}, camera, at_px),
+                                         distance_px(dot_at(end), camera, at_px) - kLineReach_px / 2);
+        if (distance > least) continue;
+        least = distance;
+        nearest = axis;
+    }
+    return nearest;
+}
+
+}  // namespace
+
+Dome dome_of(const Camera& camera) {
+    constexpr double kDistance = 0.05;  // before all that is seen
+    constexpr double kPlace = 0.16;     // of the picture's height, from its top
+    constexpr double kSize = 0.09;
+    return {camera.centre() + kDistance * camera.ray(0.5 * camera.width, kPlace * camera.height),
+            kDistance * kSize * camera.height / camera.fl_y};
+}
+
+glm::dvec3 handle_place(const LightEntry& entry, const Camera& camera) {
+    if (entry.kind != LightKind::kDirectional) return entry.location;
+    const Dome dome = dome_of(camera);
+    return dome.middle - dome.radius * unit_of(entry.aim);
+}
+
+glm::dvec3 direction_of(HandlePart axis) {
+    return {axis == HandlePart::kAxisX ? 1 : 0, axis == HandlePart::kAxisY ? 1 : 0, axis == HandlePart::kAxisZ ? 1 : 0};
+}
+
+glm::dvec3 axis_end(const LightEntry& entry, HandlePart axis, const Camera& camera) {
+    return entry.location + kAxis_px * units_per_px(entry.location, camera) * direction_of(axis);
+}
+
+std::optional<glm::dvec3> aim_place(const LightEntry& entry, const Camera& camera) {
+    if (entry.kind == LightKind::kDirectional || entry.kind == LightKind::kPoint) return std::nullopt;
+    return entry.location + kAim_px * units_per_px(entry.location, camera) * unit_of(entry.aim);
+}
+
+std::vector<HandleStroke> light_strokes(const LightingState& state, std::optional<std::size_t> selected,
+                                        const std::optional<HandleHit>& under_pointer, const Camera& camera) {
+    std::vector<HandleStroke> strokes;
+    const auto add_icon = [&](std::size_t i) {
+        const bool is_selected = i == selected;
+        const bool hovered = under_pointer && under_pointer->light == i && under_pointer->part == HandlePart::kBody;
+        const LightEntry& entry = state.entries[i];
+        const glm::vec3 colour = hovered ? kUnderPointer : is_selected ? kSelected : colour_of(entry);
+        const Icon icon(entry, camera, colour, is_selected || hovered ? kThick_px : kThin_px);
+        strokes.insert(strokes.end(), icon.strokes().begin(), icon.strokes().end());
+    };
+    for (std::size_t i = 0; i < state.entries.size(); ++i) {
+        if (i != selected) add_icon(i);
+    }
+    if (!selected) return strokes;
+    const LightEntry& entry = state.entries[*selected];
+    const auto colour_of_part = [&](HandlePart part, const glm::vec3& usual) {
+        return under_pointer == HandleHit{*selected, part} ? kUnderPointer : usual;
+    };
+    if (const auto aim = aim_place(entry, camera)) {
+        const glm::vec3 colour = colour_of_part(HandlePart::kAim, kWhite);
+        strokes.push_back({entry.location, *aim, colour, kThin_px});
+        strokes.push_back({*aim, *aim, colour, 12});
+    }
+    if (entry.kind != LightKind::kDirectional) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec3 end = axis_end(entry, kAxisParts[i], camera);
+            const glm::vec3 colour = colour_of_part(kAxisParts[i], kAxisColours[i]);
+            strokes.push_back({entry.location, end, colour, 3.2F});
+            strokes.push_back({end, end, colour, 11});
+        }
+    }
+    add_icon(*selected);
+    return strokes;
+}
+
+std::optional<HandleHit> handle_at(const LightingState& state, std::optional<std::size_t> selected,
+                                   const Camera& camera, const glm::dvec2& at_px) {
+    if (selected) {
+        if (const auto part = part_at(state.entries[*selected], camera, at_px)) return HandleHit{*selected, *part};
+    }
+    std::optional<HandleHit> nearest;
+    double least = kDotReach_px;
+    const auto offer = [&](std::size_t i, double distance) {
+        if (distance > least) return;
+        least = distance;
+        nearest = HandleHit{i, HandlePart::kBody};
+    };
+    for (std::size_t i = 0; i < state.entries.size(); ++i) {
+        offer(i, distance_px(dot_at(handle_place(state.entries[i], camera)), camera, at_px));
+    }
+    if (nearest) return nearest;
+    least = kLineReach_px;  // the outlines of areas are large
+    for (std::size_t i = 0; i < state.entries.size(); ++i) {
+        if (!is_area(state.entries[i])) continue;
+        const Icon icon(state.entries[i], camera, kWhite, 1);
+        for (const HandleStroke& stroke : icon.strokes()) offer(i, distance_px(stroke, camera, at_px));
+    }
+    return nearest;
+}
+
+}  // namespace rs::compositor

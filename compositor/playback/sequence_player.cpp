@@ -1,0 +1,130 @@
+#include "compositor/playback/sequence_player.hpp"
+
+#include "compositor/viewer/views/framing.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace rs::compositor {
+
+namespace {
+
+// Takes what a frame does not show out of sight: small, below everything.
+glm::dmat4 nowhere_in(const Scene& scene) {
+    constexpr double kSmall = 1e-6;
+    const BoundingBox box = bounds_of(scene);
+    glm::dmat4 matrix(kSmall);
+    matrix[3] =
+        glm::dvec4(box.empty() ? glm::dvec3(0) : glm::dvec3(box.middle().x, box.lowest.y - 1, box.middle().z), 1);
+    return matrix;
+}
+
+}  // namespace
+
+std::optional<Weather> weather_of(const Sequence& sequence, const PlayerOptions& options) {
+    return options.weather ? options.weather : sequence.weather;
+}
+
+Camera camera_of(const Sequence& sequence, std::size_t frame, int width, int height) {
+    std::optional<SequenceCamera> camera = camera_of(sequence, frame);
+    if (!camera) {
+        camera = SequenceCamera{};
+        const BoundingBox bounds = bounds_of(scene_at(sequence, 0));
+        const double aspect = static_cast<double>(width) / height;
+        camera->pose =
+            bounds.empty() ? CameraPose{{0, 1.6, 6}, {0, 1, 0}} : framing_pose(bounds, camera->fov_x_rad, aspect);
+    }
+    return look_at_camera(camera->pose.eye, camera->pose.at, camera->fov_x_rad, width, height);
+}
+
+SequencePlayer::SequencePlayer(std::shared_ptr<const Sequence> sequence, std::unique_ptr<Showroom> showroom,
+                               FrameCompositor compositor, const PlayerOptions& options)
+    : sequence_(std::move(sequence)),
+      options_(options),
+      showroom_(std::move(showroom)),
+      compositor_(std::move(compositor)) {}
+
+Result<SequencePlayer> SequencePlayer::create(std::shared_ptr<const Sequence> sequence, const PlayerOptions& options) {
+    const std::optional<Weather> weather = weather_of(*sequence, options);
+    const Scene scene = weather ? in_weather(sequence->scene, *weather) : sequence->scene;
+    auto showroom =
+        std::make_unique<Showroom>(scene, ShowroomOptions{.memory_bytes = options.memory_bytes, .waits = true});
+    if (const Status status = showroom->wait_for_all({0, 0, 0}); !status) return status.error();
+    auto compositor = FrameCompositor::create(scene, showroom->engine(), showroom->nodes(), options.frame);
+    if (!compositor) return compositor.error();
+    SequencePlayer player(std::move(sequence), std::move(showroom), std::move(*compositor), options);
+    player.nowhere_ = nowhere_in(scene);
+    player.scene_ = scene;
+    return player;
+}
+
+Status show_frame(const Sequence& sequence, std::size_t frame, const std::optional<Weather>& weather,
+                  FrameCompositor& compositor, Showroom& showroom) {
+    const MovedSlots moved = moved_slots(sequence, frame);
+    for (std::size_t slot = 0; slot < sequence.slots.size(); ++slot) {
+        for (const std::size_t node : sequence.slots[slot].geometry) {
+            std::optional<glm::dmat4> matrix = moved.geometry[slot];
+            if (matrix) *matrix = *matrix * sequence.scene.geometry[node].world_from_node;
+            if (Status status = compositor.move_geometry(node, matrix); !status) return status;
+        }
+    }
+    for (const auto& [node, chain] : moved.objects) showroom.move_object(node, chain);
+    compositor.set_weather(weather, static_cast<double>(frame) / sequence.frames_per_second);
+    return {};
+}
+
+Status SequencePlayer::draw(std::size_t number, const Camera& camera) {
+    const auto weather = weather_of(*sequence_, options_);
+    if (Status status = show_frame(*sequence_, number, weather, compositor_, *showroom_); !status) return status;
+    if (options_.tracing) {
+        if (Status status = trace(number, camera); !status) return status;
+    }
+    if (Status status = showroom_->update(camera.centre(), 1 / sequence_->frames_per_second); !status) return status;
+    for (std::string& warning : showroom_->take_warnings()) warnings_.push_back(std::move(warning));
+    return compositor_.draw(camera);
+}
+
+Status SequencePlayer::make_tracer() {
+    std::vector<PlacedObject> objects;
+    for (const ShownNode& node : *showroom_->nodes()) {
+        if (node.object && !node.hidden) objects.push_back(*node.object);
+    }
+    auto tracer = TracedRenderer::create(scene_, objects, *options_.tracing);
+    if (!tracer) return tracer.error();
+    if (tracers_made_++ == 0) {
+        for (const std::string& warning : tracer->warnings()) warnings_.push_back(warning);
+    }
+    tracer_.emplace(std::move(*tracer));
+    return {};
+}
+
+Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
+    // Ray-space objects stand where they are in a tracer.
+    const MovedSlots moved = moved_slots(*sequence_, number);
+    if (!tracer_ || !moved.objects.empty()) {
+        if (Status status = make_tracer(); !status) return status;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    for (std::size_t slot = 0; slot < sequence_->slots.size(); ++slot) {
+        const auto id = static_cast<std::uint32_t>(slot);
+        // What is drawn by raster alone has no part in it.
+        static_cast<void>(tracer_->move(id, moved.geometry[slot].value_or(nowhere_)));
+    }
+    tracer_->look(camera);
+    commit_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    for (int pass = 0; pass < options_.passes; ++pass) tracer_->add_pass();
+    compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer_->picture()));
+    return {};
+}
+
+Result<Image<Rgba8>> SequencePlayer::frame(std::size_t number) {
+    const Camera camera = camera_of(*sequence_, number, compositor_.width(), compositor_.height());
+    if (Status status = draw(number, camera); !status) return status.error();
+    return compositor_.picture();
+}
+
+std::vector<std::string> SequencePlayer::take_warnings() {
+    return std::exchange(warnings_, {});
+}
+
+}  // namespace rs::compositor

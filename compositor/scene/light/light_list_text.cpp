@@ -1,0 +1,129 @@
+// Lists of lights as text; the reader is lights_file.cpp.
+#include "compositor/scene/lights_file.hpp"
+
+#include "rayspace/file/file_output.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Whole numbers without ".0", as people write them.
+Json json_of(double number) {
+    constexpr double kMostDigits = 1e15;
+    const bool whole = number == std::floor(number) && std::abs(number) < kMostDigits;
+    const bool minus_zero = number == 0 && std::signbit(number);
+    return whole && !minus_zero ? Json(static_cast<std::int64_t>(number)) : Json(number);
+}
+
+Json json_of(const glm::dvec3& v) {
+    return Json::array({json_of(v.x), json_of(v.y), json_of(v.z)});
+}
+
+// As it is called in a list in `folder`.
+std::string name_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+    const auto whole = [](const std::filesystem::path& path) {
+        std::error_code failed;
+        const std::filesystem::path absolute = std::filesystem::absolute(path, failed);
+        return (failed ? path : absolute).lexically_normal();
+    };
+    const std::filesystem::path from_there = whole(file).lexically_relative(whole(folder.empty() ? "." : folder));
+    return (from_there.empty() ? whole(file) : from_there).generic_string();
+}
+
+void write_punctual(const LightEntry& entry, Json& json) {
+    if (entry.radiance) json["attenuation"] = json_of(entry.attenuation);
+    if (std::isfinite(entry.reach)) json["reach"] = json_of(entry.reach);
+    if (entry.kind == LightKind::kPoint) return;
+    json["beam_deg"] = json_of(entry.beam_deg);
+    json["cut_off_deg"] = json_of(entry.cut_off_deg);
+}
+
+Json json_of(const LightEntry& entry, const std::filesystem::path& folder) {
+    Json json;
+    json["kind"] = name_of(entry.kind);
+    if (!entry.name.empty()) json["name"] = entry.name;
+    if (entry.kind == LightKind::kLuminaire) json["file"] = name_from(folder, entry.file);
+    if (entry.kind != LightKind::kDirectional) json["location"] = json_of(entry.location);
+    if (entry.kind != LightKind::kPoint) json["aim"] = json_of(entry.aim);
+    const bool area = entry.kind == LightKind::kRectangle || entry.kind == LightKind::kDisc;
+    const bool turns = area || entry.kind == LightKind::kLuminaire;
+    if (turns && entry.turn_deg != 0) json["turn_deg"] = json_of(entry.turn_deg);
+    if (entry.kind == LightKind::kRectangle) json["size"] = Json::array({json_of(entry.size.x), json_of(entry.size.y)});
+    if (entry.kind == LightKind::kDisc) json["size"] = json_of(entry.size.x);
+    if (entry.radiance) {
+        json[unit_of(entry)] = json_of(*entry.radiance);
+    } else if (entry.kind != LightKind::kLuminaire || entry.power != 1) {
+        json[unit_of(entry)] = json_of(entry.power);
+    }
+    if (entry.colour != glm::dvec3(1)) json["colour"] = json_of(entry.colour);
+    if (entry.kind == LightKind::kPoint || entry.kind == LightKind::kSpot) write_punctual(entry, json);
+    if (entry.ambient != glm::dvec3(0)) json["ambient"] = json_of(entry.ambient);
+    if (entry.scope) json["scope"] = *entry.scope;
+    return json;
+}
+
+// Whether a reader would take its numbers.
+bool is_within_limits(const LightEntry& entry) {
+    const auto within = [](const glm::dvec3& v, double most) {
+        return glm::all(glm::lessThanEqual(glm::abs(v), glm::dvec3(most)));
+    };
+    return within(entry.location, kMostDistant) && within(entry.aim, kMostDistant) &&
+           within(entry.colour, kStrongest) && within(entry.radiance.value_or(glm::dvec3(0)), kStrongest) &&
+           within(entry.ambient, kStrongest) && within(entry.attenuation, kStrongest) &&
+           within({entry.size, entry.power / kStrongest}, kMostDistant) && entry.power <= kStrongest &&
+           glm::all(glm::greaterThanEqual(entry.size, glm::dvec2(kShortest))) &&
+           ((entry.reach >= kShortest && entry.reach <= kMostDistant) || std::isinf(entry.reach));
+}
+
+std::string text_of(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+Result<std::string> light_list_to_json(const LightList& list, const std::filesystem::path& path) {
+    const std::filesystem::path folder = path.parent_path();
+    std::string text = "{";
+    if (list.replace) text += " \"replace\": true,\n ";
+    if (list.headlight) text += " \"headlight\": true,\n ";
+    text += " \"lights\": [";
+    for (std::size_t i = 0; i < list.entries.size(); ++i) {
+        const LightEntry& entry = list.entries[i];
+        if (entry.kind == LightKind::kLuminaire && entry.file.empty()) {
+            return Error{path.string() + ": lights[" + std::to_string(i) +
+                         "] shines as no file says; choose a photometric file for it"};
+        }
+        if (!is_within_limits(entry)) {
+            return Error{path.string() + ": lights[" + std::to_string(i) + "] has numbers that no list may hold"};
+        }
+        text += (i > 0 ? ",\n    " : "\n    ") + text_of(json_of(entry, folder));
+    }
+    text += " ]";
+    if (const auto& environment = list.environment_entry) {
+        if (environment->file.empty()) {
+            return Error{path.string() + ": environment: is no file's picture; choose one"};
+        }
+        Json json;
+        json["file"] = name_from(folder, environment->file);
+        json["scale"] = json_of(environment->scale);
+        if (environment->turn_deg != 0) json["turn_deg"] = json_of(environment->turn_deg);
+        if (environment->seen) json["seen"] = true;
+        text += ",\n  \"environment\": " + text_of(json);
+    }
+    return text + " }\n";
+}
+
+Status write_light_list(const LightList& list, const std::filesystem::path& path) {
+    const Result<std::string> text = light_list_to_json(list, path);
+    if (!text) return text.error();
+    return write_file(path, *text);
+}
+
+}  // namespace rs::compositor

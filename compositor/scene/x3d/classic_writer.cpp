@@ -1,0 +1,302 @@
+#include "compositor/scene/x3d/classic_writer.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace rs::compositor::x3d {
+
+using vrml::FieldSpec;
+using vrml::FieldType;
+using vrml::NodeSpec;
+
+namespace {
+
+bool is_space(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ',';
+}
+
+std::string_view attribute(const Attributes& attributes, std::string_view name) {
+    for (const auto& [key, value] : attributes) {
+        if (key == name) return value;
+    }
+    return {};
+}
+
+bool is_reserved(std::string_view word) {
+    static const std::set<std::string, std::less<>> kWords = {
+        "DEF",     "EXTERNPROTO", "EXPORT", "FALSE",     "IMPORT", "IS",   "META", "NULL",
+        "PROFILE", "PROTO",       "ROUTE",  "COMPONENT", "TO",     "TRUE", "UNIT", "USE"};
+    return kWords.contains(word);
+}
+
+// A name that the classic encoding can have; the same for the same name.
+std::string word_of(std::string_view name) {
+    std::string word;
+    for (const char c : name)
+        word += is_space(c) || std::string_view("#\"[]{}").find(c) != std::string_view::npos ? '_' : c;
+    const bool looks_like_number =
+        !word.empty() && std::string_view("+-.0123456789").find(word[0]) != std::string_view::npos;
+    return looks_like_number || is_reserved(word) ? "_" + word : word;
+}
+
+std::string in_quotes(std::string_view text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') result += '\\';
+        result += c;
+    }
+    return result + "\"";
+}
+
+// "a" "b", as the attribute has it; or, as many write it, one text without quotes.
+std::string list_of_texts(std::string_view text) {
+    std::size_t at = 0;
+    const auto skip_space = [&] {
+        while (at < text.size() && is_space(text[at])) ++at;
+    };
+    skip_space();
+    if (at == text.size()) return "[ ]";
+    if (text[at] != '"') return in_quotes(text);
+    std::string list = "[";
+    while (at < text.size() && text[at] == '"') {
+        std::string one;
+        for (++at; at < text.size() && text[at] != '"'; ++at) {
+            if (text[at] == '\\' && at + 1 < text.size()) ++at;
+            one += text[at];
+        }
+        if (at < text.size()) ++at;
+        list += " " + in_quotes(one);
+        skip_space();
+    }
+    return list + " ]";
+}
+
+bool is_numeric(std::string_view text) {
+    return std::all_of(text.begin(), text.end(), [](char c) {
+        return is_space(c) || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F') || c == 'x' ||
+               c == 'X' || c == '+' || c == '-' || c == '.';
+    });
+}
+
+// What nodes say that has no meaning for a picture of a world that stands still.
+bool is_silent(std::string_view name) {
+    static const std::set<std::string, std::less<>> kNames = {
+        "DEF",     "USE",     "bboxDisplay", "centerOfRotation",    "class", "containerField", "description",
+        "enabled", "id",      "metadata",    "retainUserOffsets",   "style", "transitionType", "transitionTime",
+        "viewAll", "visible", "autoRefresh", "autoRefreshTimeLimit"};
+    return kNames.contains(name) || name.find(':') != std::string_view::npos;
+}
+
+// The field of a node that holds such nodes.
+std::string_view field_for(const NodeSpec& parent, std::string_view slot) {
+    for (const auto& [name, field] : parent.fields) {
+        if (field.type == FieldType::kNode && field.slot == slot && name != "proxy") return name;
+    }
+    return "children";
+}
+
+}  // namespace
+
+void ClassicWriter::write(std::string_view text) {
+    line_ += static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+    text_ += text;
+    text_ += ' ';
+}
+
+void ClassicWriter::move_to(int line) {
+    for (; line_ < line; ++line_) text_ += '\n';
+}
+
+void ClassicWriter::write_value(const FieldSpec& spec, std::string_view value) {
+    if (spec.type == FieldType::kString) return write(spec.many ? list_of_texts(value) : in_quotes(value));
+    if (spec.type == FieldType::kBool) {
+        if (value == "true" || value == "TRUE") return write("TRUE");
+        if (value == "false" || value == "FALSE") return write("FALSE");
+    }
+    if (!is_numeric(value)) return write(in_quotes(value));  // the reader tells what is wrong with it
+    write(spec.many ? "[ " + std::string(value) + " ]" : std::string(value));
+}
+
+void ClassicWriter::write_attributes(const NodeSpec& spec, const Attributes& attributes) {
+    for (const auto& [name, value] : attributes) {
+        const auto known = spec.fields.find(name);
+        if (known != spec.fields.end() && known->second.type != FieldType::kNode) {
+            write(name);
+            write_value(known->second, value);
+        } else if (known == spec.fields.end() && !is_silent(name) && !is_reserved(name)) {
+            write(std::string(name) + " 0");  // the reader tells that there is no such field
+        }
+    }
+}
+
+// Which field of the node around it a node is for.
+void ClassicWriter::begin_child(std::string_view type, const Attributes& attributes) {
+    Frame& around = frames_.back();
+    around.is_empty = false;
+    if (around.place != Place::kNode) return;
+    const std::string_view asked = attribute(attributes, "containerField");
+    const NodeSpec* own = vrml::find_node(type);
+    if (around.spec == nullptr) return write("children");
+    const auto named = around.spec->fields.find(asked);
+    if (named != around.spec->fields.end() && named->second.type == FieldType::kNode) return write(asked);
+    if (own != nullptr || asked.empty()) return write(field_for(*around.spec, own != nullptr ? own->slot : "child"));
+    const std::string field = word_of(asked);
+    write(field.empty() || field == "children" ? field_for(*around.spec, "child") : std::string_view(field));
+}
+
+ClassicWriter::Frame ClassicWriter::open_node(std::string_view name, const Attributes& attributes) {
+    const bool is_instance = name == "ProtoInstance";
+    const std::string type = is_instance ? word_of(attribute(attributes, "name")) : std::string(name);
+    if (type.empty() || is_reserved(type) || vrml::is_behaviour(type)) return {};
+    begin_child(type, attributes);
+    if (const std::string use = word_of(attribute(attributes, "USE")); !use.empty()) {
+        write("USE " + use);
+        return {};
+    }
+    if (const std::string def = word_of(attribute(attributes, "DEF")); !def.empty()) write("DEF " + def);
+    write(type + " {");
+    Frame frame{.place = is_instance ? Place::kInstance : Place::kNode, .closing = "}"};
+    if (is_instance) {
+        if (const auto known = interfaces_.find(type); known != interfaces_.end()) frame.interface = &known->second;
+    } else if (frame.spec = vrml::find_node(type); frame.spec != nullptr) {
+        write_attributes(*frame.spec, attributes);
+    }
+    return frame;
+}
+
+ClassicWriter::Frame ClassicWriter::open_proto(const Attributes& attributes) {
+    const std::string name = word_of(attribute(attributes, "name"));
+    if (name.empty()) return {};
+    write("PROTO " + name + " [");
+    interfaces_[name] = {};
+    return {.place = Place::kProto, .proto = name};
+}
+
+// A value in an attribute; or in nodes that stand inside.
+ClassicWriter::Frame ClassicWriter::open_value(const FieldSpec& spec, std::optional<std::string_view> value) {
+    if (spec.type == FieldType::kNode) {
+        if (spec.many) write("[");
+        return {.place = Place::kValue, .closing = spec.many ? "]" : ""};
+    }
+    if (value) {
+        write_value(spec, *value);
+        return {};
+    }
+    if (spec.many) {
+        write("[ ]");
+        return {};
+    }
+    switch (spec.type) {
+        case FieldType::kBool:
+            write("FALSE");
+            break;
+        case FieldType::kString:
+            write("\"\"");
+            break;
+        case FieldType::kVec2f:
+            write("0 0");
+            break;
+        case FieldType::kVec3f:
+        case FieldType::kColor:
+        case FieldType::kImage:
+            write("0 0 0");
+            break;
+        case FieldType::kRotation:
+            write("0 0 1 0");
+            break;
+        default:
+            write("0");
+    }
+    return {};
+}
+
+ClassicWriter::Frame ClassicWriter::open_field(const Attributes& attributes) {
+    const std::string name = word_of(attribute(attributes, "name"));
+    const std::string_view type = attribute(attributes, "type");
+    const std::string_view access = attribute(attributes, "accessType");
+    FieldSpec spec;
+    if (name.empty() || !vrml::parse_field_type(type, spec)) return {};
+    if (access == "inputOnly" || access == "outputOnly") {
+        write((access == "inputOnly" ? "eventIn " : "eventOut ") + std::string(type) + " " + name);
+        return {};
+    }
+    auto& interface = interfaces_[frames_.back().proto];
+    if (!interface.emplace(name, spec).second) return {};
+    write("field " + std::string(type) + " " + name);
+    const bool given =
+        std::any_of(attributes.begin(), attributes.end(), [](const auto& a) { return a.first == "value"; });
+    return open_value(spec, given ? std::optional(attribute(attributes, "value")) : std::nullopt);
+}
+
+ClassicWriter::Frame ClassicWriter::open_field_value(const Attributes& attributes) {
+    const std::string name = word_of(attribute(attributes, "name"));
+    const auto* interface = frames_.back().interface;
+    if (name.empty() || interface == nullptr) return {};
+    const auto known = interface->find(name);
+    write(name);
+    if (known == interface->end()) {
+        write("0");  // the reader tells that there is no such field
+        return {};
+    }
+    return open_value(known->second, attribute(attributes, "value"));
+}
+
+ClassicWriter::Frame ClassicWriter::opened_in_proto(std::string_view name) {
+    Frame& proto = frames_.back();
+    if (name == "ProtoInterface" && !proto.has_interface && !proto.has_body) {
+        proto.has_interface = true;
+        return {.place = Place::kInterface, .proto = proto.proto};
+    }
+    if (name != "ProtoBody" || proto.has_body) return {};
+    proto.has_body = true;
+    write("] {");
+    return {.place = Place::kStatements};
+}
+
+ClassicWriter::Frame ClassicWriter::opened(std::string_view name, const Attributes& attributes) {
+    if (frames_.empty()) {
+        has_root_ = name == "X3D";
+        return {.place = has_root_ ? Place::kRoot : Place::kIgnored};
+    }
+    const Place place = frames_.back().place;
+    if (place == Place::kIgnored) return {};
+    if (place == Place::kRoot) return {.place = name == "Scene" ? Place::kStatements : Place::kIgnored};
+    if (place == Place::kProto) return opened_in_proto(name);
+    if (place == Place::kInterface) return name == "field" ? open_field(attributes) : Frame{};
+    if (place == Place::kInstance) return name == "fieldValue" ? open_field_value(attributes) : Frame{};
+    if (place == Place::kConnections) {
+        const std::string from = word_of(attribute(attributes, "nodeField"));
+        const std::string to = word_of(attribute(attributes, "protoField"));
+        if (name == "connect" && !from.empty() && !to.empty()) write(from + " IS " + to);
+        return {};
+    }
+    if (name == "IS") return {.place = place == Place::kNode ? Place::kConnections : Place::kIgnored};
+    if (name == "ROUTE" || name == "field" || name == "fieldValue" || name == "connect" || name == "Scene") return {};
+    if (name == "ProtoDeclare") return place == Place::kValue ? Frame{} : open_proto(attributes);
+    if (name == "ExternProtoDeclare") {
+        const std::string proto = word_of(attribute(attributes, "name"));
+        if (!proto.empty() && place != Place::kValue) write("EXTERNPROTO " + proto + " [ ] [ ]");
+        return {};
+    }
+    return open_node(name, attributes);
+}
+
+void ClassicWriter::open(std::string_view name, const Attributes& attributes, int line) {
+    move_to(line);
+    frames_.push_back(opened(name, attributes));
+}
+
+void ClassicWriter::close(int line) {
+    move_to(line);
+    const Frame frame = std::move(frames_.back());
+    frames_.pop_back();
+    if (frame.place == Place::kProto) {
+        write(frame.has_body ? "}" : "] { }");
+    } else if (frame.place == Place::kValue && frame.closing.empty() && frame.is_empty) {
+        write("NULL");
+    } else if (!frame.closing.empty()) {
+        write(frame.closing);
+    }
+}
+
+}  // namespace rs::compositor::x3d

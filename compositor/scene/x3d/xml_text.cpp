@@ -1,0 +1,101 @@
+#include "compositor/scene/x3d/xml_text.hpp"
+
+#include "compositor/scene/x3d/classic_writer.hpp"
+#include "rayspace/base/printable.hpp"
+
+#include <expat.h>
+
+#include <limits>
+#include <memory>
+#include <new>
+
+namespace rs::compositor::x3d {
+namespace {
+
+constexpr int kMaxElements = 1000;  // one in another
+
+struct Reading {
+    XML_Parser parser = nullptr;
+    ClassicWriter writer;
+    int depth = 0;
+    std::string fault;  // why it was stopped
+
+    [[nodiscard]] int line() const { return static_cast<int>(XML_GetCurrentLineNumber(parser)); }
+    void stop(const std::string& why) {
+        fault = why;
+        XML_StopParser(parser, XML_FALSE);
+    }
+};
+
+// No exception may pass through Expat, which is C.
+template <class Work>
+void guarded(void* user, const Work& work) noexcept {
+    auto& reading = *static_cast<Reading*>(user);
+    if (!reading.fault.empty()) return;
+    try {
+        work(reading);
+    } catch (const std::bad_alloc&) {
+        reading.stop("it takes more memory than there is");
+    }
+}
+
+void on_open(void* user, const XML_Char* name, const XML_Char** pairs) {
+    guarded(user, [&](Reading& reading) {
+        if (++reading.depth > kMaxElements) {
+            return reading.stop("elements nest more than " + std::to_string(kMaxElements) + " deep; flatten them");
+        }
+        Attributes attributes;
+        for (; *pairs != nullptr; pairs += 2) attributes.emplace_back(pairs[0], pairs[1]);
+        reading.writer.open(name, attributes, reading.line());
+        if (!reading.writer.has_root()) {
+            reading.stop("its root is '" + printable(std::string_view(name).substr(0, 40)) + "', not X3D");
+        }
+    });
+}
+
+void on_close(void* user, const XML_Char* /*name*/) {
+    guarded(user, [&](Reading& reading) {
+        --reading.depth;
+        reading.writer.close(reading.line());
+    });
+}
+
+void on_entity(void* user, const XML_Char* /*name*/, int /*is_parameter*/, const XML_Char* /*value*/, int /*length*/,
+               const XML_Char* /*base*/, const XML_Char* /*system*/, const XML_Char* /*public_id*/,
+               const XML_Char* /*notation*/) {
+    guarded(user, [&](Reading& reading) { reading.stop("it declares entities; write what they stand for"); });
+}
+
+struct ParserCloser {
+    void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
+};
+
+}  // namespace
+
+bool is_xml(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    return begin != std::string_view::npos && text[begin] == '<';
+}
+
+Result<std::string> classic_text(std::string_view xml, const std::string& file) {
+    const std::unique_ptr<XML_ParserStruct, ParserCloser> parser(XML_ParserCreate(nullptr));
+    if (!parser || xml.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+        return Error{file + ": is too large to be read; make it smaller"};
+    }
+    Reading reading;
+    reading.parser = parser.get();
+    XML_SetUserData(parser.get(), &reading);
+    XML_SetElementHandler(parser.get(), on_open, on_close);
+    XML_SetEntityDeclHandler(parser.get(), on_entity);
+    const XML_Status status = XML_Parse(parser.get(), xml.data(), static_cast<int>(xml.size()), XML_TRUE);
+    if (!reading.fault.empty() || status != XML_STATUS_OK) {
+        const std::string why = !reading.fault.empty() ? reading.fault
+                                                       : std::string("is no well-formed XML: ") +
+                                                             XML_ErrorString(XML_GetErrorCode(parser.get()));
+        return Error{file + ": line " + std::to_string(reading.line()) + ": " + why};
+    }
+    return reading.writer.take();
+}
+
+}  // namespace rs::compositor::x3d

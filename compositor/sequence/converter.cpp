@@ -1,0 +1,110 @@
+#include "compositor/sequence/converter.hpp"
+
+#include "rayspace/base/printable.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+// True where there was something to replace.
+bool replace_all(std::string& word, const std::string& what, const std::string& by) {
+    bool found = false;
+    for (std::size_t at = word.find(what); at != std::string::npos; at = word.find(what, at + by.size())) {
+        word.replace(at, what.size(), by);
+        found = true;
+    }
+    return found;
+}
+
+// The exit status, or -1 with errno.
+int run_words(const std::vector<std::string>& words) {
+    std::vector<char*> arguments;
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+    pid_t child = 0;
+    const int failure = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (failure != 0) {
+        errno = failure;
+        return -1;
+    }
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) return -1;
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> converter_words(const std::string& command, const std::filesystem::path& in,
+                                                 const std::filesystem::path& out) {
+    std::vector<std::string> words;
+    bool in_word = false;
+    char quote = 0;
+    for (const char c : command) {
+        if (quote == 0 && (c == ' ' || c == '\t')) {
+            in_word = false;
+            continue;
+        }
+        if (!in_word) words.emplace_back();
+        in_word = true;
+        if (quote == 0 && (c == '\'' || c == '"')) {
+            quote = c;
+        } else if (c == quote) {
+            quote = 0;
+        } else {
+            words.back() += c;
+        }
+    }
+    if (quote != 0) return Error{"--convert: a quotation mark is not closed; close it"};
+    bool has_in = false;
+    bool has_out = false;
+    for (std::string& word : words) {
+        has_out = replace_all(word, "{out}", out.string()) || has_out;
+        has_in = replace_all(word, "{in}", in.string()) || has_in;
+    }
+    if (!has_in || !has_out || words.size() < 2) {
+        return Error{"--convert: the command must name {in} and {out}; give for example 'my-converter {in} {out}'"};
+    }
+    return words;
+}
+
+Result<Converted> convert_scene(const std::string& command, const std::filesystem::path& in) {
+    const std::filesystem::path place =
+        std::filesystem::temp_directory_path() / ("rayspace-converted-" + std::to_string(getpid()));
+    Result<StagedFolder> folder = StagedFolder::create(place);
+    if (!folder) return folder.error();
+    std::filesystem::path out = folder->temporary_path() / "scene";
+    const auto words = converter_words(command, in, out);
+    if (!words) return words.error();
+    const int status = run_words(*words);
+    const std::string name = printable(words->front());
+    if (status < 0) {
+        return Error{"--convert: " + name + " cannot be run (" + std::strerror(errno) + "); mend the command's name"};
+    }
+    if (status != 0) {
+        return Error{printable(in.string()) + ": the converter " + name + " ended with " + std::to_string(status) +
+                     "; see what it says above"};
+    }
+    std::error_code error;
+    if (!std::filesystem::exists(out, error)) {
+        return Error{printable(in.string()) + ": the converter " + name +
+                     " has written nothing to {out}; it must make a folder with a frames.json, or an OBJ, there"};
+    }
+    return Converted{std::move(*folder), std::move(out)};
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,46 @@
+#pragma once
+// frames.json: which files a sequence is made of. It stands in a map's folder, as simulators of traffic write it:
+//
+//     maps/NAME/anim/out/frames.json
+//     { "base": "../../../../models/scene.obj",          what stands still, any scene file (a floor)
+//       "models": ["../../../../models/cars.obj"],       objects that instances name, besides the base's
+//       "frames": ["frame-0001.obj", "frame-0002.obj"],  extended OBJ, one a frame
+//       "frames_per_second": 25,
+//       "lights": "night.json",                          a list of lights (scene/lights_file.hpp)
+//       "background": {"zenith": [0.3, 0.5, 0.8], "horizon": [0.8, 0.85, 0.9]},     sRGB
+//       "weather": "rain,fog", "seed": 1 }
+//
+// All but "frames" may be left out. Names are seen from the file's folder.
+
+#include "compositor/scene/surroundings.hpp"
+#include "compositor/scene/weather.hpp"
+#include "rayspace/base/result.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rs::compositor {
+
+inline constexpr std::size_t kMaxFrames = 100'000;
+
+struct SequenceFiles {
+    std::filesystem::path file;  // frames.json
+    std::optional<std::filesystem::path> base;
+    std::vector<std::filesystem::path> models;
+    std::vector<std::filesystem::path> frames;  // at least one
+    double frames_per_second = 25;
+    std::optional<std::filesystem::path> lights;
+    std::optional<Background> background;
+    std::optional<Weather> weather;
+};
+
+// `folder` is a map's, or one with a frames.json in it, in out/ or in anim/out/, or one with a single map in maps/; or
+// the file itself; or one extended OBJ, which is a sequence of one frame.
+Result<SequenceFiles> find_sequence(const std::filesystem::path& folder);
+
+// At most 16 MiB. Pure.
+Result<SequenceFiles> frames_from_json(const std::string& text, const std::filesystem::path& file);
+
+}  // namespace rs::compositor

@@ -1,0 +1,55 @@
+#include "compositor/sequence/sequence.hpp"
+
+#include <algorithm>
+
+namespace rs::compositor {
+namespace {
+
+// A ray-space object is shown by turning and scaling alone: its scales are equal, as the reader has checked.
+TransformChain chain_of(const InstancePose& pose) {
+    NodeTransform transform = NodeTransform::of(turn_matrix(pose.turn_deg), pose.scale.x);
+    transform.translation = pose.move;
+    return {transform};
+}
+
+}  // namespace
+
+MovedSlots moved_slots(const Sequence& sequence, std::size_t frame) {
+    MovedSlots moved;
+    moved.geometry.resize(sequence.slots.size());
+    std::vector<bool> shown(sequence.slots.size());
+    for (const SlotPose& pose : sequence.frames[frame].poses) {
+        const SequenceSlot& slot = sequence.slots[pose.slot];
+        shown[pose.slot] = true;
+        if (slot.object) moved.objects.emplace_back(*slot.object, chain_of(pose.pose));
+        moved.geometry[pose.slot] = pose.in_place ? glm::dmat4(1.0) : instance_matrix(pose.pose, slot.middle);
+    }
+    for (std::size_t i = 0; i < sequence.slots.size(); ++i) {
+        if (!shown[i] && sequence.slots[i].object) moved.objects.emplace_back(*sequence.slots[i].object, std::nullopt);
+    }
+    return moved;
+}
+
+std::optional<SequenceCamera> camera_of(const Sequence& sequence, std::size_t frame) {
+    return sequence.frames[frame].camera ? sequence.frames[frame].camera : sequence.camera;
+}
+
+Scene scene_at(const Sequence& sequence, std::size_t frame) {
+    Scene scene = sequence.scene;
+    const MovedSlots moved = moved_slots(sequence, frame);
+    std::vector<bool> gone_objects(scene.objects.size());
+    for (const auto& [node, chain] : moved.objects) {
+        gone_objects[node] = !chain;
+        if (chain) scene.objects[node].chain = *chain;
+    }
+    std::erase_if(scene.geometry,
+                  [&](const GeometryNode& node) { return node.moving && !moved.geometry[*node.moving]; });
+    for (GeometryNode& node : scene.geometry) {
+        if (node.moving) node.world_from_node = *moved.geometry[*node.moving] * node.world_from_node;
+    }
+    std::size_t i = 0;
+    std::erase_if(scene.objects, [&](const RaySpaceNode&) { return gone_objects[i++]; });
+    return scene;
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,324 @@
+#include "compositor/scene/lights_file.hpp"
+#include "compositor/scene/scene_file.hpp"
+#include "compositor/sequence/frames_file.hpp"
+#include "compositor/sequence/model_library.hpp"
+#include "compositor/sequence/sequence.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/file/input_file.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxMeshesOfFrames = 1000;  // that differ
+constexpr std::size_t kMaxMovingNodes = 100'000;
+
+// What a line names.
+struct Named {
+    const Model* model = nullptr;
+    const ModelObject* object = nullptr;
+    const Material* material = nullptr;  // null: the object's own
+    fs::path file;                       // of a ray-space object, in place of all that
+};
+
+bool is_object_file(const std::string& id) {
+    return lower_case_extension(id) == ".rso";
+}
+
+class SequenceReader {
+public:
+    explicit SequenceReader(SequenceFiles files) : files_(std::move(files)) {}
+
+    Result<Sequence> read() {
+        sequence_.name = name_of_map();
+        sequence_.frames_per_second = files_.frames_per_second;
+        sequence_.weather = files_.weather;
+        for (const fs::path& path : files_.models) {
+            const Result<ExtendedObj> parsed = read_extended_obj(path);
+            if (!parsed) return parsed.error();
+            const Result<const Model*> model = model_of(path, *parsed);
+            if (!model) return model.error();
+            models_.push_back(*model);
+        }
+        if (Status status = read_base(); !status) return status.error();
+        if (Status status = read_surroundings(); !status) return status.error();
+        for (const fs::path& path : files_.frames) {
+            if (Status status = read_frame(path); !status) return status.error();
+        }
+        add_static_objects();
+        return std::move(sequence_);
+    }
+
+private:
+    // maps/NAME/anim/out/frames.json, or the folder's or the file's own.
+    [[nodiscard]] std::string name_of_map() const {
+        const fs::path file = fs::absolute(files_.file).lexically_normal();
+        if (file.extension() == ".obj") return file.stem().string();
+        fs::path folder = file.parent_path();
+        if (folder.filename() == "out") folder = folder.parent_path();
+        if (folder.filename() == "anim") folder = folder.parent_path();
+        return folder.filename().string();
+    }
+
+    // Files of the same mesh are read once.
+    Result<const Model*> model_of(const fs::path& path, const ExtendedObj& parsed) {
+        std::string libraries;  // seen from another folder they may be others
+        for (const NamedLine& library : parsed.libraries)
+            libraries += (path.parent_path() / library.name).string() + '\n';
+        auto& known = read_[{parsed.mesh_digest, libraries}];
+        if (known) return known.get();
+        if (read_.size() > kMaxMeshesOfFrames) {
+            return Error{printable(path.string()) + ": is one more mesh than " + std::to_string(kMaxMeshesOfFrames) +
+                         "; put meshes that stand still into the base, those that move into models"};
+        }
+        Result<Model> model = read_model_objects(path, parsed);
+        if (!model) {
+            read_.erase({parsed.mesh_digest, libraries});
+            return model.error();
+        }
+        std::vector<std::string>& warnings = sequence_.scene.warnings;
+        warnings.insert(warnings.end(), model->warnings.begin(), model->warnings.end());
+        known = std::make_unique<Model>(std::move(*model));
+        return known.get();
+    }
+
+    Status read_base() {
+        if (!files_.base) {
+            sequence_.scene.floor = Floor{};
+        } else if (lower_case_extension(*files_.base) != ".obj") {
+            Result<Scene> scene = read_scene(*files_.base);
+            if (!scene) return scene.error();
+            scene->warnings.insert(scene->warnings.end(), sequence_.scene.warnings.begin(),
+                                   sequence_.scene.warnings.end());
+            sequence_.scene = std::move(*scene);
+        } else {
+            const Result<ExtendedObj> parsed = read_extended_obj(*files_.base);
+            if (!parsed) return parsed.error();
+            if (!parsed->objects.empty()) {
+                const Result<const Model*> model = model_of(*files_.base, *parsed);
+                if (!model) return model.error();
+                base_ = *model;
+            }
+            sequence_.camera = parsed->camera;
+            for (const InstanceLine& line : parsed->instances) {
+                const Result<Named> named = find(*files_.base, line, base_);
+                if (!named) return named.error();
+                add_still(*named, line.pose);
+            }
+        }
+        sequence_.scene.shading = Shading::kPhong;
+        return {};
+    }
+
+    Status read_surroundings() {
+        if (files_.background) sequence_.scene.background = *files_.background;
+        if (!files_.lights) return {};
+        Result<LightList> list = read_light_list(*files_.lights);
+        if (!list) return list.error();
+        Scene& scene = sequence_.scene;
+        // A list stands in the place of the light that there is where nobody gives one.
+        if (list->replace || !files_.base || lower_case_extension(*files_.base) == ".obj") scene.lights.clear();
+        scene.lights.insert(scene.lights.end(), list->lights.begin(), list->lights.end());
+        if (list->environment) scene.environment = std::move(list->environment);
+        return {};
+    }
+
+    Status read_frame(const fs::path& path) {
+        const Result<ExtendedObj> parsed = read_extended_obj(path);
+        if (!parsed) return parsed.error();
+        const Model* own = nullptr;
+        if (!parsed->objects.empty()) {
+            const Result<const Model*> model = model_of(path, *parsed);
+            if (!model) return model.error();
+            own = *model;
+        }
+        poses_ += parsed->instances.size();
+        if (poses_ > kMaxPoses) {
+            return Error{printable(path.string()) + ": is one frame too many; a sequence may have " +
+                         std::to_string(kMaxPoses) + " instances in all"};
+        }
+        SequenceFrame frame;
+        frame.camera = parsed->camera;
+        taken_.clear();
+        std::set<const ModelObject*> instanced;
+        for (const InstanceLine& line : parsed->instances) {
+            const Result<Named> named = find(path, line, own);
+            if (!named) return named.error();
+            instanced.insert(named->object);
+            const std::optional<std::uint32_t> slot = slot_of(*named, line.material, line.pose);
+            if (!slot) return too_many(path);
+            frame.poses.push_back({*slot, false, line.pose});
+        }
+        // What a frame brings along and does not place stands where it is.
+        for (std::size_t i = 0; own != nullptr && i < own->objects.size(); ++i) {
+            const ModelObject& object = own->objects[i];
+            if (instanced.contains(&object) || object.parts.empty()) continue;
+            const std::optional<std::uint32_t> slot = slot_of({own, &object, nullptr, {}}, "-", {});
+            if (!slot) return too_many(path);
+            frame.poses.push_back({*slot, true, {}});
+        }
+        sequence_.frames.push_back(std::move(frame));
+        return {};
+    }
+
+    static Error too_many(const fs::path& path) {
+        return Error{printable(path.string()) + ": shows more than " + std::to_string(kMaxMovingNodes) +
+                     " parts at once; make objects of fewer materials"};
+    }
+
+    // What a line names: in its own file, else among the models, else in the base; numbers in the first of these that
+    // has objects.
+    Result<Named> find(const fs::path& path, const InstanceLine& line, const Model* own) {
+        const auto wrong = [&](const std::string& what) {
+            return Error{printable(path.string()) + ":" + std::to_string(line.line) + ": " + what};
+        };
+        if (is_object_file(line.id)) return find_object_file(path, line);
+        std::vector<const Model*> places;
+        if (own != nullptr) places.push_back(own);
+        places.insert(places.end(), models_.begin(), models_.end());
+        if (base_ != nullptr && base_ != own) places.push_back(base_);
+        Named named;
+        const std::optional<std::size_t> number = number_of(line.id);
+        std::size_t before = 0;  // objects of the models before
+        for (const Model* const model : places) {
+            if (number && model != own && own != nullptr) break;
+            if (number) {
+                if (*number >= before && *number - before < model->objects.size()) {
+                    named.object = &model->objects[*number - before];
+                }
+                before += model->objects.size();
+            } else {
+                named.object = model->object(line.id);
+            }
+            named.model = model;
+            if (named.object != nullptr) break;
+        }
+        if (named.object == nullptr) {
+            return wrong("there is no object '" + printable(line.id) + "'" +
+                         (number ? " (there are " + std::to_string(before) + ", counted from 0)" : "") +
+                         "; mend the name, or add its file to \"models\"");
+        }
+        if (line.material != "-" && line.material != "-1") {
+            named.material = named.model->material(line.material);
+            if (named.material == nullptr) {
+                return wrong("there is no material '" + printable(line.material) + "' (there are " +
+                             std::to_string(named.model->materials.size()) +
+                             ", counted from 0); mend it, or give - for the object's own");
+            }
+        }
+        if (base_ != nullptr && named.model == base_) instanced_in_base_.insert(named.object);
+        return named;
+    }
+
+    static Result<Named> find_object_file(const fs::path& path, const InstanceLine& line) {
+        const auto wrong = [&](const std::string& what) {
+            return Error{printable(path.string()) + ":" + std::to_string(line.line) + ": " + what};
+        };
+        const glm::dvec3& scale = line.pose.scale;
+        if (scale.x != scale.y || scale.y != scale.z || scale.x < 0) {
+            return wrong("a ray-space object keeps its shape; give it three equal scales above 0");
+        }
+        Named named;
+        named.file = path.parent_path() / line.id;
+        std::error_code error;
+        if (!fs::is_regular_file(named.file, error)) {
+            return wrong("there is no file '" + printable(line.id) + "' beside this one; mend the name");
+        }
+        return named;
+    }
+
+    // The nodes of an object as they stand in it, with the material in place of its own.
+    void add_nodes(const Named& named, std::optional<std::uint32_t> moving) {
+        for (GeometryNode node : named.object->parts) {
+            if (named.material != nullptr) node.material = *named.material;
+            node.moving = moving;
+            sequence_.scene.geometry.push_back(std::move(node));
+        }
+    }
+
+    RaySpaceNode object_node(const fs::path& file, const InstancePose& pose) const {
+        RaySpaceNode node;
+        node.file = file;
+        node.description = file.stem().string();
+        NodeTransform transform = NodeTransform::of(turn_matrix(pose.turn_deg), pose.scale.x);
+        transform.translation = pose.move;
+        node.chain = {transform};
+        return node;
+    }
+
+    void add_still(const Named& named, const InstancePose& pose) {
+        Scene& scene = sequence_.scene;
+        if (named.object == nullptr) {
+            scene.objects.push_back(object_node(named.file, pose));
+            return;
+        }
+        const std::size_t first = scene.geometry.size();
+        add_nodes(named, std::nullopt);
+        const glm::dmat4 matrix = instance_matrix(pose, named.object->box.middle());
+        for (std::size_t i = first; i < scene.geometry.size(); ++i) {
+            scene.geometry[i].world_from_node = matrix * scene.geometry[i].world_from_node;
+        }
+    }
+
+    // The next free slot of what is named, made where there is none yet.
+    std::optional<std::uint32_t> slot_of(const Named& named, const std::string& material, const InstancePose& pose) {
+        const std::pair key(static_cast<const void*>(named.object),
+                            named.object == nullptr ? named.file.string() : material);
+        std::vector<std::uint32_t>& slots = slots_[key];
+        const std::size_t number = taken_[key]++;
+        if (number < slots.size()) return slots[number];
+        SequenceSlot slot;
+        Scene& scene = sequence_.scene;
+        if (named.object == nullptr) {
+            slot.object = scene.objects.size();
+            scene.objects.push_back(object_node(named.file, pose));
+        } else {
+            slot.middle = named.object->box.middle();
+            const std::size_t first = scene.geometry.size();
+            add_nodes(named, static_cast<std::uint32_t>(sequence_.slots.size()));
+            for (std::size_t i = first; i < scene.geometry.size(); ++i) slot.geometry.push_back(i);
+            moving_ += scene.geometry.size() - first;
+        }
+        if (moving_ > kMaxMovingNodes) return std::nullopt;
+        sequence_.slots.push_back(std::move(slot));
+        slots.push_back(static_cast<std::uint32_t>(sequence_.slots.size() - 1));
+        return slots.back();
+    }
+
+    // Those of the base that no line places stand where they are.
+    void add_static_objects() {
+        if (base_ == nullptr) return;
+        for (const ModelObject& object : base_->objects) {
+            if (instanced_in_base_.contains(&object)) continue;
+            add_nodes({base_, &object, nullptr, {}}, std::nullopt);
+        }
+    }
+
+    SequenceFiles files_;
+    Sequence sequence_;
+    std::map<std::pair<std::uint64_t, std::string>, std::unique_ptr<Model>> read_;
+    std::vector<const Model*> models_;
+    const Model* base_ = nullptr;
+    std::set<const ModelObject*> instanced_in_base_;
+    std::map<std::pair<const void*, std::string>, std::vector<std::uint32_t>> slots_;
+    std::map<std::pair<const void*, std::string>, std::size_t> taken_;  // in the frame at hand
+    std::size_t poses_ = 0;
+    std::size_t moving_ = 0;
+};
+
+}  // namespace
+
+Result<Sequence> read_sequence(const fs::path& folder) {
+    Result<SequenceFiles> files = find_sequence(folder);
+    if (!files) return files.error();
+    return SequenceReader(std::move(*files)).read();
+}
+
+}  // namespace rs::compositor

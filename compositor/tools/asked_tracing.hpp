@@ -1,0 +1,18 @@
+#pragma once
+// How rs-view was asked to trace.
+
+#include "compositor/tools/view_options.hpp"
+#include "compositor/traced/traced_renderer.hpp"
+#include "rayspace/base/result.hpp"
+
+#include <optional>
+
+namespace rs::compositor {
+
+// Nothing: raster.
+std::optional<TracedMethod> asked_method(const ViewArguments& arguments);
+
+// For raster, too: what a window traces when it is told to. Refuses a lens that is none, or that is focused on nothing.
+Result<TracedOptions> asked_tracing(const ViewArguments& arguments);
+
+}  // namespace rs::compositor

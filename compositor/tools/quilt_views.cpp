@@ -1,0 +1,79 @@
+#include "compositor/tools/quilt_views.hpp"
+
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+
+#include <filesystem>
+
+namespace rs::compositor {
+namespace {
+
+Result<Image<Rgba8>> drawn_quilt(const QuiltLayout& layout, const std::vector<Camera>& cameras,
+                                 const RenderView& render, Progress& progress) {
+    Image<Rgba8> quilt(layout.width(), layout.height());
+    for (std::size_t view = 0; view < cameras.size(); ++view) {
+        const Result<Image<Rgba8>> tile = render(cameras[view]);
+        if (!tile) return tile.error();
+        place_tile(layout, static_cast<int>(view), *tile, quilt);
+        progress.advance();
+    }
+    return quilt;
+}
+
+// Where the display shows what is at its own depth: the middle of all there is, as deep as the eye sees it.
+Result<double> asked_focus(const ViewArguments& arguments, const Scene& scene, const Camera& middle) {
+    if (arguments.focus > 0) return arguments.focus;
+    const BoundingBox box = bounds_from(scene, 0, 0);
+    const double depth = box.empty() ? 0 : glm::dot(box.middle() - middle.centre(), middle.forward());
+    if (depth > 0) return depth;
+    return Error{
+        "--quilt: the middle of the scene is not before the camera; give the depth that shall be in focus, "
+        "--focus DIST"};
+}
+
+}  // namespace
+
+std::vector<Camera> QuiltViews::cameras() const {
+    std::vector<Camera> all;
+    for (const auto& frame : frames) all.insert(all.end(), frame.begin(), frame.end());
+    return all;
+}
+
+Result<PixelSize> asked_tile(const ViewArguments& arguments) {
+    return parse_size(arguments.tile_size);
+}
+
+Result<QuiltViews> asked_quilt(const ViewArguments& arguments, const Scene& scene, const std::vector<Camera>& middle) {
+    const Result<PixelSize> tile = asked_tile(arguments);
+    if (!tile) return tile.error();
+    const Result<QuiltLayout> layout = parse_quilt(arguments.quilt, tile->width, tile->height, "--quilt");
+    if (!layout) return layout.error();
+    QuiltViews views{*layout, {}};
+    for (const Camera& camera : middle) {
+        const Result<double> focus = asked_focus(arguments, scene, camera);
+        if (!focus) return focus.error();
+        views.frames.push_back(quilt_cameras(camera, *layout, radians(arguments.cone_deg), *focus));
+    }
+    return views;
+}
+
+Status write_quilts(const QuiltViews& views, const ViewArguments& arguments, const RenderView& render,
+                    Progress& progress) {
+    if (views.frames.size() == 1) {
+        const Result<Image<Rgba8>> quilt = drawn_quilt(views.layout, views.frames.front(), render, progress);
+        if (!quilt) return quilt.error();
+        return write_png(quilt_path(arguments.output, views.layout), *quilt);
+    }
+    Result<StagedFolder> staged = StagedFolder::create(arguments.output);
+    if (!staged) return staged.error();
+    for (std::size_t frame = 0; frame < views.frames.size(); ++frame) {
+        const Result<Image<Rgba8>> quilt = drawn_quilt(views.layout, views.frames[frame], render, progress);
+        if (!quilt) return quilt.error();
+        const std::filesystem::path path = staged->temporary_path() / numbered_picture_name(frame);
+        if (Status status = write_png(quilt_path(path, views.layout), *quilt); !status) return status;
+    }
+    return staged->commit();
+}
+
+}  // namespace rs::compositor

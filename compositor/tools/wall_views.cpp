@@ -1,0 +1,155 @@
+#include "compositor/tools/wall_views.hpp"
+
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/tool/tool_main.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace rs::compositor {
+namespace {
+
+namespace fs = std::filesystem;
+
+// To the right of the middle; one or two.
+std::vector<double> eye_offsets_m(const WallViews& views) {
+    if (!views.stereo) return {0};
+    const double half = views.display.eye_distance_m / 2;
+    return {-half, half};
+}
+
+Result<WallDisplay> asked_display(const ViewArguments& arguments) {
+    Result<WallDisplay> display = [&]() -> Result<WallDisplay> {
+        if (auto preset = preset_display(arguments.walls)) return std::move(*preset);
+        if (!arguments.walls.ends_with(".json")) {
+            return Error{"--walls " + arguments.walls +
+                         ": is neither a preset (cave, power-wall, tabletop) nor a .json file of walls"};
+        }
+        return read_walls(arguments.walls);
+    }();
+    if (!display) return display;
+    if (!arguments.wall_names.empty()) {
+        if (const Status status = keep_walls(*display, arguments.wall_names); !status) {
+            return Error{arguments.walls + ": " + status.error().message};
+        }
+    }
+    if (arguments.eye_distance_m >= 0) display->eye_distance_m = arguments.eye_distance_m;
+    if (arguments.size_given) {
+        const Result<PixelSize> size = parse_size(arguments.size);
+        if (!size) return size.error();
+        for (Wall& wall : display->walls) {
+            wall.width = size->width;
+            wall.height = size->height;
+        }
+    }
+    return display;
+}
+
+std::string numbered(const std::string& name, std::size_t frame, std::size_t frames) {
+    return frames == 1 ? name + ".png" : name + "/" + numbered_picture_name(frame);
+}
+
+}  // namespace
+
+Result<std::vector<Camera>> wall_cameras(const WallViews& views) {
+    std::vector<Camera> cameras;
+    for (std::size_t frame = 0; frame < views.frames(); ++frame) {
+        for (const Wall& wall : views.display.walls) {
+            for (const double offset : eye_offsets_m(views)) {
+                Result<Camera> camera = wall_camera(wall, views.head(frame).eye(offset), views.place(frame));
+                if (!camera) {
+                    const std::string at = views.heads.size() > 1 ? "head " + std::to_string(frame) + ": " : "";
+                    return Error{at + camera.error().message};
+                }
+                cameras.push_back(*camera);
+            }
+        }
+    }
+    return cameras;
+}
+
+Result<WallViews> asked_walls(const ViewArguments& arguments, const Scene& scene, const std::vector<Camera>& visitor) {
+    Result<WallDisplay> display = asked_display(arguments);
+    if (!display) return display.error();
+    WallViews views;
+    views.display = std::move(*display);
+    for (const NamedStereoForm& named : kStereoForms) {
+        if (arguments.stereo == named.name) views.stereo = named.form;
+    }
+    views.heads = {views.display.head};
+    if (!arguments.heads.empty()) {
+        Result<std::vector<Head>> heads = read_heads(arguments.heads);
+        if (!heads) return heads.error();
+        views.heads = std::move(*heads);
+    }
+    if (views.display.fits_scene) {
+        const BoundingBox box = bounds_from(scene, 0, 0);
+        if (box.empty()) return Error{arguments.walls + ": nothing stands in the scene that could be put on the table"};
+        views.places = {fitted_place(views.display.walls.front(), box)};
+    } else if (views.display.place) {
+        views.places = {*views.display.place};
+    } else {
+        // The room is brought to the visitor as the display has the head; what the head does then, it does in there.
+        for (const Camera& camera : visitor) {
+            views.places.push_back(place_of(camera, views.display.head, views.display.units_per_metre));
+        }
+    }
+    if (views.heads.size() > 1 && views.places.size() > 1 && views.heads.size() != views.places.size()) {
+        return Error{arguments.heads + ": has " + std::to_string(views.heads.size()) +
+                     " heads, and the way through the scene " + std::to_string(views.places.size()) +
+                     " frames; give as many, or one of them"};
+    }
+    if (const auto cameras = wall_cameras(views); !cameras) {
+        return Error{(arguments.heads.empty() ? arguments.walls : arguments.heads) + ": " + cameras.error().message};
+    }
+    return views;
+}
+
+Status write_walls(const WallViews& views, const ViewArguments& arguments, const RenderView& render,
+                   Progress& progress) {
+    Result<StagedFolder> staged = StagedFolder::create(arguments.output);
+    if (!staged) return staged.error();
+    const auto cameras = wall_cameras(views);
+    if (!cameras) return cameras.error();
+    const bool apart = !views.stereo || *views.stereo == StereoForm::kFolders;
+    const std::size_t eyes = views.stereo ? 2 : 1;
+    Rig rig;
+    const auto write = [&](const std::string& name, const Image<Rgba8>& picture) -> Status {
+        const fs::path path = staged->temporary_path() / name;
+        std::error_code failed;
+        fs::create_directories(path.parent_path(), failed);
+        if (failed) return Error{path.parent_path().string() + ": cannot be made: " + failed.message()};
+        return write_png(path, picture);
+    };
+    for (std::size_t at = 0; at < cameras->size();) {
+        const std::size_t wall = at / eyes % views.display.walls.size();
+        const std::size_t frame = at / eyes / views.display.walls.size();
+        const std::string name = numbered(views.display.walls[wall].name, frame, views.frames());
+        std::vector<Image<Rgba8>> pictures;
+        for (std::size_t eye = 0; eye < eyes; ++eye, ++at) {
+            Result<Image<Rgba8>> picture = render((*cameras)[at]);
+            if (!picture) return picture.error();
+            progress.advance();
+            if (!apart) {
+                pictures.push_back(std::move(*picture));
+                continue;
+            }
+            RigView view;
+            view.file_path = eyes == 1 ? name : (eye == 0 ? "left/" : "right/") + name;
+            view.camera = (*cameras)[at];
+            if (Status status = write(view.file_path, *picture); !status) return status;
+            rig.views.push_back(std::move(view));
+        }
+        if (apart) continue;
+        if (Status status = write(name, stereo_picture(*views.stereo, pictures[0], pictures[1])); !status)
+            return status;
+    }
+    if (apart) {
+        if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
+    }
+    return staged->commit();
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,42 @@
+#pragma once
+// What `rs-view --walls` draws: which cameras, and how their pictures become files.
+
+#include "compositor/displays/stereo_picture.hpp"
+#include "compositor/displays/walls_file.hpp"
+#include "compositor/scene/scene.hpp"
+#include "compositor/tools/view_options.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/output/view_output.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rs::compositor {
+
+struct WallViews {
+    WallDisplay display;
+    std::vector<Head> heads;        // one for all frames, or one for each
+    std::vector<RoomPlace> places;  // likewise
+    std::optional<StereoForm> stereo;
+
+    [[nodiscard]] std::size_t frames() const { return std::max(heads.size(), places.size()); }
+    [[nodiscard]] const Head& head(std::size_t frame) const { return heads[heads.size() == 1 ? 0 : frame]; }
+    [[nodiscard]] const RoomPlace& place(std::size_t frame) const { return places[places.size() == 1 ? 0 : frame]; }
+};
+
+// `visitor`: the cameras of a visitor without a display (asked_cameras.hpp), which say where the room stands where the
+// walls' file does not. Every eye of every frame is checked: fails where one is behind a wall, naming it.
+Result<WallViews> asked_walls(const ViewArguments& arguments, const Scene& scene, const std::vector<Camera>& visitor);
+
+// Frame by frame, wall by wall, the left eye before the right one.
+Result<std::vector<Camera>> wall_cameras(const WallViews& views);
+
+// Into the folder arguments.output: WALL.png, or WALL/0000.png, ... of several frames; of stereo in two folders
+// left/... and right/.... Where each picture is that of one eye, transforms.json has their cameras. `render` is called
+// for the cameras of wall_cameras() in their order; `progress` is advanced for each.
+Status write_walls(const WallViews& views, const ViewArguments& arguments, const RenderView& render,
+                   Progress& progress);
+
+}  // namespace rs::compositor

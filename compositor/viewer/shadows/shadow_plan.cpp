@@ -1,0 +1,224 @@
+#include "compositor/viewer/shadows/shadow_plan.hpp"
+
+#include "compositor/viewer/views/screen_rectangle.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace rs::compositor {
+namespace {
+
+constexpr double kWidestCone_rad = kPi / 3;
+constexpr double kMargin_texels = 2;  // that maps reach beyond their edge, for those between texels
+constexpr int kSideStep = 64;
+constexpr int kSmallestSide = 64;
+
+ShadowShape shape_of_light(const Light& light) {
+    if (!(std::max({light.colour.r, light.colour.g, light.colour.b}) > 0)) return ShadowShape::kNone;
+    if (light.kind == LightKind::kDirectional) return ShadowShape::kParallel;
+    const bool narrow = light.kind == LightKind::kSpot && light.cut_off_rad <= kWidestCone_rad;
+    return narrow ? ShadowShape::kCone : ShadowShape::kCube;
+}
+
+// How bright a surface of the scene may become by the light.
+double brightness_of(const Light& light, double scene_size) {
+    const double luminance = glm::dot(glm::dvec3(light.colour), glm::dvec3(0.2126, 0.7152, 0.0722));
+    if (light.kind == LightKind::kDirectional) return luminance;
+    const double d = std::min(0.25 * scene_size, light.radius);
+    const double attenuation = glm::dot(glm::dvec3(light.attenuation), glm::dvec3(1, d, d * d));
+    return luminance / std::max({attenuation, static_cast<double>(light.least_attenuation), 1e-9});
+}
+
+// The first axis is level.
+glm::dmat3 axes_along(const glm::dvec3& z) {
+    const glm::dvec3 level(z.z, 0, -z.x);
+    const double length = glm::length(level);
+    const glm::dvec3 x = length > 1e-6 ? level / length : glm::dvec3(1, 0, 0);
+    return {x, glm::cross(z, x), z};
+}
+
+int side_for(int maps, int largest) {
+    if (maps == 0) return 0;
+    const double side = std::sqrt(static_cast<double>(kMostShadowTexels) / maps);
+    return std::clamp(static_cast<int>(side) / kSideStep * kSideStep, kSmallestSide, largest);
+}
+
+// Rows of a matrix: x, y and w of the clip coordinates are `right`, `up` and `axial` of the place from `eye`.
+glm::dmat4 seen_from(const glm::dvec3& eye, const glm::dvec3& right, const glm::dvec3& up, const glm::dvec3& forward,
+                     double half_width) {
+    const auto row = [&](const glm::dvec3& along) { return glm::dvec4(along, -glm::dot(along, eye)); };
+    return glm::transpose(
+        glm::dmat4(row(right / half_width), row(up / half_width), glm::dvec4(0, 0, 0, kNear), row(forward)));
+}
+
+// Of clip coordinates -1 .. 1 to 0 .. 1 on the map, whose first row is its top.
+void set_rows(const glm::dmat4& clip_from_world, int depth_row, LightShadow& shadow) {
+    const glm::dmat4 rows = glm::transpose(clip_from_world);
+    shadow.row_u = 0.5 * rows[3] + 0.5 * rows[0];
+    shadow.row_v = 0.5 * rows[3] - 0.5 * rows[1];
+    shadow.row_depth = rows[depth_row];
+}
+
+class Planner {
+public:
+    Planner(const Scene& scene, const BoundingBox& casters) : scene_(scene), casters_(casters) {}
+
+    ShadowPlan plan() {
+        plan_.of_light.resize(scene_.lights.size());
+        const std::vector<std::uint32_t> planes = brightest(false, kMostPlaneShadows);
+        const std::vector<std::uint32_t> cubes = brightest(true, kMostCubeShadows);
+        plan_.plane_layers = static_cast<int>(planes.size());
+        for (const std::uint32_t i : cubes) plan_.cube_layers += faces_of_cube(scene_.lights[i]);
+        plan_.plane_side = side_for(plan_.plane_layers, kLargestPlaneSide);
+        plan_.cube_side = side_for(plan_.cube_layers, kLargestCubeSide);
+        int layer = 0;
+        for (const std::uint32_t i : planes) add_plane(i, layer++);
+        layer = 0;
+        for (const std::uint32_t i : cubes) layer = add_cube(i, layer);
+        return std::move(plan_);
+    }
+
+private:
+    static int faces_of_cube(const Light& light) { return light.kind == LightKind::kSpot ? 5 : 6; }
+
+    [[nodiscard]] std::vector<std::uint32_t> brightest(bool cubes, std::size_t most) const {
+        std::vector<std::uint32_t> found;
+        for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) {
+            const ShadowShape shape = shape_of_light(scene_.lights[i]);
+            if (shape != ShadowShape::kNone && (shape == ShadowShape::kCube) == cubes) found.push_back(i);
+        }
+        const double size = glm::length(casters_.highest - casters_.lowest);
+        std::ranges::stable_sort(found, [&](std::uint32_t a, std::uint32_t b) {
+            return brightness_of(scene_.lights[a], size) > brightness_of(scene_.lights[b], size);
+        });
+        found.resize(std::min(found.size(), most));
+        return found;
+    }
+
+    void add_plane(std::uint32_t index, int layer) {
+        const Light& light = scene_.lights[index];
+        LightShadow& shadow = plan_.of_light[index];
+        shadow.shape = shape_of_light(light);
+        const bool cone = shadow.shape == ShadowShape::kCone;
+        const double margin = 1 + 2 * kMargin_texels / plan_.plane_side;
+        double texel = 0;
+        ShadowFace face{.light = index, .layer = layer, .perspective = cone, .scope = scope_of(index)};
+        const glm::dmat3 axes = axes_along(-light.towards);  // right, up, back
+        if (cone) {
+            const double half_width = std::tan(std::max(light.cut_off_rad, 1e-3)) * margin;
+            face.clip_from_world = seen_from(light.location, axes[0], axes[1], light.towards, half_width);
+            texel = 2 * half_width / plan_.plane_side;
+        } else {
+            face.clip_from_world = parallel(axes, face.scope.empty() ? casters_ : face.scope, margin, texel);
+        }
+        set_rows(face.clip_from_world, cone ? 3 : 2, shadow);
+        shadow.layer_texel = {layer, texel, 0, 0};
+        plan_.faces.push_back(face);
+    }
+
+    [[nodiscard]] BoundingBox scope_of(std::uint32_t light) const {
+        BoundingBox scope;
+        if (scene_.lights[light].everywhere) return scope;
+        for (const GeometryNode& node : scene_.geometry) {
+            if (std::ranges::find(node.lights, light) == node.lights.end()) continue;
+            const BoundingBox box = bounds_of(*node.mesh).moved(node.world_from_node);
+            if (box.empty()) continue;
+            scope.include(box.lowest);
+            scope.include(box.highest);
+        }
+        return scope;
+    }
+
+    [[nodiscard]] glm::dmat4 parallel(const glm::dmat3& axes, const BoundingBox& held, double margin,
+                                      double& texel) const {
+        const BoundingBox box = held.moved(glm::dmat4(glm::transpose(axes)));
+        const glm::dvec3 half = glm::max(0.5 * (box.highest - box.lowest), glm::dvec3(1e-6)) * margin;
+        texel = 2 * std::max(half.x, half.y) / plan_.plane_side;
+        glm::dmat4 rows(0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            rows[axis] = glm::dvec4(axes[axis], -box.middle()[axis]) / half[axis];
+        }
+        // What is farther back along the light is nearer to it, and has the greater depth.
+        rows[2] = 0.5 * rows[2] + glm::dvec4(0, 0, 0, 0.5);
+        rows[3] = glm::dvec4(0, 0, 0, 1);
+        return glm::transpose(rows);
+    }
+
+    // The layer behind it.
+    int add_cube(std::uint32_t index, int layer) {
+        const Light& light = scene_.lights[index];
+        LightShadow& shadow = plan_.of_light[index];
+        shadow.shape = ShadowShape::kCube;
+        const bool spot = light.kind == LightKind::kSpot;
+        const glm::dmat3 axes = axes_along(spot ? light.towards : glm::dvec3(0, 0, 1));
+        const glm::dvec3 x = axes[0];
+        const glm::dvec3 y = axes[1];
+        const glm::dvec3 z = axes[2];
+        // Right, up, forward of each face; the shader chooses among them in this order.
+        const std::array<std::array<glm::dvec3, 3>, 6> faces{
+            {{-x, y, z}, {z, y, x}, {-z, y, -x}, {x, z, y}, {x, -z, -y}, {x, y, -z}}};
+        const double half_width = 1 + 2 * kMargin_texels / plan_.cube_side;
+        const BoundingBox scope = scope_of(index);
+        shadow.row_u = glm::vec4(x, 0);
+        shadow.row_v = glm::vec4(y, 0);
+        shadow.row_depth = glm::vec4(z, 0);
+        shadow.layer_texel = {layer, 2 * half_width / plan_.cube_side, 0.5 / half_width, 0};
+        for (int f = 0; f < faces_of_cube(light); ++f) {
+            const auto& [right, up, forward] = faces[static_cast<std::size_t>(f)];
+            plan_.faces.push_back(
+                {index, true, layer++, seen_from(light.location, right, up, forward, half_width), true, scope});
+        }
+        return layer;
+    }
+
+    const Scene& scene_;
+    BoundingBox casters_;
+    ShadowPlan plan_;
+};
+
+}  // namespace
+
+bool may_throw(const BoundingBox& box, const ShadowFace& face) {
+    if (box.empty()) return false;
+    // A box is outside where all corners are on the wrong side of one plane.
+    int outside = 0x1f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p((corner & 1) != 0 ? box.highest.x : box.lowest.x,
+                           (corner & 2) != 0 ? box.highest.y : box.lowest.y,
+                           (corner & 4) != 0 ? box.highest.z : box.lowest.z);
+        const glm::dvec4 clip = face.clip_from_world * glm::dvec4(p, 1);
+        outside &= (clip.x < -clip.w ? 1 : 0) | (clip.x > clip.w ? 2 : 0) | (clip.y < -clip.w ? 4 : 0) |
+                   (clip.y > clip.w ? 8 : 0) | (face.perspective && clip.w < kNear ? 16 : 0);
+    }
+    return outside == 0;
+}
+
+bool throws_shadows(const GeometryNode& node) {
+    return node.mesh->topology == Topology::kTriangles && !node.mesh->indices.empty() && !is_blended(node.material);
+}
+
+BoundingBox bounds_of_casters(const Scene& scene) {
+    BoundingBox all;
+    const auto include = [&](const BoundingBox& box) {
+        if (box.empty()) return;
+        all.include(box.lowest);
+        all.include(box.highest);
+    };
+    for (const GeometryNode& node : scene.geometry) {
+        if (throws_shadows(node)) include(bounds_of(*node.mesh).moved(node.world_from_node));
+    }
+    for (const RaySpaceNode& object : scene.objects) {
+        constexpr double kAbove = 2.2;  // one that stands; radii
+        const BoundingBox box{{-1.1, object.standing ? 0 : -1.1, -1.1}, {1.1, object.standing ? kAbove : 1.1, 1.1}};
+        include(box.moved(world_from_node(object.chain).matrix()));
+    }
+    return all;
+}
+
+ShadowPlan plan_shadows(const Scene& scene, const BoundingBox& casters) {
+    if (casters.empty()) return {};
+    return Planner(scene, casters).plan();
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,107 @@
+#pragma once
+// The GLSL of shadow maps: of what throws shadows, and of looking them up.
+//
+// The look-up is percentage-closer filtering (W. Reeves and others 1987): four taps half a texel apart, each of the
+// nearest four texels: a smooth kernel three texels wide. The place is moved off its surface, along the normal, by just
+// as much as the surface may rise towards the light within the kernel: so many texels times the sine of the angle
+// between the surface and the map. Then lit surfaces do not shade themselves at any angle, and what touches a surface
+// still shades it where they touch.
+
+namespace rs::compositor::shaders {
+
+// Of geometry and objects' shells.
+inline constexpr const char* kCasterVertex = R"(#version 450 core
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec2 texture_place;
+uniform mat4 clip_from_node;
+uniform mat3 texture_transform;
+out vec2 place_on_texture;
+void main() {
+    gl_Position = clip_from_node * vec4(position, 1.0);
+    vec3 st = texture_transform * vec3(texture_place, 1.0);
+    place_on_texture = vec2(st.s, 1.0 - st.t);
+})";
+inline constexpr const char* kCasterFragment = R"(#version 450 core
+void main() {})";
+// With holes where the picture has some.
+inline constexpr const char* kMaskedCasterFragment = R"(#version 450 core
+layout(binding = 0) uniform sampler2D surface_picture;
+in vec2 place_on_texture;
+void main() {
+    if (texture(surface_picture, place_on_texture).a < 0.5) discard;
+})";
+
+// Behind the constant kShadows: of how many lights there are rows, four each (LightShadow).
+inline constexpr const char* kShadowLookUp = R"(
+layout(binding = 2) uniform sampler2DArrayShadow plane_maps;
+layout(binding = 3) uniform sampler2DArrayShadow cube_maps;
+uniform vec4 shadows[4 * max(kShadows, 1)];
+const float kReach = 2.13;  // of the kernel, texels: 1.5 both ways
+const float kLeast = 0.2;   // texels; for what the maps' numbers round
+
+float off_surface(float along) {
+    return kLeast + kReach * sqrt(max(1.0 - along * along, 0.0));
+}
+
+// How much of the light of a parallel map arrives.
+float parallel_shadow(int first, vec3 place, vec3 n, vec3 towards) {
+    vec4 at = shadows[first + 3];  // layer, texel
+    vec4 p = vec4(place + n * (at.y * off_surface(dot(n, towards))), 1.0);
+    vec2 uv = vec2(dot(shadows[first], p), dot(shadows[first + 1], p));
+    float depth = clamp(dot(shadows[first + 2], p), 0.0, 1.0);
+    vec2 half_texel = vec2(0.5) / vec2(textureSize(plane_maps, 0).xy);
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        vec2 off = vec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1) * half_texel;
+        sum += texture(plane_maps, vec4(uv + off, at.x, depth));
+    }
+    return 0.25 * sum;
+}
+)"
+                                             R"(
+// Of a spot's single map; kNear is the numerator of depths.
+float cone_shadow(int first, vec3 place, vec3 n, vec3 towards) {
+    vec4 at = shadows[first + 3];
+    float axial = max(dot(shadows[first + 2], vec4(place, 1.0)), 0.0);
+    vec4 p = vec4(place + n * (axial * at.y * off_surface(dot(n, towards))), 1.0);
+    axial = max(dot(shadows[first + 2], p), 1e-6);
+    vec2 uv = vec2(dot(shadows[first], p), dot(shadows[first + 1], p)) / axial;
+    float depth = clamp(kNear / axial, 0.0, 1.0);
+    vec2 half_texel = vec2(0.5) / vec2(textureSize(plane_maps, 0).xy);
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        vec2 off = vec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1) * half_texel;
+        sum += texture(plane_maps, vec4(uv + off, at.x, depth));
+    }
+    return 0.25 * sum;
+}
+
+// Of the faces of a cube: +Z, +X, -X, +Y, -Y, -Z of its axes.
+float cube_shadow(int first, vec3 place, vec3 n, vec3 location) {
+    vec4 at = shadows[first + 3];  // layer, texel at depth 1, half over the width of a face at depth 1
+    mat3 axes = mat3(shadows[first].xyz, shadows[first + 1].xyz, shadows[first + 2].xyz);
+    vec3 l = (place - location) * axes;
+    vec3 m = n * axes;
+    vec3 a = abs(l);
+    bool z_most = a.z >= max(a.x, a.y);
+    bool x_most = a.x >= a.y;
+    float along = z_most ? m.z : x_most ? m.x : m.y;
+    l += m * (max(a.z, max(a.x, a.y)) * at.y * off_surface(along));
+    float most = z_most ? l.z : x_most ? l.x : l.y;
+    float side = most < 0.0 ? -1.0 : 1.0;
+    vec2 uv = z_most ? vec2(-side * l.x, l.y) : x_most ? vec2(side * l.z, l.y) : vec2(l.x, side * l.z);
+    float face = z_most ? (side < 0.0 ? 5.0 : 0.0) : (x_most ? 1.0 : 3.0) + (side < 0.0 ? 1.0 : 0.0);
+    float axial = max(abs(most), 1e-6);
+    uv = 0.5 + vec2(at.z, -at.z) * uv / axial;
+    float depth = clamp(kNear / axial, 0.0, 1.0);
+    vec2 half_texel = vec2(0.5) / vec2(textureSize(cube_maps, 0).xy);
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        vec2 off = vec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1) * half_texel;
+        sum += texture(cube_maps, vec4(uv + off, at.x + face, depth));
+    }
+    return 0.25 * sum;
+}
+)";
+
+}  // namespace rs::compositor::shaders

@@ -1,0 +1,302 @@
+#include "compositor/window/light_panel.hpp"
+
+#include "compositor/lighting/number_step.hpp"
+#include "rayspace/base/printable.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+constexpr float kPanelMargin_px = 10;
+constexpr float kWidth_px = 400;
+constexpr float kField_px = 88;
+constexpr float kButton_px = 44;
+constexpr float kListRows = 7;
+const ImVec4 kWarning{1, 0.6F, 0.3F, 1};
+constexpr std::array kKinds = {LightKind::kPoint,     LightKind::kSpot, LightKind::kLuminaire,
+                               LightKind::kRectangle, LightKind::kDisc, LightKind::kDirectional};
+
+struct Range {
+    double lowest;
+    double highest;
+};
+constexpr Range kPlaces{-kMostDistant, kMostDistant};
+constexpr Range kPowers{0, kStrongest};
+constexpr Range kLengths{kShortest, kMostDistant};
+
+bool step_button(const char* text) {
+    const bool pressed = ImGui::Button(text, {kButton_px, 0});
+    ImGui::SameLine(0, 2);
+    return pressed;
+}
+
+bool drag(double& value, double speed, const Range& range, const char* format) {
+    ImGui::SetNextItemWidth(kField_px);
+    double changed = value;
+    const bool moved = ImGui::DragScalar("##value", ImGuiDataType_Double, &changed, static_cast<float>(speed),
+                                         &range.lowest, &range.highest, format);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("drag; double-click to type");
+    ImGui::SameLine(0, 2);
+    if (!moved || !std::isfinite(changed)) return false;
+    changed = std::clamp(changed, range.lowest, range.highest);
+    if (changed == value) return false;
+    value = changed;
+    return true;
+}
+
+// By factors of ten and of 1.1.
+bool factor_field(const char* label, double& value, double first, const Range& range) {
+    ImGui::PushID(label);
+    double changed = value;
+    const auto factor = [&](const char* text, double by) {
+        if (step_button(text)) changed = scaled(value, by, first, range.lowest, range.highest);
+    };
+    factor("/10", 0.1);
+    factor("/1.1", 1 / 1.1);
+    const double speed = std::max(value, 0.1 * first) * 0.01;
+    if (double dragged = value; drag(dragged, speed, range, "%.4g")) changed = dragged;
+    factor("x1.1", 1.1);
+    factor("x10", 10);
+    ImGui::TextUnformatted(label);
+    ImGui::PopID();
+    return std::exchange(value, changed) != changed;
+}
+
+// By steps of 10^order and ten times that.
+bool step_field(const char* label, double& value, int order, const Range& range) {
+    ImGui::PushID(label);
+    double changed = value;
+    const auto step = [&](int step_order, int count) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%+g", count * std::pow(10.0, step_order));
+        if (step_button(text)) changed = shifted(value, step_order, count, range.lowest, range.highest);
+    };
+    step(order + 1, -1);
+    step(order, -1);
+    if (double dragged = value; drag(dragged, std::pow(10.0, order) * 0.5, range, "%.5g")) changed = dragged;
+    step(order, 1);
+    step(order + 1, 1);
+    ImGui::TextUnformatted(label);
+    ImGui::PopID();
+    return std::exchange(value, changed) != changed;
+}
+
+void triple_field(const char* what, const std::array<const char*, 3>& labels, glm::dvec3& value, int order,
+                  const Range& range) {
+    ImGui::PushID(what);
+    for (int i = 0; i < 3; ++i) step_field(labels[static_cast<std::size_t>(i)], value[i], order, range);
+    ImGui::PopID();
+}
+
+std::string label_of(const LightEntry& entry, std::size_t number) {
+    std::string label = std::to_string(number + 1) + "  " + name_of(entry.kind);
+    if (!entry.name.empty()) label += "  " + printable(entry.name);
+    if (!entry.file.empty()) label += "  (" + printable(entry.file.filename().string()) + ")";
+    return label;
+}
+
+void draw_list(LightDesk& desk) {
+    LightEdits& edits = desk.edits();
+    if (ImGui::BeginListBox("##lights", {-1, kListRows * ImGui::GetTextLineHeightWithSpacing()})) {
+        for (std::size_t i = 0; i < edits.state().entries.size(); ++i) {
+            ImGui::PushID(static_cast<int>(i));
+            const bool selected = edits.selected() == i;
+            if (ImGui::Selectable(label_of(edits.state().entries[i], i).c_str(), selected)) {
+                edits.select(selected ? std::nullopt : std::optional(i));
+            }
+            ImGui::PopID();
+        }
+        ImGui::EndListBox();
+    }
+}
+
+void draw_list_buttons(LightDesk& desk, const DeskView& view) {
+    ImGui::SetNextItemWidth(kField_px);
+    if (ImGui::BeginCombo("##add", "add ...")) {
+        for (const LightKind kind : kKinds) {
+            if (ImGui::Selectable(name_of(kind))) desk.add(kind, view);
+        }
+        ImGui::EndCombo();
+    }
+    for (const auto& [text, key] : {std::pair("duplicate", Key::kDuplicate), std::pair("delete", Key::kDelete),
+                                    std::pair("undo", Key::kUndo), std::pair("redo", Key::kRedo)}) {
+        ImGui::SameLine();
+        if (ImGui::Button(text)) desk.obey(key);
+    }
+}
+
+void edit_power(LightEntry& entry) {
+    if (entry.radiance) {
+        const double most = std::max({entry.radiance->x, entry.radiance->y, entry.radiance->z});
+        double changed = most;
+        const bool punctual = entry.kind == LightKind::kPoint || entry.kind == LightKind::kSpot;
+        if (factor_field(punctual ? "intensity" : "radiance, W/(m2 sr)", changed, 1, kPowers)) {
+            *entry.radiance = most > 0 ? *entry.radiance * (changed / most) : glm::dvec3(changed);
+        }
+        return;
+    }
+    const bool dimmer = entry.kind == LightKind::kLuminaire;
+    factor_field(dimmer ? "dimmer" : unit_of(entry), entry.power, dimmer ? 1 : 10, kPowers);
+}
+
+void edit_colour(LightEntry& entry) {
+    glm::vec3 colour(entry.colour);
+    ImGui::SetNextItemWidth(3 * kField_px);
+    if (ImGui::ColorEdit3("colour", &colour.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR)) {
+        entry.colour = glm::clamp(glm::dvec3(colour), 0.0, kStrongest);
+    }
+}
+
+void edit_aim(LightEntry& entry) {
+    glm::dvec3 aim = entry.aim;
+    triple_field("aim", {"aim x", "aim y", "aim z"}, aim, -2, {-1e3, 1e3});
+    if (glm::length(aim) > 1e-3) entry.aim = aim;
+}
+
+void edit_shape(LightEntry& entry) {
+    if (entry.kind == LightKind::kDisc) {
+        if (factor_field("diameter", entry.size.x, 0.1, kLengths)) entry.size.y = entry.size.x;
+    } else if (entry.kind == LightKind::kRectangle) {
+        factor_field("across", entry.size.x, 0.1, kLengths);
+        factor_field("along", entry.size.y, 0.1, kLengths);
+    } else if (entry.kind == LightKind::kSpot) {
+        if (step_field("beam, degrees", entry.beam_deg, 0, {0, 180})) {
+            entry.cut_off_deg = std::max(entry.cut_off_deg, entry.beam_deg);
+        }
+        if (step_field("cut-off, degrees", entry.cut_off_deg, 0, {kLeastCutOff_deg, 180})) {
+            entry.beam_deg = std::min(entry.beam_deg, entry.cut_off_deg);
+        }
+    }
+}
+
+// Changes what is under edit, but for the file, which the desk reads.
+void edit_light(LightEntry& entry) {
+    char name[128];
+    std::snprintf(name, sizeof name, "%s", entry.name.c_str());
+    ImGui::SetNextItemWidth(3 * kField_px);
+    if (ImGui::InputText("name", name, sizeof name)) entry.name = name;
+    edit_power(entry);
+    edit_colour(entry);
+    if (entry.kind != LightKind::kDirectional) triple_field("place", {"x", "y", "z"}, entry.location, -2, kPlaces);
+    if (entry.kind != LightKind::kPoint) edit_aim(entry);
+    const bool punctual = entry.kind == LightKind::kPoint || entry.kind == LightKind::kSpot;
+    if (!punctual && entry.kind != LightKind::kDirectional) {
+        step_field("turn, degrees", entry.turn_deg, 0, {-36000, 36000});
+    }
+    edit_shape(entry);
+}
+
+void draw_files(LightDesk& desk, const LightEntry& entry) {
+    ImGui::SetNextItemWidth(3 * kField_px);
+    if (ImGui::BeginCombo("file", printable(entry.file.filename().string()).c_str())) {
+        for (const std::filesystem::path& file : desk.files()) {
+            if (!ImGui::Selectable(printable(file.filename().string()).c_str(), file == entry.file)) continue;
+            if (const Status used = desk.use_file(file); !used) desk.tell(used.error().message);
+        }
+        ImGui::EndCombo();
+    }
+    char folder[1024];
+    std::snprintf(folder, sizeof folder, "%s", desk.folder().c_str());
+    ImGui::SetNextItemWidth(3 * kField_px);
+    if (ImGui::InputText("folder", folder, sizeof folder, ImGuiInputTextFlags_EnterReturnsTrue)) {
+        desk.look_for_files(folder);
+    }
+}
+
+void edit_surroundings(LightingState& state) {
+    step_field("exposure, stops", state.exposure_ev, -1, {-40, 40});
+    if (state.headlight) ImGui::Checkbox("headlight", &state.headlight);
+    if (!state.environment) return;
+    factor_field("environment", state.environment->scale, 1, kPowers);
+    step_field("its turn, degrees", state.environment->turn_deg, 0, {-36000, 36000});
+    ImGui::Checkbox("environment is seen", &state.environment->seen);
+}
+
+void draw_profile(LightDesk& desk) {
+    char profile[1024];
+    std::snprintf(profile, sizeof profile, "%s", desk.profile.c_str());
+    ImGui::SetNextItemWidth(2 * kField_px);
+    if (ImGui::InputText("##profile", profile, sizeof profile)) desk.profile = profile;
+    ImGui::SameLine();
+    if (ImGui::Button("load")) {
+        if (const Status loaded = desk.load(); !loaded) desk.tell(loaded.error().message);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("save")) {
+        const Status saved = desk.save();
+        desk.tell(saved ? desk.profile + ": saved" : saved.error().message);
+    }
+}
+
+}  // namespace
+
+void LightPanel::draw(LightDesk& desk, const DeskView& view) {
+    const ImGuiIO& io = ImGui::GetIO();
+    LightEdits& edits = desk.edits();
+    ImGui::SetNextWindowPos({io.DisplaySize.x - kPanelMargin_px, kPanelMargin_px}, ImGuiCond_Always, {1, 0});
+    ImGui::SetNextWindowSizeConstraints({kWidth_px, 0}, {kWidth_px, io.DisplaySize.y - 2 * kPanelMargin_px});
+    ImGui::SetNextWindowBgAlpha(0.85F);
+    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                        ImGuiWindowFlags_NoNav;
+    if (ImGui::Begin("lights", nullptr, kFlags)) {
+        ImGui::PushButtonRepeat(true);
+        LightingState surroundings = edits.state();
+        edit_surroundings(surroundings);
+        const bool touched = ImGui::IsAnyItemActive();
+        if (!(surroundings == edits.state())) {
+            if (touched) edits.begin_gesture();
+            changing_ = changing_ || touched;
+            edits.set(std::move(surroundings));
+        }
+        ImGui::PopButtonRepeat();
+        ImGui::Separator();
+        draw_list(desk);
+        draw_list_buttons(desk, view);
+        if (!edits.selected()) {
+            ImGui::TextDisabled(
+                "click a light; drag its arrows, its middle\nover surfaces, or its white dot to aim it");
+        }
+        if (const auto selected = edits.selected()) {
+            ImGui::Separator();
+            ImGui::PushID(static_cast<int>(*selected));
+            ImGui::PushButtonRepeat(true);
+            LightEntry entry = edits.state().entries[*selected];
+            edit_light(entry);
+            if (!(entry == edits.state().entries[*selected])) {
+                if (ImGui::IsAnyItemActive()) {
+                    edits.begin_gesture();
+                    changing_ = true;
+                }
+                edits.set_light(*selected, std::move(entry));
+            }
+            ImGui::PopButtonRepeat();
+            if (edits.state().entries[*selected].kind == LightKind::kLuminaire) {
+                draw_files(desk, edits.state().entries[*selected]);
+            }
+            ImGui::PopID();
+            if (!desk.warning().empty()) {
+                ImGui::PushTextWrapPos(0);
+                ImGui::TextColored(kWarning, "%s", printable(desk.warning()).c_str());
+                ImGui::PopTextWrapPos();
+            }
+        }
+        ImGui::Separator();
+        draw_profile(desk);
+    }
+    ImGui::End();
+    if (changing_ && !ImGui::IsAnyItemActive()) {
+        edits.end_gesture();
+        changing_ = false;
+    }
+}
+
+}  // namespace rs::compositor

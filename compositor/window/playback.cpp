@@ -1,0 +1,76 @@
+#include "compositor/window/playback.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace rs::compositor {
+
+Playback::Playback(std::shared_ptr<const Sequence> sequence, std::optional<Weather> weather)
+    : sequence_(std::move(sequence)), weather_(weather) {}
+
+void Playback::step(int frames) {
+    const auto count = static_cast<std::ptrdiff_t>(sequence_->frames.size());
+    const std::ptrdiff_t to = (static_cast<std::ptrdiff_t>(frame_) + frames % count + count) % count;
+    shown_ = shown_ && static_cast<std::size_t>(to) == frame_;
+    frame_ = static_cast<std::size_t>(to);
+}
+
+bool Playback::advance(double seconds) {
+    if (saving_) {
+        if (shown_) step(1);
+    } else if (playing_) {
+        passed_s_ += seconds;
+        const int frames = static_cast<int>(passed_s_ * sequence_->frames_per_second);
+        passed_s_ -= frames / sequence_->frames_per_second;
+        step(frames);
+    }
+    return !shown_;
+}
+
+Status Playback::show(FrameCompositor& compositor, Showroom& showroom) {
+    shown_ = true;
+    return show_frame(*sequence_, frame_, weather_, compositor, showroom);
+}
+
+std::optional<Camera> Playback::camera(int width, int height) const {
+    if (!follows_) return std::nullopt;
+    return camera_of(*sequence_, frame_, width, height);
+}
+
+Scene Playback::scene() const {
+    Scene scene = scene_at(*sequence_, frame_);
+    return weather_ ? in_weather(std::move(scene), *weather_) : scene;
+}
+
+void Playback::draw_controls() {
+    ImGui::Separator();
+    int frame = static_cast<int>(frame_);
+    const int last = static_cast<int>(sequence_->frames.size()) - 1;
+    ImGui::Checkbox("play", &playing_);
+    ImGui::SameLine();
+    if (ImGui::Button("<")) step(-1), playing_ = false;
+    ImGui::SameLine();
+    if (ImGui::Button(">")) step(1), playing_ = false;
+    ImGui::SameLine();
+    if (last > 0 && ImGui::SliderInt("frame", &frame, 0, last)) {
+        playing_ = false;
+        step(frame - static_cast<int>(frame_));
+    }
+    ImGui::Checkbox("its camera", &follows_);
+    ImGui::SameLine();
+    if (ImGui::Button("save JPEG")) wants_jpeg_ = true;
+    ImGui::SameLine();
+    if (last > 0 && ImGui::Button(saving_ ? "end video" : "save video")) {
+        saving_ = !saving_;
+        playing_ = false;
+        shown_ = false;
+        if (saving_) frame_ = 0;
+    }
+    ImGui::InputText("##folder", typed_.data(), typed_.size());
+    ImGui::SameLine();
+    if (ImGui::Button("open")) folder_ = typed_.data();
+}
+
+}  // namespace rs::compositor

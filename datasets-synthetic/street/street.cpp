@@ -1,0 +1,361 @@
+#include "datasets-synthetic/street/street.hpp"
+
+#include "datasets-synthetic/street/houses.hpp"
+#include "datasets-synthetic/street/obj_file.hpp"
+#include "datasets-synthetic/street/road.hpp"
+#include "datasets-synthetic/street/traffic.hpp"
+#include "datasets-synthetic/street/vehicles.hpp"
+#include "rayspace/base/check.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/pictures/picture_io.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace rs::synthetic {
+namespace {
+
+namespace fs = std::filesystem;
+using glm::vec3;
+using nlohmann::ordered_json;
+
+// An instance of an object of the static world.
+struct Standing {
+    std::string object;
+    vec3 foot{0};
+    float turn_deg = 0;
+    float size = 1;
+};
+
+struct Street {
+    World world;
+    std::set<std::string> unlit;
+    std::vector<Standing> standing;
+    std::vector<vec3> street_lights;
+    std::vector<vec3> shop_lights;
+};
+
+// A row of houses from `begin` on to +X of the row's frame, the fronts on its line.
+void build_row(Street& street, RoomBuilder& builder, const std::string& name, vec3 begin, float turn_deg, float length,
+               bool night, Random& random) {
+    static constexpr std::array kShops{"ORIENTALIA", "FLORA", "TOYS", "LUMEN", "GEOMETRY", "CAFE"};
+    static const std::array<std::vector<std::string>, 6> kGoods{std::vector<std::string>{"vase", "lamp"},
+                                                                {"flower", "flower"},
+                                                                {"doll", "blocks"},
+                                                                {"lamp", "lattice"},
+                                                                {"lattice", "vase"},
+                                                                {"vase", "flower"}};
+    float at = 0;
+    for (int number = 0; length - at > 7; ++number) {
+        HouseStyle style;
+        style.width_m = std::min(random.uniform(7.5F, 10.5F), length - at);
+        if (length - at - style.width_m < 7) style.width_m = length - at;
+        style.floors = 2 + random.below(3);
+        style.wall = random.below(kWallLooks);
+        style.gable = random.uniform() < 0.6F;
+        style.night = night;
+        style.seed = random.next();
+        // Shops stand near the crossing: at the row's beginning or end.
+        static_cast<void>(number);
+        Pen pen(street.world, name + "_" + std::to_string(number));
+        pen.stand_at(begin, turn_deg);
+        const vec3 corner = pen.point({at, 0, 0});
+        const float from_crossing = std::max(std::abs(corner.x), std::abs(pen.point({at + style.width_m, 0, 0}).x));
+        const bool on_main = std::abs(corner.z) < kHalfStreet_m + 1;
+        const std::size_t shops = street.shop_lights.size();
+        if (on_main && from_crossing < 36 && shops < kShops.size() && style.width_m < 14) {
+            style.shop = kShops.at(shops);
+            style.objects = kGoods.at(shops);
+            street.shop_lights.push_back(shop_light(corner, turn_deg, style));
+        }
+        build_house(street.world, pen, builder, corner, turn_deg, style);
+        at += style.width_m;
+    }
+}
+
+void plant(Street& street, Random& random) {
+    const auto tree = [&](float x, float z) {
+        const int kind = random.below(2);
+        const float turn = random.uniform(0, 360);
+        const float size = random.uniform(0.85F, 1.2F);
+        street.standing.push_back({"tree_" + std::to_string(kind), {x, kKerb_m, z}, turn, size});
+    };
+    for (int i = 0; i < 5; ++i) {
+        for (const float sx : {-1.0F, 1.0F}) {
+            for (const float sz : {-1.0F, 1.0F}) {
+                const float x = sx * (16 + 12 * static_cast<float>(i));
+                tree(x + 3 * sz, sz * 4.9F);
+                const float lamp_x = x + 3 * sz + 6 * sx;
+                street.standing.push_back({"lamp", {lamp_x, kKerb_m, sz * 4.6F}, sz > 0 ? 180.0F : 0.0F, 1});
+                street.street_lights.emplace_back(lamp_x, kLampHeight_m + 0.1F, sz * 3.4F);
+            }
+        }
+    }
+    // Beyond the houses.
+    for (int i = 0; i < 12; ++i) {
+        for (const float sx : {-1.0F, 1.0F}) {
+            for (const float sz : {-1.0F, 1.0F}) {
+                const float x = sx * random.uniform(76, 166);
+                const float z = sz * random.uniform(11, 55);
+                const float turn = random.uniform(0, 360);
+                const float size = random.uniform(0.9F, 2.3F);
+                street.standing.push_back({"bush", {x, 0, z}, turn, size});
+            }
+        }
+    }
+    for (int i = 0; i < 6; ++i) {
+        for (const float sx : {-1.0F, 1.0F}) {
+            for (const float sz : {-1.0F, 1.0F}) {
+                const float x = sx * random.uniform(11, 50);
+                const float z = sz * random.uniform(52, 105);
+                const float turn = random.uniform(0, 360);
+                const float size = random.uniform(0.9F, 2.0F);
+                street.standing.push_back({"bush", {x, 0, z}, turn, size});
+            }
+        }
+    }
+}
+
+Street make_street(const StreetOptions& options) {
+    Street street;
+    const bool night = options.scenario.night;
+    RoomBuilder builder(street.world, "street", options.texture_scale);
+    house_looks(builder, night, street.unlit);
+    road_looks(builder, night, street.unlit);
+    build_roads(street.world);
+    build_street_furniture(street.world);
+    Random random(2024, 1);
+    const float h = kHalfStreet_m;
+    const float row = 62;
+    // Along the main street, both sides and both halves; rows that face -Z run towards -X.
+    build_row(street, builder, "house_ne", {h, 0, -h}, 0, row, night, random);
+    build_row(street, builder, "house_sw", {-h, 0, h}, 180, row, night, random);
+    build_row(street, builder, "house_nw", {-h - row, 0, -h}, 0, row, night, random);
+    build_row(street, builder, "house_se", {h + row, 0, h}, 180, row, night, random);
+    // Along the other one, behind them.
+    const float behind = h + 10.5F;
+    const float side = 30;
+    build_row(street, builder, "house_en", {h, 0, -behind - side}, -90, side, night, random);
+    build_row(street, builder, "house_es", {h, 0, behind}, -90, side, night, random);
+    build_row(street, builder, "house_wn", {-h, 0, -behind}, 90, side, night, random);
+    build_row(street, builder, "house_ws", {-h, 0, behind + side}, 90, side, night, random);
+    plant(street, random);
+    return street;
+}
+
+struct Box {
+    vec3 low{1e9F};
+    vec3 high{-1e9F};
+};
+
+std::map<std::string, Box> boxes_of(const World& world) {
+    std::map<std::string, Box> boxes;
+    for (const WorldPart& part : world.parts) {
+        Box& box = boxes[part.room];
+        for (const vec3& p : part.mesh.positions) {
+            // As they are written.
+            const vec3 rounded = glm::round(p * 1e4F) / 1e4F;
+            box.low = glm::min(box.low, rounded);
+            box.high = glm::max(box.high, rounded);
+        }
+    }
+    return boxes;
+}
+
+std::string line_of(const std::string& kind, const std::string& id, const glm::dvec3& move, double turn_deg,
+                    double size, const std::string& material) {
+    std::string text = kind + " " + id;
+    for (int k = 0; k < 3; ++k) text += " " + obj_number(move[k]);
+    text += " 0 " + obj_number(turn_deg) + " 0";
+    for (int k = 0; k < 3; ++k) text += " " + obj_number(size);
+    return text + " " + material + "\n";
+}
+
+// An instance is put by its middle; these stand with their origin at `foot`.
+std::string standing_line(const Standing& standing, const Box& box) {
+    const vec3 middle = 0.5F * (box.low + box.high);
+    const Frame turned{standing.foot,
+                       rotation({0, 1, 0}, static_cast<float>(radians(static_cast<double>(standing.turn_deg))))};
+    return line_of("instance", standing.object, turned.point(standing.size * middle), standing.turn_deg, standing.size,
+                   "-");
+}
+
+std::string frame_text(const TrafficFrame& frame, const std::map<std::string, Box>& boxes, double fov_degrees) {
+    std::string text;
+    for (const VehiclePlace& vehicle : frame.vehicles) {
+        const Standing standing{vehicle.model, vec3(vehicle.place), static_cast<float>(vehicle.turn_deg), 1};
+        text += standing_line(standing, boxes.at(vehicle.model));
+    }
+    text += "camera";
+    for (const glm::dvec3& p : {frame.view.eye, frame.view.at}) {
+        for (int k = 0; k < 3; ++k) text += " " + obj_number(p[k]);
+    }
+    return text + " " + obj_number(fov_degrees) + "\n";
+}
+
+ordered_json triple(const vec3& v) {
+    ordered_json list = ordered_json::array();
+    for (int k = 0; k < 3; ++k) list.push_back(std::round(static_cast<double>(v[k]) * 1e4) / 1e4);
+    return list;
+}
+
+ordered_json lights_of_street(const Street& street, bool night) {
+    ordered_json lights = ordered_json::array();
+    lights.push_back({{"kind", "directional"},
+                      {"name", night ? "moon" : "sun"},
+                      {"aim", {0.55, -1, -0.75}},
+                      {"lux", night ? 9 : 560},
+                      {"colour", night ? triple({0.55F, 0.65F, 1.0F}) : triple({1.0F, 0.95F, 0.86F})}});
+    if (night) {
+        for (const vec3& place : street.street_lights) {
+            lights.push_back({{"kind", "spot"},
+                              {"name", "street lamp"},
+                              {"location", triple(place)},
+                              {"aim", {0, -1, 0}},
+                              {"intensity", {1.5, 1.12, 0.66}},
+                              {"attenuation", {0.3, 0, 0.06}},
+                              {"beam_deg", 60},
+                              {"cut_off_deg", 158},
+                              {"reach", 13}});
+        }
+        for (const vec3& place : street.shop_lights) {
+            lights.push_back({{"kind", "point"},
+                              {"name", "shop"},
+                              {"location", triple(place)},
+                              {"intensity", {1.0, 0.82, 0.55}},
+                              {"attenuation", {0.5, 0, 0.25}},
+                              {"reach", 6}});
+        }
+    }
+    return {{"replace", true},
+            {"lights", lights},
+            {"environment", {{"file", "sky.png"}, {"scale", night ? 0.05 : 0.62}, {"seen", true}}}};
+}
+
+struct Sky {
+    vec3 zenith;
+    vec3 horizon;
+};
+
+Sky sky_of(bool night) {
+    if (night) return {{0.03F, 0.04F, 0.09F}, {0.1F, 0.12F, 0.2F}};
+    return {{0.32F, 0.53F, 0.82F}, {0.83F, 0.89F, 0.94F}};
+}
+
+// Latitude and longitude; sRGB. At night of its own brightness by the list's scale.
+Image<Rgba8> sky_picture(bool night) {
+    const Sky sky = night ? Sky{{0.45F, 0.55F, 1.0F}, {0.8F, 0.85F, 1.0F}} : sky_of(false);
+    Image<Rgba8> picture(64, 32);
+    for (int y = 0; y < 32; ++y) {
+        const float up = std::max(1 - (static_cast<float>(y) + 0.5F) / 16, 0.0F);
+        vec3 colour = glm::mix(sky.horizon, sky.zenith, std::sqrt(up));
+        if (y >= 16) colour = vec3(0.36F, 0.36F, 0.34F);
+        const auto byte = [](float v) { return static_cast<std::uint8_t>(std::lround(255 * v)); };
+        for (int x = 0; x < 64; ++x) picture(x, y) = {byte(colour.x), byte(colour.y), byte(colour.z), 255};
+    }
+    return picture;
+}
+
+std::string frame_name(std::size_t number) {
+    std::array<char, 32> name{};
+    std::snprintf(name.data(), name.size(), "frame-%04zu.obj", number);
+    return name.data();
+}
+
+ordered_json frames_json(std::size_t count, const Scenario& scenario) {
+    const Sky sky = sky_of(scenario.night);
+    ordered_json frames = ordered_json::array();
+    for (std::size_t i = 0; i < count; ++i) frames.push_back(frame_name(i));
+    return {{"base", "../../../../models/street.obj"},
+            {"models", {"../../../../models/source/cars/cars.obj"}},
+            {"frames_per_second", scenario.frames_per_second},
+            {"lights", "lights.json"},
+            {"background", {{"zenith", triple(sky.zenith)}, {"horizon", triple(sky.horizon)}}},
+            {"frames", frames}};
+}
+
+Status write_model(const World& world, const std::set<std::string>& unlit, const fs::path& folder,
+                   const std::string& name, const std::string& more) {
+    const ObjTexts texts = obj_texts(world, name + ".mtl", unlit);
+    for (const auto& [file, picture] : world.textures) {
+        if (Status status = write_png(folder / file, picture); !status) return status;
+    }
+    if (Status status = write_file(folder / (name + ".mtl"), texts.mtl); !status) return status;
+    return write_file(folder / (name + ".obj"), texts.obj + more);
+}
+
+std::size_t triangles_of(const World& world, const std::string& object) {
+    std::size_t count = 0;
+    for (const WorldPart& part : world.parts) count += part.room == object ? part.mesh.triangles.size() : 0;
+    return count;
+}
+
+}  // namespace
+
+Result<StreetFigures> write_street(const StreetOptions& options, const fs::path& output) {
+    Result<StagedFolder> staged = StagedFolder::create(output);
+    if (!staged) return staged.error();
+    const fs::path map = staged->temporary_path() / "maps" / options.name / "anim";
+    const fs::path models = staged->temporary_path() / "models";
+    std::error_code error;
+    for (const fs::path& folder : {map / "configs", map / "out", models / "source" / "cars"}) {
+        fs::create_directories(folder, error);
+        if (error) return Error{folder.string() + ": cannot be made; choose another folder"};
+    }
+    const Street street = make_street(options);
+    const std::map<std::string, Box> boxes = boxes_of(street.world);
+    std::string still;
+    StreetFigures figures;
+    std::set<std::string> instanced;
+    for (const Standing& standing : street.standing) {
+        still += standing_line(standing, boxes.at(standing.object));
+        figures.static_triangles += triangles_of(street.world, standing.object);
+        instanced.insert(standing.object);
+    }
+    for (const auto& [object, box] : boxes) {
+        if (!instanced.contains(object)) figures.static_triangles += triangles_of(street.world, object);
+    }
+    for (const WorldObject& object : street.world.objects) {
+        if (options.objects.empty()) break;
+        still += line_of("instance", (fs::path("..") / options.objects / (object.name + ".rso")).generic_string(),
+                         object.foot, object.turn_deg, object.size, "-");
+    }
+    still += "camera -44 1.9 5.6 -10 2 -1 65\n";
+    if (Status status = write_model(street.world, street.unlit, models, "street", still); !status)
+        return status.error();
+    std::set<std::string> unlit;
+    const World vehicles = make_vehicles(options.scenario.night, unlit);
+    if (Status status = write_model(vehicles, unlit, models / "source" / "cars", "cars", ""); !status) {
+        return status.error();
+    }
+    const std::map<std::string, Box> vehicle_boxes = boxes_of(vehicles);
+    const std::vector<TrafficFrame> frames = simulate_traffic(options.scenario);
+    const auto write_out = [&](const std::string& name, const std::string& text) {
+        return write_file(map / "out" / name, text);
+    };
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const std::string text = frame_text(frames[i], vehicle_boxes, options.scenario.fov_degrees);
+        if (Status status = write_out(frame_name(i), text); !status) return status.error();
+        figures.vehicles = std::max(figures.vehicles, frames[i].vehicles.size());
+    }
+    figures.frames = frames.size();
+    const bool night = options.scenario.night;
+    const fs::path scenario = map / "configs" / "scenario.json";
+    if (Status status = write_file(scenario, scenario_json(options.scenario)); !status) return status.error();
+    if (Status status = write_png(map / "out" / "sky.png", sky_picture(night)); !status) return status.error();
+    const std::string lights = lights_of_street(street, night).dump(1) + "\n";
+    if (Status status = write_out("lights.json", lights); !status) return status.error();
+    const std::string json = frames_json(frames.size(), options.scenario).dump(1) + "\n";
+    if (Status status = write_out("frames.json", json); !status) return status.error();
+    if (Status status = staged->commit(); !status) return status.error();
+    return figures;
+}
+
+}  // namespace rs::synthetic

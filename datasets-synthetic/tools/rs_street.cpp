@@ -1,0 +1,71 @@
+// rs-street: writes a street with traffic as the files of a sequence.
+
+#include "datasets-synthetic/street/street.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/tool/tool_main.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+namespace {
+
+struct Options {
+    std::filesystem::path output;
+    std::filesystem::path scenario;
+    std::string objects;
+    std::string name = "street";
+    std::string time;
+    double seconds = 0;
+    bool small = false;
+};
+
+rs::Status run_street(const Options& options) {
+    rs::synthetic::StreetOptions street;
+    street.name = options.name;
+    street.objects = options.objects;
+    street.scenario = rs::synthetic::usual_scenario();
+    if (options.small) street.texture_scale = 0.25F;
+    if (!options.scenario.empty()) {
+        const auto scenario = rs::synthetic::read_scenario(options.scenario);
+        if (!scenario) return scenario.error();
+        street.scenario = *scenario;
+    }
+    if (!options.time.empty()) street.scenario.night = options.time == "night";
+    if (options.seconds > 0) street.scenario.seconds = options.seconds;
+    const auto figures = rs::synthetic::write_street(street, options.output);
+    if (!figures) return figures.error();
+    std::printf("%s: %zu frames, up to %zu vehicles, %zu static triangles\n",
+                (options.output / "maps" / options.name).string().c_str(), figures->frames, figures->vehicles,
+                figures->static_triangles);
+    return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Writes a street with traffic: a base scene, vehicles, and an extended OBJ for each frame",
+                 "rs-street");
+    Options options;
+    app.add_option("-o,--output", options.output, "Folder to write: maps/NAME/anim/out/frames.json, models/")
+        ->required();
+    app.add_option("--scenario", options.scenario,
+                   "JSON: who drives, when, and who looks (datasets-synthetic/README.md); ten seconds of an ordinary "
+                   "day without it")
+        ->type_name("FILE.json");
+    app.add_option("--time", options.time, "In place of the scenario's")->check(CLI::IsMember({"day", "night"}));
+    app.add_option("--seconds", options.seconds, "In place of the scenario's")->check(CLI::Range(0.1, 3600.0));
+    app.add_option("--objects", options.objects,
+                   "Folder of vase.rso, flower.rso, doll.rso, lamp.rso, lattice.rso and blocks.rso for shop windows, "
+                   "as seen from the folder that is written; without it, the windows stand empty");
+    app.add_option("--name", options.name, "Of the map")->capture_default_str();
+    app.add_flag("--small", options.small, "Textures of a quarter of the resolution");
+    app.footer(
+        "Examples:\n  rs-street -o town --objects .. && rs-view --sequence town/maps/street -o street.mp4\n"
+        "  rs-street -o evening --time night --seconds 4 && rs-view --sequence evening --weather rain -o rain.mp4");
+    std::function<rs::Status()> run;
+    app.callback([&] { run = [&] { return run_street(options); }; });
+    return rs::tool_main(app, argc, argv, run);
+}

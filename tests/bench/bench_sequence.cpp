@@ -1,0 +1,222 @@
+// Sequences: what a frame costs, and what of it is done again.
+//
+//     bench_sequence thousand                   1000 boxes that move over 150,000 triangles that do not
+//     bench_sequence play FOLDER                a sequence's frames at 1280x720
+//     bench_sequence play FOLDER --renderer whitted --size 640x360 --passes 1
+//
+// "cpu" is the processor time of a frame, of all threads: divided by the number of processors it is what a frame takes
+// at best, whatever else the machine does.
+
+#include "compositor/gl/context.hpp"
+#include "compositor/playback/sequence_player.hpp"
+#include "rayspace/base/median.hpp"
+#include "rayspace/tool/tool_main.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rs::bench {
+namespace {
+
+using compositor::GeometryNode;
+using compositor::Mesh;
+using compositor::Scene;
+using compositor::Sequence;
+using compositor::SequencePlayer;
+
+struct Options {
+    std::string folder;
+    std::string size = "1280x720";
+    std::string renderer = "raster";
+    std::string weather;
+    int passes = 1;
+    int frames = 50;
+    int samples = 4;
+};
+
+double cpu_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double wall_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Hills of 150,000 triangles.
+std::shared_ptr<const Mesh> hills() {
+    constexpr int kSide = 274;
+    auto mesh = std::make_shared<Mesh>();
+    for (int y = 0; y <= kSide; ++y) {
+        for (int x = 0; x <= kSide; ++x) {
+            compositor::MeshVertex vertex;
+            const float u = static_cast<float>(x) / kSide * 200 - 100;
+            const float v = static_cast<float>(y) / kSide * 200 - 100;
+            vertex.position = {u, 2 * std::sin(0.13F * u) * std::cos(0.11F * v), v};
+            vertex.normal = glm::normalize(glm::vec3(-0.26F * std::cos(0.13F * u) * std::cos(0.11F * v), 1,
+                                                     0.22F * std::sin(0.13F * u) * std::sin(0.11F * v)));
+            mesh->vertices.push_back(vertex);
+        }
+    }
+    const auto at = [](int x, int y) { return static_cast<std::uint32_t>(y * (kSide + 1) + x); };
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            for (const std::uint32_t i :
+                 {at(x, y), at(x, y + 1), at(x + 1, y + 1), at(x, y), at(x + 1, y + 1), at(x + 1, y)})
+                mesh->indices.push_back(i);
+        }
+    }
+    return mesh;
+}
+
+std::shared_ptr<const Sequence> thousand_boxes() {
+    constexpr int kBoxes = 1000;
+    auto sequence = std::make_shared<Sequence>();
+    Scene& scene = sequence->scene;
+    scene.shading = compositor::Shading::kPhong;
+    GeometryNode ground;
+    ground.mesh = hills();
+    scene.geometry.push_back(ground);
+    const auto box = std::make_shared<const Mesh>(compositor::box_mesh({2, 1.5, 1}));
+    for (int i = 0; i < kBoxes; ++i) {
+        GeometryNode node;
+        node.mesh = box;
+        node.moving = static_cast<std::uint32_t>(i);
+        sequence->slots.push_back({{scene.geometry.size()}, glm::dvec3(0), {}});
+        scene.geometry.push_back(node);
+    }
+    for (int f = 0; f < 12; ++f) {
+        compositor::SequenceFrame frame;
+        for (int i = 0; i < kBoxes; ++i) {
+            compositor::InstancePose pose;
+            pose.move = {3.0 * (i % 32) - 48 + 0.2 * f, 3, 3.0 * (i / 32) - 48};
+            pose.turn_deg = {0, 7.0 * i + 3 * f, 0};
+            frame.poses.push_back({static_cast<std::uint32_t>(i), false, pose});
+        }
+        frame.camera = compositor::SequenceCamera{{{0, 30, 75}, {0, 0, 0}}, radians(60)};
+        sequence->frames.push_back(std::move(frame));
+    }
+    return sequence;
+}
+
+Result<compositor::PlayerOptions> player_options(const Options& options) {
+    const Result<PixelSize> size = parse_size(options.size);
+    if (!size) return size.error();
+    compositor::PlayerOptions player;
+    player.frame.width = size->width;
+    player.frame.height = size->height;
+    player.frame.samples = options.samples;
+    player.passes = options.passes;
+    for (const compositor::NamedMethod& named : compositor::kTracedMethods) {
+        if (options.renderer == named.name) player.tracing = TracedOptions{.method = named.method};
+    }
+    if (options.weather.empty()) return player;
+    const auto weather = compositor::parse_weather(options.weather);
+    if (!weather) return weather.error();
+    player.weather = *weather;
+    return player;
+}
+
+void print_times(const char* what, std::vector<double> wall_ms, std::vector<double> cpu_ms) {
+    const double longest = *std::max_element(wall_ms.begin(), wall_ms.end());
+    const double wall = median(wall_ms);
+    std::printf("%-28s median %8.2f ms (%.1f frames/s), longest %8.2f ms, cpu %8.2f ms\n", what, wall, 1000 / wall,
+                longest, median(cpu_ms));
+}
+
+// Frames from the second on.
+Status time_frames(SequencePlayer& player, int frames, const char* what) {
+    std::vector<double> wall_ms;
+    std::vector<double> cpu_ms;
+    const auto count = std::min<std::size_t>(static_cast<std::size_t>(frames), player.frames());
+    for (std::size_t i = 0; i < count; ++i) {
+        const double wall = wall_seconds();
+        const double cpu = cpu_seconds();
+        const auto frame = player.frame(i);
+        if (!frame) return frame.error();
+        if (i == 0 && count > 1) continue;
+        wall_ms.push_back(1e3 * (wall_seconds() - wall));
+        cpu_ms.push_back(1e3 * (cpu_seconds() - cpu));
+    }
+    print_times(what, wall_ms, cpu_ms);
+    return {};
+}
+
+Status run_thousand(const Options& options) {
+    auto context = gl::Context::create_surfaceless();
+    if (!context) return context.error();
+    const auto sequence = thousand_boxes();
+    std::printf("%zu static triangles, %zu instances\n", sequence->scene.geometry[0].mesh->indices.size() / 3,
+                sequence->slots.size());
+    const auto with = player_options(options);
+    if (!with) return with.error();
+    auto player = SequencePlayer::create(sequence, *with);
+    if (!player) return player.error();
+    if (const auto first = player->frame(0); !first) return first.error();
+    const int uploads = player->compositor().uploads();
+    const auto second = player->frame(1);
+    if (!second) return second.error();
+    auto fresh = SequencePlayer::create(sequence, *with);
+    if (!fresh) return fresh.error();
+    const auto again = fresh->frame(1);
+    if (!again) return again.error();
+    const bool same = std::equal(second->pixels().begin(), second->pixels().end(), again->pixels().begin());
+    std::printf("second frame against a fresh load: %s\n", same ? "same bytes" : "DIFFERENT");
+    if (Status status = time_frames(*player, 12, options.renderer.c_str()); !status) return status;
+    std::printf("meshes and pictures uploaded: %d before the first frame, %d after it\n", uploads,
+                player->compositor().uploads() - uploads);
+    std::vector<double> ms;
+    for (std::size_t i = 0; i < 40; ++i) {
+        const double begin = wall_seconds();
+        const auto moved = moved_slots(*sequence, i % 12);
+        ms.push_back(1e3 * (wall_seconds() - begin));
+    }
+    std::printf("matrices of 1000 instances: median %.3f ms\n", median(ms));
+    return {};
+}
+
+Status run_play(const Options& options) {
+    auto context = gl::Context::create_surfaceless();
+    if (!context) return context.error();
+    auto sequence = compositor::read_sequence(options.folder);
+    if (!sequence) return sequence.error();
+    const auto with = player_options(options);
+    if (!with) return with.error();
+    auto player = SequencePlayer::create(std::make_shared<const Sequence>(std::move(*sequence)), *with);
+    if (!player) return player.error();
+    return time_frames(*player, options.frames, (options.renderer + " " + options.size).c_str());
+}
+
+}  // namespace
+}  // namespace rs::bench
+
+int main(int argc, char** argv) {
+    CLI::App app("Times the frames of sequences", "bench_sequence");
+    app.require_subcommand(1);
+    rs::bench::Options options;
+    std::function<rs::Status()> run;
+    CLI::App* thousand = app.add_subcommand("thousand", "1000 instances over 150,000 triangles");
+    CLI::App* play = app.add_subcommand("play", "a sequence");
+    play->add_option("FOLDER", options.folder)->required();
+    play->add_option("--frames", options.frames);
+    play->add_option("--weather", options.weather);
+    for (CLI::App* command : {thousand, play}) {
+        command->add_option("--size", options.size);
+        command->add_option("--renderer", options.renderer);
+        command->add_option("--passes", options.passes);
+        command->add_option("--samples", options.samples);
+    }
+    thousand->callback([&] { run = [&] { return rs::bench::run_thousand(options); }; });
+    play->callback([&] { run = [&] { return rs::bench::run_play(options); }; });
+    return rs::tool_main(app, argc, argv, run);
+}

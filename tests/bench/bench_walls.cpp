@@ -1,0 +1,171 @@
+// How long the pictures of a display take: three upright walls of 3 m for two eyes, and the tiles of a quilt beside the
+// same views one by one. Drawn without a window by whatever OpenGL there is, each picture read back.
+//
+//     bench_walls demo-out/showroom/showroom.wrl --viewpoint shop
+//     bench_walls --object demo-out/vase.rso
+//
+// "cpu" is the processor time of all threads: divided by the number of processors it is what a frame takes at best,
+// whatever else the machine does.
+
+#include "compositor/displays/quilt.hpp"
+#include "compositor/displays/walls_file.hpp"
+#include "compositor/gl/context.hpp"
+#include "compositor/scene/object_argument.hpp"
+#include "compositor/scene/scene_file.hpp"
+#include "compositor/viewer/drawing/frame_compositor.hpp"
+#include "compositor/viewer/showroom.hpp"
+#include "compositor/viewer/views/framing.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/median.hpp"
+#include "rayspace/tool/tool_main.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+
+namespace rs::bench {
+namespace {
+
+using namespace compositor;
+
+double now_ms(clockid_t clock) {
+    timespec time{};
+    clock_gettime(clock, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+struct Options {
+    std::string scene;
+    std::string object;
+    std::string viewpoint;
+    int side = 512;
+    int frames = 10;
+    int samples = 4;
+};
+
+Result<FrameCompositor> compositor_of(const Scene& scene, Showroom& showroom, int width, int height, int samples) {
+    return FrameCompositor::create(scene, showroom.engine(), showroom.nodes(),
+                                   {.width = width, .height = height, .samples = samples});
+}
+
+Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor, const Options& options) {
+    WallDisplay cave = *preset_display("cave");
+    if (Status status = keep_walls(cave, "left,front,right"); !status) return status;
+    for (Wall& wall : cave.walls) wall.width = wall.height = options.side;
+    const RoomPlace place = place_of(visitor, cave.head, 1);
+    auto frames = compositor_of(scene, showroom, options.side, options.side, options.samples);
+    if (!frames) return frames.error();
+    std::vector<double> wall_ms, cpu_ms;
+    for (int frame = 0; frame <= options.frames; ++frame) {
+        const double wall_begin = now_ms(CLOCK_MONOTONIC), cpu_begin = now_ms(CLOCK_PROCESS_CPUTIME_ID);
+        Head head = cave.head;
+        head.position.x += 0.01 * frame;
+        for (const Wall& wall : cave.walls) {
+            for (const double offset : {-0.0325, 0.0325}) {
+                const Result<Camera> camera = wall_camera(wall, head.eye(offset), place);
+                if (!camera) return camera.error();
+                if (const auto picture = frames->compose(*camera); !picture) return picture.error();
+            }
+        }
+        if (frame == 0) continue;  // the first one warms up
+        wall_ms.push_back(now_ms(CLOCK_MONOTONIC) - wall_begin);
+        cpu_ms.push_back(now_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin);
+    }
+    std::printf("three walls x two eyes, %dx%d: %.0f ms a frame (%.1f frames/s), cpu %.0f ms\n", options.side,
+                options.side, median(wall_ms), 1e3 / median(wall_ms), median(cpu_ms));
+    return {};
+}
+
+Status bench_quilt(const Scene& scene, Showroom& showroom, const Camera& middle, double focus, const Options& options) {
+    const QuiltLayout layout{5, 9, middle.width, middle.height};
+    const std::vector<Camera> cameras = quilt_cameras(middle, layout, radians(40), focus);
+    auto frames = compositor_of(scene, showroom, middle.width, middle.height, options.samples);
+    if (!frames) return frames.error();
+    if (const auto picture = frames->compose(middle); !picture) return picture.error();
+    std::vector<Image<Rgba8>> alone;
+    double single_ms = 0, quilt_ms = 0, single_cpu = 0, quilt_cpu = 0;
+    bool equal = true;
+    for (int round = 0; round < 3; ++round) {
+        alone.clear();
+        double begin = now_ms(CLOCK_MONOTONIC), cpu = now_ms(CLOCK_PROCESS_CPUTIME_ID);
+        for (const Camera& camera : cameras) {
+            auto picture = frames->compose(camera);
+            if (!picture) return picture.error();
+            alone.push_back(std::move(*picture));
+        }
+        single_ms += now_ms(CLOCK_MONOTONIC) - begin;
+        single_cpu += now_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+        begin = now_ms(CLOCK_MONOTONIC);
+        cpu = now_ms(CLOCK_PROCESS_CPUTIME_ID);
+        Image<Rgba8> quilt(layout.width(), layout.height());
+        for (int view = 0; view < layout.views(); ++view) {
+            auto picture = frames->compose(cameras[static_cast<std::size_t>(view)]);
+            if (!picture) return picture.error();
+            place_tile(layout, view, *picture, quilt);
+        }
+        quilt_ms += now_ms(CLOCK_MONOTONIC) - begin;
+        quilt_cpu += now_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+        for (int view = 0; view < layout.views(); ++view) {
+            const Image<Rgba8>& one = alone[static_cast<std::size_t>(view)];
+            const auto tile =
+                quilt.view().crop(view % layout.columns * one.width(),
+                                  (layout.rows - 1 - view / layout.columns) * one.height(), one.width(), one.height());
+            for (int y = 0; y < one.height(); ++y) {
+                for (int x = 0; x < one.width(); ++x) equal = equal && one(x, y) == tile(x, y);
+            }
+        }
+    }
+    std::printf("quilt of 45 views of %dx%d: %.2f times the time of 45 views alone (cpu %.2f), %.0f ms a view; %s\n",
+                middle.width, middle.height, quilt_ms / single_ms, quilt_cpu / single_cpu, single_ms / 3 / 45,
+                equal ? "all equal" : "NOT EQUAL");
+    return {};
+}
+
+Status run(const Options& options) {
+    Scene scene;
+    scene.floor = Floor{};
+    if (!options.scene.empty()) {
+        Result<Scene> read = read_scene(options.scene);
+        if (!read) return read.error();
+        scene = std::move(*read);
+    }
+    if (!options.object.empty()) {
+        Result<RaySpaceNode> node = parse_object_argument(options.object, {0, 0, 0});
+        if (!node) return node.error();
+        scene.objects.push_back(std::move(*node));
+    }
+    Showroom showroom(scene, {.waits = true});
+    if (Status status = showroom.wait_for_all({0, 0, 0}); !status) return status;
+    constexpr int kTileWidth = 420, kTileHeight = 560;
+    CameraPose pose = framing_pose(showroom.placed(), radians(50), static_cast<double>(kTileWidth) / kTileHeight);
+    Camera visitor = look_at_camera(pose.eye, pose.at, radians(50), kTileWidth, kTileHeight);
+    for (const Viewpoint& viewpoint : scene.viewpoints) {
+        if (viewpoint.description == options.viewpoint) visitor = camera_at(viewpoint, kTileWidth, kTileHeight);
+    }
+    if (Status status = showroom.update(visitor.centre(), 0); !status) return status;
+    const Result<gl::Context> context = gl::Context::create_surfaceless();
+    if (!context) return context.error();
+    if (Status status = bench_walls(scene, showroom, visitor, options); !status) return status;
+    const double focus =
+        std::max(glm::dot(bounds_from(scene, 0, 0).middle() - visitor.centre(), visitor.forward()), 1.0);
+    return bench_quilt(scene, showroom, visitor, focus, options);
+}
+
+}  // namespace
+}  // namespace rs::bench
+
+int main(int argc, char** argv) {
+    CLI::App app("Times of walls and quilts.", "bench_walls");
+    rs::bench::Options options;
+    app.add_option("SCENE", options.scene, "scene; without it, a floor");
+    app.add_option("--object", options.object, "FILE.rso on it");
+    app.add_option("--viewpoint", options.viewpoint, "of the scene");
+    app.add_option("--side", options.side, "of a wall, px")->check(CLI::Range(16, 4096));
+    app.add_option("--frames", options.frames, "to take the middle of")->check(CLI::Range(1, 1000));
+    app.add_option("--samples", options.samples, "per pixel")->check(CLI::Range(1, 16));
+    std::function<rs::Status()> run;
+    app.callback([&] { run = [&] { return rs::bench::run(options); }; });
+    return rs::tool_main(app, argc, argv, run);
+}

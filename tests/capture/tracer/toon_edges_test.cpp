@@ -1,0 +1,283 @@
+// Lines of cartoons, against where edges are.
+
+#include "tests/capture/tracer/test_shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace rs::capture::test {
+namespace {
+
+// Everything white, lines black.
+RenderOptions lines(float radius, int samples = 1) {
+    RenderOptions options;
+    options.method = RenderMethod::kToon;
+    options.samples_per_pixel = samples;
+    if (samples == 1) options.filter_radius_px = 0.001F;
+    options.toon.thresholds = {};
+    options.toon.values = {1.0F};
+    options.toon.edge_radius = radius;
+    return options;
+}
+
+Material white() {
+    return material_of(SurfaceKind::diffuse, glm::vec3(1.0F));
+}
+
+bool is_line(const RgbaF& p) {
+    return p.a > 0 && p.g < 0.5F;
+}
+
+int count_lines(const Image<RgbaF>& picture) {
+    return static_cast<int>(std::ranges::count_if(picture.pixels(), is_line));
+}
+
+// Flat faces, outer sides outwards.
+Mesh make_box(const glm::vec3& low, const glm::vec3& high) {
+    Mesh box;
+    box.name = "box";
+    const glm::vec3 size = high - low;
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::vec3 u(0), v(0), w(0);
+        u[(axis + 1) % 3] = size[(axis + 1) % 3];
+        v[(axis + 2) % 3] = size[(axis + 2) % 3];
+        w[axis] = size[axis];
+        for (const Mesh& face : {make_quad(low + w, u, v), make_quad(low, v, u)}) {
+            const auto first = static_cast<unsigned>(box.positions.size());
+            box.positions.insert(box.positions.end(), face.positions.begin(), face.positions.end());
+            for (const glm::uvec3& t : face.triangles) box.triangles.push_back(t + first);
+        }
+    }
+    return box;
+}
+
+Mesh transformed(Mesh mesh, const glm::mat3& m, const glm::vec3& move) {
+    for (glm::vec3& p : mesh.positions) p = m * p + move;
+    for (glm::vec3& n : mesh.normals) n = m * n;
+    if (glm::determinant(m) < 0) {
+        for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+    }
+    return mesh;
+}
+
+// About an axis that is none of the picture's.
+glm::mat3 oblique_turn() {
+    const glm::vec3 a = glm::normalize(glm::vec3(0.3F, 1, 0.2F)),
+                    b = glm::normalize(glm::cross(a, glm::vec3(1, 0, 0.4F)));
+    return {glm::cross(a, b), a, b};
+}
+
+double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+    const double t = std::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
+    return glm::distance(p, a + t * (b - a));
+}
+
+TEST(ToonEdges, ACubeHasItsEdgesAndNoOthers) {
+    const glm::mat3 turn = oblique_turn();
+    const Camera camera = look_at_camera({0.4, 1.3, 4}, {0, 0, 0}, radians(36), 512, 512);
+    const float radius = static_cast<float>(1.2 * 4.2 / camera.fl_x);
+    const Image<RgbaF> picture =
+        render(scene_of(transformed(make_box(glm::vec3(-0.7F), glm::vec3(0.7F)), turn, {}), white()), camera,
+               lines(radius))
+            .picture;
+    // Each edge between faces of which one at least is seen.
+    std::vector<std::pair<glm::dvec2, glm::dvec2>> edges;
+    const auto seen = [&](const glm::vec3& normal) {
+        return glm::dot(camera.centre() - glm::dvec3(turn * (0.7F * normal)), glm::dvec3(turn * normal)) > 0;
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int corner = 0; corner < 4; ++corner) {
+            glm::vec3 a(0), along(0), n1(0), n2(0);
+            n1[(axis + 1) % 3] = corner % 2 == 0 ? 1.0F : -1.0F;
+            n2[(axis + 2) % 3] = corner / 2 == 0 ? 1.0F : -1.0F;
+            along[axis] = 1;
+            if (!seen(n1) && !seen(n2)) continue;
+            a = n1 + n2;
+            edges.emplace_back(glm::dvec2(camera.project(glm::dvec3(turn * (0.7F * (a - along))))),
+                               glm::dvec2(camera.project(glm::dvec3(turn * (0.7F * (a + along))))));
+        }
+    }
+    ASSERT_EQ(edges.size(), 9U);
+    int found = 0, asked = 0, right = 0, drawn = 0;
+    for (const auto& [a, b] : edges) {
+        for (double t = 0; t <= 1; t += 0.25 / glm::distance(a, b)) {
+            const glm::dvec2 p = a + t * (b - a);
+            bool near = false;
+            for (int y = static_cast<int>(p.y) - 2; y <= static_cast<int>(p.y) + 2; ++y) {
+                for (int x = static_cast<int>(p.x) - 2; x <= static_cast<int>(p.x) + 2; ++x) {
+                    near = near || (is_line(picture(x, y)) && glm::distance(p, glm::dvec2(x + 0.5, y + 0.5)) <= 1.5);
+                }
+            }
+            ++asked;
+            found += near;
+        }
+    }
+    for (int y = 0; y < 512; ++y) {
+        for (int x = 0; x < 512; ++x) {
+            if (!is_line(picture(x, y))) continue;
+            ++drawn;
+            right += std::ranges::any_of(edges, [&](const auto& edge) {
+                return distance_to_segment({x + 0.5, y + 0.5}, edge.first, edge.second) <= 1.5;
+            });
+        }
+    }
+    std::printf("cube: recall %.4f of %d, precision %.4f of %d\n", static_cast<double>(found) / asked, asked,
+                static_cast<double>(right) / drawn, drawn);
+    EXPECT_GE(found, 0.99 * asked);
+    EXPECT_GE(right, 0.95 * drawn);
+}
+
+TEST(ToonEdges, SteepPlanesHaveNoneWhereTheirDepthAloneWouldSaySo) {
+    constexpr float kRadius = 0.02F;
+    int by_depth_alone = 0;
+    for (int tilt_deg = 0; tilt_deg <= 80; tilt_deg += 5) {
+        const auto tilt = static_cast<float>(radians(tilt_deg));
+        const glm::vec3 down(0, -std::cos(tilt), std::sin(tilt));
+        const Camera camera = front_camera(4, 20, 128);
+        RenderOptions options = lines(kRadius);
+        options.depth = true;
+        const Rendering drawn =
+            render(scene_of(make_quad(glm::vec3(-30, 0, 0) - 30.0F * down, 60.0F * down, {60, 0, 0}), white()), camera,
+                   options);
+        ASSERT_NEAR(drawn.depth(64, 64), 4, 0.2);
+        EXPECT_EQ(count_lines(drawn.picture), 0) << tilt_deg << " degrees";
+        // The paper's first attempt: anything within the radius that is deeper or less deep by more than a threshold.
+        const int reach = static_cast<int>(kRadius * camera.fl_x / 4);
+        for (int y = reach; y < 128 - reach; ++y) {
+            for (int x = 0; x < 128; ++x) {
+                const float threshold = 2 * kRadius;
+                by_depth_alone += std::abs(drawn.depth(x, y + reach) - drawn.depth(x, y)) > threshold ||
+                                  std::abs(drawn.depth(x, y - reach) - drawn.depth(x, y)) > threshold;
+            }
+        }
+    }
+    std::printf("planes tilted 0..80 degrees: 0 pixels with slope, %d by depth alone\n", by_depth_alone);
+    EXPECT_GT(by_depth_alone, 1000);
+}
+
+TEST(ToonEdges, ASmoothSphereHasAnOutlineOnly) {
+    constexpr float kRadius = 0.02F;
+    const Camera camera = front_camera(4, 34, 400);
+    const double outline_px = camera.fl_x / std::sqrt(15.0),
+                 line_px = static_cast<double>(kRadius) * camera.fl_x / 3.87;
+    for (const int splits : {4, 6}) {  // coarse facets, too
+        const Image<RgbaF> picture = render(scene_of(make_sphere(splits), white()), camera, lines(kRadius)).picture;
+        int inside = 0, outline = 0, missing = 0;
+        for (int y = 0; y < 400; ++y) {
+            for (int x = 0; x < 400; ++x) {
+                const double from_outline = outline_px - glm::distance(glm::dvec2(x + 0.5, y + 0.5), glm::dvec2(200));
+                if (picture(x, y).a < 1) continue;
+                inside += is_line(picture(x, y)) && from_outline > line_px + 1.5;
+                outline += from_outline < 0.8 * line_px;
+                missing += !is_line(picture(x, y)) && from_outline < 0.8 * line_px;
+            }
+        }
+        EXPECT_EQ(inside, 0) << splits;
+        EXPECT_GT(outline, 1000);
+        EXPECT_EQ(missing, 0) << splits;
+    }
+}
+
+TEST(ToonEdges, LinesAreAsWideAsTheirRadiusFromThere) {
+    for (const float radius : {0.01F, 0.04F}) {
+        for (const double z : {2.0, 6.0}) {
+            // Edges that stand, lie and lean, before a wall and before nothing.
+            for (const double lean_deg : {0.0, 22.5, 45.0, 90.0}) {
+                const auto lean = static_cast<float>(radians(lean_deg));
+                const glm::vec3 across(std::cos(lean), std::sin(lean), 0), along(-across.y, across.x, 0);
+                Scene scene = scene_of(make_quad(-20.0F * along, 9.0F * across, 40.0F * along), white());
+                if (lean_deg > 30) scene.meshes.push_back(make_quad({-50, -50, -3}, {100, 0, 0}, {0, 100, 0}));
+                const Camera camera = front_camera(z, 10, 64);
+                const Image<RgbaF> picture = render(std::move(scene), camera, lines(radius, 16)).picture;
+                // Across the edge, a sample of 1/8 px at a time.
+                double width = 0;
+                for (double s = -2; s < 28; s += 0.125) {
+                    const int x = static_cast<int>(32 + s * across.x), y = static_cast<int>(32 - s * across.y);
+                    width += 0.125 * static_cast<double>(picture(x, y).a * (1 - picture(x, y).g));
+                }
+                const double expected = static_cast<double>(radius) * camera.fl_x / z;
+                EXPECT_NEAR(width, expected, std::max(0.7, 0.08 * expected)) << radius << " " << z << " " << lean_deg;
+            }
+        }
+    }
+}
+
+struct Overlap {
+    int both = 0, any = 0;
+    [[nodiscard]] double ratio() const { return any > 0 ? static_cast<double>(both) / any : 0; }
+};
+
+TEST(ToonEdges, AMirrorShowsTheEdgesOfTheMirroredMesh) {
+    constexpr float kRadius = 0.02F;
+    const Mesh box = transformed(make_box(glm::vec3(-0.5F), glm::vec3(0.5F)), oblique_turn(), {0, 0.1F, 1.2F});
+    const Mesh ball = transformed(make_sphere(5), glm::mat3(0.4F), {1.1F, 0.3F, 0.9F});
+    const Camera camera = look_at_camera({2.2, 1.4, 3.4}, {0.6, 0, -1}, radians(50), 256, 256);
+    Scene mirrored = scene_of(box, white());
+    mirrored.meshes.push_back(ball);
+    mirrored.materials.push_back(material_of(SurfaceKind::mirror, glm::vec3(1.0F)));
+    const Mesh glass = make_quad({-30, -30, 0}, {60, 0, 0}, {0, 60, 0});
+    mirrored.meshes.push_back(glass);
+    mirrored.meshes.back().material = 1;
+    glm::mat3 flip(1.0F);
+    flip[2][2] = -1;
+    Scene direct = scene_of(transformed(box, flip, {}), white());
+    direct.meshes.push_back(transformed(ball, flip, {}));
+    RenderOptions options = lines(kRadius);
+    options.depth = true;
+    const Rendering in_mirror = render(std::move(mirrored), camera, options);
+    const Rendering drawn = render(std::move(direct), camera, options);
+    Overlap overlap, of_depth;
+    for (int y = 1; y < 255; ++y) {
+        for (int x = 1; x < 255; ++x) {
+            // What stands before the mirror hides some of it.
+            const glm::dvec3 ray = camera.ray(x + 0.5, y + 0.5);
+            const double to_mirror = -camera.centre().z / ray.z * glm::dot(ray, camera.forward());
+            if (!(ray.z < 0) || std::abs(in_mirror.depth(x, y) - to_mirror) > 1e-3) continue;
+            const bool truth = is_line(drawn.picture(x, y));
+            const bool line = in_mirror.picture(x, y).g < 0.5F && drawn.picture(x, y).a > 0;
+            overlap.both += truth && line;
+            overlap.any += truth || line;
+            // The usual way, edges of the picture's depths, sees the mirror.
+            const auto d = [&](int i, int k) { return in_mirror.depth(x + i, y + k); };
+            const float gx = d(1, -1) + 2 * d(1, 0) + d(1, 1) - d(-1, -1) - 2 * d(-1, 0) - d(-1, 1);
+            const float gy = d(-1, 1) + 2 * d(0, 1) + d(1, 1) - d(-1, -1) - 2 * d(0, -1) - d(1, -1);
+            const bool sobel = std::hypot(gx, gy) > 0.5F;
+            of_depth.both += truth && sobel;
+            of_depth.any += truth || sobel;
+        }
+    }
+    std::printf("mirror: IoU %.3f of %d px; Sobel on depth %.3f\n", overlap.ratio(), overlap.any, of_depth.ratio());
+    EXPECT_GT(overlap.any, 300);
+    EXPECT_GE(overlap.ratio(), 0.9);
+    EXPECT_LE(of_depth.ratio(), 0.1);
+}
+
+TEST(ToonEdges, GlassShowsTheEdgesBehindIt) {
+    const auto drawn = [](bool behind_glass) {
+        Scene scene = scene_of(transformed(make_box(glm::vec3(-0.5F), glm::vec3(0.5F)), oblique_turn(), {}), white());
+        if (behind_glass) {
+            scene.materials.push_back(material_of(SurfaceKind::glass, glm::vec3(1.0F)));
+            scene.meshes.push_back(make_box({-9, -9, 2}, {9, 9, 2.02F}));
+            scene.meshes.back().material = 1;
+        }
+        return render(std::move(scene), front_camera(4, 20, 200), lines(0.02F)).picture;
+    };
+    const Image<RgbaF> without = drawn(false), with = drawn(true);
+    Overlap overlap;
+    for (int y = 0; y < 200; ++y) {
+        for (int x = 0; x < 200; ++x) {
+            if (without(x, y).a == 0) continue;
+            overlap.both += is_line(without(x, y)) && is_line(with(x, y));
+            overlap.any += is_line(without(x, y)) || is_line(with(x, y));
+        }
+    }
+    EXPECT_GT(overlap.any, 1000);
+    EXPECT_GT(overlap.ratio(), 0.9);
+}
+
+}  // namespace
+}  // namespace rs::capture::test

@@ -1,0 +1,179 @@
+// Tones of cartoons, against the angles that their thresholds mean.
+
+#include "tests/capture/tracer/test_shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+namespace rs::capture::test {
+namespace {
+
+RenderOptions toon(float edge_radius = 0.0F) {
+    RenderOptions options;
+    options.method = RenderMethod::kToon;
+    options.samples_per_pixel = 1;
+    options.filter_radius_px = 0.001F;
+    options.toon.edge_radius = edge_radius;
+    return options;
+}
+
+std::set<std::tuple<float, float, float>> colours_of(const Image<RgbaF>& picture) {
+    std::set<std::tuple<float, float, float>> colours;
+    for (const RgbaF& p : picture.pixels()) {
+        if (p.a > 0) colours.emplace(p.r, p.g, p.b);
+    }
+    return colours;
+}
+
+// Of the unit sphere, where the ray through a place of the picture meets it; NaN beside it.
+double cosine_at(const Camera& camera, double x, double y, const glm::dvec3& to_light) {
+    const glm::dvec3 d = glm::normalize(camera.ray(x, y)), o = camera.centre();
+    const double b = glm::dot(o, d), under_root = b * b - glm::dot(o, o) + 1;
+    return under_root > 0 ? glm::dot(o + d * (-b - std::sqrt(under_root)), to_light) : std::nan("");
+}
+
+// Where the cosine passes `value` in the picture's row y, between two pixels' middles.
+double crossing_of(const Camera& camera, double x0, double x1, double y, const glm::dvec3& to_light, double value) {
+    const bool rises = cosine_at(camera, x1, y, to_light) > cosine_at(camera, x0, y, to_light);
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (x0 + x1);
+        ((cosine_at(camera, middle, y, to_light) < value) == rises ? x0 : x1) = middle;
+    }
+    return x0;
+}
+
+TEST(Toon, BandsOfASphereLieAtTheAnglesOfTheThresholds) {
+    Scene scene = scene_of(make_sphere(6), material_of(SurfaceKind::diffuse, {0.9F, 0.5F, 0.2F}));
+    const glm::dvec3 to_light = glm::normalize(glm::dvec3(1, 0, 0.4));
+    scene.lights = {directional_light(-to_light, glm::vec3(0.37F))};
+    const Camera camera = front_camera(6, 21, 512);
+    const Image<RgbaF> picture = render(std::move(scene), camera, toon()).picture;
+    EXPECT_EQ(colours_of(picture).size(), 5U);
+
+    const ToonStyle style;
+    std::array<double, 4> error{}, count{};
+    for (int y = 100; y < 412; ++y) {  // where the bands stand steep
+        for (int x = 0; x + 1 < 512; ++x) {
+            const double here = cosine_at(camera, x + 0.5, y + 0.5, to_light);
+            const double next = cosine_at(camera, x + 1.5, y + 0.5, to_light);
+            if (picture(x, y).a < 1 || picture(x + 1, y).a < 1 || std::isnan(here) || std::isnan(next)) continue;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const float colour = std::max(picture(x, y).r, picture(x + 1, y).r);
+                if (picture(x, y).r == picture(x + 1, y).r || std::abs(colour - 0.9F * style.values[k]) > 1e-4F)
+                    continue;
+                // A tone may be passed within a pixel: then both thresholds are there.
+                const double value = style.thresholds[k];
+                const double found = x + 1, near = std::abs(here - value) < std::abs(next - value) ? here : next;
+                const double slope = std::abs(next - here);
+                error[k] += (here < value) != (next < value)
+                                ? std::abs(crossing_of(camera, x + 0.5, x + 1.5, y + 0.5, to_light, value) - found)
+                                : 0.5 + std::abs(near - value) / slope;
+                ++count[k];
+            }
+        }
+    }
+    const std::array<double, 4> degrees{18.19, 60, 72.54, 87.13};
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_NEAR(std::acos(style.thresholds[k]) * 180 / kPi, degrees[k], 0.01);
+        ASSERT_GT(count[k], k == 0 ? 150 : 300) << degrees[k];
+        std::printf("band at %.2f degrees: mean error %.3f px of %.0f\n", degrees[k], error[k] / count[k], count[k]);
+        EXPECT_LT(error[k] / count[k], 0.5) << degrees[k];
+    }
+}
+
+TEST(Toon, IntensityCountsNotHowBrightALightIsButWhatItIsBesideOthers) {
+    const auto tone = [](std::vector<Light> lights, float ambient, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
+        Scene scene = scene_of(make_quad(corner, u, v), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
+        scene.lights = std::move(lights);
+        RenderOptions options = toon();
+        options.ambient = glm::vec3(ambient);
+        options.toon.thresholds = {0.8F, 0.6F, 0.4F, 0.2F};
+        const glm::vec3 normal = glm::normalize(glm::cross(u, v)), middle = corner + 0.5F * (u + v);
+        const Camera camera = look_at_camera(glm::dvec3(middle + normal), glm::dvec3(middle), radians(0.1), 2, 2);
+        return mean_radiance(render(std::move(scene), camera, options).picture).g / 0.5;
+    };
+    const auto up = [&](std::vector<Light> lights, float ambient = 0) {
+        return tone(std::move(lights), ambient, {-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+    };
+    const auto down = [&](std::vector<Light> lights, float ambient = 0) {
+        return tone(std::move(lights), ambient, {-5, 0, -5}, {10, 0, 0}, {0, 0, 10});
+    };
+    const auto sun = [](glm::dvec3 towards, float bright) { return directional_light(towards, glm::vec3(bright)); };
+    EXPECT_NEAR(up({sun({0, -1, 0}, 0.01F)}), 1, 1e-5);
+    EXPECT_NEAR(up({sun({0, -1, 0}, 100)}), 1, 1e-5);
+    EXPECT_NEAR(up({point_light({0, 2, 0}, glm::vec3(7))}), 1, 1e-5);
+    EXPECT_NEAR(up({sun({1, -1, 0}, 3)}), 0.8, 1e-5);                       // 0.71
+    EXPECT_NEAR(up({sun({1, -1, 0}, 3), sun({-1, -1, 0}, 3)}), 1, 1e-5);    // none could have more
+    EXPECT_NEAR(up({sun({0, -1, 0}, 3), sun({0, 1, 0}, 1)}), 1, 1e-5);      // 3 of 2,
+    EXPECT_NEAR(down({sun({0, -1, 0}, 3), sun({0, 1, 0}, 1)}), 0.5, 1e-5);  // 1 of 2
+    EXPECT_NEAR(down({sun({0, -1, 0}, 3)}), 0.1, 1e-5);                     // nothing
+    EXPECT_NEAR(down({sun({0, -1, 0}, 3)}, 3 / kPiF), 0.5, 1e-5);           // half of it from everywhere
+    EXPECT_NEAR(up({}, 1), 1, 1e-5);
+}
+
+TEST(Toon, TheEnvironmentIsALightFromWhereItShinesTheMost) {
+    Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
+    scene.environment = constant_environment(3.0F);
+    const Image<RgbaF> even = render(std::move(scene), front_camera(4, 34, 64), toon()).picture;
+    EXPECT_EQ(colours_of(even).size(), 1U);  // from everywhere alike
+
+    Scene under_sky = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
+    under_sky.environment.pixels = Image<RgbaF>(64, 32);
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 64; ++x) under_sky.environment.pixels(x, y) = {2, 2, 2, 1};
+    }
+    RenderOptions two_tones = toon();
+    two_tones.toon.thresholds = {0.5F};
+    two_tones.toon.values = {1.0F, 0.1F};
+    const Image<RgbaF> picture = render(std::move(under_sky), front_camera(4, 34, 64), two_tones).picture;
+    EXPECT_NEAR(picture(32, 6).g, 0.5, 1e-5);    // above
+    EXPECT_NEAR(picture(32, 58).g, 0.05, 1e-5);  // below
+    for (int x = 25; x < 39; ++x) EXPECT_EQ(picture(x, 20).g, picture(63 - x, 20).g);
+}
+
+TEST(Toon, MirrorsAndGlassShowTones) {
+    // A sphere before a mirror that lies on the floor; nothing but tones of the sphere is in either.
+    Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.8F)));
+    scene.materials.push_back(material_of(SurfaceKind::mirror, glm::vec3(1.0F)));
+    scene.meshes.push_back(make_quad({-9, -1.2F, 9}, {18, 0, 0}, {0, 0, -18}));
+    scene.meshes.back().material = 1;
+    scene.lights = {directional_light({-1, -0.2, -1}, glm::vec3(1))};
+    const Image<RgbaF> picture =
+        render(std::move(scene), look_at_camera({0, 3, 6}, {0, -1, 0}, radians(40), 128, 128), toon()).picture;
+    for (const auto& [r, g, b] : colours_of(picture)) {
+        bool known = r == 0;  // nothing, in the mirror
+        for (const float value : ToonStyle{}.values) known = known || std::abs(r - 0.8F * value) < 1e-5F;
+        EXPECT_TRUE(known) << r;
+    }
+    EXPECT_GE(colours_of(picture).size(), 5U);
+}
+
+TEST(Toon, SoftShadowsHaveTonesToo) {
+    const auto floor_under_block = [](int shadow_rays) {
+        Scene scene = scene_of(make_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}), material_of(SurfaceKind::diffuse));
+        scene.meshes.push_back(make_quad({0, 1, -5}, {0, 0, 10}, {5, 0, 0}));
+        scene.lights = {rectangle_light({-0.5F, 2, -0.5F}, {1, 0, 0}, {0, 0, 1}, glm::vec3(2.0F))};
+        RenderOptions options = toon();
+        options.toon.shadow_rays = shadow_rays;
+        return render(std::move(scene), look_at_camera({0, 0.9, 0.01}, {0, 0, 0}, radians(90), 96, 96), options)
+            .picture;
+    };
+    const auto tones_of_row = [](const Image<RgbaF>& picture) {
+        std::set<float> tones;
+        for (int x = 0; x < 96; ++x) tones.insert(picture(x, 48).g);
+        return tones;
+    };
+    const Image<RgbaF> hard = floor_under_block(0), soft = floor_under_block(64);
+    EXPECT_LE(colours_of(soft).size(), 5U);
+    EXPECT_EQ(tones_of_row(soft).size(), 5U);  // all of them, one after the other,
+    int dark = 0;
+    for (int x = 44; x < 52; ++x) dark += hard(x, 48).g < 0.2F;
+    EXPECT_EQ(dark, 4);  // where a hard shadow has a single step
+}
+
+}  // namespace
+}  // namespace rs::capture::test

@@ -1,0 +1,189 @@
+#include "compositor/playback/sequence_player.hpp"
+
+#include "tests/compositor/gl_test.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+namespace rs::compositor {
+namespace {
+
+using PlayerTest = test::GlTest;
+
+constexpr FrameOptions kSmall{.width = 160, .height = 96, .samples = 1};
+
+// A ground with a wall, and boxes that are elsewhere in each frame; the last is hidden in the second.
+std::shared_ptr<const Sequence> boxes(int count, int frames) {
+    auto sequence = std::make_shared<Sequence>();
+    Scene& scene = sequence->scene;
+    scene.shading = Shading::kPhong;
+    const auto box = std::make_shared<const Mesh>(box_mesh({1, 1, 1}));
+    const auto still = [&](const glm::dvec3& size, const glm::dvec3& middle) {
+        GeometryNode node;
+        node.mesh = std::make_shared<const Mesh>(box_mesh(size));
+        node.world_from_node[3] = glm::dvec4(middle, 1);
+        scene.geometry.push_back(node);
+    };
+    still({40, 0.1, 40}, {0, -0.05, 0});
+    still({40, 8, 0.1}, {0, 4, -8});
+    Light lamp;
+    lamp.kind = LightKind::kSpot;
+    lamp.location = {2, 4, 0};
+    lamp.towards = {0, -1, 0};
+    lamp.cut_off_rad = lamp.beam_width_rad = radians(50);
+    lamp.radius = 6;
+    scene.lights.push_back(lamp);
+    for (int i = 0; i < count; ++i) {
+        GeometryNode node;
+        node.mesh = box;
+        node.material.diffuse = {0.8F, 0.1F * static_cast<float>(i % 10), 0.2F};
+        node.moving = static_cast<std::uint32_t>(i);
+        sequence->slots.push_back({{scene.geometry.size()}, glm::dvec3(0), {}});
+        scene.geometry.push_back(node);
+    }
+    for (int f = 0; f < frames; ++f) {
+        SequenceFrame frame;
+        for (int i = 0; i < count; ++i) {
+            if (f == 1 && i == count - 1) continue;
+            const double angle = 0.7 * i + 0.2 * f;
+            InstancePose pose;
+            pose.move = {5 * std::cos(angle), 0.5, 4 * std::sin(angle)};
+            pose.turn_deg = {0, 20.0 * f, 0};
+            frame.poses.push_back({static_cast<std::uint32_t>(i), false, pose});
+        }
+        frame.camera = SequenceCamera{{{0, 3, 12}, {0.1 * f, 1, 0}}, radians(60)};
+        sequence->frames.push_back(frame);
+    }
+    return sequence;
+}
+
+Image<Rgba8> frame_of(SequencePlayer& player, std::size_t number) {
+    auto frame = player.frame(number);
+    EXPECT_TRUE(frame) << frame.error().message;
+    return frame ? std::move(*frame) : Image<Rgba8>(1, 1);
+}
+
+bool same(const Image<Rgba8>& a, const Image<Rgba8>& b) {
+    return a.width() == b.width() && a.height() == b.height() &&
+           std::equal(a.pixels().begin(), a.pixels().end(), b.pixels().begin());
+}
+
+int differing(const Image<Rgba8>& a, const Image<Rgba8>& b) {
+    int count = 0;
+    for (int y = 0; y < a.height(); ++y) {
+        for (int x = 0; x < a.width(); ++x) count += a(x, y) == b(x, y) ? 0 : 1;
+    }
+    return count;
+}
+
+TEST_F(PlayerTest, AFrameIsTheSameHoweverItIsComeByAndNothingIsUploadedAgain) {
+    const auto sequence = boxes(40, 3);
+    auto player = SequencePlayer::create(sequence, {.frame = kSmall});
+    ASSERT_TRUE(player) << player.error().message;
+    const int uploads = player->compositor().uploads();
+    EXPECT_GT(uploads, 0);
+    const Image<Rgba8> first = frame_of(*player, 0);
+    const Image<Rgba8> second = frame_of(*player, 1);
+    EXPECT_GT(differing(first, second), 500);
+    EXPECT_TRUE(same(frame_of(*player, 0), first));
+    EXPECT_EQ(player->compositor().uploads(), uploads);
+
+    auto fresh = SequencePlayer::create(sequence, {.frame = kSmall});
+    ASSERT_TRUE(fresh);
+    EXPECT_TRUE(same(frame_of(*fresh, 1), second));
+
+    // And as a scene that stands still, whose lights are chosen otherwise.
+    Scene still = scene_at(*sequence, 1);
+    for (GeometryNode& node : still.geometry) node.moving.reset();
+    auto compositor = FrameCompositor::create(still, std::vector<PlacedObject>{}, kSmall);
+    ASSERT_TRUE(compositor);
+    const auto picture = compositor->compose(camera_of(*sequence, 1, 160, 96));
+    ASSERT_TRUE(picture);
+    int greatest = 0;
+    for (int y = 0; y < 96; ++y) {
+        for (int x = 0; x < 160; ++x) greatest = std::max(greatest, std::abs((*picture)(x, y).r - second(x, y).r));
+    }
+    EXPECT_LE(greatest, 1);
+}
+
+TEST_F(PlayerTest, WeatherIsRepeatableByItsSeed) {
+    const auto sequence = boxes(3, 2);
+    for (const char* word : {"rain", "snow"}) {
+        SCOPED_TRACE(word);
+        Weather weather = *parse_weather(word);
+        auto player = SequencePlayer::create(sequence, {.frame = kSmall, .weather = weather});
+        ASSERT_TRUE(player);
+        const Image<Rgba8> first = frame_of(*player, 0);
+        auto again = SequencePlayer::create(sequence, {.frame = kSmall, .weather = weather});
+        ASSERT_TRUE(again);
+        EXPECT_TRUE(same(frame_of(*again, 0), first));
+        weather.seed = 2;
+        auto other = SequencePlayer::create(sequence, {.frame = kSmall, .weather = weather});
+        ASSERT_TRUE(other);
+        EXPECT_GT(differing(frame_of(*other, 0), first), 200);
+    }
+}
+
+// What falls behind a wall is not seen: with the wall half a metre before the eye, nothing of it is.
+TEST_F(PlayerTest, WhatFallsIsHiddenByWhatIsBefore) {
+    Scene scene;
+    GeometryNode wall;
+    wall.mesh = std::make_shared<const Mesh>(box_mesh({100, 100, 0.1}));
+    scene.geometry.push_back(wall);
+    const Camera camera = look_at_camera({0, 2, 0.45}, {0, 2, 0}, radians(60), 160, 96);
+    const Camera far = look_at_camera({0, 2, 12}, {0, 2, 0}, radians(60), 160, 96);
+    auto compositor = FrameCompositor::create(scene, std::vector<PlacedObject>{}, kSmall);
+    ASSERT_TRUE(compositor);
+    for (const char* word : {"rain", "snow"}) {
+        compositor->set_weather(std::nullopt, 0);
+        const Image<Rgba8> dry = *compositor->compose(camera);
+        const Image<Rgba8> dry_far = *compositor->compose(far);
+        compositor->set_weather(*parse_weather(word), 1.5);
+        EXPECT_EQ(differing(*compositor->compose(camera), dry), 0) << word;
+        EXPECT_GT(differing(*compositor->compose(far), dry_far), 200) << word;
+    }
+}
+
+TEST_F(PlayerTest, TracedFramesMoveThingsWithoutNewTreesAndStandInFog) {
+    const auto sequence = boxes(12, 3);
+    PlayerOptions options{.frame = kSmall, .tracing = TracedOptions{.method = TracedMethod::kWhitted}, .passes = 1};
+    auto player = SequencePlayer::create(sequence, options);
+    ASSERT_TRUE(player) << player.error().message;
+    const Image<Rgba8> first = frame_of(*player, 0);
+    const Image<Rgba8> second = frame_of(*player, 1);
+    EXPECT_GT(differing(first, second), 500);
+    EXPECT_TRUE(same(frame_of(*player, 0), first));
+    EXPECT_EQ(player->tracers_made(), 1);
+    auto fresh = SequencePlayer::create(sequence, options);
+    ASSERT_TRUE(fresh);
+    EXPECT_TRUE(same(frame_of(*fresh, 1), second));
+    // In fog that ends before everything, nothing but fog.
+    options.weather = *parse_weather("fog");
+    options.weather->visibility = 1.5;
+    auto foggy = SequencePlayer::create(sequence, options);
+    ASSERT_TRUE(foggy);
+    const Image<Rgba8> nothing = frame_of(*foggy, 0);
+    for (const Rgba8& pixel : nothing.pixels()) ASSERT_EQ(pixel, nothing(0, 0));
+}
+
+TEST(WeatherWords, AreStrict) {
+    EXPECT_TRUE(parse_weather("rain,fog"));
+    for (const char* wrong : {"", "hail", "rain,", "rain,rain", "rain,snow", "Rain"}) {
+        EXPECT_FALSE(parse_weather(wrong)) << wrong;
+    }
+}
+
+TEST(WeatherOfAScene, IsDarkerByDayAndCoversWhatLooksUp) {
+    const Scene fair;
+    const Scene rainy = in_weather(fair, *parse_weather("rain"));
+    EXPECT_LT(rainy.lights[0].colour.x, fair.lights[0].colour.x);
+    EXPECT_EQ(rainy.cover, Cover::kWet);
+    ASSERT_TRUE(rainy.fog);
+    const Scene foggy = in_weather(fair, *parse_weather("fog"));
+    EXPECT_LT(foggy.fog->visibility, rainy.fog->visibility);
+    EXPECT_EQ(foggy.background.sky[0], foggy.fog->colour);
+}
+
+}  // namespace
+}  // namespace rs::compositor
