@@ -3,14 +3,15 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <string>
 
 namespace rs::test {
 
 inline std::string text_in(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();  // which also ends where a process of /proc has gone
+    return text.str();
 }
 
 }  // namespace rs::test

@@ -29,7 +29,9 @@ struct WorkKind {
     const char* ending;   // of a result's name
     bool reads_folder;
     Result<Extent> (*extent_of)(const std::filesystem::path& input);
-    // What the tool takes: so much, and of every picture's pixel, and of one picture's; measured (README.md).
+    // What the tool takes: so much, and of every picture's pixel, and of one picture's. Of encode as measured (8 x
+    // 64x64: 142 MB, 35 x 914x892: 507 MB), of import as capture/photos/import.hpp says it, for two photographs at a
+    // time.
     double base_bytes;
     double bytes_per_pixel;
     double bytes_per_picture_pixel;
