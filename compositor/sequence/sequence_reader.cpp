@@ -1,4 +1,4 @@
-#include "compositor/scene/lights_file.hpp"
+#include "compositor/scene/light/lights_file.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/sequence/frames_file.hpp"
 #include "compositor/sequence/model_library.hpp"

@@ -2,7 +2,7 @@
 
 #include "capture/tracer/integrator/light_probe.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
-#include "compositor/scene/raster_lights.hpp"
+#include "compositor/scene/light/raster_lights.hpp"
 #include "compositor/traced/object_rays.hpp"
 #include "compositor/traced/traced_room.hpp"
 

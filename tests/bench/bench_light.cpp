@@ -8,7 +8,7 @@
 // reference's mean, "dB" the PSNR of the 8-bit pictures. Nothing else should run beside it.
 
 #include "capture/tracer/light/directions.hpp"
-#include "compositor/scene/lights_file.hpp"
+#include "compositor/scene/light/lights_file.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/traced/traced_renderer.hpp"
 #include "rayspace/tool/tool_main.hpp"

@@ -7,7 +7,7 @@
 // at best. "first" is the frame that draws the maps.
 
 #include "compositor/gl/context.hpp"
-#include "compositor/scene/lights_file.hpp"
+#include "compositor/scene/light/lights_file.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"

@@ -1,5 +1,5 @@
 // Lists of lights as text; the reader is lights_file.cpp.
-#include "compositor/scene/lights_file.hpp"
+#include "compositor/scene/light/lights_file.hpp"
 
 #include "rayspace/file/file_output.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // A scene's lights as a list, and a list's lights in a scene. Pure; thread-safe.
 
-#include "compositor/scene/lights_file.hpp"
+#include "compositor/scene/light/lights_file.hpp"
 #include "compositor/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "compositor/gl/draw.hpp"
 #include "compositor/gl/texture.hpp"
-#include "compositor/scene/raster_lights.hpp"
+#include "compositor/scene/light/raster_lights.hpp"
 #include "compositor/viewer/drawing/background_shaders.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
 #include "compositor/viewer/views/engine_views.hpp"
@@ -16,19 +16,6 @@
 
 namespace rs::compositor {
 namespace {
-
-// With the objects that are there, also where the scene does not name them.
-BoundingBox bounds_of_casters(const Scene& scene, const ShownNodes& nodes) {
-    BoundingBox all = compositor::bounds_of_casters(scene);
-    for (const ShownNode& node : nodes) {
-        if (!node.object || node.object->object->bounds.empty()) continue;
-        const Similarity& place = node.object->world_from_object;
-        const glm::dvec3 reach(1.1 * place.scale);
-        all.include(place.translation - reach);
-        all.include(place.translation + reach);
-    }
-    return all;
-}
 
 // How much of an object's own light is left at a distance.
 float kept_in_fog(const std::optional<Fog>& fog, double distance) {
@@ -64,58 +51,13 @@ Result<FrameCompositor::Frame> FrameCompositor::Frame::create(int width, int hei
     return Frame{std::move(*drawn), std::move(*resolved)};
 }
 
-// Nothing without shadows.
-Result<std::optional<ShadowMaps>> FrameCompositor::Lit::make_maps(const Scene& scene, const ShownNodes& nodes,
-                                                                  bool shadows) {
-    if (!shadows) return std::optional<ShadowMaps>();
-    auto made = ShadowMaps::create(plan_shadows(scene, bounds_of_casters(scene, nodes)));
-    if (!made) return made.error();
-    return std::optional<ShadowMaps>(std::move(*made));
-}
-
-Result<FrameCompositor::Lit> FrameCompositor::Lit::create(const Scene& scene, const ShownNodes& nodes, bool shadows) {
-    auto maps = make_maps(scene, nodes, shadows);
-    if (!maps) return maps.error();
-    const ShadowPlan plan = *maps ? (*maps)->plan() : ShadowPlan{};
-    auto surfaces = SurfaceRenderer::create(scene, plan);
-    if (!surfaces) return surfaces.error();
-    std::optional<FloorRenderer> floor;
-    if (scene.floor) {
-        auto made = FloorRenderer::create(scene, plan);
-        if (!made) return made.error();
-        floor.emplace(std::move(*made));
-    }
-    return Lit{std::move(*surfaces), std::move(floor), std::move(*maps)};
-}
-
-// As scene_ says, with or without shadows.
-Status FrameCompositor::light_anew(bool shadows) {
-    Lit& lit = renderers_.lit;
-    auto maps = Lit::make_maps(scene_, *nodes_, shadows);
-    if (!maps) return maps.error();
-    const ShadowPlan plan = *maps ? (*maps)->plan() : ShadowPlan{};
-    if (Status status = lit.surfaces.set_lights(scene_, plan); !status) return status;
-    if (lit.floor) {
-        auto floor = FloorRenderer::create(scene_, plan);
-        if (!floor) return floor.error();
-        lit.floor.emplace(std::move(*floor));
-    }
-    if (*maps && lit.shadows) (*maps)->take_shells(*lit.shadows);
-    lit.shadows = std::move(*maps);
-    return {};
-}
-
-Status FrameCompositor::set_shadows(bool shadows) {
-    return shadows == this->shadows() ? Status() : light_anew(shadows);
-}
-
 Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::shared_ptr<engine::DataModule> engine,
                                                 std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options) {
     Scene scene = lit_scene;
     scene.lights = raster_lights(lit_scene, options.exposure_ev);
     auto background = BackgroundRenderer::create(scene.background);
     if (!background) return background.error();
-    auto lit = Lit::create(scene, *nodes, options.shadows);
+    auto lit = LitGeometry::create(scene, *nodes, options.shadows);
     if (!lit) return lit.error();
     auto weather = WeatherRenderer::create(scene);
     if (!weather) return weather.error();
@@ -127,7 +69,7 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::sha
     if (!placeholders) return placeholders.error();
     auto frame = Frame::create(options.width, options.height, options.samples);
     if (!frame) return frame.error();
-    return FrameCompositor(std::move(scene), std::move(engine), std::move(nodes),
+    return FrameCompositor(scene, std::move(engine), std::move(nodes),
                            {std::move(*traced), std::move(*objects), std::move(*placeholders), std::move(*background),
                             std::move(*lit), std::move(*weather), std::move(*frame)},
                            options);
@@ -141,10 +83,10 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& scene, const std::v
     return create(scene, engine, std::move(*nodes), options);
 }
 
-FrameCompositor::FrameCompositor(Scene scene, std::shared_ptr<engine::DataModule> engine,
+FrameCompositor::FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
                                  std::shared_ptr<const ShownNodes> nodes, Renderers renderers,
                                  const FrameOptions& options)
-    : scene_(std::move(scene)),
+    : fog_(scene.fog),
       engine_(std::move(engine)),
       nodes_(std::move(nodes)),
       turns_rad_(nodes_->size()),
@@ -158,20 +100,9 @@ FrameCompositor::FrameCompositor(Scene scene, std::shared_ptr<engine::DataModule
       rectangle_(4) {}
 
 Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
-    scene_.lights = raster_lights(scene, exposure_ev);
-    scene_.environment = scene.environment;
-    scene_.navigation.headlight = scene.navigation.headlight;
-    for (std::size_t n = 0; n < scene.geometry.size(); ++n) scene_.geometry[n].lights = scene.geometry[n].lights;
-    return light_anew(shadows());
-}
-
-Status FrameCompositor::move_geometry(std::size_t index, const std::optional<glm::dmat4>& world_from_node) {
-    Lit& lit = renderers_.lit;
-    if (lit.surfaces.stands(index, world_from_node)) return {};
-    if (lit.shadows) lit.shadows->touch(lit.surfaces.caster_bounds(index));
-    if (Status status = lit.surfaces.move(index, world_from_node); !status) return status;
-    if (lit.shadows) lit.shadows->touch(lit.surfaces.caster_bounds(index));
-    return {};
+    Scene lit_scene = scene;
+    lit_scene.lights = raster_lights(scene, exposure_ev);
+    return renderers_.lit.set_lights(lit_scene, *nodes_);
 }
 
 Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {
@@ -219,16 +150,16 @@ Status FrameCompositor::draw(const Camera& camera) {
     EngineViews views(*engine_);
     if (const Status status = views.submit(std::move(requests)); !status) return status.error();
 
-    if (shadows()) draw_shadows();
+    if (shadows()) statistics_.shadow_maps_drawn = renderers_.lit.draw_shadows(throwing_objects());
     statistics_.shadows_s = clock.lap();
     renderers_.frame.drawn.begin(renderers_.background.zenith());
     if (!renderers_.background.plain()) renderers_.background.draw(camera);
-    const auto transparent = renderers_.lit.surfaces.draw_opaque(view, wire_frame_);
-    statistics_.geometry_in_view = renderers_.lit.surfaces.nodes_in_view();
-    if (renderers_.lit.floor) renderers_.lit.floor->draw(view);
+    const auto transparent = renderers_.lit.surfaces().draw_opaque(view, wire_frame_);
+    statistics_.geometry_in_view = renderers_.lit.surfaces().nodes_in_view();
+    if (const FloorRenderer* floor = renderers_.lit.floor()) floor->draw(view);
     if (traced_) {
         draw_traced(camera);
-        renderers_.lit.surfaces.draw_veil(view);
+        renderers_.lit.surfaces().draw_veil(view);
     }
     gl::flush();
     statistics_.geometry_s = clock.lap();
@@ -277,7 +208,7 @@ void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparen
     };
     for (const Blended& item : blended) {
         if (item.node != nullptr || item.placeholder != nullptr) fall(item.distance);
-        if (item.surface != nullptr) renderers_.lit.surfaces.draw_transparent(*item.surface, view, wire_frame_);
+        if (item.surface != nullptr) renderers_.lit.surfaces().draw_transparent(*item.surface, view, wire_frame_);
         if (item.node != nullptr) draw_object(*item.node);
         if (item.placeholder != nullptr) renderers_.placeholders.draw(*item.placeholder, view);
     }
@@ -364,16 +295,14 @@ void FrameCompositor::draw_traced(const Camera& camera) {
              {.depth_test = false, .depth_write = false, .blending = gl::Blending::kOverPremultiplied});
 }
 
-void FrameCompositor::draw_shadows() {
+std::vector<std::optional<PlacedObject>> FrameCompositor::throwing_objects() const {
     constexpr float kThere = 0.5F;  // opacity from which on an object that fades in throws its shadow
     std::vector<std::optional<PlacedObject>> objects(nodes_->size());
     for (std::size_t i = 0; i < nodes_->size(); ++i) {
         const ShownNode& node = (*nodes_)[i];
         if (node.object && !node.hidden && node.opacity >= kThere) objects[i] = turned(i);
     }
-    statistics_.shadow_maps_drawn = renderers_.lit.shadows->update(
-        objects, [&](const ShadowFace& face) { renderers_.lit.surfaces.draw_casters(face); });
-    renderers_.lit.shadows->bind();
+    return objects;
 }
 
 void FrameCompositor::upload(const SeenNode& node) {
@@ -396,8 +325,8 @@ void FrameCompositor::upload(const SeenNode& node) {
 void FrameCompositor::draw_object(const SeenNode& node) const {
     renderers_.objects.draw(node.index, node.view,
                             {.screen_px = {width(), height()},
-                             .fog = scene_.fog ? scene_.fog->colour : glm::vec3(0),
-                             .own_light = kept_in_fog(scene_.fog, node.view.plane_distance),
+                             .fog = fog_ ? fog_->colour : glm::vec3(0),
+                             .own_light = kept_in_fog(fog_, node.view.plane_distance),
                              .opacity = (*nodes_)[node.index].opacity});
 }
 

@@ -16,15 +16,13 @@
 #include "compositor/lighting/surface_point.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/background_renderer.hpp"
-#include "compositor/viewer/drawing/floor_renderer.hpp"
 #include "compositor/viewer/drawing/handle_renderer.hpp"
+#include "compositor/viewer/drawing/lit_geometry.hpp"
 #include "compositor/viewer/drawing/object_renderer.hpp"
 #include "compositor/viewer/drawing/placeholder_renderer.hpp"
 #include "compositor/viewer/drawing/shown_parts.hpp"
-#include "compositor/viewer/drawing/surface_renderer.hpp"
 #include "compositor/viewer/drawing/weather_renderer.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
-#include "compositor/viewer/shadows/shadow_maps.hpp"
 #include "compositor/viewer/views/object_view.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
 #include "engine/driver/data_module.hpp"
@@ -112,9 +110,11 @@ public:
 
     // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Its mesh stays where it
     // is.
-    Status move_geometry(std::size_t index, const std::optional<glm::dmat4>& world_from_node);
+    Status move_geometry(std::size_t index, const std::optional<glm::dmat4>& world_from_node) {
+        return renderers_.lit.move(index, world_from_node);
+    }
     // Meshes and pictures of geometry given to the driver since create() began: none after it.
-    [[nodiscard]] int uploads() const { return renderers_.lit.surfaces.uploads(); }
+    [[nodiscard]] int uploads() const { return renderers_.lit.surfaces().uploads(); }
     // What falls in the next frame, `seconds` after the sequence's beginning; nothing: it is dry. The weather's fog and
     // what it leaves on surfaces are the scene's (in_weather).
     void set_weather(const std::optional<Weather>& weather, double seconds) {
@@ -141,8 +141,8 @@ public:
     Status resize(int width, int height);
     void set_wire_frame(bool wire_frame) { wire_frame_ = wire_frame; }
     // Fails, with nothing changed, where the driver cannot. Some tenths of a second.
-    Status set_shadows(bool shadows);
-    [[nodiscard]] bool shadows() const { return renderers_.lit.shadows.has_value(); }
+    Status set_shadows(bool shadows) { return renderers_.lit.set_shadows(shadows, *nodes_); }
+    [[nodiscard]] bool shadows() const { return renderers_.lit.shadows(); }
     // Turns a node about its object's axis: counter-clockwise seen from above, from where the scene has put it.
     void turn_object(std::size_t index, double angle_rad);
 
@@ -155,27 +155,17 @@ private:
         [[nodiscard]] const gl::Framebuffer& shown() const { return resolved ? *resolved : drawn; }
         [[nodiscard]] float depth_at(int x, int y) const { return drawn.depth_at(x, y, shown()); }
     };
-    // What the scene's lights fall on.
-    struct Lit {
-        SurfaceRenderer surfaces;
-        std::optional<FloorRenderer> floor;
-        std::optional<ShadowMaps> shadows;
-
-        // `scene` with raster's lights.
-        static Result<std::optional<ShadowMaps>> make_maps(const Scene& scene, const ShownNodes& nodes, bool shadows);
-        static Result<Lit> create(const Scene& scene, const ShownNodes& nodes, bool shadows);
-    };
     struct Renderers {
         gl::Program traced;
         ObjectRenderer objects;
         PlaceholderRenderer placeholders;
         BackgroundRenderer background;
-        Lit lit;
+        LitGeometry lit;
         WeatherRenderer weather;
         Frame frame;
     };
-    FrameCompositor(Scene scene, std::shared_ptr<engine::DataModule> engine, std::shared_ptr<const ShownNodes> nodes,
-                    Renderers renderers, const FrameOptions& options);
+    FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+                    std::shared_ptr<const ShownNodes> nodes, Renderers renderers, const FrameOptions& options);
 
     struct SeenNode {
         std::size_t index = 0;
@@ -185,15 +175,14 @@ private:
     [[nodiscard]] std::optional<ObjectView> view_of_node(std::size_t index, const Camera& camera) const;
     [[nodiscard]] std::vector<SeenNode> seen_nodes(const Camera& camera) const;
     void draw_traced(const Camera& camera);
-    Status light_anew(bool shadows);
-    void draw_shadows();
+    [[nodiscard]] std::vector<std::optional<PlacedObject>> throwing_objects() const;
     [[nodiscard]] PlacedObject turned(std::size_t index) const;
     void upload(const SeenNode& node);
     void draw_object(const SeenNode& node) const;
     void draw_blended(const std::vector<SurfaceRenderer::Transparent>& surfaces, const std::vector<SeenNode>& nodes,
                       const FrameView& view);
 
-    Scene scene_;  // with raster's lights
+    std::optional<Fog> fog_;
     std::shared_ptr<engine::DataModule> engine_;
     std::shared_ptr<const ShownNodes> nodes_;
     std::vector<double> turns_rad_;  // [node]: by which the visitor has turned it

@@ -1,6 +1,6 @@
 // Lists of lights beside a scene.
 
-#include "compositor/scene/lights_file.hpp"
+#include "compositor/scene/light/lights_file.hpp"
 
 #include "datasets-synthetic/showroom/evening.hpp"
 #include "datasets-synthetic/showroom/showroom.hpp"

@@ -1,52 +1,16 @@
 // Rooms by traced light, against formulas and against themselves.
 
-#include "compositor/traced/refinement.hpp"
 #include "compositor/traced/traced_room.hpp"
+#include "tests/compositor/traced/small_room.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include <chrono>
 #include <cmath>
-#include <thread>
 
 namespace rs::compositor {
 namespace {
-
-GeometryNode box_node(const glm::dvec3& size, const glm::dvec3& at, const glm::vec3& diffuse) {
-    GeometryNode node;
-    node.mesh = std::make_shared<const Mesh>(box_mesh(size));
-    node.material.diffuse = diffuse;
-    node.world_from_node[3] = glm::dvec4(at, 1);
-    return node;
-}
-
-// A white floor, a red block on it, a lamp above.
-Scene small_room() {
-    Scene scene;
-    scene.lights = {point_light({1, 3, 1}, glm::vec3(9))};
-    scene.geometry = {box_node({20, 0.2, 20}, {0, -0.1, 0}, glm::vec3(0.6F)),
-                      box_node({1, 1, 1}, {0, 0.5, 0}, {0.7F, 0.1F, 0.1F})};
-    return scene;
-}
-
-Camera looking_from(const glm::dvec3& eye, const glm::dvec3& at, int side) {
-    const glm::dvec3 back = glm::normalize(eye - at);
-    const glm::dvec3 right =
-        glm::normalize(glm::cross(std::abs(back.y) > 0.99 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0), back));
-    Camera camera;
-    camera.width = camera.height = side;
-    camera.fl_x = camera.fl_y = side;
-    camera.cx = camera.cy = side / 2.0;
-    camera.world_from_camera = glm::dmat4(glm::dvec4(right, 0), glm::dvec4(glm::cross(back, right), 0),
-                                          glm::dvec4(back, 0), glm::dvec4(eye, 1));
-    return camera;
-}
-
-Result<TracedRenderer> renderer_of(const Scene& scene, double exposure_ev = 0) {
-    return TracedRenderer::create(scene, {}, {.exposure_ev = exposure_ev});
-}
 
 TEST(TracedRoom, LightsShineAsTheRasterFormulaHasThem) {
     // A white matte surface shows colour * attenuation * cos of each punctual light, and what walls reflect besides:
@@ -313,93 +277,6 @@ TEST(TracedRenderer, TheHeadlightIsCarriedWhereNothingElseShines) {
     EXPECT_NEAR(brightness(), 0.6, 0.02);
     scene.geometry[1].material.emissive = glm::vec3(1e-3F);
     EXPECT_LT(brightness(), 0.01);
-}
-
-// Pictures come from coarse to fine, whatever the time they take, and begin() drops the old view.
-TEST(Refinement, GoesFromCoarseToFineAndBeginsAnew) {
-    Refinement refinement([] { return renderer_of(small_room()); });
-    const auto wait_for = [&](int passes) {
-        const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-        std::shared_ptr<const Image<Rgba8>> picture;
-        while (std::chrono::steady_clock::now() < patience) {
-            if (const auto step = refinement.take()) {
-                picture = step->picture;
-                if (step->passes >= passes) return picture;
-            }
-            std::this_thread::yield();
-        }
-        return picture;
-    };
-    const Camera first = looking_from({3, 2, 4}, {0, 0.4, 0}, 50);
-    const Camera second = looking_from({0, 5, 0.1}, {0, 0, 0}, 20);
-    refinement.begin(first);
-    const auto early = wait_for(0);
-    ASSERT_NE(early, nullptr);
-    EXPECT_EQ(early->width(), 50);
-    ASSERT_NE(wait_for(3), nullptr);
-    refinement.begin(second);
-    const auto other = wait_for(1);
-    ASSERT_NE(other, nullptr);
-    EXPECT_EQ(other->width(), 20);
-    refinement.end();
-    EXPECT_FALSE(refinement.failure());
-}
-
-TEST(Refinement, ChangesItsLightWithoutANewTracer) {
-    std::atomic<int> made{0};
-    Refinement refinement([&made] {
-        ++made;
-        return renderer_of(small_room());
-    });
-    const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 40);
-    const auto first_pass = [&] {
-        const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-        for (std::shared_ptr<const Image<Rgba8>> first; std::chrono::steady_clock::now() < patience;) {
-            const auto step = refinement.take();
-            if (step && step->passes == 1) first = step->picture;
-            if (first) return *first;
-            // The first pass may have been overtaken.
-            if (step && step->passes > 1) refinement.begin(camera);
-            std::this_thread::yield();
-        }
-        return Image<Rgba8>();
-    };
-    refinement.begin(camera);
-    const Image<Rgba8> before = first_pass();
-    Scene moved = small_room();
-    moved.lights[0].location = {-2, 3, 0};
-    refinement.set_lights({std::make_shared<const Scene>(moved), 0});
-    refinement.begin(camera);
-    const Image<Rgba8> after = first_pass();
-    EXPECT_NE(after, before);
-    refinement.set_lights({std::make_shared<const Scene>(small_room()), 0});
-    refinement.begin(camera);
-    EXPECT_EQ(first_pass(), before);
-    EXPECT_EQ(made, 1);
-}
-
-TEST(Refinement, AGridIsTheMiddleOfItsPixels) {
-    auto renderer = renderer_of(small_room());
-    ASSERT_TRUE(renderer);
-    const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 50);
-    const auto coarse = renderer->coarse_picture(camera, 16);
-    ASSERT_TRUE(coarse);
-    EXPECT_EQ(coarse->width(), 50);
-    for (int y = 0; y < 50; ++y) {
-        for (int x = 0; x < 50; ++x) ASSERT_EQ((*coarse)(x, y), (*coarse)(x / 16 * 16, y / 16 * 16));
-    }
-    std::atomic<bool> stop{true};
-    EXPECT_FALSE(renderer->coarse_picture(camera, 4, &stop));
-}
-
-TEST(Refinement, SaysWhyThereAreNoPictures) {
-    Refinement refinement([]() -> Result<TracedRenderer> { return Error{"no tracer today"}; });
-    refinement.begin(looking_from({3, 2, 4}, {0, 0.4, 0}, 50));
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-    while (!refinement.failure() && std::chrono::steady_clock::now() < patience) std::this_thread::yield();
-    ASSERT_TRUE(refinement.failure());
-    EXPECT_EQ(refinement.failure()->message, "no tracer today");
-    EXPECT_FALSE(refinement.take());
 }
 
 }  // namespace

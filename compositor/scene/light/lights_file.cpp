@@ -1,4 +1,4 @@
-#include "compositor/scene/lights_file.hpp"
+#include "compositor/scene/light/lights_file.hpp"
 
 #include "compositor/scene/strict_json.hpp"
 #include "rayspace/base/printable.hpp"

@@ -1,4 +1,4 @@
-#include "compositor/scene/raster_lights.hpp"
+#include "compositor/scene/light/raster_lights.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,92 @@
+#include "compositor/viewer/drawing/lit_geometry.hpp"
+
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+// With the objects that are there, also where the scene does not name them.
+BoundingBox bounds_with_objects(const Scene& scene, const ShownNodes& nodes) {
+    BoundingBox all = compositor::bounds_of_casters(scene);
+    for (const ShownNode& node : nodes) {
+        if (!node.object || node.object->object->bounds.empty()) continue;
+        const Similarity& place = node.object->world_from_object;
+        const glm::dvec3 reach(1.1 * place.scale);
+        all.include(place.translation - reach);
+        all.include(place.translation + reach);
+    }
+    return all;
+}
+
+// Nothing without shadows.
+Result<std::optional<ShadowMaps>> make_maps(const Scene& scene, const ShownNodes& nodes, bool shadows) {
+    if (!shadows) return std::optional<ShadowMaps>();
+    auto made = ShadowMaps::create(plan_shadows(scene, bounds_with_objects(scene, nodes)));
+    if (!made) return made.error();
+    return std::optional<ShadowMaps>(std::move(*made));
+}
+
+ShadowPlan plan_of(const std::optional<ShadowMaps>& maps) {
+    return maps ? maps->plan() : ShadowPlan{};
+}
+
+}  // namespace
+
+Result<LitGeometry> LitGeometry::create(const Scene& scene, const ShownNodes& nodes, bool shadows) {
+    auto maps = make_maps(scene, nodes, shadows);
+    if (!maps) return maps.error();
+    auto surfaces = SurfaceRenderer::create(scene, plan_of(*maps));
+    if (!surfaces) return surfaces.error();
+    LitGeometry lit(scene, std::move(*surfaces));
+    if (Status status = lit.make_floor(plan_of(*maps)); !status) return status.error();
+    lit.shadows_ = std::move(*maps);
+    return lit;
+}
+
+Status LitGeometry::make_floor(const ShadowPlan& plan) {
+    if (!scene_.floor) return {};
+    auto floor = FloorRenderer::create(scene_, plan);
+    if (!floor) return floor.error();
+    floor_.emplace(std::move(*floor));
+    return {};
+}
+
+// As scene_ says, with or without shadows.
+Status LitGeometry::light_anew(bool shadows, const ShownNodes& nodes) {
+    auto maps = make_maps(scene_, nodes, shadows);
+    if (!maps) return maps.error();
+    const ShadowPlan plan = plan_of(*maps);
+    if (Status status = surfaces_.set_lights(scene_, plan); !status) return status;
+    if (Status status = make_floor(plan); !status) return status;
+    if (*maps && shadows_) (*maps)->take_shells(*shadows_);
+    shadows_ = std::move(*maps);
+    return {};
+}
+
+Status LitGeometry::set_lights(const Scene& scene, const ShownNodes& nodes) {
+    scene_.lights = scene.lights;
+    scene_.environment = scene.environment;
+    scene_.navigation.headlight = scene.navigation.headlight;
+    for (std::size_t n = 0; n < scene.geometry.size(); ++n) scene_.geometry[n].lights = scene.geometry[n].lights;
+    return light_anew(shadows(), nodes);
+}
+
+Status LitGeometry::set_shadows(bool shadows, const ShownNodes& nodes) {
+    return shadows == this->shadows() ? Status() : light_anew(shadows, nodes);
+}
+
+Status LitGeometry::move(std::size_t node, const std::optional<glm::dmat4>& world_from_node) {
+    if (surfaces_.stands(node, world_from_node)) return {};
+    if (shadows_) shadows_->touch(surfaces_.caster_bounds(node));
+    if (Status status = surfaces_.move(node, world_from_node); !status) return status;
+    if (shadows_) shadows_->touch(surfaces_.caster_bounds(node));
+    return {};
+}
+
+int LitGeometry::draw_shadows(const std::vector<std::optional<PlacedObject>>& objects) {
+    const int drawn = shadows_->update(objects, [&](const ShadowFace& face) { surfaces_.draw_casters(face); });
+    shadows_->bind();
+    return drawn;
+}
+
+}  // namespace rs::compositor
