@@ -100,8 +100,7 @@ ModelMaterial ModelMaterials::convert(const aiMaterial& source) {
         material.diffuse = vec(property<aiColor3D>(source, AI_MATKEY_COLOR_DIFFUSE).value_or(aiColor3D(0.8F)));
         material.specular = vec(property<aiColor3D>(source, AI_MATKEY_COLOR_SPECULAR).value_or(aiColor3D(0)));
         material.shininess = std::clamp(property<float>(source, AI_MATKEY_SHININESS).value_or(0) / 128, 0.0F, 1.0F);
-        // Assimp's OBJ reader makes exponents four times as large, as the half vector wants them.
-        const float exponent = std::max(property<float>(source, AI_MATKEY_SHININESS).value_or(0) / 4, 0.0F);
+        const float exponent = std::max(property<float>(source, AI_MATKEY_SHININESS).value_or(0), 0.0F);
         material.phong =
             PhongTerms{vec(property<aiColor3D>(source, AI_MATKEY_COLOR_AMBIENT).value_or(aiColor3D(0))), exponent};
         if (material.shininess == 0) material.specular = glm::vec3(0);
