@@ -1,5 +1,5 @@
 #pragma once
-// The walls of a display, from JSON that must be exactly as documented (compositor/README.md, Walls), or by the name of
+// The walls of a display, from JSON that must be exactly as documented (README.md), or by the name of
 // a preset.
 
 #include "compositor/displays/wall.hpp"

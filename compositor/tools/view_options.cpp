@@ -8,10 +8,11 @@ namespace {
 
 void add_sequence_options(CLI::App& app, ViewArguments& arguments) {
     CLI::Option* sequence =
-        app.add_option("--sequence", arguments.sequences,
-                       "in place of SCENE: maps whose anim/out/frames.json names a base scene and an extended OBJ for "
-                       "each frame (compositor/README.md), drawn by Phong's formula; -o takes .mp4, .jpg, .png or a "
-                       "folder of pictures. Several go into a folder, each as NAME/sequence.mp4 and NAME/snapshot.jpg")
+        app.add_option(
+               "--sequence", arguments.sequences,
+               "in place of SCENE: maps whose anim/out/frames.json names a base scene and an extended OBJ for "
+               "each frame (compositor/sequence/README.md), drawn by Phong's formula; -o takes .mp4, .jpg, .png or a "
+               "folder of pictures. Several go into a folder, each as NAME/sequence.mp4 and NAME/snapshot.jpg")
             ->type_name("FOLDER")
             ->expected(1, 100000);
     app.add_option("--weather", arguments.weather,
@@ -38,10 +39,11 @@ void add_sequence_options(CLI::App& app, ViewArguments& arguments) {
 
 void add_display_options(CLI::App& app, ViewArguments& arguments) {
     CLI::Option* walls =
-        app.add_option("--walls", arguments.walls,
-                       "in place of one view, those of one who stands before walls: cave, power-wall, tabletop, or a "
-                       "file of corners in metres (compositor/README.md, Walls). With -o FOLDER a picture a wall, else "
-                       "a window a wall. The scene's view says where the room stands; --size: of all walls")
+        app.add_option(
+               "--walls", arguments.walls,
+               "in place of one view, those of one who stands before walls: cave, power-wall, tabletop, or a "
+               "file of corners in metres (compositor/displays/README.md). With -o FOLDER a picture a wall, else "
+               "a window a wall. The scene's view says where the room stands; --size: of all walls")
             ->type_name("PRESET|FILE.json");
     app.add_option("--wall", arguments.wall_names, "only these, such as front,left: a machine for each wall")
         ->type_name("NAME,...")
@@ -61,7 +63,7 @@ void add_display_options(CLI::App& app, ViewArguments& arguments) {
         ->check(CLI::Range(0.0, 1.0))
         ->type_name("M")
         ->needs(walls);
-    app.add_option("--heads", arguments.heads, "where the head is in each frame (compositor/README.md, Walls)")
+    app.add_option("--heads", arguments.heads, "where the head is in each frame (compositor/displays/README.md)")
         ->type_name("FILE.json")
         ->needs(walls);
     CLI::Option* quilt =
@@ -124,7 +126,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         ->capture_default_str();
     app.add_option("--lights", arguments.lights,
                    "JSON list of lights, luminaires (IES, EULUMDAT) among them, beside the scene's or in their place "
-                   "(compositor/README.md)")
+                   "(compositor/traced/README.md)")
         ->type_name("FILE.json");
     app.add_option("--save-lights", arguments.save_lights,
                    "writes the lights in force as such a list, which replaces those of the scene; with -o also draws")

@@ -1,6 +1,6 @@
 #pragma once
 // The lights of a world's evening: a luminaire of our own as an IES file, and a list that hangs it under the ceilings
-// and in the lamps (compositor/README.md, Light, traced).
+// and in the lamps (compositor/traced/README.md).
 
 #include "datasets-synthetic/showroom/world.hpp"
 
