@@ -157,7 +157,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         "--soft-shadows", arguments.soft_shadows,
         "whitted, toon: areas light from all over, not from their middle; in toon the soft rim has tones, too");
     app.add_option("--toon-lines", arguments.toon_lines,
-                   "toon: how far from an edge its line reaches; 0: no lines (1/5000 of the scene's diagonal)")
+                   "toon: how far from an edge its line reaches; 0: no lines (1/3000 of the scene's diagonal)")
         ->check(CLI::Range(0.0, 1e6))
         ->type_name("LENGTH");
     app.add_option("--lens", arguments.lens,

@@ -27,7 +27,7 @@ glm::vec3 ambient_of(const Scene& scene) {
 // Lines are twice as wide within a surface, and as wide as this at its outline: a pixel or two where the whole scene is
 // in view.
 double usual_line_radius(const Scene& scene) {
-    constexpr double kOfDiagonal = 1.0 / 5000;
+    constexpr double kOfDiagonal = 1.0 / 3000;
     const BoundingBox bounds = bounds_of(scene);
     return bounds.empty() ? capture::ToonStyle{}.edge_radius
                           : kOfDiagonal * glm::distance(bounds.lowest, bounds.highest);
