@@ -171,12 +171,11 @@ TEST(VrmlGraph, RefusesWithTheLine) {
 }
 
 TEST(VrmlGraph, RefusesOtherFormatsByName) {
-    for (const char* text :
- XX
+    for (const char* text : {"", "#VRML V1.0 ascii\n", "#Inventor V2.1 ascii\n", "<X3D/>", "\x1f\x8b"}) {
         const Result<Graph> graph = read_graph(text, "hall.wrl");
         ASSERT_FALSE(graph) << text;
         EXPECT_THAT(graph.error().message, AllOf(HasSubstr("hall.wrl: line 1: "), HasSubstr("VRML97")));
-}
+    }
 }
 
 std::string repeated(const std::string& text, int times) {
