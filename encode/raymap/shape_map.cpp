@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kSampleViews = 4;
 constexpr double kMostContradicted = 0.01;
+constexpr int kOverruledMargin_px = 4;
+constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
 constexpr double kWidestBetweenRings_deg = 20;
 
 NormalLine normal_line(const Camera& camera, const ReferencePlane& plane) {
@@ -129,14 +131,27 @@ private:
         return contradicted_share(views, hull, range) <= kMostContradicted;
     }
 
-    // The narrowest margin at which the silhouettes agree; a rig that is only nominal needs a wide one.
+    // The narrowest margin at which the silhouettes agree. Where none does, since cameras do not stand where the rig
+    // has them or cut-outs lack parts, the fewest silhouettes that must be overruled to leave the object whole: a hull
+    // that cuts into it puts surfaces where no picture sees them.
     void choose_hull(const std::vector<const RingSearch*>& beside) {
         const std::vector<const WorkView*> all = work_views(beside);
-        for (margin_px_ = 1;; margin_px_ *= 2) {
+        overruled_share_ = 0;
+        for (margin_px_ = 1; margin_px_ <= options_.widest_hull_margin_px; margin_px_ *= 2) {
             hull_ = std::make_unique<VisualHull>(all, margin_px_);
             silhouettes_agree_ = agree(all, *hull_);
-            if (silhouettes_agree_ || margin_px_ >= options_.widest_hull_margin_px) break;
+            if (silhouettes_agree_) return;
         }
+        margin_px_ = kOverruledMargin_px;
+        for (const double share : kOverruledShares) {
+            overruled_share_ = share;
+            hull_ = std::make_unique<VisualHull>(all, margin_px_, overruled(all));
+            if (agree(all, *hull_)) return;
+        }
+    }
+
+    [[nodiscard]] int overruled(const std::vector<const WorkView*>& views) const {
+        return static_cast<int>(overruled_share_ * static_cast<double>(views.size()));
     }
 
     // The rings whose silhouettes this one's, with the margin that these need among themselves, do not contradict:
@@ -145,7 +160,7 @@ private:
         std::vector<const RingSearch*> found;
         for (const RingSearch* const ring : rings) {
             const std::vector<const WorkView*> both = work_views({ring});
-            if (agree(both, VisualHull(both, margin_px_))) found.push_back(ring);
+            if (agree(both, VisualHull(both, margin_px_, overruled(both)))) found.push_back(ring);
         }
         return found;
     }
@@ -216,6 +231,7 @@ private:
     std::vector<DepthView> views_;
     std::unique_ptr<VisualHull> hull_;
     int margin_px_ = 1;
+    double overruled_share_ = 0;
     bool silhouettes_agree_ = true;
 };
 

@@ -72,7 +72,8 @@ void remove(std::vector<Interval>& from, const Interval& hole) {
 
 }  // namespace
 
-VisualHull::VisualHull(const std::vector<const WorkView*>& views, int margin_px) {
+VisualHull::VisualHull(const std::vector<const WorkView*>& views, int margin_px, int tolerated)
+    : tolerated_(tolerated) {
     for (const WorkView* view : views) {
         if (!has_object(*view)) continue;
         Silhouette silhouette{view, {}};
@@ -84,6 +85,10 @@ VisualHull::VisualHull(const std::vector<const WorkView*>& views, int margin_px)
 }
 
 void VisualHull::heights_above(const glm::dvec2& place, std::vector<Interval>& heights) const {
+    if (tolerated_ > 0) {
+        tolerant_heights(place, heights);
+        return;
+    }
     heights.assign(1, {-kEverywhere, kEverywhere});
     for (const Silhouette& silhouette : silhouettes_) {
         const SeenColumn seen = silhouette.view->see(place);
@@ -94,6 +99,35 @@ void VisualHull::heights_above(const glm::dvec2& place, std::vector<Interval>& h
         }
         if (heights.empty()) return;
     }
+}
+
+// Along the heights every silhouette's forbidden runs begin and end; allowed is what few enough of them cover.
+void VisualHull::tolerant_heights(const glm::dvec2& place, std::vector<Interval>& heights) const {
+    struct Event {
+        double height = 0;
+        int change = 0;
+    };
+    std::vector<Event> events;
+    for (const Silhouette& silhouette : silhouettes_) {
+        const SeenColumn seen = silhouette.view->see(place);
+        if (seen.axial <= 0 || seen.column < 0 || seen.column >= silhouette.view->width) continue;
+        for (const Interval& rows : silhouette.forbidden_rows[static_cast<std::size_t>(seen.column)]) {
+            events.push_back({silhouette.view->height_of(rows.high, seen.axial), 1});
+            events.push_back({silhouette.view->height_of(rows.low, seen.axial), -1});
+        }
+    }
+    std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.height < b.height; });
+    heights.clear();
+    double begin = -kEverywhere;
+    int forbid = 0;
+    for (const Event& event : events) {
+        const bool was_allowed = forbid <= tolerated_;
+        forbid += event.change;
+        const bool is_allowed = forbid <= tolerated_;
+        if (was_allowed && !is_allowed && event.height > begin) heights.push_back({begin, event.height});
+        if (!was_allowed && is_allowed) begin = event.height;
+    }
+    heights.push_back({begin, kEverywhere});
 }
 
 double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range) {

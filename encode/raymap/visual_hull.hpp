@@ -23,9 +23,11 @@ public:
     // Silhouettes are widened by `margin_px` pixels of the working pictures on every side, for what calibration and
     // soft edges leave unsure. What lies outside of a picture's frame may be object. Views without any object pixel say
     // nothing and are left out. `views` must outlive the hull.
-    VisualHull(const std::vector<const WorkView*>& views, int margin_px);
+    // A place is ruled out where more than `tolerated` silhouettes forbid it: cut-outs that lack a part in some
+    // pictures, or cameras that stand elsewhere than the rig says, else leave nothing.
+    VisualHull(const std::vector<const WorkView*>& views, int margin_px, int tolerated = 0);
 
-    // The heights above a place that every silhouette allows, ascending and disjoint.
+    // The heights above a place that the silhouettes allow, ascending and disjoint.
     void heights_above(const glm::dvec2& place, std::vector<Interval>& heights) const;
 
 private:
@@ -33,7 +35,10 @@ private:
         const WorkView* view = nullptr;
         std::vector<std::vector<Interval>> forbidden_rows;  // [column], ascending
     };
+    void tolerant_heights(const glm::dvec2& place, std::vector<Interval>& heights) const;
+
     std::vector<Silhouette> silhouettes_;
+    int tolerated_ = 0;
 };
 
 // The share of object pixels (0..1, sampled) whose rays the hull rules out entirely: what the silhouettes contradict

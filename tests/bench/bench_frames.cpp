@@ -109,7 +109,7 @@ Scene room() {
     };
     const auto face = square();
     const auto painted = [](const glm::vec3& colour, unsigned seed) {
-        return Material{.specular = glm::vec3(0.05F), .ambient = 1, .texture = stained(colour, seed)};
+        return Material{.specular = glm::vec3(0.05F), .ambient = 1, .texture = stained(colour, seed), .normals = {}};
     };
     const Material wall = painted({0.85F, 0.82F, 0.75F}, 1);
     add(face, placed({0, 1.5, -4}, {8, 0, 0}, {0, 3, 0}, {0, 0, 1}), wall);

@@ -118,7 +118,7 @@ Result<compositor::PlayerOptions> player_options(const Options& options) {
     player.frame.samples = options.samples;
     player.passes = options.passes;
     for (const compositor::NamedMethod& named : compositor::kTracedMethods) {
-        if (options.renderer == named.name) player.tracing = TracedOptions{.method = named.method};
+        if (options.renderer == named.name) player.tracing = compositor::TracedOptions{.method = named.method};
     }
     if (options.weather.empty()) return player;
     const auto weather = compositor::parse_weather(options.weather);

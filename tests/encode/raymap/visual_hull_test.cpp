@@ -35,6 +35,41 @@ TEST(VisualHull, EqualsAskingEverySilhouette) {
     }
 }
 
+TEST(VisualHull, RulesOutWhatMoreSilhouettesForbidThanAreTolerated) {
+    const std::vector<WorkView> views = drawn_views(drawn_ring(12, 3));
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> across(-1.1, 1.1);
+    for (const int tolerated : {1, 3, 12}) {
+        const VisualHull hull(pointers(views), 1, tolerated);
+        std::vector<Interval> heights;
+        int forbidden_by_some = 0;
+        for (int n = 0; n < 2000; ++n) {
+            const glm::dvec2 place(across(random), across(random));
+            hull.heights_above(place, heights);
+            for (std::size_t i = 1; i < heights.size(); ++i) ASSERT_LE(heights[i - 1].high, heights[i].low);
+            const double y = across(random);
+            const bool allowed = std::any_of(heights.begin(), heights.end(),
+                                             [&](const Interval& i) { return y >= i.low && y < i.high; });
+            const auto forbid = std::count_if(views.begin(), views.end(),
+                                              [&](const WorkView& view) { return !is_allowed({view}, place, y, 1); });
+            forbidden_by_some += allowed && forbid > 0 ? 1 : 0;
+            ASSERT_EQ(allowed, forbid <= tolerated) << tolerated << " tolerated, point " << n;
+        }
+        EXPECT_GT(forbidden_by_some, 20);
+    }
+}
+
+TEST(VisualHull, APartThatOneCutOutLacksIsKeptWhereThatIsTolerated) {
+    std::vector<WorkView> views = drawn_views(drawn_ring(12));
+    const DepthRange range;
+    WorkView& torn = views[3];
+    for (int column = 0; column < torn.width; ++column) {
+        for (int row = 0; row < torn.height / 2; ++row) torn.columns(row, column) = {};
+    }
+    EXPECT_GT(contradicted_share(pointers(views), VisualHull(pointers(views), 16), range), 0.1);
+    EXPECT_LT(contradicted_share(pointers(views), VisualHull(pointers(views), 1, 1), range), 0.01);
+}
+
 TEST(VisualHull, SilhouettesOfTheRightRigAgreeAndOfAWrongOneDoNot) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(12));
     const DepthRange range;
