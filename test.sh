@@ -78,7 +78,7 @@ if [ "$SANITIZE" != none ]; then
     TARGETS=(all)
     SELECTED=(-LE lint)
   else
-    TARGETS=(test_rayspace test_reference test_conformance test_fuzz_replay test_compositor)
+    TARGETS=(test_rayspace test_reference test_conformance test_fuzz_replay test_compositor test_sequences)
     SELECTED=(-L '^(bytes|fuzz-replay|gl)$' -E '^(Truth|Occlusion)[.]')  # whole pictures take long, and other tests the same ways
   fi
   say "Building with AddressSanitizer and UndefinedBehaviorSanitizer: ${TARGETS[*]}"
