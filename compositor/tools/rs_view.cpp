@@ -190,9 +190,9 @@ Status run_view(ViewArguments arguments) {
     if (!*tracer || cameras->size() > 1) {
         progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
     }
-    const Status written = walls   ? write_walls(*walls, arguments, compose, progress)
-                           : quilt ? write_quilts(*quilt, arguments, compose, progress)
-                                   : write_frames(arguments, *kind, *cameras, compose, progress);
+    Status written = walls   ? write_walls(*walls, arguments, compose, progress)
+                     : quilt ? write_quilts(*quilt, arguments, compose, progress)
+                             : write_frames(arguments, *kind, *cameras, compose, progress);
     if (!written) return written;
     progress.finish();
     if (waits && missing > 0) {

@@ -122,7 +122,7 @@ Status write_video(const ViewArguments& arguments, Playing& playing, const std::
     std::size_t number = 0;
     const auto render = [&](const Camera&) { return playing.player->frame(number++); };
     progress.start("compositing", static_cast<std::int64_t>(cameras.size()));
-    const Status status = write_view_video(output, rate, cameras, render, progress);
+    Status status = write_view_video(output, rate, cameras, render, progress);
     progress.finish();
     return status;
 }
