@@ -20,6 +20,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <sstream>
 #include <thread>
@@ -257,6 +258,8 @@ public:
     Silence& operator=(const Silence&) = delete;
     void end() {
         if (!silent_) return;
+        std::cout.flush();  // what was buffered goes where it was meant to go
+        std::fflush(nullptr);
         for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
             ::dup2(kept_[stream - 1], stream);
             ::close(kept_[stream - 1]);

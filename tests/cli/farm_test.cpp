@@ -18,6 +18,7 @@ namespace rs {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 class FarmTool : public testing::Test {
@@ -99,9 +100,7 @@ TEST_F(FarmTool, WhatChangedIsDoneAnewAndOnlyThat) {
     const std::vector<std::string> command =
         std::vector<std::string>{"encode", in("a"), in("b"), in("c"), "-o", in("objects"), "--json", "--"} + small_;
     ASSERT_EQ(farm(2, command).exit_code, 0);
-    ASSERT_EQ(
-        fs::copy_file(work_ / "b/images/0003.png", work_ / "b/images/0004.png", fs::copy_options::overwrite_existing),
-        true);
+    ASSERT_TRUE(fs::copy_file(work_ / "b/3.png", work_ / "b/4.png", fs::copy_options::overwrite_existing));
     const auto changed = nlohmann::json::parse(farm(2, command).out);
     EXPECT_EQ(changed.at("made"), 1);
     EXPECT_EQ(changed.at("kept"), 2);
@@ -115,18 +114,18 @@ TEST_F(FarmTool, WhatChangedIsDoneAnewAndOnlyThat) {
 
 TEST_F(FarmTool, BadItemsDoNotStopOthersAndAreTriedAgain) {
     draw_sets();
-    const std::string whole = bytes_of("b/images/0003.png");
-    write("b/images/0003.png", whole.substr(0, whole.size() / 2));
+    const std::string whole = bytes_of("b/3.png");
+    write("b/3.png", whole.substr(0, whole.size() / 2));
     const std::vector<std::string> command =
         std::vector<std::string>{"encode", in("a"), in("b"), in("nothing"), "-o", in("objects"), "--"} + small_;
     const test::ToolRun run = farm(2, command);
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_THAT(run.err, HasSubstr("rs-farm: error: 2 of 3 items failed"));
-    EXPECT_THAT(run.out, HasSubstr("failed  b: rs-encode: error: " + in("b/images/0003.png")));
+    EXPECT_THAT(run.out, HasSubstr("failed  b: rs-encode: error: " + in("b/3.png")));
     EXPECT_THAT(run.out, HasSubstr("failed  nothing: rs-encode: error: " + in("nothing")));
     EXPECT_THAT(run.out, HasSubstr("3 items: 1 made, 0 kept, 2 failed"));
     EXPECT_FALSE(fs::exists(work_ / "objects/b.rso"));
-    write("b/images/0003.png", whole);
+    write("b/3.png", whole);
     EXPECT_THAT(farm(2, command).out, HasSubstr("3 items: 1 made, 1 kept, 1 failed"));
     EXPECT_TRUE(fs::exists(work_ / "objects/b.rso"));
 }
@@ -135,7 +134,7 @@ TEST_F(FarmTool, WrongUsageIsSaidOnce) {
     draw_sets();
     const test::ToolRun tools = farm(2, {"encode", in("a"), in("b"), "-o", in("objects"), "--", "--planets", "3"});
     EXPECT_EQ(tools.exit_code, 1);
-    EXPECT_THAT(tools.err, HasSubstr("rs-farm: error: rs-encode: The following argument was not expected: --planets"));
+    EXPECT_THAT(tools.err, AllOf(HasSubstr("rs-farm: error: rs-encode: "), HasSubstr("--planets")));
     const auto times = [](const std::string& text, const std::string& what) {
         int count = 0;
         for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
