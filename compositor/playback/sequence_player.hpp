@@ -20,8 +20,8 @@ namespace rs::compositor {
 struct PlayerOptions {
     FrameOptions frame;
     std::optional<TracedOptions> tracing = {};  // raster where there is none
-    int passes = 16;                          // of a traced frame
-    std::optional<Weather> weather = {};      // in place of the sequence's
+    int passes = 16;                            // of a traced frame
+    std::optional<Weather> weather = {};        // in place of the sequence's
     std::int64_t memory_bytes = usual_memory_budget();
 };
 

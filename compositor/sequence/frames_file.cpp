@@ -113,9 +113,9 @@ Result<SequenceFiles> find_sequence(const fs::path& folder) {
         file = std::move(*map);
     }
     if (!file) {
-        return Error{
-            printable(folder.string()) +
-            ": holds no frames.json, neither here nor in anim/out/; give a map's folder (compositor/sequence/README.md)"};
+        return Error{printable(folder.string()) +
+                     ": holds no frames.json, neither here nor in anim/out/; give a map's folder "
+                     "(compositor/sequence/README.md)"};
     }
     const Result<std::vector<std::byte>> bytes = read_file(*file, kMaxFramesFile_bytes);
     if (!bytes) return bytes.error();

@@ -57,8 +57,9 @@ Result<ShadowMaps> ShadowMaps::create(ShadowPlan plan) {
 
 ShadowMaps::Thrown ShadowMaps::thrown_by(const std::optional<PlacedObject>& placed) const {
     if (!placed) return {};
-    Thrown thrown{placed->object, placed->world_from_object.matrix(), box_of(*placed), nullptr};
-    const auto known = std::ranges::find(objects_, placed->object, &Thrown::object);
+    Thrown thrown{true, placed->object, placed->world_from_object.matrix(), box_of(*placed), nullptr};
+    const auto known = std::ranges::find_if(
+        objects_, [&](const Thrown& before) { return before.there && before.object.lock() == placed->object; });
     thrown.shell = known != objects_.end() ? known->shell : upload(object_shell(*placed->object));
     return thrown;
 }
@@ -68,13 +69,13 @@ int ShadowMaps::update(const std::vector<std::optional<PlacedObject>>& objects,
     objects_.resize(objects.size());
     std::vector<BoundingBox> changed = std::exchange(touched_, {});  // what was or is there
     for (std::size_t i = 0; i < objects.size(); ++i) {
-        const bool same = objects[i] ? objects_[i].object == objects[i]->object &&
+        const bool same = objects[i] ? objects_[i].there && objects_[i].object.lock() == objects[i]->object &&
                                            objects_[i].world_from_object == objects[i]->world_from_object.matrix()
-                                     : objects_[i].object == nullptr;
+                                     : !objects_[i].there;
         if (same) continue;
         Thrown now = thrown_by(objects[i]);
-        if (objects_[i].object) changed.push_back(objects_[i].box);
-        if (now.object) changed.push_back(now.box);
+        if (objects_[i].there) changed.push_back(objects_[i].box);
+        if (now.there) changed.push_back(now.box);
         objects_[i] = std::move(now);
     }
     int count = 0;

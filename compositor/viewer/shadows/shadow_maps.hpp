@@ -43,7 +43,8 @@ public:
 private:
     // What a node showed when the maps were drawn last.
     struct Thrown {
-        std::shared_ptr<const ViewableObject> object;
+        bool there = false;
+        std::weak_ptr<const ViewableObject> object;  // not held: who walks on frees its memory
         glm::dmat4 world_from_object{1.0};
         BoundingBox box{};
         std::shared_ptr<const gl::VertexArray> shell;  // null: it is empty

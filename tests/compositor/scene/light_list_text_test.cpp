@@ -1,7 +1,7 @@
 // Lists of lights are written as they were read, and a scene's own lights as lists that give the same light.
 
-#include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/light/raster_lights.hpp"
+#include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/scene/vrml_file.hpp"
 #include "rayspace/file/file_output.hpp"
