@@ -55,6 +55,22 @@ PixelRectangle visible_rectangle(const Camera& camera, const RayScene& rays) {
             clamp(std::ceil(right) + 1, camera.width), clamp(std::ceil(bottom) + 1, camera.height)};
 }
 
+// Those that are visible of the tile with this corner, in squares of 4 x 4, which are packets of rays.
+std::vector<glm::ivec2> pixels_of_tile(int left, int top, const PixelRectangle& visible) {
+    constexpr int kSquare = 4;
+    std::vector<glm::ivec2> pixels;
+    for (int y0 = top; y0 < top + kTileSide_px; y0 += kSquare) {
+        for (int x0 = left; x0 < left + kTileSide_px; x0 += kSquare) {
+            for (int y = std::max(y0, visible.y0); y < std::min(y0 + kSquare, visible.y1); ++y) {
+                for (int x = std::max(x0, visible.x0); x < std::min(x0 + kSquare, visible.x1); ++x) {
+                    pixels.emplace_back(x, y);
+                }
+            }
+        }
+    }
+    return pixels;
+}
+
 // Each camera position has noise of its own, so that neighbouring views do not share a pattern.
 std::uint64_t picture_key(std::uint64_t seed, std::initializer_list<glm::dvec3> placement) {
     std::uint64_t key = mix_bits(seed);
@@ -197,32 +213,35 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
     const bool blurred = state_->rays->blurred();
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);
 
-    const auto add_samples = [&](int x, int y) {
+    const auto camera_ray = [&](int x, int y, int sample) {
         const std::uint64_t pixel_key =
             mix_bits(frame.key ^ (static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x)));
-        RgbaF& pixel = sum(x, y);
-        for (int s = into.samples; s < into.samples + count; ++s) {
-            Sampler sampler(pixel_key, static_cast<std::uint32_t>(s));
-            const glm::dvec2 offset = (glm::dvec2(sampler.next_2d()) - 0.5) * filter_width_px;
-            const glm::vec3 direction(glm::normalize(rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)));
-            const float time = blurred ? sampler.next_2d().x : 0.0F;
-            glm::vec3 radiance;
-            if (!integrator->trace(centre, direction, time, sampler, radiance)) continue;
-            pixel.r += radiance.r;
-            pixel.g += radiance.g;
-            pixel.b += radiance.b;
-            pixel.a += 1.0F;
-        }
+        Sampler sampler(pixel_key, static_cast<std::uint32_t>(sample));
+        const glm::dvec2 offset = (glm::dvec2(sampler.next_2d()) - 0.5) * filter_width_px;
+        const glm::vec3 direction(glm::normalize(rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)));
+        const float time = blurred ? sampler.next_2d().x : 0.0F;
+        return CameraRay{centre, direction, time, sampler};
     };
     const auto add_tile = [&](std::int64_t tile) {
         if (stop != nullptr && *stop) return;
         const int across = tiles_along(rays.width);
-        const int tile_x = static_cast<int>(tile % across) * kTileSide_px;
-        const int tile_y = static_cast<int>(tile / across) * kTileSide_px;
-        const int x1 = std::min(tile_x + kTileSide_px, visible.x1);
-        const int y1 = std::min(tile_y + kTileSide_px, visible.y1);
-        for (int y = std::max(tile_y, visible.y0); y < y1; ++y) {
-            for (int x = std::max(tile_x, visible.x0); x < x1; ++x) add_samples(x, y);
+        const std::vector<glm::ivec2> pixels = pixels_of_tile(static_cast<int>(tile % across) * kTileSide_px,
+                                                              static_cast<int>(tile / across) * kTileSide_px, visible);
+        std::vector<CameraRay> many;
+        many.reserve(pixels.size());
+        std::vector<Arrived> arrived(pixels.size());
+        for (int s = into.samples; s < into.samples + count && !pixels.empty(); ++s) {
+            many.clear();
+            for (const glm::ivec2& p : pixels) many.push_back(camera_ray(p.x, p.y, s));
+            integrator->trace_many(many, arrived);
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                if (!arrived[i].met) continue;
+                RgbaF& pixel = sum(pixels[i].x, pixels[i].y);
+                pixel.r += arrived[i].radiance.r;
+                pixel.g += arrived[i].radiance.g;
+                pixel.b += arrived[i].radiance.b;
+                pixel.a += 1.0F;
+            }
         }
         if (progress != nullptr) progress->advance(1);
     };

@@ -12,6 +12,9 @@
 #include "capture/tracer/integrator/transport.hpp"
 #include "capture/tracer/light/irradiance_map.hpp"
 
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace rs::capture {
@@ -23,6 +26,8 @@ public:
 
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
+    // Camera rays and those to lights in packets, light by light; mirrors and glass are followed ray by ray.
+    void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override;
 
 private:
     struct Ray {
@@ -32,8 +37,21 @@ private:
         int depth = 0;
     };
     bool follow(Ray ray, glm::vec3& radiance) const;
+    void follow_mirrors(const Ray& ray, const LightTransport::Vertex& vertex, glm::vec3& radiance) const;
+    // Of a vertex that is not specular: what comes from everywhere, and each light that counts there.
+    template <class Visit>
+    void visit_lights(const Ray& ray, const LightTransport::Vertex& vertex, glm::vec3& radiance,
+                      const Visit& visit) const;
+    // The ray to a light, and what the light brings where nothing is in its way.
+    struct Shadow {
+        RayScene::Ray ray;
+        glm::vec3 light;
+        std::size_t vertex;  // of a list
+        int source;
+    };
+    [[nodiscard]] static std::optional<Shadow> shadow_of(const LightTransport::Vertex& vertex,
+                                                         const LightSample& light);
     [[nodiscard]] glm::vec3 matte_light(const LightTransport::Vertex& vertex) const;
-    [[nodiscard]] glm::vec3 light_of(const LightTransport::Vertex& vertex, const LightSample& light) const;
 
     LightTransport transport_;
     IrradianceMap irradiance_;

@@ -35,18 +35,25 @@ void LightSet::gather_glow(const Mesh& mesh) {
 }
 
 void LightSet::visit_middles(const glm::vec3& position, const std::function<void(const LightSample&)>& visit) const {
+    int number = -1;
+    const auto give = [&](LightSample light) {
+        light.source = number;
+        visit(light);
+    };
     for (const Source& source : sources_) {
+        ++number;
         if (source.kind == SourceKind::environment || source.kind == SourceKind::emitters) continue;
         if (!(estimate(source, position) > 0.0F)) continue;
         if (source.kind == SourceKind::area) {
             const Area& area = areas_[source.index];
             const glm::vec2 middle = area.round ? glm::vec2(0.0F) : glm::vec2(0.5F);
-            if (const auto light = sample_area(area, position, 1.0F, middle)) visit(*light);
+            if (const auto light = sample_area(area, position, 1.0F, middle)) give(*light);
         } else if (const auto light = sample_light(lights_[source.index], position, 1.0F)) {
-            visit(*light);
+            give(*light);
         }
     }
     for (const Glow& glow : glows_) {
+        ++number;
         const glm::vec3 to_light = glow.middle - position;
         const float distance2 = glm::dot(to_light, to_light);
         if (!(distance2 > 0.0F)) continue;
@@ -60,7 +67,7 @@ void LightSet::visit_middles(const glm::vec3& position, const std::function<void
         const float clear = flat ? distance : distance - glow.radius;
         if (!(facing > 0.0F) || !(clear > 0.0F)) continue;
         // As an area of that size which faces the place; never larger than half of what it sees.
-        visit({direction, clear, glow.emission, std::max(distance2 / facing, 1.0F / kPiF), false});
+        give({direction, clear, glow.emission, std::max(distance2 / facing, 1.0F / kPiF), false});
     }
 }
 

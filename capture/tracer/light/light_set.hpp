@@ -25,6 +25,7 @@ struct LightSample {
     glm::vec3 radiance;
     float pdf;  // > 0
     bool delta;
+    int source = 0;  // visit_middles() gives each source a number of its own
 };
 
 class LightSet {
