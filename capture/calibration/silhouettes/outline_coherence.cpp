@@ -19,6 +19,9 @@ constexpr double kFarthestStretch = 8;  // a step is doubled while that helps
 constexpr double kLittle = 0.2;         // of cost, twice the log likelihood: no more rounds for less
 constexpr double kWidth = 0.5;          // of differences, in deviations
 constexpr double kOutlier_px = 1;       // of the turn: residuals far above it count no more
+// Views that contradict a ray by this much less than the strongest do not become the strongest beside it.
+constexpr double kMargin_px = 1.5;
+constexpr std::size_t kMostVerdicts = 6;
 // Outlines that agree better are those of bodies that look alike from everywhere, and know no more for it.
 constexpr double kFinest_px = 0.12;
 // Neighbouring points of an outline are off alike: a view is worth this many independent ones.
@@ -94,12 +97,7 @@ public:
 
     // Px of the turn.
     [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& z) {
-        TurntableModel model = at(z);
-        model.lens.f_px /= picture_px_;
-        model.lens.cx /= picture_px_;
-        model.lens.cy /= picture_px_;
-        const std::vector<double> found = consistency_residuals_px(turn_, model, {}, &depths_);
-        return Eigen::Map<const Eigen::VectorXd>(found.data(), static_cast<Eigen::Index>(found.size()));
+        return vector_of(consistency_residuals_px(turn_, in_turn(z), {}, &depths_));
     }
 
     // Geman-McClure's, so that what is cut out wrong counts little.
@@ -113,7 +111,12 @@ public:
         return kIndependentRays * static_cast<double>(turn_.views()) / std::max(robust_sum(residuals), finest);
     }
 
-    [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::VectorXd& z, Eigen::Index rays) {
+    // After residuals(z). Only what contradicts a ray at z is asked again beside z.
+    [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::VectorXd& z, Eigen::Index rays) const {
+        const auto verdicts = ray_verdicts(turn_, in_turn(z), {}, depths_, kMargin_px, kMostVerdicts);
+        const auto residuals = [&](const Eigen::VectorXd& there) {
+            return vector_of(residuals_by_verdicts(turn_, in_turn(there), {}, verdicts));
+        };
         Eigen::MatrixXd result(rays, columns_.cols());
         for (Eigen::Index k = 0; k < columns_.cols(); ++k) {
             Eigen::VectorXd before = z, behind = z;
@@ -125,6 +128,17 @@ public:
     }
 
 private:
+    [[nodiscard]] TurntableModel in_turn(const Eigen::VectorXd& z) const {
+        TurntableModel model = at(z);
+        model.lens.f_px /= picture_px_;
+        model.lens.cx /= picture_px_;
+        model.lens.cy /= picture_px_;
+        return model;
+    }
+    static Eigen::VectorXd vector_of(const std::vector<double>& found) {
+        return Eigen::Map<const Eigen::VectorXd>(found.data(), static_cast<Eigen::Index>(found.size()));
+    }
+
     const TurntableModel& model_;
     const NumberPlaces& places_;
     const SilhouetteTurn& turn_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 namespace rs::capture {
@@ -54,13 +56,25 @@ std::vector<Sight> sights_of(const TurntableModel& model, std::size_t view, cons
 class RayProbe {
 public:
     RayProbe(const SilhouetteTurn& turn, const FloatLens& lens, const std::vector<Sight>& sights)
-        : turn_(turn), lens_(lens), sights_(sights), directions_(sights.size()) {}
+        : turn_(turn), lens_(lens), sights_(sights), directions_(sights.size()), asked_(sights.size()) {
+        std::iota(asked_.begin(), asked_.end(), std::size_t{0});
+    }
+
+    // From now on only these views are asked, in this order.
+    void ask_only(const std::vector<std::size_t>& views) {
+        asked_.clear();
+        for (const std::size_t view : views) {
+            const auto same = [&](const Sight& sight) { return sight.view == view; };
+            const auto found = std::find_if(sights_.begin(), sights_.end(), same);
+            asked_.push_back(static_cast<std::size_t>(found - sights_.begin()));
+        }
+    }
 
     // The largest over depths within `reach` of the axis of the least over views of the distance; any value above 0
     // where there is one, for then the ray falls short of nothing. `known_depth`: where; above 0 if it is
     // roughly known.
     double best(const glm::dvec3& direction, double reach, double& known_depth) {
-        for (std::size_t j = 0; j < sights_.size(); ++j) directions_[j] = sights_[j].camera_from_table * direction;
+        aim(direction);
         // From (0, 0, 1): nearest to the axis at `middle`.
         const double flat2 = direction.x * direction.x + direction.z * direction.z;
         const double middle = -direction.z / flat2;
@@ -90,18 +104,41 @@ public:
         return std::max<double>(most, found);
     }
 
+    // The views whose outlines the ray's point at `depth` is farthest outside of.
+    std::vector<std::size_t> strongest(const glm::dvec3& direction, double depth, double margin_px, std::size_t most) {
+        aim(direction);
+        std::vector<std::pair<float, std::size_t>> views;
+        for (const std::size_t j : asked_) views.emplace_back(distance(j, depth), sights_[j].view);
+        std::stable_sort(views.begin(), views.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::vector<std::size_t> strong;
+        for (const auto& [distance_px, view] : views) {
+            if (strong.size() == most || distance_px > views.front().first + margin_px) break;
+            strong.push_back(view);
+        }
+        return strong;
+    }
+
 private:
+    void aim(const glm::dvec3& direction) {
+        for (const std::size_t j : asked_) directions_[j] = sights_[j].camera_from_table * direction;
+    }
+
+    // Of the ray's point at `depth` from the outline in view j, positive inside.
+    [[nodiscard]] float distance(std::size_t j, double depth) const {
+        const glm::vec3 p(sights_[j].centre + depth * directions_[j]);
+        if (!(p.z < -1e-6F)) return std::numeric_limits<float>::lowest();
+        const float x = p.x / -p.z;
+        const float y = -p.y / -p.z;
+        const float r2 = x * x + y * y;
+        const float scale = lens_.f * (1 + r2 * (lens_.k1 + r2 * lens_.k2));
+        return turn_.distance(sights_[j].view, lens_.cx + scale * x, lens_.cy + scale * y);
+    }
+
     // May stop at the first value that is not above `floor`.
     [[nodiscard]] float least_over_views(double depth, float floor) const {
         float least = std::numeric_limits<float>::max();
-        for (std::size_t j = 0; j < sights_.size(); ++j) {
-            const glm::vec3 p(sights_[j].centre + depth * directions_[j]);
-            if (!(p.z < -1e-6F)) return std::numeric_limits<float>::lowest();
-            const float x = p.x / -p.z;
-            const float y = -p.y / -p.z;
-            const float r2 = x * x + y * y;
-            const float scale = lens_.f * (1 + r2 * (lens_.k1 + r2 * lens_.k2));
-            least = std::min(least, turn_.distance(sights_[j].view, lens_.cx + scale * x, lens_.cy + scale * y));
+        for (const std::size_t j : asked_) {
+            least = std::min(least, distance(j, depth));
             if (least <= floor) return least;
         }
         return least;
@@ -136,12 +173,70 @@ private:
     const SilhouetteTurn& turn_;
     FloatLens lens_;
     const std::vector<Sight>& sights_;
-    std::vector<glm::dvec3> directions_;
+    std::vector<glm::dvec3> directions_;  // [sight], of those that are asked
+    std::vector<std::size_t> asked_;
 };
 
 bool counts(const RaySelection& rays, std::size_t view) {
     return rays.left_out.empty() || rays.left_out[view] == 0;
 }
+
+double residual_px(double best_px) {
+    return std::clamp(-best_px, 0.0, kNoRay_px);
+}
+
+// The rays of all views that count, in a model's table frame.
+class SelectedRays {
+public:
+    SelectedRays(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays)
+        : turn_(turn), model_(model), left_out_(rays.left_out), views_(turn.views()) {
+        RS_CHECK(model.angles_rad.size() == turn.views() && rays.every > 0);
+        for (std::size_t i = 0; i < turn.views(); ++i) {
+            views_[i].first = count_;
+            if (!counts(rays, i)) continue;
+            for (std::size_t e = 0; e < turn.edges(i).size(); e += rays.every, ++count_) {
+                auto direction = table_ray(model.lens, model.pose, turn.edges(i)[e]);
+                const double flat = direction ? std::hypot(direction->x, direction->z) : 0;
+                if (flat < 1e-3) direction.reset();
+                if (direction) reach_ = std::max(reach_, std::abs(direction->x) / flat);
+                views_[i].directions.push_back(direction);
+            }
+        }
+        reach_ = std::min(1.02 * reach_, 0.99);
+    }
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    // How far from the axis the object may reach: as far as the ray farthest from it.
+    [[nodiscard]] double reach() const { return reach_; }
+
+    // visit(probe, direction or nothing, number) for all rays, on several threads; the probe is the ray's view's.
+    template <typename Visit>
+    void visit(const Visit& visit) const {
+        const FloatLens lens{static_cast<float>(model_.lens.f_px), static_cast<float>(model_.lens.cx),
+                             static_cast<float>(model_.lens.cy), static_cast<float>(model_.lens.k1),
+                             static_cast<float>(model_.lens.k2)};
+        tbb::parallel_for(std::size_t{0}, views_.size(), [&](std::size_t i) {
+            if (views_[i].directions.empty()) return;
+            const std::vector<Sight> sights = sights_of(model_, i, left_out_);
+            RayProbe probe(turn_, lens, sights);
+            for (std::size_t e = 0; e < views_[i].directions.size(); ++e) {
+                visit(probe, views_[i].directions[e], views_[i].first + e);
+            }
+        });
+    }
+
+private:
+    struct View {
+        std::size_t first = 0;  // of its rays
+        std::vector<std::optional<glm::dvec3>> directions;
+    };
+    const SilhouetteTurn& turn_;
+    const TurntableModel& model_;
+    const std::vector<char>& left_out_;
+    std::vector<View> views_;
+    std::size_t count_ = 0;
+    double reach_ = 0;
+};
 
 }  // namespace
 
@@ -156,46 +251,43 @@ std::vector<std::size_t> views_of_rays(const SilhouetteTurn& turn, const RaySele
 
 std::vector<double> consistency_residuals_px(const SilhouetteTurn& turn, const TurntableModel& model,
                                              const RaySelection& rays, RayDepths* depths) {
-    RS_CHECK(model.angles_rad.size() == turn.views() && rays.every > 0);
-    // The rays of all views first: the farthest from the axis says how far the object may reach.
-    struct View {
-        std::size_t first = 0;  // of its rays
-        std::vector<std::optional<glm::dvec3>> directions;
-    };
-    std::vector<View> views(turn.views());
-    std::size_t count = 0;
-    double reach = 0;
-    for (std::size_t i = 0; i < turn.views(); ++i) {
-        views[i].first = count;
-        if (!counts(rays, i)) continue;
-        for (std::size_t e = 0; e < turn.edges(i).size(); e += rays.every, ++count) {
-            auto direction = table_ray(model.lens, model.pose, turn.edges(i)[e]);
-            const double flat = direction ? std::hypot(direction->x, direction->z) : 0;
-            if (flat < 1e-3) direction.reset();
-            if (direction) reach = std::max(reach, std::abs(direction->x) / flat);
-            views[i].directions.push_back(direction);
-        }
-    }
-    reach = std::min(1.02 * reach, 0.99);
-
-    const FloatLens lens{static_cast<float>(model.lens.f_px), static_cast<float>(model.lens.cx),
-                         static_cast<float>(model.lens.cy), static_cast<float>(model.lens.k1),
-                         static_cast<float>(model.lens.k2)};
-    std::vector<double> residuals(count);
+    const SelectedRays selected(turn, model, rays);
+    std::vector<double> residuals(selected.count());
     RayDepths near = depths != nullptr ? *depths : RayDepths{};
-    RS_CHECK(near.empty() || near.size() == count);
-    near.resize(count);
-    tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
-        if (views[i].directions.empty()) return;
-        const std::vector<Sight> sights = sights_of(model, i, rays.left_out);
-        RayProbe probe(turn, lens, sights);
-        for (std::size_t e = 0; e < views[i].directions.size(); ++e) {
-            const auto& direction = views[i].directions[e];
-            const double best_px = direction ? probe.best(*direction, reach, near[views[i].first + e]) : -kNoRay_px;
-            residuals[views[i].first + e] = std::clamp(-best_px, 0.0, kNoRay_px);
-        }
+    RS_CHECK(near.empty() || near.size() == residuals.size());
+    near.resize(residuals.size());
+    selected.visit([&](RayProbe& probe, const std::optional<glm::dvec3>& direction, std::size_t ray) {
+        residuals[ray] = residual_px(direction ? probe.best(*direction, selected.reach(), near[ray]) : -kNoRay_px);
     });
     if (depths != nullptr && depths->empty()) *depths = std::move(near);
+    return residuals;
+}
+
+std::vector<RayVerdict> ray_verdicts(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays,
+                                     const RayDepths& depths, double margin_px, std::size_t most) {
+    const SelectedRays selected(turn, model, rays);
+    RS_CHECK(depths.size() == selected.count());
+    std::vector<RayVerdict> verdicts(selected.count());
+    selected.visit([&](RayProbe& probe, const std::optional<glm::dvec3>& direction, std::size_t ray) {
+        if (!direction) return;
+        RayVerdict& verdict = verdicts[ray];
+        verdict.depth = depths[ray];
+        probe.best(*direction, selected.reach(), verdict.depth);
+        verdict.views = probe.strongest(*direction, verdict.depth, margin_px, most);
+    });
+    return verdicts;
+}
+
+std::vector<double> residuals_by_verdicts(const SilhouetteTurn& turn, const TurntableModel& model,
+                                          const RaySelection& rays, const std::vector<RayVerdict>& verdicts) {
+    const SelectedRays selected(turn, model, rays);
+    RS_CHECK(verdicts.size() == selected.count());
+    std::vector<double> residuals(selected.count());
+    selected.visit([&](RayProbe& probe, const std::optional<glm::dvec3>& direction, std::size_t ray) {
+        probe.ask_only(verdicts[ray].views);
+        double depth = verdicts[ray].depth;
+        residuals[ray] = residual_px(direction ? probe.best(*direction, selected.reach(), depth) : -kNoRay_px);
+    });
     return residuals;
 }
 
