@@ -238,14 +238,15 @@ TEST(StagedFolder, IsThereWholeWheneverItsWriterIsKilled) {
     ASSERT_TRUE(replace("first"));
     std::mt19937 random(7);
     int killed_late = 0;
-    for (int trial = 0; trial < 40; ++trial) {
+    // On a busy machine more, with more patience, until a writer has come to replace something.
+    for (int trial = 0; trial < 40 || (killed_late == 0 && trial < 200); ++trial) {
         const pid_t child = ::fork();
         if (child == 0) {
             for (int i = 0;; ++i) {
                 if (!replace(std::to_string(i))) ::_exit(1);
             }
         }
-        std::this_thread::sleep_for(std::chrono::microseconds(random() % 20000));
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % (trial < 40 ? 20000U : 400000U)));
         ::kill(child, SIGKILL);
         int status = 0;
         ::waitpid(child, &status, 0);
