@@ -200,7 +200,7 @@ Status run_bench(MpiTransport& transport, const FarmArguments& arguments) {
         if (::mkdtemp(folder.data()) == nullptr) return Error{folder + ": cannot be made"};
         return Run{timed_items(arguments.count, arguments.sleep_ms / 1000), fs::path(folder) / "manifest.jsonl"};
     };
-    const Status status = run_farm(transport, arguments, begin_timed_jobs(), make);
+    Status status = run_farm(transport, arguments, begin_timed_jobs(), make);
     std::error_code ignored;
     if (transport.rank() == 0) fs::remove_all(folder, ignored);
     return status;

@@ -20,32 +20,33 @@ constexpr const char* kKinds[] = {
     "IndexedLineSet coordIndex MFLong 0 materialIndex MFLong -1 normalIndex MFLong -1 textureCoordIndex MFLong -1",
     "Info string SFString \"\"",
     "LOD range MFFloat [ ] center SFVec3f 0 0 0",
-    "Material ambientColor MFColor 0.2 0.2 0.2 diffuseColor MFColor 0.8 0.8 0.8 specularColor MFColor 0 0 0 "
-    "emissiveColor MFColor 0 0 0 shininess MFFloat 0.2 transparency MFFloat 0",
+    ("Material ambientColor MFColor 0.2 0.2 0.2 diffuseColor MFColor 0.8 0.8 0.8 specularColor MFColor 0 0 0 "
+     "emissiveColor MFColor 0 0 0 shininess MFFloat 0.2 transparency MFFloat 0"),
     "MaterialBinding value SFEnum DEFAULT",
     "MatrixTransform matrix SFMatrix 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1",
     "Normal vector MFVec3f [ ]",
     "NormalBinding value SFEnum DEFAULT",
-    "OrthographicCamera position SFVec3f 0 0 1 orientation SFRotation 0 0 1 0 focalDistance SFFloat 5 height SFFloat 2 "
-    "nearDistance SFFloat 0.01 farDistance SFFloat 1000",
-    "PerspectiveCamera position SFVec3f 0 0 1 orientation SFRotation 0 0 1 0 focalDistance SFFloat 5 "
-    "heightAngle SFFloat 0.785398 nearDistance SFFloat 0.01 farDistance SFFloat 1000",
+    ("OrthographicCamera position SFVec3f 0 0 1 orientation SFRotation 0 0 1 0 focalDistance SFFloat 5 height SFFloat "
+     "2 "
+     "nearDistance SFFloat 0.01 farDistance SFFloat 1000"),
+    ("PerspectiveCamera position SFVec3f 0 0 1 orientation SFRotation 0 0 1 0 focalDistance SFFloat 5 "
+     "heightAngle SFFloat 0.785398 nearDistance SFFloat 0.01 farDistance SFFloat 1000"),
     "PointLight on SFBool TRUE intensity SFFloat 1 color SFColor 1 1 1 location SFVec3f 0 0 1",
     "PointSet startIndex SFLong 0 numPoints SFLong -1",
     "Rotation rotation SFRotation 0 0 1 0",
     "Scale scaleFactor SFVec3f 1 1 1",
     "Separator renderCulling SFEnum AUTO",
-    "ShapeHints vertexOrdering SFEnum UNKNOWN_ORDERING shapeType SFEnum UNKNOWN_SHAPE_TYPE faceType SFEnum CONVEX "
-    "creaseAngle SFFloat 0.5",
+    ("ShapeHints vertexOrdering SFEnum UNKNOWN_ORDERING shapeType SFEnum UNKNOWN_SHAPE_TYPE faceType SFEnum CONVEX "
+     "creaseAngle SFFloat 0.5"),
     "Sphere radius SFFloat 1",
-    "SpotLight on SFBool TRUE intensity SFFloat 1 color SFVec3f 1 1 1 location SFVec3f 0 0 1 direction SFVec3f 0 0 -1 "
-    "dropOffRate SFFloat 0 cutOffAngle SFFloat 0.785398",
+    ("SpotLight on SFBool TRUE intensity SFFloat 1 color SFVec3f 1 1 1 location SFVec3f 0 0 1 direction SFVec3f 0 0 -1 "
+     "dropOffRate SFFloat 0 cutOffAngle SFFloat 0.785398"),
     "Switch whichChild SFLong -1",
     "Texture2 filename SFString \"\" image SFImage 0 0 0 wrapS SFEnum REPEAT wrapT SFEnum REPEAT",
     "Texture2Transform translation SFVec2f 0 0 rotation SFFloat 0 scaleFactor SFVec2f 1 1 center SFVec2f 0 0",
     "TextureCoordinate2 point MFVec2f 0 0",
-    "Transform translation SFVec3f 0 0 0 rotation SFRotation 0 0 1 0 scaleFactor SFVec3f 1 1 1 "
-    "scaleOrientation SFRotation 0 0 1 0 center SFVec3f 0 0 0",
+    ("Transform translation SFVec3f 0 0 0 rotation SFRotation 0 0 1 0 scaleFactor SFVec3f 1 1 1 "
+     "scaleOrientation SFRotation 0 0 1 0 center SFVec3f 0 0 0"),
     "TransformSeparator",
     "Translation translation SFVec3f 0 0 0",
     "WWWAnchor name SFString \"\" description SFString \"\" map SFEnum NONE",

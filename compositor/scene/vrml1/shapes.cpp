@@ -239,7 +239,8 @@ NodePointer ShapeMaker::lines_of(const TreePointer& node, const State& state, co
 NodePointer ShapeMaker::points_of(const TreePointer& node, const State& state) {
     if (!state.coordinates) return nullptr;
     const std::vector<double>& all = state.coordinates->field("point").numbers;
-    const auto total = static_cast<double>(all.size() / 3);
+    const std::size_t places = all.size() / 3;
+    const auto total = static_cast<double>(places);
     const double begin = std::clamp(node->number("startIndex"), 0.0, total);
     const double wanted = node->number("numPoints");
     const double count = wanted < 0 ? total - begin : std::min(wanted, total - begin);
