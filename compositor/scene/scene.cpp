@@ -1,5 +1,7 @@
 #include "compositor/scene/scene.hpp"
 
+#include "rayspace/base/check.hpp"
+
 namespace rs::compositor {
 
 namespace {
@@ -11,6 +13,14 @@ void include(BoundingBox& all, const BoundingBox& box) {
 }
 
 }  // namespace
+
+void take_lights(const Scene& from, Scene& to) {
+    RS_CHECK(from.geometry.size() == to.geometry.size());
+    to.lights = from.lights;
+    to.environment = from.environment;
+    to.navigation.headlight = from.navigation.headlight;
+    for (std::size_t n = 0; n < to.geometry.size(); ++n) to.geometry[n].lights = from.geometry[n].lights;
+}
 
 BoundingBox bounds_of(const Scene& scene) {
     return bounds_from(scene, 0, scene.objects.size());

@@ -97,6 +97,10 @@ struct Scene {
     std::vector<std::string> warnings;  // what could not be shown, "FILE: line N: ..."
 };
 
+// What lights `to` from now on is what lights `from`, another state of the same scene: lights, which of them shine on
+// each node, environment and headlight.
+void take_lights(const Scene& from, Scene& to);
+
 // Of all geometry, in scene coordinates; empty where there is none.
 BoundingBox bounds_of(const Scene& scene);
 

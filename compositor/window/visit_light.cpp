@@ -35,9 +35,7 @@ Status Visit::show(const glm::ivec2& size) {
 std::shared_ptr<const Scene> Visit::scene_to_trace() const {
     if (!playback_) return desk_.scene();
     auto scene = std::make_shared<Scene>(playback_->scene());
-    scene->lights = desk_.scene()->lights;
-    scene->environment = desk_.scene()->environment;
-    scene->navigation.headlight = desk_.scene()->navigation.headlight;
+    take_lights(*desk_.scene(), *scene);
     return scene;
 }
 

@@ -192,7 +192,8 @@ void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparen
     for (const SeenNode& node : nodes) blended.push_back({node.view.plane_distance, nullptr, &node, nullptr});
     for (std::size_t i = 0; i < nodes_->size(); ++i) {
         const auto& placeholder = (*nodes_)[i].placeholder;
-        if (!placeholder || (*nodes_)[i].hidden || !may_be_seen(bounds_of(*placeholder), view)) continue;
+        if (!placeholder || (*nodes_)[i].hidden || !may_be_seen(bounds_of(*placeholder), view.clip_from_world))
+            continue;
         statistics_.nodes[i].missing = !(*nodes_)[i].object;
         statistics_.nodes_missing += statistics_.nodes[i].missing ? 1 : 0;
         const double distance = glm::distance(placeholder->world_from_object.translation, view.camera.centre());

@@ -64,10 +64,7 @@ Status LitGeometry::light_anew(bool shadows, const ShownNodes& nodes) {
 }
 
 Status LitGeometry::set_lights(const Scene& scene, const ShownNodes& nodes) {
-    scene_.lights = scene.lights;
-    scene_.environment = scene.environment;
-    scene_.navigation.headlight = scene.navigation.headlight;
-    for (std::size_t n = 0; n < scene.geometry.size(); ++n) scene_.geometry[n].lights = scene.geometry[n].lights;
+    take_lights(scene, scene_);
     return light_anew(shadows(), nodes);
 }
 

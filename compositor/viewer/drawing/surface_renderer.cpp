@@ -263,10 +263,7 @@ Status SurfaceRenderer::move(std::size_t node, const std::optional<glm::dmat4>& 
 }
 
 Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows) {
-    scene_.lights = scene.lights;
-    scene_.environment = scene.environment;
-    scene_.navigation.headlight = scene.navigation.headlight;
-    for (std::size_t n = 0; n < scene.geometry.size(); ++n) scene_.geometry[n].lights = scene.geometry[n].lights;
+    take_lights(scene, scene_);
     shadows_ = shadows;
     if (Status status = make_casters(); !status) return status;
     gather_ambient_light();
@@ -328,7 +325,7 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
     std::vector<std::size_t> opaque;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
-        if (item.hidden || !may_be_seen(item.bounds, view)) continue;
+        if (item.hidden || !may_be_seen(item.bounds, view.clip_from_world)) continue;
         ++nodes_in_view_;
         if (item.transparent) {
             transparent.push_back({i, glm::distance(item.bounds.middle(), view.camera.centre())});
@@ -355,7 +352,7 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
 
 void SurfaceRenderer::draw_veil(const FrameView& view) const {
     for (const Item& item : items_) {
-        if (!item.veil || item.hidden || item.transparent || !may_be_seen(item.bounds, view)) continue;
+        if (!item.veil || item.hidden || item.transparent || !may_be_seen(item.bounds, view.clip_from_world)) continue;
         draw(item, *item.veil, view,
              {.depth_write = false,
               .blending = gl::Blending::kOverPremultiplied,
@@ -365,7 +362,8 @@ void SurfaceRenderer::draw_veil(const FrameView& view) const {
 
 void SurfaceRenderer::draw_casters(const ShadowFace& face) const {
     for (const Item& item : items_) {
-        if (!item.throws_shadows || item.hidden || !may_throw(item.bounds, face)) continue;
+        if (!item.throws_shadows || item.hidden || !may_be_seen(item.bounds, face.clip_from_world, face.perspective))
+            continue;
         const std::vector<std::uint32_t>& own_lights = scene_.geometry[item.node].lights;
         if (!scene_.lights[face.light].everywhere && std::ranges::find(own_lights, face.light) == own_lights.end()) {
             continue;

@@ -3,6 +3,7 @@
 #include "compositor/gl/draw.hpp"
 #include "compositor/viewer/shadows/object_shell.hpp"
 #include "compositor/viewer/shadows/shadow_shaders.hpp"
+#include "compositor/viewer/views/screen_rectangle.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -35,7 +36,8 @@ bool holds(const BoundingBox& box, const glm::dvec3& p) {
 }
 
 bool throws_on(const BoundingBox& box, const ShadowFace& face) {
-    return may_throw(box, face) && (face.scope.empty() || holds(face.scope, box.middle()));
+    return may_be_seen(box, face.clip_from_world, face.perspective) &&
+           (face.scope.empty() || holds(face.scope, box.middle()));
 }
 
 }  // namespace

@@ -194,21 +194,6 @@ private:
 
 }  // namespace
 
-bool may_throw(const BoundingBox& box, const ShadowFace& face) {
-    if (box.empty()) return false;
-    // A box is outside where all corners are on the wrong side of one plane.
-    int outside = 0x1f;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p((corner & 1) != 0 ? box.highest.x : box.lowest.x,
-                           (corner & 2) != 0 ? box.highest.y : box.lowest.y,
-                           (corner & 4) != 0 ? box.highest.z : box.lowest.z);
-        const glm::dvec4 clip = face.clip_from_world * glm::dvec4(p, 1);
-        outside &= (clip.x < -clip.w ? 1 : 0) | (clip.x > clip.w ? 2 : 0) | (clip.y < -clip.w ? 4 : 0) |
-                   (clip.y > clip.w ? 8 : 0) | (face.perspective && clip.w < kNear ? 16 : 0);
-    }
-    return outside == 0;
-}
-
 bool throws_shadows(const GeometryNode& node) {
     return node.mesh->topology == Topology::kTriangles && !node.mesh->indices.empty() && !is_blended(node.material);
 }

@@ -34,9 +34,6 @@ struct ShadowFace {
     BoundingBox scope{};
 };
 
-// False only where nothing of the box can be on the map.
-bool may_throw(const BoundingBox& box_in_world, const ShadowFace& face);
-
 // A light with maps. Rows are laid out as shadow_shaders.hpp declares them.
 struct LightShadow {
     ShadowShape shape = ShadowShape::kNone;

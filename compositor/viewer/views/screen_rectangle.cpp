@@ -76,7 +76,7 @@ FrameView view_of_frame(const Camera& camera) {
     return {camera, m * glm::inverse(camera.world_from_camera)};
 }
 
-bool may_be_seen(const BoundingBox& box, const FrameView& view) {
+bool may_be_seen(const BoundingBox& box, const glm::dmat4& clip_from_world, bool perspective) {
     if (box.empty()) return false;
     // A box is outside where all corners are on the wrong side of one plane.
     int outside = 0x1f;
@@ -84,9 +84,9 @@ bool may_be_seen(const BoundingBox& box, const FrameView& view) {
         const glm::dvec3 p((corner & 1) != 0 ? box.highest.x : box.lowest.x,
                            (corner & 2) != 0 ? box.highest.y : box.lowest.y,
                            (corner & 4) != 0 ? box.highest.z : box.lowest.z);
-        const glm::dvec4 clip = view.clip_from_world * glm::dvec4(p, 1);
+        const glm::dvec4 clip = clip_from_world * glm::dvec4(p, 1);
         outside &= (clip.x < -clip.w ? 1 : 0) | (clip.x > clip.w ? 2 : 0) | (clip.y < -clip.w ? 4 : 0) |
-                   (clip.y > clip.w ? 8 : 0) | (clip.w < kNear ? 16 : 0);
+                   (clip.y > clip.w ? 8 : 0) | (perspective && clip.w < kNear ? 16 : 0);
     }
     return outside == 0;
 }

@@ -37,7 +37,8 @@ struct FrameView {
 };
 FrameView view_of_frame(const Camera& camera);
 
-// False only where nothing of the box can be in the picture.
-bool may_be_seen(const BoundingBox& box_in_world, const FrameView& view);
+// False only where nothing of the box can be in the picture of that projection. `perspective`: it is seen from a place,
+// and what lies nearer than kNear is cut off; else along a direction.
+bool may_be_seen(const BoundingBox& box_in_world, const glm::dmat4& clip_from_world, bool perspective = true);
 
 }  // namespace rs::compositor
