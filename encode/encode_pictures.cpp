@@ -31,9 +31,14 @@ std::string text_of(double value) {
 // Finds the coarsest step that reaches a fidelity, or the finest one that keeps to a size.
 class GoalSearch {
 public:
-    GoalSearch(const RaySpaceObject& object, std::vector<SourcePicture>& sources, codec::Profile profile,
+    GoalSearch(const RaySpaceObject& object, std::vector<SourcePicture>& sources, const PictureGoal& goal,
                std::optional<int> alpha_bits, Progress* progress)
-        : object_(object), sources_(sources), profile_(profile), alpha_bits_(alpha_bits), progress_(progress) {}
+        : object_(object),
+          sources_(sources),
+          profile_(goal.profile),
+          effort_(goal.effort),
+          alpha_bits_(alpha_bits),
+          progress_(progress) {}
 
     EncodedPictures at_step(double step) {
         if (profile_ == codec::Profile::kBoard) {
@@ -45,6 +50,7 @@ public:
         }
         DenseSettings settings;
         settings.step = step;
+        settings.effort = effort_;
         settings.alpha_bits = alpha_bits_.value_or(dense_alpha_bits(step, wanted_db_));
         prepare_sources(settings.alpha_bits);
         return encode_dense(object_, sources_, settings, progress_);
@@ -124,6 +130,7 @@ private:
     const RaySpaceObject& object_;
     std::vector<SourcePicture>& sources_;
     codec::Profile profile_;
+    int effort_;
     std::optional<int> alpha_bits_;
     double wanted_db_ = 0;  // 0: no fidelity is asked for
     int source_bits_ = 0;   // those that the sources have now
@@ -156,7 +163,7 @@ Result<EncodedPictures> encode_pictures(const CaptureSet& set, const RaySpaceObj
             return {};
         });
     if (!read) return read.error();
-    GoalSearch search(object, sources, goal.profile, alpha_bits, progress);
+    GoalSearch search(object, sources, goal, alpha_bits, progress);
     if (goal.pictures_bytes) return search.for_size(*goal.pictures_bytes);
     if (goal.psnr_db) return search.for_psnr(*goal.psnr_db);
     return search.at_step(step_of_quality(goal.quality));

@@ -19,6 +19,7 @@ struct PictureGoal {
     std::optional<std::uint64_t> pictures_bytes;  // at most: chunks CODE and PICT together
     std::optional<double> psnr_db;                // at least, of EncodedPictures::psnr_db
     double quality = 75;                          // kMinQuality .. kMaxQuality
+    int effort = kUsualEffort;                    // of the dense encoder: kLeastEffort .. kMostEffort
 };
 inline constexpr double kMinQuality = 1;
 inline constexpr double kMaxQuality = 100;

@@ -8,6 +8,7 @@
 #include "encode/codec/tile_encoder.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/codec/context_states.hpp"
+#include "rayspace/codec/prediction_unit.hpp"
 #include "rayspace/codec/stream/decode_picture.hpp"
 
 #include <tbb/parallel_for.h>
@@ -56,17 +57,18 @@ public:
     }
 
     EncodedPictures encode() {
+        const SearchEffort effort = search_effort(settings_.effort);
+        jobs_ = present_tiles();
         if (progress_ != nullptr) {
-            progress_->start("encoding", static_cast<std::int64_t>(work_.size()) * settings_.passes);
+            std::int64_t count = 0;
+            for (const auto& jobs : jobs_) count += static_cast<std::int64_t>(jobs.size());
+            progress_->start("encoding", count + count / effort.sampled);
         }
-        for (int pass = 0; pass < settings_.passes; ++pass) {
-            const CostTable costs(coded_.dense.probabilities);
-            for (int level = 0; level < kProgressiveLevels; ++level) encode_level(level, costs);
-            train();
-            // The usual vectors go with the pass that they were used in: after the last one they must stay.
-            if (pass + 1 == settings_.passes) break;
-            for (std::size_t v = 0; v < work_.size(); ++v) set_global_motion(v);
-        }
+        // The first pass finds the probabilities, and so the prices of the second, and the usual vectors.
+        if (effort.sampled > 1) show_sources();
+        run_pass(effort.first_pass, effort.sampled);
+        for (std::size_t v = 0; v < work_.size(); ++v) set_global_motion(v);
+        run_pass(effort.part, 1);
         write_tiles();
         if (progress_ != nullptr) progress_->finish();
         const double psnr_db =
@@ -137,8 +139,58 @@ private:
         }
     }
 
-    void encode_level(int level, const CostTable& costs) {
-        std::vector<std::pair<std::size_t, std::size_t>> jobs;  // view, tile
+    struct Job {
+        std::size_t view;
+        std::size_t tile;
+    };
+    using LevelJobs = std::array<std::vector<Job>, kProgressiveLevels>;
+
+    [[nodiscard]] LevelJobs present_tiles() const {
+        LevelJobs jobs;
+        for (std::size_t v = 0; v < work_.size(); ++v) {
+            for (std::size_t t = 0; t < coded_.pictures[v].tiles.size(); ++t) {
+                if (coded_.pictures[v].tiles[t].present) jobs[coded_.levels[v]].push_back({v, t});
+            }
+        }
+        return jobs;
+    }
+
+    // What pictures are predicted from where not all their tiles are coded.
+    void show_sources() {
+        tbb::parallel_for(std::size_t{0}, work_.size(), [&](std::size_t v) {
+            for (std::size_t p = 0; p < 3; ++p) work_[v].shown[p] = sources_[v].planes[p];
+            for (int y = 0; y < coded_.coded_height(); ++y) {
+                for (int x = 0; x < coded_.coded_width(); ++x) {
+                    work_[v].shown[3](x, y) =
+                        static_cast<std::uint8_t>(codec::alpha_of_level(sources_[v].alpha(x, y), settings_.alpha_bits));
+                }
+            }
+        });
+    }
+
+    // Codes every `sampled`-th tile, and takes the probabilities from what was coded.
+    void run_pass(const PartEffort& effort, int sampled) {
+        const CostTable costs(coded_.dense.probabilities);
+        for (int level = 0; level < kProgressiveLevels; ++level) {
+            const std::vector<PictureTask> tasks = tasks_of_level(level, effort);
+            if (sampled == 1) clear_absent_tiles(tasks);
+            const std::vector<Job>& jobs = jobs_[static_cast<std::size_t>(level)];
+            const auto step = static_cast<std::size_t>(sampled);
+            tbb::parallel_for(std::size_t{0}, (jobs.size() + step - 1) / step, [&](std::size_t j) {
+                const auto [v, t] = jobs[j * step];
+                DenseWorkPicture& work = work_[v];
+                work.decisions[t].clear();
+                std::array<std::vector<MotionVector>, 2> motions;
+                encode_tile(tasks[v], costs, codec::place_of_tile(coded_, t), work.decisions[t], motions);
+                for (std::size_t r = 0; r < 2; ++r) work.motions[r][t] = std::move(motions[r]);
+                if (progress_ != nullptr) progress_->advance();
+            });
+        }
+        train();
+    }
+
+    // One per view; those of other levels stay empty.
+    std::vector<PictureTask> tasks_of_level(int level, const PartEffort& effort) {
         std::vector<PictureTask> tasks(work_.size());
         for (std::size_t v = 0; v < work_.size(); ++v) {
             if (coded_.levels[v] != level) continue;
@@ -146,6 +198,7 @@ private:
             task.code = &coded_.dense;
             task.head = coded_.pictures[v].head;
             task.source = &sources_[v];
+            task.effort = effort;
             task.reach = work_[v].reach;
             const float step = static_cast<float>(codec::step_q4(task.head.step)) / 16.0F;
             task.lambda = settings_.lambda_factor * kPlaneWeights[0] * step * step;
@@ -153,21 +206,18 @@ private:
             for (std::size_t r = 0; r < static_cast<std::size_t>(task.head.references()); ++r) {
                 task.references[r] = codec::views_of(std::as_const(work_[task.head.reference[r]].shown));
             }
-            for (std::size_t t = 0; t < coded_.pictures[v].tiles.size(); ++t) jobs.emplace_back(v, t);
         }
-        tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
-            const auto [v, t] = jobs[j];
-            const codec::TilePlace place = codec::place_of_tile(coded_, t);
-            if (!coded_.pictures[v].tiles[t].present) {
-                codec::clear_tile(place, tasks[v].out);
-            } else {
-                work_[v].decisions[t].clear();
-                std::array<std::vector<MotionVector>, 2> motions;
-                encode_tile(tasks[v], costs, place, work_[v].decisions[t], motions);
-                for (std::size_t r = 0; r < 2; ++r) work_[v].motions[r][t] = std::move(motions[r]);
+        return tasks;
+    }
+
+    void clear_absent_tiles(const std::vector<PictureTask>& tasks) {
+        for (std::size_t v = 0; v < tasks.size(); ++v) {
+            if (tasks[v].source == nullptr) continue;
+            for (std::size_t t = 0; t < coded_.pictures[v].tiles.size(); ++t) {
+                if (!coded_.pictures[v].tiles[t].present)
+                    codec::clear_tile(codec::place_of_tile(coded_, t), tasks[v].out);
             }
-            if (progress_ != nullptr && t + 1 == coded_.pictures[v].tiles.size()) progress_->advance();
-        });
+        }
     }
 
     void set_global_motion(std::size_t v) {
@@ -230,6 +280,7 @@ private:
     Progress* progress_;
     CodedPictures coded_;
     std::vector<DenseWorkPicture> work_;
+    LevelJobs jobs_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 // object.
 
 #include "encode/codec/encoded_pictures.hpp"
+#include "encode/codec/search_effort.hpp"
 #include "encode/codec/source_picture.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/codec/code/coded_pictures.hpp"
@@ -21,7 +22,7 @@ struct DenseSettings {
     int alpha_bits = 2;
     int tile_width_log2 = 6;
     int tile_height_log2 = 6;
-    int passes = 2;  // of choosing; the probabilities of one are the prices of the next
+    int effort = kUsualEffort;                        // kLeastEffort .. kMostEffort
     std::array<int, 4> level_offset = {-3, 0, 1, 2};  // of the step index, by progressive level
     float lambda_factor = 0.12F;
     std::array<int, 2> chroma_offset = {0, 1};

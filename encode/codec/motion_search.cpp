@@ -1,5 +1,7 @@
 #include "encode/codec/motion_search.hpp"
 
+#include "encode/codec/search_kernels.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -12,32 +14,14 @@ using codec::MotionVector;
 
 constexpr int kLargestBlock = 16;
 
-template <int kSize>
-int differences(const std::uint8_t* target, const std::uint8_t* mask, const std::uint8_t* samples,
-                std::ptrdiff_t stride) {
-    int sum = 0;
-    for (int y = 0; y < kSize; ++y) {
-        for (int x = 0; x < kSize; ++x) {
-            const int sample = samples[y * stride + x] & mask[y * kSize + x];
-            sum += std::abs(target[y * kSize + x] - sample);
-        }
-    }
-    return sum;
-}
-
 class Searcher {
 public:
     Searcher(const MotionSearch& search, MotionVector from, const std::uint8_t* other)
-        : search_(search), from_(from), other_(other) {
-        const int size = search.size;
-        for (int y = 0; y < size; ++y) {
-            for (int x = 0; x < size; ++x) {
-                const std::uint8_t mask = search.source->matters(search.x + x, search.y + y);
-                mask_[y * size + x] = mask;
-                target_[y * size + x] = search.source->planes[0](search.x + x, search.y + y) & mask;
-            }
-        }
-    }
+        : search_(search),
+          from_(from),
+          other_(other),
+          target_{search.source->planes[0].row(search.y) + search.x, search.source->matters.row(search.y) + search.x,
+                  search.source->matters.width(), search.size} {}
 
     void try_whole(int x, int y) {
         const int left = search_.x + x;
@@ -79,8 +63,7 @@ private:
             samples = mixed;
             stride = search_.size;
         }
-        cost += static_cast<float>(search_.size == 8 ? differences<8>(target_, mask_, samples, stride)
-                                                     : differences<16>(target_, mask_, samples, stride));
+        cost += static_cast<float>(absolute_differences(target_, samples, stride));
         if (any_ && cost >= best_.cost) return;
         best_ = {vector, cost};
         any_ = true;
@@ -89,8 +72,7 @@ private:
     const MotionSearch& search_;
     MotionVector from_;
     const std::uint8_t* other_;
-    std::uint8_t target_[kLargestBlock * kLargestBlock] = {};
-    std::uint8_t mask_[kLargestBlock * kLargestBlock] = {};
+    MaskedSamples target_;
     FoundMotion best_;
     bool any_ = false;
 };
@@ -116,7 +98,7 @@ FoundMotion find_motion(const MotionSearch& search, std::span<const MotionVector
         const MotionVector centre = searcher.best().vector;
         for (int dy = -step; dy <= step; dy += step) {
             for (int dx = -step; dx <= step; dx += step) {
-                if (dx == 0 && dy == 0) continue;
+                if ((dx == 0 && dy == 0) || (search.neighbours < 8 && dx != 0 && dy != 0)) continue;
                 searcher.try_exact(
                     {static_cast<std::int16_t>(centre.x + dx), static_cast<std::int16_t>(centre.y + dy)});
             }

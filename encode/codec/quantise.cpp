@@ -13,69 +13,69 @@ namespace {
 
 constexpr int kLargest = codec::kLargestTransform;
 
+// What quantise() knows of a place in scan order.
+struct ScanPlace {
+    std::uint8_t place;  // v * size + u
+    std::uint8_t band;
+    std::uint8_t side;  // max(u, v) + 1
+    std::int16_t at;    // in Levels and Magnitudes
+};
+
 template <int kSize>
-void forward(const std::int16_t* residual, std::int32_t* coefficients) {
-    constexpr int kRowStep = kLargest / kSize;
-    constexpr int kLog2 = kSize == 8 ? 3 : 4;
-    constexpr int kFirstShift = kLog2 - 1;
-    constexpr int kSecondShift = kLog2 + 6;
-    std::int32_t columns[kSize * kSize];  // [v][x]
-    for (int v = 0; v < kSize; ++v) {
-        std::int32_t sums[kSize] = {};
-        for (int y = 0; y < kSize; ++y) {
-            const std::int32_t factor = codec::kTransform16[v * kRowStep][y];
-            for (int x = 0; x < kSize; ++x) sums[x] += factor * residual[y * kSize + x];
+const std::array<ScanPlace, kSize * kSize>& scan_places() {
+    static const auto kPlaces = [] {
+        std::array<ScanPlace, kSize * kSize> places;
+        const std::uint8_t* const scan = codec::syntax::scan_order(kSize);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const int u = scan[i] % kSize;
+            const int v = scan[i] / kSize;
+            places[i] = {scan[i], static_cast<std::uint8_t>(codec::syntax::band_of(u + v, kSize)),
+                         static_cast<std::uint8_t>(std::max(u, v) + 1),
+                         static_cast<std::int16_t>(v * codec::Levels::kStride + u)};
         }
-        for (int x = 0; x < kSize; ++x) columns[v * kSize + x] = (sums[x] + (1 << (kFirstShift - 1))) >> kFirstShift;
-    }
-    std::int32_t turned[kSize * kSize];  // [x][v]
-    for (int v = 0; v < kSize; ++v) {
-        for (int x = 0; x < kSize; ++x) turned[x * kSize + v] = columns[v * kSize + x];
-    }
-    for (int u = 0; u < kSize; ++u) {
-        std::int32_t sums[kSize] = {};
-        for (int x = 0; x < kSize; ++x) {
-            const std::int32_t factor = codec::kTransform16[u * kRowStep][x];
-            for (int v = 0; v < kSize; ++v) sums[v] += factor * turned[x * kSize + v];
-        }
-        for (int v = 0; v < kSize; ++v) {
-            coefficients[v * kSize + u] = (sums[v] + (1 << (kSecondShift - 1))) >> kSecondShift;
-        }
-    }
+        return places;
+    }();
+    return kPlaces;
 }
+
+// The magnitudes of Levels, 3 at most: syntax::near_sum() of them is five additions.
+struct Magnitudes {
+    std::uint8_t at[(kLargest + 2) * codec::Levels::kStride] = {};
+
+    void set(int place, int level) { at[place] = static_cast<std::uint8_t>(std::min(std::abs(level), 3)); }
+    [[nodiscard]] int near_sum(int place) const {
+        constexpr int kDown = codec::Levels::kStride;
+        const std::uint8_t* const m = at + place;
+        const int sum = m[1] + m[2] + m[kDown] + m[2 * kDown] + m[kDown + 1];
+        return std::min((sum + 1) >> 1, codec::context::kNearSums - 1);
+    }
+};
 
 // Where a level is worth more or less than it costs: what quantise() knows of a transform.
 struct Quantiser {
     const std::int32_t* coefficients;
     const QuantiserSettings& settings;
     const CostTable& costs;
-    const std::uint8_t* scan;
+    const ScanPlace* scan;
     float step;   // in units of the coefficients
     float scale;  // of their squared errors
 
-    [[nodiscard]] float magnitude(int i) const { return static_cast<float>(std::abs(coefficients[scan[i]])); }
+    [[nodiscard]] float magnitude(int i) const { return static_cast<float>(std::abs(coefficients[scan[i].place])); }
     [[nodiscard]] float distortion(int i, int level) const {
         const float off = magnitude(i) - static_cast<float>(level) * step;
         return scale * off * off;
     }
     [[nodiscard]] float level_cost(int i, int near, bool must_be, int level) const {
-        Estimator estimator(costs);
-        codec::syntax::level(estimator, settings.kind, settings.size, scan[i] & (settings.size - 1),
-                             scan[i] / settings.size, near, must_be, level);
-        return settings.lambda * estimator.bits();
+        return settings.lambda * costs.level(settings.kind, scan[i].band, near, must_be, level);
     }
-    [[nodiscard]] float last_cost(int last) const {
-        Estimator estimator(costs);
-        codec::syntax::last_place(estimator, settings.kind, settings.size, last);
-        return settings.lambda * estimator.bits();
-    }
+    [[nodiscard]] float last_cost(int last) const { return settings.lambda * costs.last_place(settings.kind, last); }
 };
 
 // Makes the parities of the groups those of the signs that they hide, with the level changed by one that costs least.
 class SignHider {
 public:
-    SignHider(const Quantiser& quantiser, codec::Levels& levels, int& last)
-        : quantiser_(quantiser), size_(quantiser.settings.size), levels_(levels), last_(last) {}
+    SignHider(const Quantiser& quantiser, codec::Levels& levels, Magnitudes& magnitudes, int& last)
+        : quantiser_(quantiser), levels_(levels), magnitudes_(magnitudes), last_(last) {}
 
     void hide() {
         for (int begin = last_ & ~(codec::syntax::kSignGroup - 1); begin >= 0; begin -= codec::syntax::kSignGroup) {
@@ -84,10 +84,7 @@ public:
     }
 
 private:
-    std::int16_t& at(int i) {
-        const int place = quantiser_.scan[i];
-        return levels_.at[(place / size_) * codec::Levels::kStride + (place & (size_ - 1))];
-    }
+    std::int16_t& at(int i) { return levels_.at[quantiser_.scan[i].at]; }
 
     // Whether the group's parity is that of the sign that it hides, if it hides one.
     bool agrees(int begin) {
@@ -110,8 +107,7 @@ private:
         int best_place = -1;
         int best_level = 0;
         for (int i = end; i >= begin; --i) {
-            const int place = quantiser_.scan[i];
-            const int near = codec::syntax::near_sum(levels_, place & (size_ - 1), place / size_);
+            const int near = magnitudes_.near_sum(quantiser_.scan[i].at);
             const std::int16_t before = at(i);
             const int size = std::abs(before);
             const float now = quantiser_.distortion(i, size) + quantiser_.level_cost(i, near, i == last_, size);
@@ -122,9 +118,10 @@ private:
                 cost += shortens ? quantiser_.last_cost(last_below(i)) - quantiser_.last_cost(i)
                                  : quantiser_.level_cost(i, near, i == last_, changed);
                 if (cost >= best_cost) continue;
-                const int level = quantiser_.coefficients[place] < 0 ? -changed : changed;
+                const int level = quantiser_.coefficients[quantiser_.scan[i].place] < 0 ? -changed : changed;
+                // The parity changes in any case; the sign that is hidden only where a level comes or goes.
                 at(i) = static_cast<std::int16_t>(level);
-                if (agrees(begin)) {
+                if ((size != 0 && changed != 0) || agrees(begin)) {
                     best_cost = cost;
                     best_place = i;
                     best_level = level;
@@ -133,6 +130,7 @@ private:
             }
         }
         at(best_place) = static_cast<std::int16_t>(best_level);
+        magnitudes_.set(quantiser_.scan[best_place].at, best_level);
         if (best_place == last_ && best_level == 0) last_ = last_below(last_);
     }
 
@@ -144,32 +142,22 @@ private:
     }
 
     const Quantiser& quantiser_;
-    int size_;
     codec::Levels& levels_;
+    Magnitudes& magnitudes_;
     int& last_;
 };
 
 }  // namespace
 
-void forward_transform(const std::int16_t* residual, int size, std::int32_t* coefficients) {
-    if (size == 8) {
-        forward<8>(residual, coefficients);
-    } else {
-        forward<16>(residual, coefficients);
-    }
-}
-
 bool quantise(const std::int32_t* coefficients, const QuantiserSettings& settings, const CostTable& costs,
               codec::Levels& levels, int& last) {
-    namespace syntax = codec::syntax;
     const int size = settings.size;
     const int count = size * size;
     const float unit = size == 8 ? 16.0F : 8.0F;  // of the coefficients, in orthonormal ones
     const float step = static_cast<float>(codec::step_q4(settings.step)) / 16.0F * unit;
     const float inverse = 1 / step;
-    const Quantiser quantiser{
-        coefficients, settings, costs, syntax::scan_order(size), step, settings.weight / (unit * unit)};
-    const std::uint8_t* const scan = quantiser.scan;
+    const ScanPlace* const scan = size == 8 ? scan_places<8>().data() : scan_places<16>().data();
+    const Quantiser quantiser{coefficients, settings, costs, scan, step, settings.weight / (unit * unit)};
 
     int start = count - 1;
     while (start >= 0 && quantiser.magnitude(start) * inverse < 0.5F) --start;
@@ -179,16 +167,16 @@ bool quantise(const std::int32_t* coefficients, const QuantiserSettings& setting
     std::array<float, kLargest * kLargest> cost;
     std::array<float, kLargest * kLargest> dropped;
     std::array<float, kLargest * kLargest> flagless;
+    Magnitudes magnitudes;
     for (int i = start; i >= 0; --i) {
-        const int u = scan[i] & (size - 1);
-        const int v = scan[i] / size;
         const auto n = static_cast<std::size_t>(i);
-        dropped[n] = quantiser.distortion(i, 0);
-        const int near = syntax::near_sum(levels, u, v);
-        const auto nearest = static_cast<int>(std::min(quantiser.magnitude(i) * inverse + 0.5F, 16000.0F));
-        int best = 0;
+        const float magnitude = quantiser.magnitude(i);
+        dropped[n] = quantiser.scale * magnitude * magnitude;
+        const int near = magnitudes.near_sum(scan[i].at);
         float best_cost = dropped[n] + quantiser.level_cost(i, near, false, 0);
         flagless[n] = 1e30F;
+        const auto nearest = static_cast<int>(std::min(magnitude * inverse + 0.5F, 16000.0F));
+        int best = 0;
         for (int level = nearest; level >= std::max(nearest - 1, 1); --level) {
             const float distortion = quantiser.distortion(i, level);
             const float total = distortion + quantiser.level_cost(i, near, false, level);
@@ -199,7 +187,9 @@ bool quantise(const std::int32_t* coefficients, const QuantiserSettings& setting
             }
         }
         cost[n] = best_cost;
-        levels.at[v * codec::Levels::kStride + u] = static_cast<std::int16_t>(coefficients[scan[i]] < 0 ? -best : best);
+        if (best == 0) continue;
+        levels.at[scan[i].at] = static_cast<std::int16_t>(coefficients[scan[i].place] < 0 ? -best : best);
+        magnitudes.set(scan[i].at, best);
     }
 
     // Where to stop: everything above the last one is dropped.
@@ -222,14 +212,13 @@ bool quantise(const std::int32_t* coefficients, const QuantiserSettings& setting
         below += cost[n];
     }
     for (int i = last + 1; i <= start; ++i) {
-        levels.at[(scan[i] / size) * codec::Levels::kStride + (scan[i] & (size - 1))] = 0;
+        levels.at[scan[i].at] = 0;
+        magnitudes.set(scan[i].at, 0);
     }
-    if (settings.sign_data_hiding && last >= 0) SignHider(quantiser, levels, last).hide();
+    if (settings.sign_data_hiding && last >= 0) SignHider(quantiser, levels, magnitudes, last).hide();
     levels.used = 0;
     for (int i = 0; i <= last; ++i) {
-        const int u = scan[i] & (size - 1);
-        const int v = scan[i] / size;
-        if (levels.at[v * codec::Levels::kStride + u] != 0) levels.used = std::max(levels.used, std::max(u, v) + 1);
+        if (levels.at[scan[i].at] != 0) levels.used = std::max(levels.used, static_cast<int>(scan[i].side));
     }
     return last >= 0;
 }

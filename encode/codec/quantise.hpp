@@ -8,10 +8,6 @@
 
 namespace rs::encode {
 
-// The forward transform that inverse_transform undoes: residual[y * size + x] -> coefficients[v * size + u],
-// orthonormal ones times 16 (size 8) or 8 (size 16).
-void forward_transform(const std::int16_t* residual, int size, std::int32_t* coefficients);
-
 struct QuantiserSettings {
     int size = 8;
     int kind = 0;      // of rayspace/codec/code/contexts.hpp
@@ -21,9 +17,9 @@ struct QuantiserSettings {
     bool sign_data_hiding = false;
 };
 
-// Levels of the least weight * squared error + lambda * bits (greedily, from the highest coefficient down, and then
-// over where to stop); all zero where that is best. `levels` must be all zero; `last` is set where any is not. Returns
-// whether any is not.
+// `coefficients`: as forward_transform() gives them. Levels of the least weight * squared error + lambda * bits
+// (greedily, from the highest coefficient down, and then over where to stop); all zero where that is best. `levels`
+// must be all zero; `last` is set where any is not. Returns whether any is not.
 bool quantise(const std::int32_t* coefficients, const QuantiserSettings& settings, const CostTable& costs,
               codec::Levels& levels, int& last);
 

@@ -88,7 +88,8 @@ private:
 
         const PredictionUnit whole{bx, by, kMacroblock};
         const float whole_cost = search.choose(whole, *choices_[4]) + task_.lambda * whole_bits.bits();
-        float split_cost = task_.lambda * split_bits.bits();
+        const bool may_split = task_.effort.all_splits || choices_[4]->coded;
+        float split_cost = may_split ? task_.lambda * split_bits.bits() : whole_cost;
         for (int i = 0; i < 4 && split_cost < whole_cost; ++i) {
             const PredictionUnit quarter{bx + (i & 1), by + (i >> 1), kBlock};
             if (state_.grid.at(quarter.bx, quarter.by).alpha == AlphaClass::kEmpty) {

@@ -2,6 +2,7 @@
 // Chooses what each part of a tile says, by weighted squared error and bits, and reconstructs it as the decoder will.
 
 #include "encode/codec/coders.hpp"
+#include "encode/codec/search_effort.hpp"
 #include "encode/codec/source_picture.hpp"
 #include "rayspace/codec/code/dense_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
@@ -18,6 +19,7 @@ struct PictureTask {
     std::array<codec::ConstPlaneViews, 2> references;
     std::array<int, 2> reach = {0, 0};  // of the motion search, samples, per reference
     float lambda = 0;
+    PartEffort effort;
     codec::PlaneViews out;  // the reconstruction
 };
 

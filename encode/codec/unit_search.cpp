@@ -2,6 +2,7 @@
 
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/quantise.hpp"
+#include "encode/codec/search_kernels.hpp"
 #include "rayspace/codec/alpha_mask.hpp"
 #include "rayspace/codec/kernels/transform.hpp"
 
@@ -24,65 +25,79 @@ using codec::Source;
 constexpr int kMacroblockSamples = kMacroblock * kMacroblock;
 constexpr float kNever = std::numeric_limits<float>::max();
 
-// How often a part with samples that do not matter is coded anew with what the last coding made of them.
-constexpr int kRefits = 2;
+// Up to this squared error, in squared steps, no coefficient of an orthonormal transform reaches half a step.
+constexpr float kNothingToCode = 0.25F;
 
-// One transform of a plane: what is wanted, predicted, and which samples matter.
+// One transform of a plane: what is wanted, predicted, and which samples count.
 struct TransformTarget {
-    int size = 8;
-    const std::uint8_t* wanted = nullptr;
-    const std::uint8_t* matters = nullptr;
-    std::ptrdiff_t source_stride = 0;
+    MaskedSamples samples;
     const std::uint8_t* predicted = nullptr;
     std::ptrdiff_t stride = 0;
     bool all_matter = true;
-};
 
-float error_of(const TransformTarget& target, const std::uint8_t* shown, std::ptrdiff_t stride) {
-    int sum = 0;
-    for (int y = 0; y < target.size; ++y) {
-        for (int x = 0; x < target.size; ++x) {
-            const int off = target.wanted[y * target.source_stride + x] - shown[y * stride + x];
-            sum += (off * off) & -static_cast<int>(target.matters[y * target.source_stride + x] & 1);
-        }
+    [[nodiscard]] float error_of(const std::uint8_t* shown, std::ptrdiff_t shown_stride) const {
+        return static_cast<float>(squared_differences(samples, shown, shown_stride));
     }
-    return static_cast<float>(sum);
-}
+};
 
 // Levels for the target; returns whether there are any. `shown` receives what the decoder will show (size * size).
 bool code_transform(const TransformTarget& target, const QuantiserSettings& settings, const CostTable& costs,
-                    codec::Levels& levels, int& last, std::uint8_t* shown) {
-    const int size = target.size;
+                    int refits, codec::Levels& levels, int& last, std::uint8_t* shown) {
+    const int size = target.samples.size;
+    for (int y = 0; y < size; ++y) std::copy_n(target.predicted + y * target.stride, size, shown + y * size);
+    const float step = static_cast<float>(codec::step_q4(settings.step)) / 16.0F;
+    if (target.error_of(shown, size) < kNothingToCode * step * step) return false;
     std::int16_t residual[kMacroblockSamples];
     for (int y = 0; y < size; ++y) {
+        const std::uint8_t* const wanted = target.samples.wanted + y * target.samples.stride;
+        const std::uint8_t* const mask = target.samples.mask + y * target.samples.stride;
         for (int x = 0; x < size; ++x) {
-            const int off = target.wanted[y * target.source_stride + x] - target.predicted[y * target.stride + x];
-            residual[y * size + x] =
-                static_cast<std::int16_t>(target.matters[y * target.source_stride + x] != 0 ? off : 0);
+            residual[y * size + x] = static_cast<std::int16_t>((wanted[x] & mask[x]) - (shown[y * size + x] & mask[x]));
         }
     }
-    bool any = false;
-    for (int round = 0; round <= (target.all_matter ? 0 : kRefits); ++round) {
+    for (int round = 0;; ++round) {
         std::int32_t coefficients[kMacroblockSamples];
         forward_transform(residual, size, coefficients);
         levels = {};
-        any = quantise(coefficients, settings, costs, levels, last);
-        for (int y = 0; y < size; ++y) std::copy_n(target.predicted + y * target.stride, size, shown + y * size);
-        if (!any) return false;
+        if (!quantise(coefficients, settings, costs, levels, last)) {
+            for (int y = 0; y < size; ++y) std::copy_n(target.predicted + y * target.stride, size, shown + y * size);
+            return false;
+        }
+        if (round > 0) {
+            for (int y = 0; y < size; ++y) std::copy_n(target.predicted + y * target.stride, size, shown + y * size);
+        }
         codec::add_residual(levels, settings.step, size, shown, size);
-        if (target.all_matter) break;
+        if (target.all_matter || round == refits) return true;
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x) {
-                if (target.matters[y * target.source_stride + x] != 0) continue;
+                if (target.samples.mask[y * target.samples.stride + x] != 0) continue;
                 residual[y * size + x] =
                     static_cast<std::int16_t>(shown[y * size + x] - target.predicted[y * target.stride + x]);
             }
         }
     }
-    return any;
 }
 
 }  // namespace
+
+void UnitSearch::Candidate::take(const PartChoice& choice) {
+    source = choice.source;
+    intra_mode = choice.intra_mode;
+    motion = choice.motion;
+}
+
+void UnitSearch::Candidate::put(PartChoice& choice) const {
+    choice.source = source;
+    choice.intra_mode = intra_mode;
+    choice.motion = motion;
+}
+
+std::span<const UnitSearch::Candidate*> UnitSearch::Candidates::likeliest(int count) {
+    for (std::size_t i = 0; i < count_; ++i) order_[i] = &all_[i];
+    std::stable_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(count_),
+                     [](const Candidate* a, const Candidate* b) { return a->estimate < b->estimate; });
+    return std::span(order_).first(std::min(count_, static_cast<std::size_t>(count)));
+}
 
 PartPlace UnitSearch::place_of(const PredictionUnit& part) const {
     return codec::place_of_part(state_.grid, part, left_, top_);
@@ -113,63 +128,73 @@ void UnitSearch::commit(const PredictionUnit& part, const PartChoice& choice) co
     codec::enter_part(state_.grid, part, choice);
 }
 
-// `choice` has its prediction; finds coefficients. kNever as soon as it cannot be below `best`.
-float UnitSearch::evaluate(const PredictionUnit& part, PartChoice& choice, float best) const {
-    const PartPlace place = place_of(part);
-    const codec::PartSurroundings around{task_.head.references(), task_.head.global_motion};
-    Estimator head_bits(costs_);
-    codec::code_prediction(head_bits, state_.grid, part, around, choice);
-    code_alpha(head_bits, part, choice);
-    const float head_cost = task_.lambda * head_bits.bits();
-    if (head_cost >= best) return kNever;
+MaskedSamples UnitSearch::samples_of(const PartPlace& place, int plane) const {
+    const Image<std::uint8_t>& wanted = task_.source->planes[static_cast<std::size_t>(plane)];
+    return {wanted.row(place.y) + place.x, task_.source->matters.row(place.y) + place.x, wanted.width(), place.size};
+}
 
-    const bool inter = is_inter(choice.source);
+// Enters what the candidate costs before anything is coded, and what all together looks like.
+void UnitSearch::weigh(const PredictionUnit& part, PartChoice& trial, Candidate& candidate) const {
+    const PartPlace place = place_of(part);
+    candidate.take(trial);
+    const codec::PartSurroundings around{task_.head.references(), task_.head.global_motion};
+    Estimator bits(costs_);
+    codec::code_prediction(bits, state_.grid, part, around, trial);
+    code_alpha(bits, part, trial);
+    candidate.head_cost = task_.lambda * bits.bits();
+    float left = 0;
+    for (int plane = 0; plane < codec::kPlanes; ++plane) {
+        left +=
+            static_cast<float>(hadamard_differences(samples_of(place, plane), candidate.predicted[plane], part.size));
+    }
+    candidate.estimate = left + bit_cost() * bits.bits();
+}
+
+// Finds coefficients of the wanted sizes of transforms for the candidate; replaces `choice` and `best` by it where it
+// costs less.
+void UnitSearch::evaluate(const PredictionUnit& part, const Candidate& candidate, Transforms transforms,
+                          PartChoice& trial, PartChoice& choice, float& best) const {
+    if (candidate.head_cost >= best) return;
+    const PartPlace place = place_of(part);
+    candidate.put(trial);
+    const bool inter = is_inter(trial.source);
     bool all_matter = true;
     for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
         const auto& info = state_.grid.at(part.bx + (i & (part.blocks() - 1)), part.by + i / part.blocks());
         all_matter = all_matter && info.alpha == codec::AlphaClass::kOpaque;
     }
-
-    std::uint8_t predicted[codec::kPlanes][kMacroblockSamples];
     TransformTarget targets[codec::kPlanes];
     float plain_error = 0;
     for (int plane = 0; plane < codec::kPlanes; ++plane) {
-        const auto p = static_cast<std::size_t>(plane);
-        codec::predict_part(choice, place, plane, task_.references, task_.out[p]);
-        for (int y = 0; y < part.size; ++y) {
-            std::copy_n(task_.out[p].row(place.y + y) + place.x, part.size, predicted[plane] + y * part.size);
-        }
-        const Image<std::uint8_t>& wanted = task_.source->planes[p];
-        targets[plane] = {part.size,
-                          wanted.row(place.y) + place.x,
-                          task_.source->matters.row(place.y) + place.x,
-                          wanted.width(),
-                          predicted[plane],
-                          part.size,
-                          all_matter};
-        plain_error += kPlaneWeights[p] * error_of(targets[plane], predicted[plane], part.size);
+        targets[plane] = {samples_of(place, plane), candidate.predicted[plane], part.size, all_matter};
+        plain_error += kPlaneWeights[static_cast<std::size_t>(plane)] *
+                       targets[plane].error_of(candidate.predicted[plane], part.size);
     }
 
-    // Nothing coded.
-    choice.coded = false;
-    choice.small_transforms = false;
-    Estimator none_bits(costs_);
-    codec::code_coefficients(none_bits, state_.grid, part, task_.code->sign_data_hiding, choice);
-    float cost = plain_error + task_.lambda * none_bits.bits();
-
-    // Coefficients, in large and in small transforms.
-    PartChoice trial = choice;
+    const auto finish = [&](float error) {
+        Estimator bits(costs_);
+        codec::code_coefficients(bits, state_.grid, part, task_.code->sign_data_hiding, trial);
+        const float cost = candidate.head_cost + error + task_.lambda * bits.bits();
+        if (cost >= best) return;
+        best = cost;
+        choice = trial;
+    };
+    if (transforms != Transforms::kSmall) {
+        trial.coded = false;
+        trial.small_transforms = false;
+        finish(plain_error);
+    }
     for (const bool small : {false, true}) {
         if (small && part.size == kBlock) break;
+        if (transforms == (small ? Transforms::kLarge : Transforms::kSmall)) continue;
         trial.small_transforms = small;
         trial.coded = false;
         const int size = trial.transform_size(part.size);
         float error = 0;
         for (int plane = 0; plane < codec::kPlanes; ++plane) {
             const auto p = static_cast<std::size_t>(plane);
-            const int kind = codec::syntax::block_kind(plane, size, inter);
             const QuantiserSettings settings{size,
-                                             kind,
+                                             codec::syntax::block_kind(plane, size, inter),
                                              task_.code->plane_step(task_.head.step, plane),
                                              kPlaneWeights[p],
                                              task_.lambda,
@@ -178,76 +203,78 @@ float UnitSearch::evaluate(const PredictionUnit& part, PartChoice& choice, float
                 TransformTarget target = targets[plane];
                 const std::ptrdiff_t down = static_cast<std::ptrdiff_t>(t >> 1) * kBlock;
                 const std::ptrdiff_t right = static_cast<std::ptrdiff_t>(t & 1) * kBlock;
-                target.size = size;
-                target.wanted += down * target.source_stride + right;
-                target.matters += down * target.source_stride + right;
+                target.samples.size = size;
+                target.samples.wanted += down * target.samples.stride + right;
+                target.samples.mask += down * target.samples.stride + right;
                 target.predicted += down * target.stride + right;
                 std::uint8_t shown[kMacroblockSamples];
-                trial.plane_coded[p][t] =
-                    code_transform(target, settings, costs_, trial.levels[p][t], trial.last[p][t], shown);
+                trial.plane_coded[p][t] = code_transform(target, settings, costs_, task_.effort.refits,
+                                                         trial.levels[p][t], trial.last[p][t], shown);
                 trial.coded = trial.coded || trial.plane_coded[p][t];
-                error += kPlaneWeights[p] * error_of(target, shown, size);
+                error += kPlaneWeights[p] * target.error_of(shown, size);
             }
         }
-        if (!trial.coded) continue;
-        Estimator bits(costs_);
-        codec::code_coefficients(bits, state_.grid, part, task_.code->sign_data_hiding, trial);
-        const float total = error + task_.lambda * bits.bits();
-        if (total < cost) {
-            cost = total;
-            choice = trial;
-        }
+        if (trial.coded) finish(error);
     }
-    return head_cost + cost;
 }
 
-void UnitSearch::find_intra(const PredictionUnit& part, PartChoice& trial, PartChoice& choice, float& best) const {
+// Of the modes, the likeliest by Y alone.
+void UnitSearch::add_intra(const PredictionUnit& part, PartChoice& trial, Candidates& candidates) const {
     const PartPlace place = place_of(part);
     trial.source = Source::kIntra;
+    const MaskedSamples wanted = samples_of(place, 0);
     std::array<std::pair<int, int>, codec::kIntraModes> ranked;
+    std::uint8_t predicted[codec::kIntraModes][kMacroblockSamples];
+    const auto predict = [&](int plane, std::uint8_t* out) {
+        const ImageView<std::uint8_t> scratch = task_.out[static_cast<std::size_t>(plane)];
+        codec::predict_part(trial, place, plane, task_.references, scratch);
+        for (int y = 0; y < part.size; ++y)
+            std::copy_n(scratch.row(place.y + y) + place.x, part.size, out + y * part.size);
+    };
     for (int mode = 0; mode < codec::kIntraModes; ++mode) {
         trial.intra_mode = mode;
-        codec::predict_part(trial, place, 0, task_.references, task_.out[0]);
-        int sum = 0;
-        for (int y = 0; y < part.size; ++y) {
-            const std::uint8_t* const shown = task_.out[0].row(place.y + y) + place.x;
-            const std::uint8_t* const wanted = task_.source->planes[0].row(place.y + y) + place.x;
-            const std::uint8_t* const matters = task_.source->matters.row(place.y + y) + place.x;
-            for (int x = 0; x < part.size; ++x) sum += std::abs(wanted[x] - shown[x]) & matters[x];
-        }
-        ranked[static_cast<std::size_t>(mode)] = {sum, mode};
+        predict(0, predicted[mode]);
+        ranked[static_cast<std::size_t>(mode)] = {absolute_differences(wanted, predicted[mode], part.size), mode};
     }
     std::sort(ranked.begin(), ranked.end());
-    constexpr std::size_t kTried = 4;
-    for (std::size_t i = 0; i < kTried; ++i) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(task_.effort.intra); ++i) {
         if (i > 0 && ranked[i].first == ranked[0].first) continue;
         trial.intra_mode = ranked[i].second;
-        const float cost = evaluate(part, trial, best);
-        if (cost < best) {
-            best = cost;
-            choice = trial;
-        }
+        Candidate& candidate = candidates.add();
+        std::copy_n(predicted[trial.intra_mode], kMacroblockSamples, candidate.predicted[0]);
+        for (const int plane : {1, 2}) predict(plane, candidate.predicted[plane]);
+        weigh(part, trial, candidate);
     }
 }
 
-void UnitSearch::find_inter(const PredictionUnit& part, const PartChoice* around, PartChoice& trial, PartChoice& choice,
-                            float& best) const {
+void UnitSearch::add_inter(const PredictionUnit& part, const PartChoice* around, PartChoice& trial,
+                           Candidates& candidates) const {
     const PartPlace place = place_of(part);
     MotionSearch search;
     search.source = task_.source;
     search.x = place.x;
     search.y = place.y;
     search.size = part.size;
-    search.bit_cost = std::sqrt(task_.lambda / kPlaneWeights[0]);
+    search.bit_cost = bit_cost();
+    search.neighbours = task_.effort.fractions;
     std::array<FoundMotion, 2> found;
     std::array<MotionVector, 2> from;
     const int references = task_.head.references();
-    const auto take = [&](Source source) {
+    const auto add = [&](Source source) {
         trial.source = source;
-        const float cost = evaluate(part, trial, best);
-        if (cost >= best) return;
-        best = cost;
-        choice = trial;
+        Candidate& candidate = candidates.add();
+        for (int plane = 0; plane < codec::kPlanes; ++plane) {
+            const auto p = static_cast<std::size_t>(plane);
+            const std::size_t first = uses(source, 0) ? 0 : 1;
+            codec::predict_from_picture(task_.references[first][p], place.x, place.y, trial.motion[first], part.size,
+                                        candidate.predicted[plane], part.size);
+            if (source != Source::kBoth) continue;
+            std::uint8_t other[kMacroblockSamples];
+            codec::predict_from_picture(task_.references[1][p], place.x, place.y, trial.motion[1], part.size, other,
+                                        part.size);
+            codec::average_into(candidate.predicted[plane], part.size, other, part.size, part.size);
+        }
+        weigh(part, trial, candidate);
     };
     for (int r = 0; r < references; ++r) {
         const auto n = static_cast<std::size_t>(r);
@@ -266,7 +293,7 @@ void UnitSearch::find_inter(const PredictionUnit& part, const PartChoice* around
         }
         trial.motion[n] = found[n].vector;
     }
-    for (int r = 0; r < references; ++r) take(r == 0 ? Source::kFirst : Source::kSecond);
+    for (int r = 0; r < references; ++r) add(r == 0 ? Source::kFirst : Source::kSecond);
     if (references < 2) return;
     // Both: each once more, against the other.
     search.reach_x = 1;
@@ -279,14 +306,26 @@ void UnitSearch::find_inter(const PredictionUnit& part, const PartChoice* around
         const std::array<MotionVector, 1> starts = {trial.motion[r]};
         trial.motion[r] = find_motion(search, starts, from[r], other).vector;
     }
-    take(Source::kBoth);
+    add(Source::kBoth);
 }
 
 float UnitSearch::choose(const PredictionUnit& part, PartChoice& choice, const PartChoice* around) const {
-    float best = kNever;
     PartChoice trial;
-    if (task_.head.references() > 0) find_inter(part, around, trial, choice, best);
-    find_intra(part, trial, choice, best);
+    Candidates candidates;
+    if (task_.head.references() > 0) add_inter(part, around, trial, candidates);
+    add_intra(part, trial, candidates);
+    const std::span<const Candidate*> likeliest = candidates.likeliest(task_.effort.coded);
+    const Transforms transforms = task_.effort.all_transforms ? Transforms::kBoth : Transforms::kLarge;
+    float best = kNever;
+    const Candidate* winner = nullptr;
+    for (const Candidate* candidate : likeliest) {
+        const float before = best;
+        evaluate(part, *candidate, transforms, trial, choice, best);
+        if (best < before) winner = candidate;
+    }
+    if (transforms == Transforms::kLarge && part.size == kMacroblock && choice.coded) {
+        evaluate(part, *winner, Transforms::kSmall, trial, choice, best);
+    }
     return best;
 }
 

@@ -1,9 +1,15 @@
 #pragma once
 // The best choice for one part of a tile.
 
+#include "encode/codec/search_kernels.hpp"
 #include "encode/codec/tile_encoder.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
 #include "rayspace/codec/reconstruct_unit.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
 
 namespace rs::encode {
 
@@ -33,12 +39,42 @@ public:
     void commit(const codec::PredictionUnit& part, const codec::PartChoice& choice) const;
 
 private:
+    // A way to predict a part.
+    struct Candidate {
+        codec::Source source = codec::Source::kIntra;
+        int intra_mode = 0;
+        std::array<codec::MotionVector, 2> motion;
+        float head_cost = 0;  // lambda * bits of prediction and alpha
+        float estimate = 0;   // for comparing before anything is coded: bits and what is left, as absolute differences
+        std::uint8_t predicted[codec::kPlanes][codec::kMacroblock * codec::kMacroblock];  // rows of the part's size
+
+        void take(const codec::PartChoice& choice);
+        void put(codec::PartChoice& choice) const;
+    };
+    // Of one part: three from pictures, the rest intra.
+    class Candidates {
+    public:
+        Candidate& add() { return all_[count_++]; }
+        // The `count` that look best, the best first.
+        std::span<const Candidate*> likeliest(int count);
+
+    private:
+        std::array<Candidate, 3 + codec::kIntraModes> all_;
+        std::array<const Candidate*, 3 + codec::kIntraModes> order_{};
+        std::size_t count_ = 0;
+    };
+    enum class Transforms : std::uint8_t { kLarge, kSmall, kBoth };  // kLarge: as large as the part
+
     [[nodiscard]] codec::PartPlace place_of(const codec::PredictionUnit& part) const;
-    float evaluate(const codec::PredictionUnit& part, codec::PartChoice& choice, float best) const;
-    void find_intra(const codec::PredictionUnit& part, codec::PartChoice& trial, codec::PartChoice& choice,
-                    float& best) const;
-    void find_inter(const codec::PredictionUnit& part, const codec::PartChoice* around, codec::PartChoice& trial,
-                    codec::PartChoice& choice, float& best) const;
+    [[nodiscard]] MaskedSamples samples_of(const codec::PartPlace& place, int plane) const;
+    // The sum of absolute differences that a bit is worth.
+    [[nodiscard]] float bit_cost() const { return std::sqrt(task_.lambda / kPlaneWeights[0]); }
+    void weigh(const codec::PredictionUnit& part, codec::PartChoice& trial, Candidate& candidate) const;
+    void evaluate(const codec::PredictionUnit& part, const Candidate& candidate, Transforms transforms,
+                  codec::PartChoice& trial, codec::PartChoice& choice, float& best) const;
+    void add_intra(const codec::PredictionUnit& part, codec::PartChoice& trial, Candidates& candidates) const;
+    void add_inter(const codec::PredictionUnit& part, const codec::PartChoice* around, codec::PartChoice& trial,
+                   Candidates& candidates) const;
     template <class Coder>
     void code_alpha(Coder& coder, const codec::PredictionUnit& part, const codec::PartChoice& choice) const;
 

@@ -6,14 +6,13 @@
 namespace rs::encode {
 namespace {
 
-constexpr std::uint8_t kUnknown = 255;
-constexpr std::uint8_t kOutside = 254;
+constexpr double kFarthestRow = 32000;  // that 32 bits hold in 1/65536
 
 // Rows [top, bottom) of one column at one depth against one neighbour.
 void compare_column(const WorkView& view, const WorkView& neighbour, const HorizontalRay& ray, double depth, int column,
                     const ObjectBox& box, std::uint8_t* costs) {
     const int rows = box.height();
-    std::fill(costs, costs + rows, kUnknown);
+    std::fill(costs, costs + rows, kUnknownMatch);
     const double axial = ray.axial_at(depth);
     if (axial <= 0.05) return;
     const SeenColumn seen = neighbour.see(ray.place_at(depth));
@@ -22,60 +21,20 @@ void compare_column(const WorkView& view, const WorkView& neighbour, const Horiz
     const double left = seen.column - 0.5;
     const auto c0 = static_cast<int>(std::floor(left));
     if (c0 < -1 || c0 >= neighbour.width) return;
-    const int part = static_cast<int>((left - c0) * 32);
-    const Rgba8* const first = neighbour.columns.row(std::max(c0, 0));
-    const Rgba8* const second = neighbour.columns.row(std::min(c0 + 1, neighbour.width - 1));
     // Rows are linear in rows.
     const double scale = (neighbour.fl_y / seen.axial) * (axial / view.fl_y);
     const double at_top = neighbour.row_of(view.height_of(box.top + 0.5, axial), seen.axial);
-    const Rgba8* const own = view.columns.row(column) + box.top;
-    const auto step = static_cast<std::int64_t>(std::llround(std::ldexp(scale, 16)));
-    auto position = static_cast<std::int64_t>(std::llround(std::ldexp(at_top, 16)));
-    for (int n = 0; n < rows; ++n, position += step) {
-        if (own[n].a == 0) continue;
-        const std::int64_t row = position >> 16;
-        if (row < 0 || row >= neighbour.height) continue;
-        const Rgba8 a = first[row];
-        const Rgba8 b = second[row];
-        if (a.a * (32 - part) + b.a * part < 128 * 32) {
-            costs[n] = kOutside;
-            continue;
-        }
-        const auto difference = [&](int mine, int one, int other) {
-            return std::abs(mine * 32 - one * (32 - part) - other * part);
-        };
-        const int sum =
-            difference(own[n].r, a.r, b.r) + difference(own[n].g, a.g, b.g) + difference(own[n].b, a.b, b.b);
-        costs[n] = static_cast<std::uint8_t>(std::min(sum / 96, kMostCost));
-    }
-}
-
-// What the neighbours of one kind say of a pixel at a depth.
-class KindCost {
-public:
-    void add(int cost) {
-        if (cost == kUnknown) return;
-        known_ = true;
-        outside_ |= cost == kOutside;
-        best_ = std::min(best_, cost);
-        worst_ = std::max(worst_, cost);
-    }
-    [[nodiscard]] bool known() const { return known_; }
-    [[nodiscard]] bool outside() const { return outside_; }
-    [[nodiscard]] int cost() const { return (3 * best_ + std::min(worst_, best_ + 20)) / 4; }
-
-private:
-    int best_ = kMostCost;
-    int worst_ = 0;
-    bool known_ = false;
-    bool outside_ = false;
-};
-
-int both(const KindCost& beside, const KindCost& across) {
-    if (beside.outside() || across.outside()) return kOutsideCost;
-    if (!across.known()) return beside.known() ? beside.cost() : kMostCost / 2;
-    if (!beside.known()) return across.cost();
-    return (beside.cost() + across.cost()) / 2;
+    const double at_bottom = at_top + scale * rows;
+    if (!(std::abs(at_top) < kFarthestRow && std::abs(at_bottom) < kFarthestRow)) return;
+    match_column({.own = view.columns.row(column) + box.top,
+                  .first = neighbour.columns.row(std::max(c0, 0)),
+                  .second = neighbour.columns.row(std::min(c0 + 1, neighbour.width - 1)),
+                  .part = static_cast<int>((left - c0) * 32),
+                  .rows = rows,
+                  .height = neighbour.height,
+                  .position_q16 = static_cast<std::int32_t>(std::lround(std::ldexp(at_top, 16))),
+                  .step_q16 = static_cast<std::int32_t>(std::lround(std::ldexp(scale, 16)))},
+                 costs);
 }
 
 }  // namespace
@@ -103,6 +62,7 @@ CostVolume matching_costs(const WorkView& view, const Neighbours& neighbours, co
     std::vector<const WorkView*> all = neighbours.beside;
     all.insert(all.end(), neighbours.across.begin(), neighbours.across.end());
     std::vector<std::uint8_t> costs(rows * all.size());
+    std::vector<std::uint8_t> merged(rows);
     for (int column = volume.box.left; column < volume.box.right; ++column) {
         const HorizontalRay ray = view.ray_of(column + 0.5);
         std::uint8_t* const to = volume.at(column, volume.box.top);
@@ -110,29 +70,25 @@ CostVolume matching_costs(const WorkView& view, const Neighbours& neighbours, co
             for (std::size_t n = 0; n < all.size(); ++n) {
                 compare_column(view, *all[n], ray, range.at(level), column, volume.box, costs.data() + n * rows);
             }
+            merge_matches(costs.data(), static_cast<int>(rows), static_cast<int>(neighbours.beside.size()),
+                          static_cast<int>(neighbours.across.size()), merged.data());
             for (std::size_t row = 0; row < rows; ++row) {
-                KindCost beside;
-                KindCost across;
-                for (std::size_t n = 0; n < all.size(); ++n) {
-                    (n < neighbours.beside.size() ? beside : across).add(costs[n * rows + row]);
-                }
-                to[row * levels + static_cast<std::size_t>(level)] = static_cast<std::uint8_t>(both(beside, across));
+                to[row * levels + static_cast<std::size_t>(level)] = merged[row];
             }
         }
     }
     return volume;
 }
 
-void forbid_outside(CostVolume& volume, const WorkView& view, const VisualHull& hull, const DepthRange& range) {
+void forbid_outside(CostVolume& volume, const WorkView& view, const SampledHull& hull, const DepthRange& range) {
     const ObjectBox& box = volume.box;
-    std::vector<Interval> heights;
     for (int column = box.left; column < box.right; ++column) {
         const HorizontalRay ray = view.ray_of(column + 0.5);
         std::uint8_t* const costs = volume.at(column, box.top);
         for (int level = 0; level < range.count; ++level) {
             const double depth = range.at(level);
             const double axial = ray.axial_at(depth);
-            hull.heights_above(ray.place_at(depth), heights);
+            const std::span<const Interval> heights = hull.heights_above(ray.place_at(depth));
             int row = box.top;
             const auto forbid_until = [&](int end) {
                 for (; row < end; ++row) {

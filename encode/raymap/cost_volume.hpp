@@ -1,6 +1,7 @@
 #pragma once
 // How badly the colours of neighbouring pictures disagree, for every pixel of a picture and every depth.
 
+#include "encode/raymap/column_match.hpp"
 #include "encode/raymap/depth_range.hpp"
 #include "encode/raymap/visual_hull.hpp"
 #include "encode/raymap/work_view.hpp"
@@ -37,8 +38,6 @@ struct CostVolume {
     }
 };
 
-inline constexpr int kMostCost = 60;
-
 // The pictures that one is compared with, at most two of a kind.
 struct Neighbours {
     std::vector<const WorkView*> beside;  // of its ring
@@ -52,7 +51,6 @@ struct Neighbours {
 CostVolume matching_costs(const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
 
 // Points outside of the hull cost kOutsideCost.
-void forbid_outside(CostVolume& volume, const WorkView& view, const VisualHull& hull, const DepthRange& range);
-inline constexpr int kOutsideCost = 2 * kMostCost;
+void forbid_outside(CostVolume& volume, const WorkView& view, const SampledHull& hull, const DepthRange& range);
 
 }  // namespace rs::encode

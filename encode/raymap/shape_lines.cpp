@@ -122,17 +122,16 @@ std::uint8_t nearest_inside(const std::uint8_t* inside, int depth) {
 
 // Moves surfaces that lie outside of the hull to the nearest place in it, and finds where the object ends behind them:
 // the last depth within the hull. Says of each cell with a surface whether its ray meets the hull at all.
-void heed_hull(const LineGrid& grid, const VisualHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
+void heed_hull(const LineGrid& grid, const SampledHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
                ShapeCell* cells, std::uint8_t* meets_hull) {
     if (std::all_of(cells, cells + grid.bands, [](const ShapeCell& cell) { return !cell.has_surface(); })) return;
     const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
     const HorizontalRay ray = line_ray(viewpoint, p);
     const double rho = grid.rho(p);
     std::vector<std::uint8_t> within(static_cast<std::size_t>(grid.bands * kDepths));
-    std::vector<Interval> heights;
     for (int d = 0; d < kDepths; ++d) {
         const double depth = -kHalfWidth + d * step;
-        hull.heights_above(ray.place_at(depth), heights);
+        const std::span<const Interval> heights = hull.heights_above(ray.place_at(depth));
         const double per_y = rho / (rho + depth);
         for (const Interval& i : heights) {
             const double low = (grid.height + (i.low - grid.height) * per_y - grid.h_low) * grid.bands_per_unit - 0.5;
@@ -204,7 +203,7 @@ double gap_width(const std::vector<DepthView>& ring, std::size_t n) {
     return width > 0 ? width : width + 2 * kPi;
 }
 
-ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& hull,
+ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const SampledHull& hull,
                           const ShapeLinesOptions& options) {
     ShapeMap map;
     const double count = static_cast<double>(ring.size());

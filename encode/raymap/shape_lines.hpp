@@ -32,6 +32,7 @@ struct ShapeLinesOptions {
 double gap_width(const std::vector<DepthView>& ring, std::size_t n);
 
 // `ring` in turning order. All but normal_lines is filled in.
-ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const VisualHull& hull, const ShapeLinesOptions& options);
+ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const SampledHull& hull,
+                          const ShapeLinesOptions& options);
 
 }  // namespace rs::encode

@@ -63,6 +63,8 @@ public:
         choose_hull({});
         const std::vector<const RingSearch*> beside = agreeing(rings);
         if (!beside.empty()) choose_hull(beside);
+        const WorkView& any = views_.front().view;
+        sampled_hull_ = std::make_unique<SampledHull>(*hull_, glm::length(any.centre) / any.fl_x);
         const int count = static_cast<int>(views_.size());
         const int every = std::max(1, (count + kSampleViews - 1) / kSampleViews);
         const std::size_t first_sample = samples.size();
@@ -72,7 +74,7 @@ public:
             const Neighbours neighbours{neighbours_of(n), nearest_of(beside, view.view)};
             const DepthRange range = range_of(n);
             CostVolume costs = matching_costs(view.view, neighbours, range);
-            forbid_outside(costs, view.view, *hull_, range);
+            forbid_outside(costs, view.view, *sampled_hull_, range);
             view.depth = semi_global_levels(view.view, costs, options_.smoothness);
             for (float& depth : view.depth.pixels()) depth = static_cast<float>(range.at(static_cast<double>(depth)));
             if (n % every == 0) {
@@ -86,7 +88,7 @@ public:
     [[nodiscard]] ShapeMap lines(int planes) const {
         ShapeLinesOptions options = options_.lines;
         options.silhouettes_agree = silhouettes_agree_;
-        ShapeMap shape = make_shape_lines(views_, *hull_, options);
+        ShapeMap shape = make_shape_lines(views_, *sampled_hull_, options);
         for (const int v : ring_.views) {
             for (int k = 0; k < planes; ++k) {
                 const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
@@ -230,6 +232,7 @@ private:
     const ShapeOptions& options_;
     std::vector<DepthView> views_;
     std::unique_ptr<VisualHull> hull_;
+    std::unique_ptr<SampledHull> sampled_hull_;  // a pixel of the working pictures apart
     int margin_px_ = 1;
     double overruled_share_ = 0;
     bool silhouettes_agree_ = true;

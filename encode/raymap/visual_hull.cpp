@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace rs::encode {
@@ -128,6 +129,36 @@ void VisualHull::tolerant_heights(const glm::dvec2& place, std::vector<Interval>
         if (!was_allowed && is_allowed) begin = event.height;
     }
     heights.push_back({begin, kEverywhere});
+}
+
+SampledHull::SampledHull(const VisualHull& hull, double spacing) : points_per_unit_(1 / spacing) {
+    const double reach = kDeepest * std::sqrt(2.0);
+    side_ = 2 * static_cast<int>(std::ceil(reach * points_per_unit_)) + 1;
+    rows_.resize(static_cast<std::size_t>(side_));
+    const int middle = side_ / 2;
+    tbb::parallel_for(0, side_, [&](int y) {
+        Row& row = rows_[static_cast<std::size_t>(y)];
+        row.ends.reserve(static_cast<std::size_t>(side_));
+        std::vector<Interval> heights;
+        for (int x = 0; x < side_; ++x) {
+            const glm::dvec2 place = glm::dvec2(x - middle, y - middle) * spacing;
+            heights.clear();
+            if (glm::length(place) <= reach + spacing) hull.heights_above(place, heights);
+            row.intervals.insert(row.intervals.end(), heights.begin(), heights.end());
+            row.ends.push_back(static_cast<std::uint32_t>(row.intervals.size()));
+        }
+    });
+}
+
+std::span<const Interval> SampledHull::heights_above(const glm::dvec2& place) const {
+    const auto point = [&](double along) {
+        return static_cast<std::size_t>(
+            std::clamp(static_cast<int>(std::lround(along * points_per_unit_)) + side_ / 2, 0, side_ - 1));
+    };
+    const Row& row = rows_[point(place.y)];
+    const std::size_t x = point(place.x);
+    const std::uint32_t begin = x == 0 ? 0 : row.ends[x - 1];
+    return std::span(row.intervals).subspan(begin, row.ends[x] - begin);
 }
 
 double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range) {

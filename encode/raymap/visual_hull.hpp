@@ -8,6 +8,8 @@
 #include "encode/raymap/depth_range.hpp"
 #include "encode/raymap/work_view.hpp"
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace rs::encode {
@@ -39,6 +41,26 @@ private:
 
     std::vector<Silhouette> silhouettes_;
     int tolerated_ = 0;
+};
+
+// A hull above the points of a square grid, for the many places that are asked for: a tenth of the time of asking every
+// silhouette for each. Immutable; thread-safe.
+class SampledHull {
+public:
+    // Of all places up to kDeepest along every ray that passes the axis within kDeepest, `spacing` radii apart.
+    SampledHull(const VisualHull& hull, double spacing);
+
+    // VisualHull::heights_above the point of the grid that is next to `place`.
+    [[nodiscard]] std::span<const Interval> heights_above(const glm::dvec2& place) const;
+
+private:
+    struct Row {
+        std::vector<Interval> intervals;
+        std::vector<std::uint32_t> ends;  // of each point's intervals
+    };
+    double points_per_unit_ = 1;
+    int side_ = 1;  // points
+    std::vector<Row> rows_;
 };
 
 // The share of object pixels (0..1, sampled) whose rays the hull rules out entirely: what the silhouettes contradict

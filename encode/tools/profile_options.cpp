@@ -50,6 +50,10 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
         "--size", arguments.size, "or: the best pictures that take at most so many bytes together, such as 800k or 2M");
     quality->excludes(psnr)->excludes(size);
     psnr->excludes(size);
+    command
+        .add_option("--effort", arguments.effort,
+                    "how much the dense encoder tries, 1..9: 9 takes many times as long as 1 for somewhat fewer bits")
+        ->capture_default_str();
     command.add_option(
         "--alpha-bits", arguments.alpha_bits,
         "bits of compressed pictures' alpha, 1..4; without it 2, or 1 for dense pictures of a --psnr below 31 "
@@ -65,7 +69,11 @@ Result<std::optional<PictureGoal>> goal_of(const ProfileArguments& arguments) {
         return Error{"--alpha-bits " + std::to_string(*arguments.alpha_bits) + ": must be 1.." +
                      std::to_string(codec::kMaxAlphaBits)};
     }
+    if (arguments.effort < kLeastEffort || arguments.effort > kMostEffort) {
+        return Error{"--effort " + std::to_string(arguments.effort) + ": must be 1..9"};
+    }
     PictureGoal goal;
+    goal.effort = arguments.effort;
     goal.profile = arguments.profile == "board" ? codec::Profile::kBoard : codec::Profile::kDense;
     goal.quality = arguments.quality;
     goal.psnr_db = arguments.psnr_db;

@@ -15,7 +15,8 @@ struct ProfileArguments {
     std::string profile = "dense";
     double quality = PictureGoal{}.quality;
     std::optional<double> psnr_db;
-    std::string size;               // bytes of the pictures, with k, M or G; empty: not given
+    std::string size;  // bytes of the pictures, with k, M or G; empty: not given
+    int effort = PictureGoal{}.effort;
     std::optional<int> alpha_bits;  // nothing: as suits the quality
 };
 

@@ -134,10 +134,9 @@ constexpr int band_of(int diagonal, int size) {
     return d <= 2 ? 1 : d <= 5 ? 2 : 3;
 }
 
-// The magnitude of one level that is not known to be zero; `must_be`: known not to be zero.
+// The magnitude of one level; `must_be`: known not to be zero.
 template <class Coder>
-int magnitude(Coder& coder, int kind, int size, int u, int v, int near, bool must_be, int value) {
-    const int band = band_of(u + v, size);
+int magnitude(Coder& coder, int kind, int band, int near, bool must_be, int value) {
     if (!must_be) {
         const int at = context::kNonZero + (kind * context::kBands + band) * context::kNearSums + near;
         if (coder.bit(at, value != 0 ? 1 : 0) == 0) return 0;
@@ -160,14 +159,6 @@ int magnitude(Coder& coder, int kind, int size, int u, int v, int near, bool mus
         }
     }
     return read;
-}
-
-// The same with its sign.
-template <class Coder>
-int level(Coder& coder, int kind, int size, int u, int v, int near, bool must_be, int value) {
-    const int read = magnitude(coder, kind, size, u, v, near, must_be, std::abs(value));
-    if (read == 0) return 0;
-    return coder.raw(value < 0 ? 1 : 0) != 0 ? -read : read;
 }
 
 // Of the last level that is not zero, in scan order.
@@ -197,7 +188,8 @@ void block(Coder& coder, int kind, int size, bool sign_data_hiding, Levels& leve
         const int u = scan[i] & (size - 1);
         const int v = scan[i] / size;
         const int wanted = at(i);
-        const int read = magnitude(coder, kind, size, u, v, near_sum(levels, u, v), i == last, std::abs(wanted));
+        const int read =
+            magnitude(coder, kind, band_of(u + v, size), near_sum(levels, u, v), i == last, std::abs(wanted));
         if (read != 0) {
             at(i) = static_cast<std::int16_t>(wanted < 0 ? -read : read);
             levels.used = std::max(levels.used, std::max(u, v) + 1);

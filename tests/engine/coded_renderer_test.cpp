@@ -75,7 +75,7 @@ CodedObject coded_object(Random& random, bool with_shape) {
                                          .alpha_bits = random.whole(1, 4),
                                          .tile_width_log2 = random.whole(4, 6),
                                          .tile_height_log2 = random.whole(4, 6),
-                                         .passes = 1};
+                                         .effort = encode::kLeastEffort};
     object.coded.coded = std::make_shared<const codec::CodedPictures>(encode::encode_dense(
         object.coded, [&](int view) { return waves(options.width, options.height, view, fills); }, settings));
     for (PlanarPicture& picture : object.coded.pictures) picture = {};

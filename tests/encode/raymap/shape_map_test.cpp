@@ -52,7 +52,7 @@ TEST(SemiGlobal, FindsTheDepthOfTheBalls) {
     const Neighbours neighbours{{&views[1], &views[59]}, {}};
     const DepthRange range{-1.03, 2.06 / 127, 128};
     CostVolume costs = matching_costs(views[0], neighbours, range);
-    forbid_outside(costs, views[0], VisualHull(pointers(views), 1), range);
+    forbid_outside(costs, views[0], SampledHull(VisualHull(pointers(views), 1), 0.005), range);
     const Image<float> levels = semi_global_levels(views[0], costs, {});
     // The balls' shading turns with the viewer, so colours agree where the big ball's middle is: on the axis.
     EXPECT_NEAR(range.at(static_cast<double>(levels(50, 64))), 0, 0.08);

@@ -94,11 +94,36 @@ TEST(VisualHull, AViewWithoutAnObjectSaysNothing) {
     EXPECT_EQ(a[0].low, b[0].low);
 }
 
+TEST(SampledHull, HasTheHeightsOfTheNextPointOfItsGrid) {
+    const std::vector<WorkView> views = drawn_views(drawn_ring(9));
+    constexpr double kSpacing = 0.013;
+    for (const int tolerated : {0, 2}) {
+        const VisualHull hull(pointers(views), 1, tolerated);
+        const SampledHull sampled(hull, kSpacing);
+        std::mt19937 random(4);
+        std::uniform_real_distribution<double> along(-kDeepest, kDeepest);
+        std::vector<Interval> wanted;
+        int with_some = 0;
+        for (int n = 0; n < 3000; ++n) {
+            const glm::dvec2 place(along(random), along(random));
+            hull.heights_above(kSpacing * glm::round(place / kSpacing), wanted);
+            const auto found = sampled.heights_above(place);
+            ASSERT_EQ(found.size(), wanted.size());
+            with_some += wanted.empty() ? 0 : 1;
+            for (std::size_t i = 0; i < wanted.size(); ++i) {
+                ASSERT_NEAR(found[i].low, wanted[i].low, 1e-9);
+                ASSERT_NEAR(found[i].high, wanted[i].high, 1e-9);
+            }
+        }
+        EXPECT_GT(with_some, 100);
+    }
+}
+
 // Each picture's depths are as wrong as they can be: the far end of the search. From between two pictures such points
 // stand aside of the object.
 TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(12));
-    const VisualHull hull(pointers(views), 1);
+    const SampledHull hull(VisualHull(pointers(views), 1), 0.01);
     std::vector<DepthView> found;
     for (const WorkView& view : views) {
         DepthView& one = found.emplace_back(DepthView{view, Image<float>(view.height, view.width, kNoDepth)});

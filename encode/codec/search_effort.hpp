@@ -1,0 +1,48 @@
+#pragma once
+// How much the dense encoder tries. encode/README.md has what every effort costs and gains.
+
+#include <algorithm>
+#include <array>
+
+namespace rs::encode {
+
+inline constexpr int kLeastEffort = 1;
+inline constexpr int kMostEffort = 9;
+inline constexpr int kUsualEffort = 5;
+
+// What is tried for each part.
+struct PartEffort {
+    int intra = 4;               // modes of intra prediction that are looked at closely
+    int coded = 7;               // predictions that are coded in full, of those that look best
+    int refits = 2;              // times a part with samples that do not count is coded anew
+    bool all_transforms = true;  // both sizes for each prediction; else small ones for the best prediction alone
+    bool all_splits = true;      // quarters even where the whole needs no coefficients
+    int fractions = 8;           // neighbours in halves and quarters of a sample: 8, or 4
+};
+
+struct SearchEffort {
+    PartEffort part;
+    PartEffort first_pass;  // of the pass that only finds the probabilities
+    int sampled = 1;        // the first pass takes every so many-th tile
+};
+
+constexpr SearchEffort search_effort(int effort) {
+    constexpr PartEffort kLeast{2, 1, 0, false, false, 4};
+    constexpr PartEffort kLess{2, 1, 1, false, false, 8};
+    constexpr PartEffort kUsual{2, 2, 1, false, false, 8};
+    constexpr PartEffort kMore{3, 3, 1, false, true, 8};
+    constexpr PartEffort kMuch{4, 4, 2, true, true, 8};
+    constexpr PartEffort kAll{};
+    constexpr std::array<SearchEffort, kMostEffort> kEfforts = {{{kLeast, kLeast, 8},
+                                                                 {kLeast, kLeast, 4},
+                                                                 {kLess, kLeast, 4},
+                                                                 {kLess, kLess, 4},
+                                                                 {kUsual, kLess, 4},
+                                                                 {kUsual, kUsual, 2},
+                                                                 {kMore, kUsual, 2},
+                                                                 {kMuch, kMore, 1},
+                                                                 {kAll, kAll, 1}}};
+    return kEfforts[static_cast<std::size_t>(std::clamp(effort, kLeastEffort, kMostEffort) - 1)];
+}
+
+}  // namespace rs::encode
