@@ -52,18 +52,8 @@ private:
         };
         float cost = search_.bit_cost * static_cast<float>(bits_of(vector.x - from_.x) + bits_of(vector.y - from_.y));
         if (any_ && cost >= best_.cost) return;
-        std::uint8_t mixed[kLargestBlock * kLargestBlock];
-        if (other_ != nullptr) {
-            for (int y = 0; y < search_.size; ++y) {
-                for (int x = 0; x < search_.size; ++x) {
-                    mixed[y * search_.size + x] =
-                        static_cast<std::uint8_t>((samples[y * stride + x] + other_[y * search_.size + x] + 1) >> 1);
-                }
-            }
-            samples = mixed;
-            stride = search_.size;
-        }
-        cost += static_cast<float>(absolute_differences(target_, samples, stride));
+        cost += static_cast<float>(other_ == nullptr ? absolute_differences(target_, samples, stride)
+                                                     : absolute_differences_of_mean(target_, samples, stride, other_));
         if (any_ && cost >= best_.cost) return;
         best_ = {vector, cost};
         any_ = true;
@@ -86,13 +76,15 @@ FoundMotion find_motion(const MotionSearch& search, std::span<const MotionVector
         for (const MotionVector start : starts) searcher.try_exact(start);
         searcher.try_exact(from);
     }
-    for (const MotionVector start : starts) {
+    const auto look_around = [&](MotionVector start, int reach_x, int reach_y, int step) {
         const int x = (start.x + 2) >> 2;
         const int y = (start.y + 2) >> 2;
-        for (int dy = -search.reach_y; dy <= search.reach_y; ++dy) {
-            for (int dx = -search.reach_x; dx <= search.reach_x; ++dx) searcher.try_whole(x + dx, y + dy);
+        for (int dy = -reach_y; dy <= reach_y; dy += step) {
+            for (int dx = -reach_x; dx <= reach_x; dx += step) searcher.try_whole(x + dx, y + dy);
         }
-    }
+    };
+    for (const MotionVector start : starts) look_around(start, search.reach_x, search.reach_y, search.step);
+    if (search.step > 1) look_around(searcher.best().vector, 1, 1, 1);
     if (!search.fractions) return searcher.best();
     for (const int step : {2, 1}) {
         const MotionVector centre = searcher.best().vector;

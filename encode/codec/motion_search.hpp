@@ -17,6 +17,7 @@ struct MotionSearch {
     int reach_x = 16;  // whole samples around each start
     int reach_y = 2;
     bool fractions = true;  // halves and quarters too, and what lies partly outside of the picture
+    int step = 1;           // whole samples between those that are looked at first; all neighbours of the best follow
     int neighbours = 8;     // in halves and quarters of a sample that are looked at: 8, or 4
     float bit_cost = 0;     // sum of absolute differences that a bit of a vector is worth
 };

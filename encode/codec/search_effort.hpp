@@ -17,6 +17,7 @@ struct PartEffort {
     int refits = 2;              // times a part with samples that do not count is coded anew
     bool all_transforms = true;  // both sizes for each prediction; else small ones for the best prediction alone
     bool all_splits = true;      // quarters even where the whole needs no coefficients
+    int motion_step = 1;         // MotionSearch::step
     int fractions = 8;           // neighbours in halves and quarters of a sample: 8, or 4
 };
 
@@ -27,20 +28,21 @@ struct SearchEffort {
 };
 
 constexpr SearchEffort search_effort(int effort) {
-    constexpr PartEffort kLeast{2, 1, 0, false, false, 4};
-    constexpr PartEffort kLess{2, 1, 1, false, false, 8};
-    constexpr PartEffort kUsual{2, 2, 1, false, false, 8};
-    constexpr PartEffort kMore{3, 3, 1, false, true, 8};
-    constexpr PartEffort kMuch{4, 4, 2, true, true, 8};
+    constexpr PartEffort kLeast{1, 1, 0, false, false, 2, 4};
+    constexpr PartEffort kLess{2, 1, 0, false, false, 2, 8};
+    constexpr PartEffort kSome{2, 2, 1, false, false, 2, 8};
+    constexpr PartEffort kUsual{3, 3, 1, false, false, 2, 8};
+    constexpr PartEffort kMore{4, 4, 1, false, true, 1, 8};
+    constexpr PartEffort kMuch{4, 5, 2, true, true, 1, 8};
     constexpr PartEffort kAll{};
     constexpr std::array<SearchEffort, kMostEffort> kEfforts = {{{kLeast, kLeast, 8},
-                                                                 {kLeast, kLeast, 4},
-                                                                 {kLess, kLeast, 4},
-                                                                 {kLess, kLess, 4},
+                                                                 {kLess, kLeast, 8},
+                                                                 {kSome, kLeast, 4},
+                                                                 {kSome, kLess, 4},
                                                                  {kUsual, kLess, 4},
-                                                                 {kUsual, kUsual, 2},
-                                                                 {kMore, kUsual, 2},
-                                                                 {kMuch, kMore, 1},
+                                                                 {kUsual, kSome, 2},
+                                                                 {kMore, kSome, 2},
+                                                                 {kMuch, kUsual, 1},
                                                                  {kAll, kAll, 1}}};
     return kEfforts[static_cast<std::size_t>(std::clamp(effort, kLeastEffort, kMostEffort) - 1)];
 }

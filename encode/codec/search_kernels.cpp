@@ -54,6 +54,21 @@ int absolute(const MaskedSamples& target, const std::uint8_t* samples, std::ptrd
 }
 
 template <int kSize>
+int absolute_of_mean(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride,
+                     const std::uint8_t* other) {
+    int sum = 0;
+    for (int y = 0; y < kSize; ++y) {
+        const std::uint8_t* const wanted = target.wanted + y * target.stride;
+        const std::uint8_t* const mask = target.mask + y * target.stride;
+        for (int x = 0; x < kSize; ++x) {
+            const int mean = (samples[y * stride + x] + other[y * kSize + x] + 1) >> 1;
+            sum += std::abs((wanted[x] & mask[x]) - (mean & mask[x]));
+        }
+    }
+    return sum;
+}
+
+template <int kSize>
 int squared(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     int sum = 0;
     for (int y = 0; y < kSize; ++y) {
@@ -120,6 +135,11 @@ void forward_16(const std::int16_t* residual, std::int32_t* coefficients) {
 int absolute_any(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     return target.size == 8 ? absolute<8>(target, samples, stride) : absolute<16>(target, samples, stride);
 }
+int absolute_of_mean_any(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride,
+                         const std::uint8_t* other) {
+    return target.size == 8 ? absolute_of_mean<8>(target, samples, stride, other)
+                            : absolute_of_mean<16>(target, samples, stride, other);
+}
 int squared_any(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     return target.size == 8 ? squared<8>(target, samples, stride) : squared<16>(target, samples, stride);
 }
@@ -136,6 +156,7 @@ namespace rs::encode {
 HWY_EXPORT(forward_8);
 HWY_EXPORT(forward_16);
 HWY_EXPORT(absolute_any);
+HWY_EXPORT(absolute_of_mean_any);
 HWY_EXPORT(squared_any);
 HWY_EXPORT(hadamard_any);
 
@@ -149,6 +170,11 @@ void forward_transform(const std::int16_t* residual, int size, std::int32_t* coe
 
 int absolute_differences(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     return HWY_DYNAMIC_DISPATCH(absolute_any)(target, samples, stride);
+}
+
+int absolute_differences_of_mean(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride,
+                                 const std::uint8_t* other) {
+    return HWY_DYNAMIC_DISPATCH(absolute_of_mean_any)(target, samples, stride, other);
 }
 
 int squared_differences(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {

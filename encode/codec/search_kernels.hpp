@@ -23,6 +23,10 @@ struct MaskedSamples {
 // The sum of absolute differences over the samples that count.
 int absolute_differences(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride);
 
+// The same of the means of two predictions, `other` (rows of the target's size) being the second.
+int absolute_differences_of_mean(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride,
+                                 const std::uint8_t* other);
+
 // The sum of their squares.
 int squared_differences(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride);
 

@@ -284,11 +284,13 @@ void UnitSearch::add_inter(const PredictionUnit& part, const PartChoice* around,
             const std::array<MotionVector, 2> starts = {around->motion[n], from[n]};
             search.reach_x = 3;
             search.reach_y = 1;
+            search.step = 1;
             found[n] = find_motion(search, starts, from[n]);
         } else {
             const std::array<MotionVector, 2> starts = {MotionVector{}, from[n]};
             search.reach_x = task_.reach[n];
             search.reach_y = 2;
+            search.step = task_.effort.motion_step;
             found[n] = find_motion(search, starts, from[n]);
         }
         trial.motion[n] = found[n].vector;
@@ -298,6 +300,7 @@ void UnitSearch::add_inter(const PredictionUnit& part, const PartChoice* around,
     // Both: each once more, against the other.
     search.reach_x = 1;
     search.reach_y = 1;
+    search.step = 1;
     for (const std::size_t r : {std::size_t{0}, std::size_t{1}}) {
         std::uint8_t other[kMacroblockSamples];
         codec::predict_from_picture(task_.references[1 - r][0], place.x, place.y, trial.motion[1 - r], part.size, other,

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 
 // Plain loops without branches: the compiler makes vectors of them, as long as each target has.
 HWY_BEFORE_NAMESPACE();
@@ -15,31 +16,37 @@ namespace rs::encode::HWY_NAMESPACE {
 
 constexpr int kRun = 64;  // rows that are worked on at once
 
+HWY_INLINE int channel(std::uint32_t pixel, int shift) {
+    return static_cast<int>((pixel >> shift) & 255U);
+}
+
 // Up to kRun rows from `begin` on.
 HWY_INLINE void match_run(const ColumnMatch& match, int begin, int count, std::uint8_t* costs) {
-    Rgba8 a[kRun];
-    Rgba8 b[kRun];
-    std::uint8_t in_frame[kRun];
+    // Pixels as numbers, R in the lowest byte: vectors hold them in lanes of 32 bits.
+    std::uint32_t own[kRun];
+    std::uint32_t first[kRun];
+    std::uint32_t second[kRun];
+    std::int32_t row[kRun];
+    std::memcpy(own, match.own + begin, static_cast<std::size_t>(count) * sizeof own[0]);
+    for (int n = 0; n < count; ++n) row[n] = (match.position_q16 + (begin + n) * match.step_q16) >> 16;
     for (int n = 0; n < count; ++n) {
-        const int row = (match.position_q16 + (begin + n) * match.step_q16) >> 16;
-        in_frame[n] = row >= 0 && row < match.height ? 255 : 0;
-        const int clamped = std::clamp(row, 0, match.height - 1);
-        a[n] = match.first[clamped];
-        b[n] = match.second[clamped];
+        const int clamped = std::clamp(row[n], 0, match.height - 1);
+        std::memcpy(first + n, match.first + clamped, sizeof first[0]);
+        std::memcpy(second + n, match.second + clamped, sizeof second[0]);
     }
-    const auto of_second = static_cast<std::int16_t>(match.part);
-    const auto of_first = static_cast<std::int16_t>(32 - match.part);
-    const Rgba8* const own = match.own + begin;
+    const int part = match.part;
+    const int height = match.height;
     for (int n = 0; n < count; ++n) {
-        const auto difference = [&](std::uint8_t mine, std::uint8_t one, std::uint8_t other) {
-            return std::abs(mine * 32 - one * of_first - other * of_second);
+        // Between the two columns, in 1/32.
+        const auto between = [&](int shift) {
+            const int one = channel(first[n], shift);
+            return 32 * one + part * (channel(second[n], shift) - one);
         };
-        const int sum = difference(own[n].r, a[n].r, b[n].r) + difference(own[n].g, a[n].g, b[n].g) +
-                        difference(own[n].b, a[n].b, b[n].b);
+        const auto difference = [&](int shift) { return std::abs(32 * channel(own[n], shift) - between(shift)); };
+        const int sum = difference(0) + difference(8) + difference(16);
         const int cost = std::min((sum * 43691) >> 22, kMostCost);  // sum / 96, exact up to 3 * 32 * 255
-        const bool outside = a[n].a * of_first + b[n].a * of_second < 128 * 32;
-        const int known = outside ? kOutsideMatch : cost;
-        const bool none = own[n].a == 0 || in_frame[n] == 0;
+        const int known = between(24) < 128 * 32 ? kOutsideMatch : cost;
+        const bool none = (own[n] >> 24) == 0 || row[n] < 0 || row[n] >= height;
         costs[n] = static_cast<std::uint8_t>(none ? kUnknownMatch : known);
     }
 }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kSampleViews = 4;
 constexpr double kMostContradicted = 0.01;
+constexpr double kHullSpacing_px = 0.5;  // of the working pictures
 constexpr int kOverruledMargin_px = 4;
 constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
 constexpr double kWidestBetweenRings_deg = 20;
@@ -64,7 +65,7 @@ public:
         const std::vector<const RingSearch*> beside = agreeing(rings);
         if (!beside.empty()) choose_hull(beside);
         const WorkView& any = views_.front().view;
-        sampled_hull_ = std::make_unique<SampledHull>(*hull_, glm::length(any.centre) / any.fl_x);
+        sampled_hull_ = std::make_unique<SampledHull>(*hull_, kHullSpacing_px * glm::length(any.centre) / any.fl_x);
         const int count = static_cast<int>(views_.size());
         const int every = std::max(1, (count + kSampleViews - 1) / kSampleViews);
         const std::size_t first_sample = samples.size();
@@ -232,7 +233,7 @@ private:
     const ShapeOptions& options_;
     std::vector<DepthView> views_;
     std::unique_ptr<VisualHull> hull_;
-    std::unique_ptr<SampledHull> sampled_hull_;  // a pixel of the working pictures apart
+    std::unique_ptr<SampledHull> sampled_hull_;  // kHullSpacing_px apart
     int margin_px_ = 1;
     double overruled_share_ = 0;
     bool silhouettes_agree_ = true;

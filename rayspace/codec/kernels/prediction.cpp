@@ -1,13 +1,18 @@
 #include "rayspace/codec/kernels/prediction.hpp"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rayspace/codec/kernels/prediction.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
-namespace rs::codec {
-namespace {
+// Plain loops of fixed lengths: the compiler makes vectors of them, as long as each target has.
+HWY_BEFORE_NAMESPACE();
+namespace rs::codec::HWY_NAMESPACE {
 
-constexpr int kLargest = 16;
 constexpr int kTaps = kTapsBefore + 1 + kTapsAfter;
 constexpr std::int16_t kFilter[4][kTaps] = {
     {0, 0, 0, 64, 0, 0, 0, 0},
@@ -16,7 +21,7 @@ constexpr std::int16_t kFilter[4][kTaps] = {
     {0, 1, -5, 17, 58, -10, 4, -1},
 };
 
-std::uint8_t sample_of(int value) {
+HWY_INLINE std::uint8_t sample_of(int value) {
     return static_cast<std::uint8_t>(std::clamp(value, 0, 255));
 }
 
@@ -72,6 +77,28 @@ void filter(const std::uint8_t* in, std::ptrdiff_t in_stride, int fx, int fy, st
     }
 }
 
+void filter_8(const std::uint8_t* in, std::ptrdiff_t in_stride, MotionVector vector, std::uint8_t* out,
+              std::ptrdiff_t stride) {
+    filter<8>(in, in_stride, vector.x & 3, vector.y & 3, out, stride);
+}
+void filter_16(const std::uint8_t* in, std::ptrdiff_t in_stride, MotionVector vector, std::uint8_t* out,
+               std::ptrdiff_t stride) {
+    filter<16>(in, in_stride, vector.x & 3, vector.y & 3, out, stride);
+}
+
+}  // namespace rs::codec::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rs::codec {
+namespace {
+
+constexpr int kLargest = 16;
+constexpr int kTaps = kTapsBefore + 1 + kTapsAfter;
+
+HWY_EXPORT(filter_8);
+HWY_EXPORT(filter_16);
+
 }  // namespace
 
 void predict_from_picture(ConstImageView<std::uint8_t> plane, int x, int y, MotionVector vector, int size,
@@ -94,9 +121,9 @@ void predict_from_picture(ConstImageView<std::uint8_t> plane, int x, int y, Moti
         in_stride = span;
     }
     if (size == 8) {
-        filter<8>(in, in_stride, vector.x & 3, vector.y & 3, out, stride);
+        HWY_DYNAMIC_DISPATCH(filter_8)(in, in_stride, vector, out, stride);
     } else {
-        filter<16>(in, in_stride, vector.x & 3, vector.y & 3, out, stride);
+        HWY_DYNAMIC_DISPATCH(filter_16)(in, in_stride, vector, out, stride);
     }
 }
 
@@ -173,3 +200,4 @@ void predict_from_neighbours(std::uint8_t* samples, std::ptrdiff_t stride, int s
 }
 
 }  // namespace rs::codec
+#endif  // HWY_ONCE

@@ -3,6 +3,7 @@
 #include "encode/codec/dense_encoder.hpp"
 #include "encode/codec/bool_encoder.hpp"
 #include "encode/codec/quantise.hpp"
+#include "encode/codec/search_kernels.hpp"
 #include "encode/encode_pictures.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
 #include "rayspace/codec/stream/byte_account.hpp"
