@@ -22,7 +22,7 @@ class VideoEncoder {
 public:
     virtual ~VideoEncoder() = default;
     virtual Status add(ConstImageView<Rgba8> frame) = 0;
-    // Closes the file and checks that it reads back as long as it was written.
+    // Closes the file; all of it is on the disk then.
     virtual Status finish() = 0;
 };
 

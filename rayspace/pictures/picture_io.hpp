@@ -1,5 +1,5 @@
 #pragma once
-// Pictures and video on disk, through OpenImageIO and OpenCV.
+// Pictures and video on disk, through OpenImageIO and FFmpeg.
 //
 // Those libraries take a quarter of a second to load, so their code lives in a module (librayspace_pictures.so, beside
 // the tools) that is opened at the first call of a function of this header; a tool that only prints its help never

@@ -71,8 +71,7 @@ TEST_F(SequenceTool, AVideoHasTheFramesOfItsStills) {
     for (cv::Mat decoded; video.read(decoded); ++frames) {
         const auto still = read_picture(in("stills/000" + std::to_string(frames) + ".png"));
         ASSERT_TRUE(still) << frames;
-        // Small pictures full of edges, colours at half the size, OpenCV's rate factor of 23.
-        EXPECT_GE(psnr_db(decoded, *still), 31) << frames;
+        EXPECT_GE(psnr_db(decoded, *still), 35) << frames;
     }
     EXPECT_EQ(frames, 6);
     EXPECT_EQ(view({"--sequence", in("town"), "--frame", "3", "-o", in("third.png")}).exit_code, 0);
