@@ -44,7 +44,10 @@ struct TransformTarget {
 bool code_transform(const TransformTarget& target, const QuantiserSettings& settings, const CostTable& costs,
                     int refits, codec::Levels& levels, int& last, std::uint8_t* shown) {
     const int size = target.samples.size;
-    for (int y = 0; y < size; ++y) std::copy_n(target.predicted + y * target.stride, size, shown + y * size);
+    const auto show_prediction = [&] {
+        for (int y = 0; y < size; ++y) std::copy_n(target.predicted + y * target.stride, size, shown + y * size);
+    };
+    show_prediction();
     const float step = static_cast<float>(codec::step_q4(settings.step)) / 16.0F;
     if (target.error_of(shown, size) < kNothingToCode * step * step) return false;
     std::int16_t residual[kMacroblockSamples];
@@ -59,13 +62,9 @@ bool code_transform(const TransformTarget& target, const QuantiserSettings& sett
         std::int32_t coefficients[kMacroblockSamples];
         forward_transform(residual, size, coefficients);
         levels = {};
-        if (!quantise(coefficients, settings, costs, levels, last)) {
-            for (int y = 0; y < size; ++y) std::copy_n(target.predicted + y * target.stride, size, shown + y * size);
-            return false;
-        }
-        if (round > 0) {
-            for (int y = 0; y < size; ++y) std::copy_n(target.predicted + y * target.stride, size, shown + y * size);
-        }
+        const bool any = quantise(coefficients, settings, costs, levels, last);
+        show_prediction();
+        if (!any) return false;
         codec::add_residual(levels, settings.step, size, shown, size);
         if (target.all_matter || round == refits) return true;
         for (int y = 0; y < size; ++y) {
@@ -228,8 +227,9 @@ void UnitSearch::add_intra(const PredictionUnit& part, PartChoice& trial, Candid
     const auto predict = [&](int plane, std::uint8_t* out) {
         const ImageView<std::uint8_t> scratch = task_.out[static_cast<std::size_t>(plane)];
         codec::predict_part(trial, place, plane, task_.references, scratch);
-        for (int y = 0; y < part.size; ++y)
+        for (int y = 0; y < part.size; ++y) {
             std::copy_n(scratch.row(place.y + y) + place.x, part.size, out + y * part.size);
+        }
     };
     for (int mode = 0; mode < codec::kIntraModes; ++mode) {
         trial.intra_mode = mode;
@@ -241,7 +241,7 @@ void UnitSearch::add_intra(const PredictionUnit& part, PartChoice& trial, Candid
         if (i > 0 && ranked[i].first == ranked[0].first) continue;
         trial.intra_mode = ranked[i].second;
         Candidate& candidate = candidates.add();
-        std::copy_n(predicted[trial.intra_mode], kMacroblockSamples, candidate.predicted[0]);
+        std::copy_n(predicted[trial.intra_mode], part.size * part.size, candidate.predicted[0]);
         for (const int plane : {1, 2}) predict(plane, candidate.predicted[plane]);
         weigh(part, trial, candidate);
     }
