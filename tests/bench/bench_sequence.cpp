@@ -41,6 +41,7 @@ struct Options {
     int passes = 1;
     int frames = 50;
     int samples = 4;
+    bool shadows = false;
 };
 
 double cpu_seconds() {
@@ -116,6 +117,7 @@ Result<compositor::PlayerOptions> player_options(const Options& options) {
     player.frame.width = size->width;
     player.frame.height = size->height;
     player.frame.samples = options.samples;
+    player.frame.shadows = options.shadows;
     player.passes = options.passes;
     for (const compositor::NamedMethod& named : compositor::kTracedMethods) {
         if (options.renderer == named.name) player.tracing = compositor::TracedOptions{.method = named.method};
@@ -207,14 +209,15 @@ int main(int argc, char** argv) {
     std::function<rs::Status()> run;
     CLI::App* thousand = app.add_subcommand("thousand", "1000 instances over 150,000 triangles");
     CLI::App* play = app.add_subcommand("play", "a sequence");
-    play->add_option("FOLDER", options.folder)->required();
-    play->add_option("--frames", options.frames);
-    play->add_option("--weather", options.weather);
+    play->add_option("FOLDER", options.folder, "that holds the sequence")->required();
+    play->add_option("--frames", options.frames, "that are timed")->capture_default_str();
+    play->add_option("--weather", options.weather, "as of rs-view");
     for (CLI::App* command : {thousand, play}) {
-        command->add_option("--size", options.size);
-        command->add_option("--renderer", options.renderer);
-        command->add_option("--passes", options.passes);
-        command->add_option("--samples", options.samples);
+        command->add_option("--size", options.size, "of the frames, WxH")->capture_default_str();
+        command->add_option("--renderer", options.renderer, "raster, or one of traced light")->capture_default_str();
+        command->add_option("--passes", options.passes, "of traced light")->capture_default_str();
+        command->add_option("--samples", options.samples, "per pixel, of raster")->capture_default_str();
+        command->add_flag("--shadows", options.shadows, "in raster");
     }
     thousand->callback([&] { run = [&] { return rs::bench::run_thousand(options); }; });
     play->callback([&] { run = [&] { return rs::bench::run_play(options); }; });

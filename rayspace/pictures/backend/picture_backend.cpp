@@ -3,6 +3,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/linear_light.hpp"
+#include "rayspace/pictures/backend/exr_header.hpp"
 #include "rayspace/pictures/backend/png_integrity.hpp"
 
 #include <OpenImageIO/filesystem.h>
@@ -52,6 +53,7 @@ Result<OpenedPicture> open_picture(const std::string& path, Need need) {
     if (need == Need::kWholeFile) {
         if (const Status status = check_png_integrity(path); !status) return status.error();
     }
+    if (const Status status = check_exr_header(path); !status) return status.error();
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);  // colours under alpha 0 must survive
     auto input = OIIO::ImageInput::open(path, &hints);

@@ -130,6 +130,38 @@ TEST(PictureIo, ExrKeepsStraightColour) {
     EXPECT_EQ((*bytes)(1, 2), (Rgba8{188, 255, 3, 128}));
 }
 
+// OpenEXR reserves what a header claims before it reads on.
+TEST(PictureIo, ExrHeadersThatClaimMoreThanTheFileHasAreRefused) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(write_exr(folder / "sound.exr", Image<RgbaF>(5, 4)).ok());
+    const auto sound = read_file(folder / "sound.exr", 1 << 20);
+    ASSERT_TRUE(sound.ok());
+    const std::string file(reinterpret_cast<const char*>(sound->data()), sound->size());
+    const auto number = [](std::uint32_t value) {
+        std::string bytes;
+        for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> (8 * i) & 255U);
+        return bytes;
+    };
+    // An attribute more, before all others.
+    const auto with = [&](const std::string& type, std::uint32_t size, const std::string& value) {
+        return file.substr(0, 8) + "remark" + '\0' + type + '\0' + number(size) + value + file.substr(8);
+    };
+    put_bytes(folder / "a.exr", with("string", 5, "sound"));
+    EXPECT_TRUE(read_picture_info(folder / "a.exr").ok());
+    for (const std::string& faulty :
+         {with("string", 0x70000000, "much"), with("string", 0xFFFFFFFF, "most"),
+          with("stringvector", 12, number(0x70000000) + "12345678"), with("some", 0x7FFFFFFF, ""),
+          with("preview", 12, number(8000) + number(8000) + "abcd"), file.substr(0, 60)}) {
+        put_bytes(folder / "a.exr", faulty);
+        EXPECT_THAT(read_picture(folder / "a.exr").error().message, HasSubstr("a.exr: is damaged or cut short"));
+        EXPECT_FALSE(read_picture_info(folder / "a.exr").ok());
+        EXPECT_FALSE(read_picture_linear(folder / "a.exr").ok());
+    }
+    const std::size_t window = file.find("dataWindow") + std::strlen("dataWindow_box2i_") + 4;
+    put_bytes(folder / "a.exr", file.substr(0, window + 8) + number(0x7FFFFFF0) + file.substr(window + 12));
+    EXPECT_THAT(read_picture(folder / "a.exr").error().message, HasSubstr("claims 2147483633x4 pixels"));
+}
+
 TEST(PictureIo, ChannelIsExact) {
     const TemporaryFolder folder;
     Image<float> depth(6, 3);
