@@ -11,6 +11,8 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
+#include <opencv2/core/utility.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -71,7 +73,7 @@ void leave_out_repeats(ImportReport& report) {
 }
 
 // Writes the upright pictures of all views that are not left out; what they cover together.
-Result<TurnOutline::Box> rectify(const PhotoFolder& folder, const fs::path& cut, const fs::path& output,
+Result<TurnOutline::Box> rectify(const PhotoFolder& folder, const CutPictures& cuts, const fs::path& output,
                                  const ImportReport& report, Progress* progress) {
     std::vector<std::size_t> number(folder.photos.size(), 0);  // in the set
     std::vector<bool> is_left_out(folder.photos.size(), false);
@@ -85,7 +87,7 @@ Result<TurnOutline::Box> rectify(const PhotoFolder& folder, const fs::path& cut,
     std::mutex mutex;
     const auto work = [&](std::size_t i) -> Status {
         if (is_left_out[i]) return {};
-        const Result<Image<Rgba8>> picture = read_picture(cut / cut_picture_name(i));
+        const Result<Image<Rgba8>> picture = cuts.get(i);
         if (!picture) return picture.error();
         const Image<Rgba8> upright = rectified(calibration.model, report.frame, *picture,
                                                calibration.places.empty() ? PicturePlace{} : calibration.places[i]);
@@ -96,7 +98,7 @@ Result<TurnOutline::Box> rectify(const PhotoFolder& folder, const fs::path& cut,
         outline.merge(own);
         return {};
     };
-    constexpr int kRectifyBytesPerPixel = kReadBytesPerPixel + 24;
+    constexpr int kRectifyBytesPerPixel = kReadBytesPerPixel + 40;
     if (Status status = for_each_photo(folder, kRectifyBytesPerPixel, "rectifying", progress, work); !status) {
         return status.error();
     }
@@ -132,8 +134,8 @@ Result<CalibrationRequest> calibration_request(const ImportOptions& options, con
     return request;
 }
 
-Status finish_nominal(const ImportOptions& options, const CutTurn& turn, const fs::path& cut, const fs::path& staged,
-                      ImportReport& report) {
+Status finish_nominal(const ImportOptions& options, const PhotoFolder& folder, const CutTurn& turn,
+                      const CutPictures& cuts, const fs::path& staged, ImportReport& report, Progress* progress) {
     report.notes.insert(report.notes.end(), report.nominal.notes.begin(), report.nominal.notes.end());
     const KnownInputs& known = options.known.known;
     if (known.f_px || known.pose || known.angles_rad) {
@@ -145,9 +147,14 @@ Status finish_nominal(const ImportOptions& options, const CutTurn& turn, const f
     report.views = static_cast<int>(report.source_names.size());
     report.step_deg = report.nominal.step_deg;
     report.turning = report.nominal.turning;
-    std::error_code failure;
-    fs::rename(cut / "images", staged / "images", failure);
-    if (failure) return Error{options.output.string() + ": cannot be written (" + failure.message() + ")"};
+    if (Status status = make_folder(staged / "images", options.output); !status) return status;
+    const auto write = [&](std::size_t i) -> Status {
+        const Result<Image<Rgba8>> picture = cuts.get(i);
+        return picture ? write_png(staged / cut_picture_name(i), *picture) : Status(picture.error());
+    };
+    if (Status status = for_each_photo(folder, kReadBytesPerPixel, "writing the pictures", progress, write); !status) {
+        return status;
+    }
     const Rig rig = nominal_import_rig(options, report, turn.outline.visible());
     report.fl_px = rig.views.front().camera.fl_x;
     report.distance = glm::length(rig.views.front().camera.centre());
@@ -169,7 +176,7 @@ std::vector<TurnOutline::Box> boxes_put_back(std::vector<TurnOutline::Box> boxes
 }
 
 Status finish_calibrated(const ImportOptions& options, const PhotoFolder& folder, const CutTurn& turn,
-                         const fs::path& cut, const fs::path& staged, ImportReport& report, Progress* progress) {
+                         const CutPictures& cuts, const fs::path& staged, ImportReport& report, Progress* progress) {
     const Calibration& calibration = *report.calibration.calibration;
     report.method = calibration.method;
     report.step_deg = std::abs(degrees(calibration.step_rad));
@@ -181,7 +188,7 @@ Status finish_calibrated(const ImportOptions& options, const PhotoFolder& folder
     if (!frame) return frame.error();
     report.frame = *frame;
     if (Status status = make_folder(staged / "images", options.output); !status) return status;
-    const Result<TurnOutline::Box> visible = rectify(folder, cut, staged, report, progress);
+    const Result<TurnOutline::Box> visible = rectify(folder, cuts, staged, report, progress);
     if (!visible) return visible.error();
     const Rig rig = calibrated_import_rig(report, *visible);
     report.fl_px = rig.views.front().camera.fl_x;
@@ -196,7 +203,7 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
     Result<StagedFolder> staged = StagedFolder::create(options.output);
     if (!staged) return staged.error();
     const fs::path cut = staged->temporary_path() / "cut";
-    if (Status status = make_folder(cut / "images", options.output); !status) return status.error();
+    if (Status status = make_folder(cut, options.output); !status) return status.error();
 
     ImportReport report;
     report.width = folder->width;
@@ -228,7 +235,8 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
     report.backdrop_given = options.backdrop.kind.has_value();
     survey = Survey{};  // the samples are not needed any more
 
-    Result<CutTurn> turn = cut_turn(*folder, {backdrop, options.masks}, cut, progress);
+    const CutPictures cuts(cut, folder->width, folder->height);
+    Result<CutTurn> turn = cut_turn(*folder, {backdrop, options.masks}, cuts, progress);
     if (!turn) return turn.error();
     report.min_coverage = turn->min_coverage;
     report.max_coverage = turn->max_coverage;
@@ -240,14 +248,14 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
     report.nominal = find_nominal_turn({options.degrees_per_view, options.axis_x_px, options.turning}, *folder, *turn);
     const Result<CalibrationRequest> request = calibration_request(options, report);
     if (!request) return request.error();
-    Result<PhotoCalibration> calibration = calibrate_photos(*folder, cut, *request, progress);
+    Result<PhotoCalibration> calibration = calibrate_photos(*folder, cuts, *request, progress);
     if (!calibration) return calibration.error();
     report.calibration = std::move(*calibration);
     report.notes.insert(report.notes.end(), report.calibration.notes.begin(), report.calibration.notes.end());
 
     Status finished = report.calibration.calibration
-                          ? finish_calibrated(options, *folder, *turn, cut, staged->temporary_path(), report, progress)
-                          : finish_nominal(options, *turn, cut, staged->temporary_path(), report);
+                          ? finish_calibrated(options, *folder, *turn, cuts, staged->temporary_path(), report, progress)
+                          : finish_nominal(options, *folder, *turn, cuts, staged->temporary_path(), report, progress);
     if (!finished) return finished.error();
     report.small_cut_outs = std::move(turn->small);
     std::error_code failure;
@@ -265,6 +273,8 @@ std::string to_string(Turning turning) {
 
 Result<ImportReport> import_photos(const ImportOptions& options, Progress* progress) {
     if (Status status = check(options); !status) return status.error();
+    // Many pictures are worked on at a time; OpenCV's own threads would only wait for each other on the same cores.
+    cv::setNumThreads(1);
     try {
         return import_checked(options, progress);
     } catch (const std::bad_alloc&) {

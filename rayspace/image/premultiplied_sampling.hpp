@@ -11,4 +11,17 @@ namespace rs {
 // zeros where nothing is covered. Any finite position within +-2^30. Thread-safe.
 Rgba8 sample_premultiplied(ConstImageView<Rgba8> picture, double x, double y);
 
+// A picture made ready to be sampled at most of its pixels: the same values to the bit, in a quarter of the time. Takes
+// 16 bytes per pixel of the box around what is covered.
+class PremultipliedPicture {
+public:
+    explicit PremultipliedPicture(ConstImageView<Rgba8> picture);
+    // As sample_premultiplied(). Thread-safe.
+    [[nodiscard]] Rgba8 sample(double x, double y) const;
+
+private:
+    int left_ = 0, top_ = 0;  // of pixels_ in the picture
+    Image<RgbaF> pixels_;     // linear light times alpha, and alpha
+};
+
 }  // namespace rs

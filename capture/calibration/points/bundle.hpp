@@ -6,6 +6,7 @@
 // Fitzgibbon, Cross and Zisserman, "Automatic 3D model construction for turn-table sequences" (1998), who first solved
 // this geometry. The gauge is fixed by the model itself (camera at (0, 0, 1)) and by angle 0 of the first view.
 
+#include "capture/calibration/model/turn_projection.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
 #include "capture/calibration/points/tracks.hpp"
 
@@ -43,6 +44,7 @@ struct BundleOptions {
     BundleFreedom free;
     double loss_px = 1;  // Cauchy: weighted residuals of this length count half
     int most_iterations = 50;
+    double enough = 1e-7;  // of the cost: a round that changes it by less is the last
 };
 
 // What lenses are like, told to the adjustment as weak observations so that what the pictures do not show stays at its
@@ -67,6 +69,7 @@ std::optional<glm::dvec2> projected(const TurntableModel& model, const glm::dvec
 
 // Residual vector of one observation, px; nothing where the point is not before the camera.
 std::optional<glm::dvec2> residual(const TurntableModel& model, const glm::dvec3& point, const Observation& seen);
+std::optional<glm::dvec2> residual(const TurnProjection& turn, const glm::dvec3& point, const Observation& seen);
 
 // Improves model and points in place. The value is the mean robust cost per observation in px^2 (loss_px^2 log(1 + r^2
 // / loss_px^2)); nothing where Ceres cannot evaluate the start. Deterministic; uses one thread, so several bundles may

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -19,6 +20,23 @@ cv::Mat wrapped(const Image<std::uint8_t>& picture) {
     const auto view = picture.view();
     return {view.height(), view.width(), CV_8U, const_cast<std::uint8_t*>(view.row_span(0).data()),
             static_cast<std::size_t>(view.stride())};
+}
+
+// RootSIFT (Arandjelovic and Zisserman, 2012).
+Descriptors root_sift(const cv::Mat1f& sift) {
+    Descriptors roots;
+    roots.reserve(static_cast<std::size_t>(sift.rows) * kDescriptorNumbers);
+    for (int row = 0; row < sift.rows; ++row) {
+        const float* const numbers = sift[row];
+        double sum = 0;
+        for (int k = 0; k < sift.cols; ++k) sum += static_cast<double>(std::abs(numbers[k]));
+        const double scale = 1 / std::max(sum, 1e-9);
+        for (int k = 0; k < sift.cols; ++k) {
+            const double root = std::sqrt(std::max(0.0, static_cast<double>(numbers[k]) * scale));
+            roots.push_back(static_cast<std::int16_t>(std::lround(kDescriptorUnit * root)));
+        }
+    }
+    return roots;
 }
 
 ViewFeatures features_of(const CalibrationPicture& picture, const FollowOptions& options) {
@@ -37,15 +55,11 @@ ViewFeatures features_of(const CalibrationPicture& picture, const FollowOptions&
 
     // A place with two directions is two features there; keep the order OpenCV gives, which is deterministic.
     ViewFeatures features;
-    features.descriptors = descriptors;
     for (const cv::KeyPoint& point : points) {
         features.positions.emplace_back(static_cast<double>(point.pt.x) + 0.5, static_cast<double>(point.pt.y) + 0.5);
     }
-    for (int row = 0; row < descriptors.rows; ++row) {  // RootSIFT (Arandjelovic and Zisserman, 2012)
-        cv::Mat line = features.descriptors.row(row);
-        line /= std::max(cv::norm(line, cv::NORM_L1), 1e-9);
-        cv::sqrt(line, line);
-    }
+    features.descriptors = root_sift(descriptors);
+    features.packed = PackedDescriptors(features.descriptors);
     return features;
 }
 
@@ -90,39 +104,140 @@ std::vector<ViewFeatures> find_features(std::span<const CalibrationPicture> turn
     return views;
 }
 
-std::vector<FeatureMatch> alike(const ViewFeatures& first, const ViewFeatures& second, double ratio,
-                                const MayMatch& may_match) {
+namespace {
+
+// Of the likeness `product`, in descriptors' units.
+double distance_of(std::int32_t product) {
+    constexpr double kSame = static_cast<double>(kDescriptorUnit) * kDescriptorUnit;
+    return std::sqrt(std::max(0.0, 2.0 - 2.0 * static_cast<double>(product) / kSame));
+}
+
+// The second best lies elsewhere: one corner often has several features, of two directions or scales.
+constexpr double kElsewhere_px = 2;
+
+bool elsewhere(const ViewFeatures& view, std::size_t a, std::size_t b) {
+    return glm::distance(view.positions[a], view.positions[b]) > kElsewhere_px;
+}
+
+// Of each feature of a pair's second view: the feature of the first that is most alike.
+class BestOfSecond {
+public:
+    explicit BestOfSecond(std::size_t count) : product_(count, 0), feature_(count, -1) {}
+    void offer(std::size_t second, int first, std::int32_t product) {
+        if (product <= product_[second]) return;
+        product_[second] = product;
+        feature_[second] = first;
+    }
+    [[nodiscard]] bool is(std::size_t second, int first) const { return feature_[second] == first; }
+
+private:
+    std::vector<std::int32_t> product_;
+    std::vector<int> feature_;
+};
+
+// The two best of one feature of the first view.
+struct TwoBest {
+    std::size_t best = 0;
+    std::int32_t product = 0;  // 0: there is none
+    std::int32_t next = 0;
+};
+
+std::vector<FeatureMatch> mutual(const std::vector<TwoBest>& of_first, const BestOfSecond& of_second, double ratio) {
     std::vector<FeatureMatch> matches;
-    if (first.descriptors.rows < 2 || second.descriptors.rows < 2) return matches;
-    cv::Mat products = first.descriptors * second.descriptors.t();  // unit vectors: distance^2 = 2 - 2 * product
-    const auto position = [](const ViewFeatures& view, int i) { return view.positions[static_cast<std::size_t>(i)]; };
-    std::vector<int> best_of_second(static_cast<std::size_t>(products.cols), -1);
-    std::vector<float> product_of_second(static_cast<std::size_t>(products.cols), 0.0F);
-    for (int i = 0; i < products.rows; ++i) {
-        float* row = products.ptr<float>(i);
-        for (int j = 0; j < products.cols; ++j) {
-            if (may_match && !may_match(position(first, i), position(second, j))) {
-                row[j] = -1;
-            } else if (row[j] > product_of_second[static_cast<std::size_t>(j)]) {
-                product_of_second[static_cast<std::size_t>(j)] = row[j];
-                best_of_second[static_cast<std::size_t>(j)] = i;
+    for (std::size_t i = 0; i < of_first.size(); ++i) {
+        const TwoBest& two = of_first[i];
+        if (two.product <= 0 || !of_second.is(two.best, static_cast<int>(i))) continue;
+        if (!(distance_of(two.product) < ratio * distance_of(two.next))) continue;
+        matches.push_back({static_cast<int>(i), static_cast<int>(two.best), static_cast<float>(two.product)});
+    }
+    return matches;
+}
+
+}  // namespace
+
+double Segment::distance(const glm::dvec2& p) const {
+    const glm::dvec2 along = to - from;
+    const double t = std::clamp(glm::dot(p - from, along) / std::max(1e-12, glm::dot(along, along)), 0.0, 1.0);
+    return glm::distance(p, from + t * along);
+}
+
+std::vector<FeatureMatch> alike(const ViewFeatures& first, const ViewFeatures& second, double ratio) {
+    const std::size_t rows = first.positions.size(), columns = second.positions.size();
+    if (rows < 2 || columns < 2) return {};
+    const std::size_t stride = second.packed.stride();
+    std::vector<std::int32_t> products(4 * stride);
+    std::vector<TwoBest> of_first(rows);
+    BestOfSecond of_second(columns);
+    for (std::size_t i = 0; i < rows; i += 4) {
+        const std::size_t count = std::min<std::size_t>(4, rows - i);
+        const auto descriptors = std::span(first.descriptors).subspan(i * kDescriptorNumbers);
+        if (count == 4) {
+            four_descriptor_products(descriptors.first(4 * kDescriptorNumbers), second.packed, products);
+        } else {
+            for (std::size_t r = 0; r < count; ++r) {
+                descriptor_products(descriptors.subspan(r * kDescriptorNumbers, kDescriptorNumbers), second.packed,
+                                    std::span(products).subspan(r * stride, stride));
+            }
+        }
+        for (std::size_t r = 0; r < count; ++r) {
+            const std::int32_t* const row = products.data() + r * stride;
+            TwoBest& two = of_first[i + r];
+            for (std::size_t j = 0; j < columns; ++j) {
+                of_second.offer(j, static_cast<int>(i + r), row[j]);
+                if (row[j] > two.product) {
+                    two.product = row[j];
+                    two.best = j;
+                }
+            }
+            for (std::size_t j = 0; j < columns; ++j) {
+                if (row[j] > two.next && elsewhere(second, j, two.best)) two.next = row[j];
             }
         }
     }
-    for (int i = 0; i < products.rows; ++i) {
-        const float* row = products.ptr<float>(i);
-        const auto best = static_cast<int>(std::max_element(row, row + products.cols) - row);
-        if (row[best] <= 0 || best_of_second[static_cast<std::size_t>(best)] != i) continue;
-        // The second best lies elsewhere: one corner often has several features, of two directions or scales.
-        float next = 0;
-        for (int j = 0; j < products.cols; ++j) {
-            if (row[j] > next && glm::distance(position(second, j), position(second, best)) > 2) next = row[j];
+    return mutual(of_first, of_second, ratio);
+}
+
+std::vector<FeatureMatch> alike_near(const ViewFeatures& first, const ViewFeatures& second, double ratio,
+                                     const MayAppear& may_appear, double band_px) {
+    const std::size_t rows = first.positions.size(), columns = second.positions.size();
+    if (rows < 2 || columns < 2) return {};
+    // From left to right, so that few are looked at.
+    std::vector<std::size_t> order(columns);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return second.positions[a].x < second.positions[b].x; });
+    const auto descriptor = [](const ViewFeatures& view, std::size_t i) {
+        return std::span(view.descriptors).subspan(i * kDescriptorNumbers, kDescriptorNumbers);
+    };
+    std::vector<TwoBest> of_first(rows);
+    BestOfSecond of_second(columns);
+    std::vector<std::pair<std::size_t, std::int32_t>> near;  // feature of the second view, product
+    for (std::size_t i = 0; i < rows; ++i) {
+        const auto where = may_appear(first.positions[i]);
+        if (!where) continue;
+        near.clear();
+        const double left = std::min(where->from.x, where->to.x) - band_px;
+        const double right = std::max(where->from.x, where->to.x) + band_px;
+        auto at = std::lower_bound(order.begin(), order.end(), left,
+                                   [&](std::size_t j, double x) { return second.positions[j].x < x; });
+        for (; at != order.end() && second.positions[*at].x <= right; ++at) {
+            if (where->distance(second.positions[*at]) > band_px) continue;
+            near.emplace_back(*at, descriptor_product(descriptor(first, i), descriptor(second, *at)));
         }
-        const double nearest = std::sqrt(std::max(0.0, 2.0 - 2.0 * static_cast<double>(row[best])));
-        if (nearest < ratio * std::sqrt(std::max(0.0, 2.0 - 2.0 * static_cast<double>(next))))
-            matches.push_back({i, best, row[best]});
+        std::sort(near.begin(), near.end());
+        TwoBest& two = of_first[i];
+        for (const auto& [j, product] : near) {
+            of_second.offer(j, static_cast<int>(i), product);
+            if (product > two.product) {
+                two.product = product;
+                two.best = j;
+            }
+        }
+        for (const auto& [j, product] : near) {
+            if (product > two.next && elsewhere(second, j, two.best)) two.next = product;
+        }
     }
-    return matches;
+    return mutual(of_first, of_second, ratio);
 }
 
 std::vector<Track> chained(std::span<const ViewFeatures> views, std::span<const PairOfViews> pairs,

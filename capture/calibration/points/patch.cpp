@@ -1,5 +1,7 @@
 #include "capture/calibration/points/patch.hpp"
 
+#include "capture/calibration/points/patch_equations.hpp"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -8,8 +10,6 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kHalfSide_px = kPatchHalf_px;
-constexpr std::size_t kSamples = kPatchSamples;
 constexpr double kLeastCorrelation = 0.85;
 constexpr double kFarthestMove_px = 3;      // from where the bundle expects the point
 constexpr double kLeastContrast = 3;        // of a levelled patch's grey values; below, there is nothing to align
@@ -17,56 +17,25 @@ constexpr double kSharpDeviation_px = 0.1;  // an alignment surer than this in a
 constexpr double kTypicalNoise = 4;         // grey values squared
 constexpr double kWindowDeviation_px = 3;
 constexpr int kMostIterations = 10;
+constexpr double kFewestSamples = 40;
 
-constexpr std::size_t kFewestSamples = 40;
+double offset_px(std::size_t at) {
+    return static_cast<double>(at) - kPatchHalf_px;
+}
 
 // The surface is not the plane that an affine warp is right for, and its curvature moves what is found by the mean
 // square of the window's width: so the window falls off gently, and is narrow.
-const std::array<double, kSamples> kWindow = [] {
-    std::array<double, kSamples> window{};
-    for (std::size_t n = 0; n < kSamples; ++n) {
-        const std::size_t column = n % kPatchSide_px, row = n / kPatchSide_px;
-        const double i = static_cast<double>(column) - kHalfSide_px;
-        const double j = static_cast<double>(row) - kHalfSide_px;
-        window[n] = std::exp(-0.5 * (i * i + j * j) / (kWindowDeviation_px * kWindowDeviation_px));
+const std::array<PatchRow, kPatchSide_px> kWindow = [] {
+    std::array<PatchRow, kPatchSide_px> window{};
+    for (std::size_t row = 0; row < kPatchSide_px; ++row) {
+        for (std::size_t c = 0; c < kPatchSide_px; ++c) {
+            const double i = offset_px(c), j = offset_px(row);
+            window[row][c] =
+                static_cast<float>(std::exp(-0.5 * (i * i + j * j) / (kWindowDeviation_px * kWindowDeviation_px)));
+        }
     }
     return window;
 }();
-
-// Bilinear; (x, y) in px with centres at +0.5, at least one pixel inside.
-float sample(const Image<float>& picture, double x, double y) {
-    const int left = static_cast<int>(std::floor(x - 0.5));
-    const int top = static_cast<int>(std::floor(y - 0.5));
-    const auto u = static_cast<float>(x - 0.5 - left);
-    const auto v = static_cast<float>(y - 0.5 - top);
-    const float upper = picture(left, top) * (1 - u) + picture(left + 1, top) * u;
-    const float lower = picture(left, top + 1) * (1 - u) + picture(left + 1, top + 1) * u;
-    return upper * (1 - v) + lower * v;
-}
-
-bool is_inside(const Image<std::uint8_t>& alpha, double x, double y) {
-    const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
-    return column >= 2 && row >= 2 && column < alpha.width() - 2 && row < alpha.height() - 2 &&
-           alpha(column, row) > 250;
-}
-
-// The middle lies on the object; samples beside it do not count.
-bool centre_is_inside(const Warp& warp, const Image<std::uint8_t>& alpha) {
-    return is_inside(alpha, warp.centre.x, warp.centre.y);
-}
-
-Patch cut(const Image<float>& picture, const Image<std::uint8_t>& alpha, const Warp& warp) {
-    Patch patch;
-    std::size_t n = 0;
-    for (int j = -kHalfSide_px; j <= kHalfSide_px; ++j) {
-        for (int i = -kHalfSide_px; i <= kHalfSide_px; ++i, ++n) {
-            const glm::dvec2 p = warp.at(i, j);
-            patch.counts[n] = is_inside(alpha, p.x, p.y);
-            patch.value[n] = patch.counts[n] ? sample(picture, p.x, p.y) : 0.0F;
-        }
-    }
-    return patch;
-}
 
 // Takes the plane that fits a patch's values best away from them: light changes slowly over a patch as the object
 // turns, and what changes with the light is no texture.
@@ -74,10 +43,11 @@ void level(Patch& patch) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
     const auto each = [&](auto&& visit) {
-        std::size_t n = 0;
-        for (int j = -kHalfSide_px; j <= kHalfSide_px; ++j) {
-            for (int i = -kHalfSide_px; i <= kHalfSide_px; ++i, ++n) {
-                if (patch.counts[n]) visit(Eigen::Vector3d(1, i, j), patch.value[n]);
+        for (std::size_t row = 0; row < kPatchSide_px; ++row) {
+            for (std::size_t c = 0; c < kPatchSide_px; ++c) {
+                if (patch.counts[row][c] > 0) {
+                    visit(Eigen::Vector3d(1, offset_px(c), offset_px(row)), patch.value[row][c]);
+                }
             }
         }
     };
@@ -89,78 +59,72 @@ void level(Patch& patch) {
     each([&](const Eigen::Vector3d& at, float& value) { value -= static_cast<float>(plane.dot(at)); });
 }
 
-std::size_t samples(const Patch& patch) {
-    return static_cast<std::size_t>(std::count(patch.counts.begin(), patch.counts.end(), true));
+double samples(const Patch& patch) {
+    double count = 0;
+    for (const PatchRow& row : patch.counts) {
+        for (const float counts : row) count += static_cast<double>(counts);
+    }
+    return count;
 }
 
 // Root mean square of a levelled patch.
 double contrast(const Patch& patch) {
     double squares = 0;
-    for (const float value : patch.value) squares += static_cast<double>(value) * static_cast<double>(value);
-    return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, samples(patch))));
+    for (const PatchRow& row : patch.value) {
+        for (const float value : row) squares += static_cast<double>(value) * static_cast<double>(value);
+    }
+    return std::sqrt(squares / std::max(1.0, samples(patch)));
 }
 
 // One round of alignment: what the picture shows there is gain * patch + a plane, and the warp is off by `step`.
+// Of 13 unknowns, or 10 where curvature is known.
+template <int kUnknowns>
 struct Round {
-    Eigen::Matrix<double, 6, 1> step;    // centre x, y; matrix row by row
-    Eigen::Matrix2d centre_information;  // of the centre, in 1/px^2, everything else being unknown
-    glm::dvec3 curvature_step{0.0};      // 1/px
-    glm::dvec3 curvature_information{0.0};
+    using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+    Eigen::LDLT<Matrix> solver;
+    Eigen::Matrix<double, kUnknowns, 1> solution;
+    double noise = 0;
     double correlation = 0;  // of texture and what is explained by it
 };
 
-std::optional<Round> align_once(const Image<float>& picture, const Image<std::uint8_t>& alpha, const Patch& patch,
-                                const Warp& warp, bool curvature_is_known) {
-    constexpr int kUnknowns = 13;  // warp 6, gain, plane 3, curvature 3
-    Eigen::Matrix<double, kUnknowns, kUnknowns> normal = Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
-    Eigen::Matrix<double, kUnknowns, 1> right_side = Eigen::Matrix<double, kUnknowns, 1>::Zero();
-    const Patch seen = cut(picture, alpha, warp);
-    double squares = 0, texture = 0, weights = 0;
-    std::size_t count = 0;
-    std::size_t n = 0;
-    for (int j = -kHalfSide_px; j <= kHalfSide_px; ++j) {
-        for (int i = -kHalfSide_px; i <= kHalfSide_px; ++i, ++n) {
-            if (!seen.counts[n] || !patch.counts[n]) continue;
-            const glm::dvec2 p = warp.at(i, j);
-            const double sx = 0.5 * static_cast<double>(sample(picture, p.x + 1, p.y) - sample(picture, p.x - 1, p.y));
-            const double sy = 0.5 * static_cast<double>(sample(picture, p.x, p.y + 1) - sample(picture, p.x, p.y - 1));
-            const auto wanted = static_cast<double>(patch.value[n]);
-            const auto value = static_cast<double>(seen.value[n]);
-            Eigen::Matrix<double, kUnknowns, 1> slope;
-            const double when_deeper = sx * warp.deeper.x + sy * warp.deeper.y;
-            slope << -sx, -sy, -sx * i, -sx * j, -sy * i, -sy * j, wanted, 1, i, j, -0.5 * when_deeper * i * i,
-                -0.5 * when_deeper * j * j, -when_deeper * i * j;
-            const double weight = kWindow[n];
-            normal.noalias() += slope * (weight * slope).transpose();
-            right_side += (weight * value) * slope;
-            squares += weight * value * value;
-            texture += weight * wanted * wanted;
-            weights += weight;
-            ++count;
+// Surfaces are rarely more curved than the object's outline.
+constexpr double kCurvaturePrior = kTypicalNoise / (kTypicalCurvature * kTypicalCurvature);
+
+template <int kUnknowns>
+std::optional<Round<kUnknowns>> align_once(const PatchPicture& picture, const Patch& patch, const Warp& warp) {
+    PatchSums sums(kUnknowns == kFlatPatchUnknowns);
+    double count = 0;
+    // What is seen in the middle, roughly.
+    const SeenRow middle = picture.row(warp, 0);
+    const float less = middle.value[kPatchHalf_px];
+    for (std::size_t row = 0; row < kPatchSide_px; ++row) {
+        const int j = static_cast<int>(row) - kPatchHalf_px;
+        const SeenRow seen = j == 0 ? middle : picture.row(warp, j);
+        PatchRow weight;
+        float counts = 0;
+        for (std::size_t c = 0; c < kPatchColumns; ++c) {
+            const float both = seen.counts[c] * patch.counts[row][c];
+            weight[c] = kWindow[row][c] * both;
+            counts += both;
         }
+        count += static_cast<double>(counts);
+        sums.add(j, seen, patch.value[row], weight, less);
     }
     if (count < kFewestSamples) return std::nullopt;
-    // Held at what is known, or near nothing known: surfaces are rarely more curved than the object's outline.
-    const double prior = curvature_is_known ? 1e12 : kTypicalNoise / (kTypicalCurvature * kTypicalCurvature);
-    for (int k = 10; k < kUnknowns; ++k) normal(k, k) += prior;
-    const Eigen::LDLT<Eigen::Matrix<double, kUnknowns, kUnknowns>> solver(normal);
-    if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 1e-9)) return std::nullopt;
-    const Eigen::Matrix<double, kUnknowns, 1> solution = solver.solve(right_side);
-    if (!solution.allFinite()) return std::nullopt;
-    const double gain = solution[6];
+    const PatchEquations equations = sums.equations(warp.deeper);
+    typename Round<kUnknowns>::Matrix normal = equations.normal.template topLeftCorner<kUnknowns, kUnknowns>();
+    for (int k = kFlatPatchUnknowns; k < kUnknowns; ++k) normal(k, k) += kCurvaturePrior;
+    Round<kUnknowns> round;
+    round.solver.compute(normal);
+    if (round.solver.info() != Eigen::Success || !(round.solver.vectorD().minCoeff() > 1e-9)) return std::nullopt;
+    const Eigen::Matrix<double, kUnknowns, 1> right_side = equations.right_side.template head<kUnknowns>();
+    round.solution = round.solver.solve(right_side);
+    if (!round.solution.allFinite()) return std::nullopt;
+    const double gain = 1 + round.solution[6];
     if (!(gain > 0.3 && gain < 3)) return std::nullopt;
-    const double noise = std::max(0.05, (squares - solution.dot(right_side)) / weights);
-    const double signal = gain * gain * texture / weights;
-    Round round;
-    round.step = solution.head<6>();
-    const Eigen::Matrix<double, kUnknowns, kUnknowns> covariance =
-        solver.solve(Eigen::Matrix<double, kUnknowns, kUnknowns>::Identity());
-    round.centre_information = covariance.topLeftCorner<2, 2>().inverse() / noise;
-    for (int k = 0; k < 3; ++k) {
-        round.curvature_step[k] = solution[10 + k];
-        round.curvature_information[k] = std::max(0.0, 1 / covariance(10 + k, 10 + k) - prior) / noise;
-    }
-    round.correlation = std::sqrt(signal / (signal + noise));
+    round.noise = std::max(0.05, (equations.squares - round.solution.dot(right_side)) / equations.weights);
+    const double signal = gain * gain * equations.texture / equations.weights;
+    round.correlation = std::sqrt(signal / (signal + round.noise));
     return round;
 }
 
@@ -173,70 +137,66 @@ glm::dmat2 whitening(const Eigen::Matrix2d& information) {
     return {w(0, 0), w(1, 0), w(0, 1), w(1, 1)};
 }
 
-}  // namespace
+template <int kUnknowns>
+std::optional<Alignment> aligned(const PatchPicture& picture, const Patch& patch, Warp warp) {
+    const Warp start = warp;
+    constexpr double kEnough_px = kUnknowns == kFlatPatchUnknowns ? 0.003 : 0.02;
+    std::optional<Round<kUnknowns>> round;
+    glm::dvec3 curvature(0.0);  // beside what the warp began with
+    for (int k = 0; k < kMostIterations; ++k) {
+        // The middle lies on the object; samples beside it do not count.
+        if (!picture.is_solid(warp.centre)) return std::nullopt;
+        round = align_once<kUnknowns>(picture, patch, warp);
+        if (!round) return std::nullopt;
+        const auto& step = round->solution;
+        warp.centre += glm::dvec2(step[0], step[1]);
+        warp.matrix += glm::dmat2(step[2], step[4], step[3], step[5]);  // columns
+        for (int n = kFlatPatchUnknowns; n < kUnknowns; ++n) {
+            curvature[n - kFlatPatchUnknowns] += step[n];
+            warp.bent[static_cast<std::size_t>(n - kFlatPatchUnknowns)] += warp.deeper * step[n];
+        }
+        if (glm::distance(warp.centre, start.centre) > 2 * kFarthestMove_px) return std::nullopt;
+        if (step.template head<2>().norm() < kEnough_px &&
+            step.template segment<4>(2).norm() * kPatchHalf_px < 3 * kEnough_px) {
+            break;
+        }
+    }
+    if (round->correlation < kLeastCorrelation || !picture.is_solid(warp.centre)) return std::nullopt;
+    if (glm::distance(warp.centre, start.centre) > kFarthestMove_px) return std::nullopt;
+    const glm::dmat2 change = warp.matrix - start.matrix;
+    if (std::max(glm::length(change[0]), glm::length(change[1])) > 0.5) return std::nullopt;
 
-Image<float> smoothed(const Image<std::uint8_t>& grey) {
-    constexpr std::array<float, 5> kKernel{0.03F, 0.235F, 0.47F, 0.235F, 0.03F};
-    const int width = grey.width(), height = grey.height();
-    Image<float> across(width, height), result(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            float sum = 0;
-            for (int k = -2; k <= 2; ++k) {
-                sum += kKernel[static_cast<std::size_t>(k + 2)] *
-                       static_cast<float>(grey(std::clamp(x + k, 0, width - 1), y));
-            }
-            across(x, y) = sum;
-        }
+    const typename Round<kUnknowns>::Matrix covariance = round->solver.solve(Round<kUnknowns>::Matrix::Identity());
+    const Eigen::Matrix2d of_centre = covariance.template topLeftCorner<2, 2>().inverse() / round->noise;
+    Alignment alignment{{0, warp.centre, whitening(of_centre)}, warp.matrix, curvature, {}};
+    for (int n = kFlatPatchUnknowns; n < kUnknowns; ++n) {
+        alignment.curvature_information[n - kFlatPatchUnknowns] =
+            std::max(0.0, 1 / covariance(n, n) - kCurvaturePrior) / round->noise;
     }
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            float sum = 0;
-            for (int k = -2; k <= 2; ++k) {
-                sum += kKernel[static_cast<std::size_t>(k + 2)] * across(x, std::clamp(y + k, 0, height - 1));
-            }
-            result(x, y) = sum;
-        }
-    }
-    return result;
+    return alignment;
 }
 
-std::optional<Patch> textured_patch(const Image<float>& picture, const Image<std::uint8_t>& alpha, glm::dvec2 centre) {
+}  // namespace
+
+std::optional<Patch> textured_patch(const PatchPicture& picture, glm::dvec2 centre) {
     Warp warp;
     warp.centre = centre;
-    Patch patch = cut(picture, alpha, warp);
+    Patch patch;
+    for (std::size_t row = 0; row < kPatchSide_px; ++row) {
+        const SeenRow seen = picture.row(warp, static_cast<int>(row) - kPatchHalf_px);
+        patch.value[row] = seen.value;
+        patch.counts[row] = seen.counts;
+    }
     if (samples(patch) < kFewestSamples) return std::nullopt;
     level(patch);
     if (contrast(patch) < kLeastContrast) return std::nullopt;
     return patch;
 }
 
-std::optional<Alignment> align(const Image<float>& picture, const Image<std::uint8_t>& alpha, const Patch& patch,
-                               Warp warp, bool curvature_is_known) {
-    const Warp start = warp;
-    std::optional<Round> round;
-    glm::dvec3 curvature(0.0);  // beside what the warp began with
-    for (int k = 0; k < kMostIterations; ++k) {
-        if (!centre_is_inside(warp, alpha)) return std::nullopt;
-        round = align_once(picture, alpha, patch, warp, curvature_is_known);
-        if (!round) return std::nullopt;
-        const auto& step = round->step;
-        warp.centre += glm::dvec2(step[0], step[1]);
-        warp.matrix += glm::dmat2(step[2], step[4], step[3], step[5]);  // columns
-        for (int n = 0; n < 3; ++n) {
-            curvature[n] += round->curvature_step[n];
-            warp.bent[static_cast<std::size_t>(n)] += warp.deeper * round->curvature_step[n];
-        }
-        if (glm::distance(warp.centre, start.centre) > 2 * kFarthestMove_px) return std::nullopt;
-        const double enough = curvature_is_known ? 0.003 : 0.02;  // px
-        if (step.head<2>().norm() < enough && step.tail<4>().norm() * kHalfSide_px < 3 * enough) break;
-    }
-    if (round->correlation < kLeastCorrelation || !centre_is_inside(warp, alpha)) return std::nullopt;
-    if (glm::distance(warp.centre, start.centre) > kFarthestMove_px) return std::nullopt;
-    const glm::dmat2 change = warp.matrix - start.matrix;
-    if (std::max(glm::length(change[0]), glm::length(change[1])) > 0.5) return std::nullopt;
-    return Alignment{
-        {0, warp.centre, whitening(round->centre_information)}, warp.matrix, curvature, round->curvature_information};
+std::optional<Alignment> align(const PatchPicture& picture, const Patch& patch, const Warp& warp,
+                               bool curvature_is_known) {
+    return curvature_is_known ? aligned<kFlatPatchUnknowns>(picture, patch, warp)
+                              : aligned<kPatchUnknowns>(picture, patch, warp);
 }
 
 }  // namespace rs::capture

@@ -53,8 +53,8 @@ std::optional<Facet> facet_of(const Bundle& bundle, std::size_t i, int reduction
 }
 
 // Where the facet is expected in a view, px of the reduced pictures.
-std::optional<Warp> expected(const TurntableModel& model, const Facet& facet, int view, int reduction) {
-    const auto seen = [&](const glm::dvec3& p) { return projected(model, p, view); };
+std::optional<Warp> expected(const TurnProjection& projection, const Facet& facet, std::size_t view, int reduction) {
+    const auto seen = [&](const glm::dvec3& p) { return projection.project(p, view); };
     // Differences over a few px, like the patch: a quadratic is what the patch sees of it.
     constexpr double kReach_px = 4;
     const auto centre = seen(facet.point);
@@ -82,8 +82,9 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
                                                              const std::vector<std::optional<Patch>>& patches,
                                                              bool curvature_is_known) {
     std::vector<std::vector<std::optional<Alignment>>> found(turn.size());
+    const TurnProjection projection(model);
     tbb::parallel_for(std::size_t{0}, turn.size(), [&](std::size_t view) {
-        const Image<float> picture = smoothed(turn[view].grey);
+        const PatchPicture picture(turn[view]);
         found[view].resize(facets.size());
         for (std::size_t i = 0; i < facets.size(); ++i) {
             if (!facets[i]) continue;
@@ -95,8 +96,8 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
             }
             const double apart = nearest_turn(model.angles_rad[view] - model.angles_rad[reference]);
             if (std::abs(apart) > kFarthest_rad) continue;
-            const auto warp = expected(model, *facets[i], static_cast<int>(view), reduction);
-            if (warp) here = align(picture, turn[view].alpha, *patches[i], *warp, curvature_is_known);
+            const auto warp = expected(projection, *facets[i], view, reduction);
+            if (warp) here = align(picture, *patches[i], *warp, curvature_is_known);
             if (here) {
                 here->seen.p *= static_cast<double>(reduction);
                 here->seen.view = static_cast<int>(view);
@@ -107,7 +108,7 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
 }
 
 // The facet's slope and curvature, from its alignments in all views.
-void shape(Facet& facet, const TurntableModel& model, int reduction,
+void shape(Facet& facet, const TurnProjection& projection, int reduction,
            const std::vector<std::vector<std::optional<Alignment>>>& found, std::size_t point) {
     constexpr double kSlopeInformation = 1e-3;  // towards facing the camera
     glm::dvec2 slope(0.0);
@@ -116,7 +117,7 @@ void shape(Facet& facet, const TurntableModel& model, int reduction,
     for (std::size_t view = 0; view < found.size(); ++view) {
         const auto& seen = found[view][point];
         if (!seen || seen->seen.view == facet.reference.view) continue;
-        const auto warp = expected(model, facet, static_cast<int>(view), reduction);
+        const auto warp = expected(projection, facet, view, reduction);
         if (!warp) continue;
         for (int k = 0; k < 2; ++k) slope[k] += glm::dot(seen->matrix[k] - warp->matrix[k], warp->deeper);
         moved += glm::dot(warp->deeper, warp->deeper);
@@ -148,10 +149,10 @@ std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int 
 
     std::vector<std::optional<Patch>> patches(points);
     tbb::parallel_for(std::size_t{0}, turn.size(), [&](std::size_t view) {
-        const Image<float> picture = smoothed(turn[view].grey);
+        const PatchPicture picture(turn[view]);
         for (std::size_t i = 0; i < points; ++i) {
             if (!facets[i] || facets[i]->reference.view != static_cast<int>(view)) continue;
-            patches[i] = textured_patch(picture, turn[view].alpha, facets[i]->reference.p * (1.0 / reduction));
+            patches[i] = textured_patch(picture, facets[i]->reference.p * (1.0 / reduction));
             if (!patches[i]) facets[i].reset();
         }
     });
@@ -160,9 +161,10 @@ std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int 
     // where it is.
     std::vector<std::vector<std::optional<Alignment>>> found =
         align_all(turn, reduction, model, facets, patches, false);
-    for (std::size_t i = 0; i < points; ++i) {
-        if (facets[i]) shape(*facets[i], model, reduction, found, i);
-    }
+    const TurnProjection projection(model);
+    tbb::parallel_for(std::size_t{0}, points, [&](std::size_t i) {
+        if (facets[i]) shape(*facets[i], projection, reduction, found, i);
+    });
     found = align_all(turn, reduction, model, facets, patches, true);
 
     std::vector<Track> tracks(points);

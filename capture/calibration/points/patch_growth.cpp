@@ -47,10 +47,10 @@ private:
 };
 
 // The track of a point as the model expects it in the views of another track.
-std::optional<Track> expected_track(const TurntableModel& model, const glm::dvec3& point, const Track& like) {
+std::optional<Track> expected_track(const TurnProjection& turn, const glm::dvec3& point, const Track& like) {
     Track track;
     for (const Observation& seen : like.seen) {
-        const auto p = projected(model, point, seen.view);
+        const auto p = turn.project(point, static_cast<std::size_t>(seen.view));
         if (!p) return std::nullopt;
         track.seen.push_back({seen.view, *p});
     }
@@ -63,6 +63,7 @@ void grow(Bundle& bundle, int reduction, int most) {
     const int room = most - observation_count(bundle);
     if (room <= 0) return;
     const TurntableModel& model = bundle.model;
+    const TurnProjection turn(model);
     Occupancy occupied(model, kStep_px * reduction);
     for (const Track& track : bundle.tracks) occupied.take(track);
     Bundle grown;
@@ -73,7 +74,7 @@ void grow(Bundle& bundle, int reduction, int most) {
         const double step = kStep_px * reduction * depth / camera.fl_x;
         for (const glm::dvec3& aside : {-camera.right(), camera.right(), -camera.up(), camera.up()}) {
             const glm::dvec3 point = bundle.points[i] + aside * step;
-            auto track = expected_track(model, point, bundle.tracks[i]);
+            auto track = expected_track(turn, point, bundle.tracks[i]);
             if (!track || !occupied.is_free(middle_of_arc(model, *track))) continue;
             occupied.take(*track);
             grown.tracks.push_back(std::move(*track));

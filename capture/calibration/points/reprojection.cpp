@@ -3,19 +3,43 @@
 #include <cmath>
 
 namespace rs::capture {
+namespace {
+
+using Direction = PosedTurn::Direction;
+
+std::array<Direction, 3> directions_of(const double* pose) {
+    return {Direction(pose[0]), Direction(pose[1]), Direction(pose[2])};
+}
+
+}  // namespace
+
+PosedTurn::PosedTurn(const std::array<double, 3>& pose, const double* step_rad, const std::vector<double>& angles_rad)
+    : numbers_(pose), step_rad_(step_rad), angles_rad_(angles_rad), pose_(directions_of(pose.data())) {
+    views_.assign(angles_rad.size(), Direction(0));
+    PrepareForEvaluation(true, true);
+}
+
+void PosedTurn::PrepareForEvaluation(bool /*evaluate_jacobians*/, bool new_evaluation_point) {
+    if (!new_evaluation_point) return;
+    pose_ = directions_of(numbers_.data());
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        views_[i] = Direction(step_rad_ != nullptr ? *step_rad_ * static_cast<double>(i) : angles_rad_[i]);
+    }
+}
 
 bool Reprojection::Evaluate(const double* const* parameters, double* residuals, double** jacobians) const {
     const double* lens = parameters[0];
     const double* pose = parameters[1];
     const double* point = parameters[3];
-    const double angle = parameters[2][0] * turns_;
+    const Direction turned = turn_ != nullptr ? turn_->view(seen_.view) : Direction(parameters[2][0] * turns_);
+    const std::array<Direction, 3> posed = turn_ != nullptr ? turn_->pose() : directions_of(pose);
 
     // As project_turned(), every step of it kept.
-    const double ca = std::cos(angle), sa = std::sin(angle);
+    const double ca = turned.cosine, sa = turned.sine;
     const glm::dvec3 table{ca * point[0] + sa * point[2], point[1], -sa * point[0] + ca * point[2] - 1};
-    const double cp = std::cos(pose[0]), sp = std::sin(pose[0]);
-    const double ct = std::cos(pose[1]), st = std::sin(pose[1]);
-    const double cr = std::cos(pose[2]), sr = std::sin(pose[2]);
+    const double cp = posed[0].cosine, sp = posed[0].sine;
+    const double ct = posed[1].cosine, st = posed[1].sine;
+    const double cr = posed[2].cosine, sr = posed[2].sine;
     const double panned_x = cp * table.x + sp * table.z;
     const double panned_z = -sp * table.x + cp * table.z;
     const double tilted_y = ct * table.y - st * panned_z;

@@ -13,7 +13,9 @@ namespace {
 
 constexpr std::array<double, 3> kFieldsOfView_deg{12, 28, 55};
 constexpr std::array<double, 3> kTilts_deg{2, 22, 50};
-constexpr std::size_t kMostTracks = 500;  // enough to choose a start
+constexpr std::size_t kMostTracks = 500;  // enough to choose a start ...
+constexpr std::size_t kFewTracks = 200;   // ... and to choose the finalists
+constexpr double kEnoughToChoose = 1e-4;  // of the cost
 constexpr double kLoss_px = 3;            // wrong matches are still among them
 constexpr std::size_t kFinalists = 4;     // of each sense of turning
 constexpr std::array<double, 3> kLimits_px{8, 5, 3};
@@ -90,12 +92,14 @@ std::vector<Hypothesis> hypotheses(std::span<const Track> tracks, std::span<cons
 std::optional<Start> find_start(std::span<const Track> tracks, std::span<const PairOfViews> pairs, int views,
                                 const Lens& middle, const KnownInputs& known) {
     const std::vector<Track> few = sampled(tracks, kMostTracks);
+    const std::vector<Track> fewest = sampled(tracks, kFewTracks);
     std::vector<Hypothesis> tried = hypotheses(few, pairs, views, middle, known);
     BundleOptions options;
     // Larger photographs have larger errors.
     const double scale_px = std::max(1.0, std::max(middle.width, middle.height) / 1000.0);
     options.loss_px = kLoss_px * scale_px;
     options.most_iterations = 25;
+    options.enough = kEnoughToChoose;
     options.free.f = !known.f_px;
     options.free.pan = options.free.tilt = options.free.roll = !known.pose;
     options.free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kHeld : AngleFreedom::kCommonStep;
@@ -103,12 +107,13 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
     std::vector<Bundle> bundles(tried.size());
     std::vector<double> costs(tried.size(), 1e30);
     tbb::parallel_for(std::size_t{0}, tried.size(), [&](std::size_t i) {
-        bundles[i] = make_bundle(tried[i].model, few);
+        bundles[i] = make_bundle(tried[i].model, fewest);
         // Most tracks must be possible at all, else a rig that explains three of them would win.
-        if (bundles[i].tracks.size() * 2 < few.size()) return;
+        if (bundles[i].tracks.size() * 2 < fewest.size()) return;
         const auto cost = adjust(bundles[i], options);
         if (!cost) return;
-        const auto lost = static_cast<double>(few.size() - bundles[i].tracks.size()) / static_cast<double>(few.size());
+        const auto lost =
+            static_cast<double>(fewest.size() - bundles[i].tracks.size()) / static_cast<double>(fewest.size());
         costs[i] = *cost + lost * 4 * options.loss_px * options.loss_px;
     });
     // Among the best of them wrong matches are told from right ones, and who has the most right ones wins.

@@ -74,19 +74,8 @@ std::vector<PairOfViews> near_pairs(int count, int farthest_neighbour) {
 
 // Where a point seen at `p` in one view may appear in another: the projection of the part of its ray that lies within
 // the object's cylinder, nearly a straight piece.
-struct RayPiece {
-    glm::dvec2 from{0.0};
-    glm::dvec2 to{0.0};
-
-    [[nodiscard]] double distance(const glm::dvec2& p) const {
-        const glm::dvec2 along = to - from;
-        const double t = std::clamp(glm::dot(p - from, along) / std::max(1e-12, glm::dot(along, along)), 0.0, 1.0);
-        return glm::distance(p, from + t * along);
-    }
-};
-
-std::optional<RayPiece> ray_piece(const TurntableModel& model, int first, int second, const glm::dvec2& p,
-                                  double radius) {
+std::optional<Segment> ray_piece(const TurntableModel& model, int first, int second, const glm::dvec2& p,
+                                 double radius) {
     const auto ray = table_ray(model.lens, model.pose, p);
     if (!ray) return std::nullopt;
     // (0, 0, 1) + s * ray meets the cylinder where (s ray.x)^2 + (1 + s ray.z)^2 = radius^2.
@@ -95,7 +84,7 @@ std::optional<RayPiece> ray_piece(const TurntableModel& model, int first, int se
     if (!(under > 0) || !(a > 0)) return std::nullopt;
     const double turn =
         model.angles_rad[static_cast<std::size_t>(second)] - model.angles_rad[static_cast<std::size_t>(first)];
-    RayPiece piece;
+    Segment piece;
     for (const double sign : {-1.0, 1.0}) {
         const double s = (-ray->z + sign * std::sqrt(under)) / a;
         const auto end = project(model.lens, model.pose, turned(glm::dvec3(0, 0, 1) + s * *ray, turn));
@@ -193,16 +182,10 @@ Result<std::vector<Track>> PointFollower::follow_guided(const TurntableModel& mo
             const PairOfViews& pair = state_->pairs[i];
             const ViewFeatures& a = state_->views[static_cast<std::size_t>(pair.first)];
             const ViewFeatures& b = state_->views[static_cast<std::size_t>(pair.second)];
-            // The features of the first view come one after another.
-            std::optional<glm::dvec2> at;
-            std::optional<RayPiece> piece;
-            matches[i] = alike(a, b, kGuidedRatio, [&](const glm::dvec2& p, const glm::dvec2& q) {
-                if (!at || *at != p) {
-                    at = p;
-                    piece = ray_piece(model, pair.first, pair.second, p, radius);
-                }
-                return piece && piece->distance(q) <= band_px;
-            });
+            const auto may_appear = [&](const glm::dvec2& p) {
+                return ray_piece(model, pair.first, pair.second, p, radius);
+            };
+            matches[i] = alike_near(a, b, kGuidedRatio, may_appear, band_px);
         });
         return chained(state_->views, state_->pairs, matches);
     } catch (const cv::Exception& escaped) {

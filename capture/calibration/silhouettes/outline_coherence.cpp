@@ -14,11 +14,17 @@ namespace {
 
 constexpr double kLoose_px = 0.01;  // combinations of numbers that move the picture by less are known
 constexpr int kCoherenceRounds = 8;
+constexpr int kFineRounds = 3;
 constexpr int kCoherenceTries = 4;      // of a step, each more damped
 constexpr double kFarthestStretch = 8;  // a step is doubled while that helps
 constexpr double kLittle = 0.2;         // of cost, twice the log likelihood: no more rounds for less
 constexpr double kWidth = 0.5;          // of differences, in deviations
 constexpr double kOutlier_px = 1;       // of the turn: residuals far above it count no more
+// Views that contradict a ray by this much less than the strongest do not become the strongest beside it.
+constexpr double kVerdictMargin_px = 1.5;
+constexpr std::size_t kMostVerdicts = 8;
+// A few rays say where the optimum is, all of them where it is exactly.
+constexpr std::size_t kCoarseRaysPerView = 100;
 // Outlines that agree better are those of bodies that look alike from everywhere, and know no more for it.
 constexpr double kFinest_px = 0.12;
 // Neighbouring points of an outline are off alike: a view is worth this many independent ones.
@@ -83,23 +89,18 @@ Eigen::MatrixXd variance_with(const Eigen::MatrixXd& of_outlines, double untold_
     return parts.eigenvectors() * variance.min(1).matrix().asDiagonal() * parts.eigenvectors().transpose();
 }
 
-// Shortfalls along the combinations, and their cost.
+// Shortfalls of some rays along the combinations, and their cost.
 class Outlines {
 public:
     Outlines(const TurntableModel& model, const NumberPlaces& places, const SilhouetteTurn& turn, double picture_px,
-             const Eigen::MatrixXd& columns)
-        : model_(model), places_(places), turn_(turn), picture_px_(picture_px), columns_(columns) {}
+             const Eigen::MatrixXd& columns, std::size_t every)
+        : model_(model), places_(places), turn_(turn), picture_px_(picture_px), columns_(columns), rays_{every, {}} {}
 
     [[nodiscard]] TurntableModel at(const Eigen::VectorXd& z) const { return stepped(model_, places_, columns_ * z); }
 
     // Px of the turn.
     [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& z) {
-        TurntableModel model = at(z);
-        model.lens.f_px /= picture_px_;
-        model.lens.cx /= picture_px_;
-        model.lens.cy /= picture_px_;
-        const std::vector<double> found = consistency_residuals_px(turn_, model, {}, &depths_);
-        return Eigen::Map<const Eigen::VectorXd>(found.data(), static_cast<Eigen::Index>(found.size()));
+        return vector_of(consistency_residuals_px(turn_, in_turn(z), rays_, &depths_));
     }
 
     // Geman-McClure's, so that what is cut out wrong counts little.
@@ -113,25 +114,92 @@ public:
         return kIndependentRays * static_cast<double>(turn_.views()) / std::max(robust_sum(residuals), finest);
     }
 
-    [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::VectorXd& z, Eigen::Index rays) {
+    // After residuals(z). Only what contradicts a ray at z is asked again beside z.
+    [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::VectorXd& z, Eigen::Index rays) const {
+        const auto verdicts = ray_verdicts(turn_, in_turn(z), rays_, depths_, kVerdictMargin_px, kMostVerdicts);
+        const auto beside = [&](const Eigen::VectorXd& there) {
+            return vector_of(residuals_by_verdicts(turn_, in_turn(there), rays_, verdicts));
+        };
         Eigen::MatrixXd result(rays, columns_.cols());
         for (Eigen::Index k = 0; k < columns_.cols(); ++k) {
             Eigen::VectorXd before = z, behind = z;
             before(k) -= kWidth;
             behind(k) += kWidth;
-            result.col(k) = (residuals(behind) - residuals(before)) / (2 * kWidth);
+            result.col(k) = (beside(behind) - beside(before)) / (2 * kWidth);
         }
         return result;
     }
 
 private:
+    [[nodiscard]] TurntableModel in_turn(const Eigen::VectorXd& z) const {
+        TurntableModel model = at(z);
+        model.lens.f_px /= picture_px_;
+        model.lens.cx /= picture_px_;
+        model.lens.cy /= picture_px_;
+        return model;
+    }
+    static Eigen::VectorXd vector_of(const std::vector<double>& found) {
+        return Eigen::Map<const Eigen::VectorXd>(found.data(), static_cast<Eigen::Index>(found.size()));
+    }
+
     const TurntableModel& model_;
     const NumberPlaces& places_;
     const SilhouetteTurn& turn_;
     double picture_px_;
     const Eigen::MatrixXd& columns_;
+    RaySelection rays_;
     RayDepths depths_;
 };
+
+struct Descent {
+    Eigen::VectorXd z;
+    Eigen::VectorXd residuals;
+    Eigen::MatrixXd of_outlines;  // their information
+};
+
+// From z down to where outlines and what was known before (z of variance 1 around 0) are likeliest together.
+Descent descended(Outlines& outlines, const Eigen::VectorXd& from, int rounds) {
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(from.size(), from.size());
+    Descent at{from, outlines.residuals(from), {}};
+    double damping = 1e-3;
+    for (int round = 0; round < rounds; ++round) {
+        const double weight = outlines.weight(at.residuals);
+        const Eigen::MatrixXd slopes = outlines.slopes(at.z, at.residuals.size());
+        const Eigen::ArrayXd tail = 1 + at.residuals.array().square() / (kOutlier_px * kOutlier_px);
+        const Eigen::VectorXd weights = weight / tail.square();
+        at.of_outlines = slopes.transpose() * weights.asDiagonal() * slopes;
+        const Eigen::VectorXd gradient = slopes.transpose() * weights.cwiseProduct(at.residuals) + at.z;
+        const double cost_before = weight * Outlines::robust_sum(at.residuals) + at.z.squaredNorm();
+        double cost = cost_before;
+        bool better = false;
+        for (int i = 0; i < kCoherenceTries && !better; ++i) {
+            Eigen::MatrixXd damped = unit + at.of_outlines;
+            damped.diagonal() *= 1 + damping;
+            const Eigen::VectorXd step = damped.ldlt().solve(-gradient);
+            // Shortfalls grow from nothing, so slopes at one place say too little of the next.
+            const Eigen::VectorXd start = at.z;
+            for (double stretch = 1; stretch <= kFarthestStretch; stretch *= 2) {
+                const Eigen::VectorXd there = start + stretch * step;
+                const Eigen::VectorXd tried = outlines.residuals(there);
+                const double tried_cost = weight * Outlines::robust_sum(tried) + there.squaredNorm();
+                if (!(tried_cost < cost)) break;
+                cost = tried_cost;
+                at.z = there;
+                at.residuals = tried;
+                better = true;
+            }
+            damping = better ? damping / 5 : damping * 8;
+        }
+        if (!better || cost_before - cost < kLittle) break;
+    }
+    return at;
+}
+
+std::size_t most_rays_of_a_view(const SilhouetteTurn& turn) {
+    std::size_t most = 0;
+    for (std::size_t i = 0; i < turn.views(); ++i) most = std::max(most, turn.edges(i).size());
+    return most;
+}
 
 }  // namespace
 
@@ -143,43 +211,17 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
         loosest(covariance, px_per_unit(model, places, turn, picture_px), options.most_directions);
     const Eigen::Index n = columns.cols();
     if (n == 0) return std::nullopt;
-    Outlines outlines(model, places, turn, picture_px, columns);
-    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(n, n);
     Eigen::VectorXd z = Eigen::VectorXd::Zero(n);
-    Eigen::VectorXd residuals = outlines.residuals(z);
-    double damping = 1e-3;
-    Eigen::MatrixXd of_outlines;
-    for (int round = 0; round < kCoherenceRounds; ++round) {
-        const double weight = outlines.weight(residuals);
-        const Eigen::MatrixXd slopes = outlines.slopes(z, residuals.size());
-        const Eigen::ArrayXd tail = 1 + residuals.array().square() / (kOutlier_px * kOutlier_px);
-        const Eigen::VectorXd weights = weight / tail.square();
-        of_outlines = slopes.transpose() * weights.asDiagonal() * slopes;
-        const Eigen::VectorXd gradient = slopes.transpose() * weights.cwiseProduct(residuals) + z;
-        const double cost_before = weight * Outlines::robust_sum(residuals) + z.squaredNorm();
-        double cost = cost_before;
-        bool better = false;
-        for (int i = 0; i < kCoherenceTries && !better; ++i) {
-            Eigen::MatrixXd damped = unit + of_outlines;
-            damped.diagonal() *= 1 + damping;
-            const Eigen::VectorXd step = damped.ldlt().solve(-gradient);
-            // Shortfalls grow from nothing, so slopes at one place say too little of the next.
-            const Eigen::VectorXd start = z;
-            for (double stretch = 1; stretch <= kFarthestStretch; stretch *= 2) {
-                const Eigen::VectorXd there = start + stretch * step;
-                const Eigen::VectorXd tried = outlines.residuals(there);
-                const double tried_cost = weight * Outlines::robust_sum(tried) + there.squaredNorm();
-                if (!(tried_cost < cost)) break;
-                cost = tried_cost;
-                z = there;
-                residuals = tried;
-                better = true;
-            }
-            damping = better ? damping / 5 : damping * 8;
-        }
-        if (!better || cost_before - cost < kLittle) break;
+    int rounds = kCoherenceRounds;
+    if (const std::size_t every = most_rays_of_a_view(turn) / kCoarseRaysPerView; every > 1) {
+        Outlines few(model, places, turn, picture_px, columns, every);
+        z = descended(few, z, kCoherenceRounds).z;
+        rounds = kFineRounds;
     }
-    CoherenceFit fit{outlines.at(z), covariance, 0};
+    Outlines outlines(model, places, turn, picture_px, columns, 1);
+    const auto [found, residuals, of_outlines] = descended(outlines, z, rounds);
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(n, n);
+    CoherenceFit fit{outlines.at(found), covariance, 0};
     fit.consistency_residual_px =
         picture_px * std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size()));
     if (!(fit.consistency_residual_px <= options.worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;

@@ -27,6 +27,22 @@ using RayDepths = std::vector<double>;
 std::vector<double> consistency_residuals_px(const SilhouetteTurn& turn, const TurntableModel& model,
                                              const RaySelection& rays, RayDepths* depths = nullptr);
 
+// What decides a residual: where along its ray it was found, and the few views that contradict the ray the most there.
+struct RayVerdict {
+    double depth = 0;                // 0: there is no ray
+    std::vector<std::size_t> views;  // the strongest first
+};
+
+// Of each residual of `model`, found near `depths`. The views are those within `margin_px` of the strongest, at most
+// `most`.
+std::vector<RayVerdict> ray_verdicts(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays,
+                                     const RayDepths& depths, double margin_px, std::size_t most);
+
+// The residuals of a model that differs little from the verdicts': what the verdicts' views alone say of them near
+// their depths, in a tenth of the time.
+std::vector<double> residuals_by_verdicts(const SilhouetteTurn& turn, const TurntableModel& model,
+                                          const RaySelection& rays, const std::vector<RayVerdict>& verdicts);
+
 // The views that the residuals belong to, in the same order.
 std::vector<std::size_t> views_of_rays(const SilhouetteTurn& turn, const RaySelection& rays);
 

@@ -78,7 +78,7 @@ void settle_pairs(TrackSolution& solution, const TurnPictures& turn, std::size_t
 // How finely all outlines are compared with all others: the work grows with the square of the views.
 SilhouetteDetail detail_of(std::size_t views) {
     const double fewer = std::min(1.0, 36.0 / static_cast<double>(views));
-    return {views <= 72 ? 600 : 300, static_cast<std::size_t>(std::max(32.0, 800 * fewer * fewer))};
+    return {views <= 72 ? 600 : 300, static_cast<std::size_t>(std::max(32.0, 400 * fewer * fewer))};
 }
 
 // The same with the outlines of all views together (outline_coherence.hpp).

@@ -36,6 +36,9 @@ constexpr int kMostAlignmentRounds = 3;  // where points still grow
 constexpr double kRoom = 1.15;           // around the points known, for those not known yet
 constexpr double kLeastOutlierLimit_px = 0.8;
 constexpr double kAlignedLimit_px = 1;  // alignment that went to another place
+// Adjustments after which observations are chosen anew need not be exact.
+constexpr int kRoughIterations = 12;
+constexpr double kRoughlyEnough = 1e-4;
 
 void split(const std::vector<Track>& tracks, std::vector<Track>& part, std::vector<Track>& held_out) {
     for (std::size_t i = 0; i < tracks.size(); ++i) (i % kHeldOutEvery == 3 ? held_out : part).push_back(tracks[i]);
@@ -46,10 +49,11 @@ double outlier_limit(const Bundle& bundle, int reduction) {
 }
 
 std::vector<ViewFit> fits(const Bundle& bundle) {
+    const TurnProjection turn(bundle.model);
     std::vector<ViewFit> views(bundle.model.angles_rad.size());
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
         for (const Observation& seen : bundle.tracks[i].seen) {
-            const auto r = residual(bundle.model, bundle.points[i], seen);
+            const auto r = residual(turn, bundle.points[i], seen);
             if (!r) continue;
             ViewFit& fit = views[static_cast<std::size_t>(seen.view)];
             ++fit.observations;
@@ -107,12 +111,18 @@ BundleFreedom freedom(const KnownInputs& known) {
     return free;
 }
 
+BundleOptions rough(BundleOptions options) {
+    options.most_iterations = kRoughIterations;
+    options.enough = kRoughlyEnough;
+    return options;
+}
+
 // From a start that is roughly right to the best bundle of features as they were detected and matched.
 bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k1_is_free, BundleOptions& options) {
     options.loss_px = 2.0 * reduction;
     for (int round = 0; round < 5; ++round) {
         options.free.k1 = round > 0 && k1_is_free;
-        if (!adjust(bundle, options)) return false;
+        if (!adjust(bundle, rough(options))) return false;
         const double limit = outlier_limit(bundle, reduction);
         // Observations lost to a poor start get another chance.
         if (round < 4) {
@@ -183,10 +193,11 @@ std::optional<Bundle> refined(Bundle bundle, const TurnPictures& turn, BundleOpt
         keep_wide_tracks(bundle);
         for (int again = 0; again < 2; ++again) {
             options.loss_px = std::max(0.05 * turn.reduction, kLossDeviations * robust_deviation_px(bundle));
-            if (!adjust(bundle, options)) return std::nullopt;
+            if (!adjust(bundle, rough(options))) return std::nullopt;
             drop_outliers(bundle, std::max(0.2 * turn.reduction, kOutlierDeviations * robust_deviation_px(bundle)));
         }
     }
+    if (!adjust(bundle, options)) return std::nullopt;
     return bundle;
 }
 

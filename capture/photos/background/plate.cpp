@@ -44,10 +44,6 @@ Group largest_group(std::span<const Rgba8> values) {
 
 }  // namespace
 
-bool samples_agree(const Rgba8& a, const Rgba8& b, int codes) {
-    return std::abs(a.r - b.r) <= codes && std::abs(a.g - b.g) <= codes && std::abs(a.b - b.b) <= codes;
-}
-
 StillPicture agree_over_time(const EvenedSamples& samples) {
     const int width = samples.width();
     const int height = samples.height();

@@ -4,6 +4,8 @@
 #include "capture/photos/background/evened_samples.hpp"
 #include "rayspace/image/image.hpp"
 
+#include <cstdlib>
+
 namespace rs::capture {
 
 struct StillPicture {
@@ -13,7 +15,9 @@ struct StillPicture {
 
 // Whether no channel's sRGB codes differ by more than `codes`.
 inline constexpr int kAgreement_codes = 14;
-bool samples_agree(const Rgba8& a, const Rgba8& b, int codes = kAgreement_codes);
+inline bool samples_agree(const Rgba8& a, const Rgba8& b, int codes = kAgreement_codes) {
+    return std::abs(a.r - b.r) <= codes && std::abs(a.g - b.g) <= codes && std::abs(a.b - b.b) <= codes;
+}
 
 StillPicture agree_over_time(const EvenedSamples& samples);
 

@@ -16,11 +16,24 @@ struct Lab {
 };
 Lab lab_from_linear(const LinearRgb& colour);
 
+// Of every pixel.
+Image<Lab> lab_picture(ConstImageView<Rgba8> picture);
+Image<Lab> lab_picture(ConstImageView<LinearRgb> picture);
+
 // CIE 1976 colour difference; 2.3 is just noticeable.
 float delta_e(const Lab& x, const Lab& y);
 
 // Whether a backdrop has so much colour that the shaded grey parts of an object do not look like it in a shadow.
 bool is_colourful(const LinearRgb& colour);
+bool is_colourful(const Lab& colour);
+
+// A colour both as light and as it looks.
+struct KnownColour {
+    LinearRgb light;
+    Lab look;
+    KnownColour(const LinearRgb& of_light, const Lab& of_look) : light(of_light), look(of_look) {}
+    explicit KnownColour(const LinearRgb& of_light) : light(of_light), look(lab_from_linear(of_light)) {}
+};
 
 // How well `backdrop` explains `pixel`. A shadow multiplies the backdrop's linear light by one factor for all channels,
 // so `shaded` is the difference to the multiple of the backdrop that fits best.
@@ -30,5 +43,8 @@ struct Explanation {
     float shade = 1;   // the factor, within the range given
 };
 Explanation explain_by_backdrop(const LinearRgb& pixel, const LinearRgb& backdrop, float min_shade, float max_shade);
+// The same; `shaded` is not looked for and stays `plain` where plain is at most `enough_delta_e`.
+Explanation explain_by_backdrop(const KnownColour& pixel, const KnownColour& backdrop, float min_shade, float max_shade,
+                                float enough_delta_e);
 
 }  // namespace rs::capture

@@ -4,6 +4,7 @@
 
 #include "rayspace/image/image.hpp"
 #include "rayspace/image/linear_light.hpp"
+#include "rayspace/image/srgb_codes.hpp"
 
 #include <opencv2/core.hpp>
 
@@ -38,7 +39,7 @@ inline cv::Mat3f linear_mat(ConstImageView<Rgba8> picture) {
 }
 
 inline Rgba8 rgba8_from_linear(const cv::Vec3f& light, std::uint8_t alpha) {
-    return {srgb8_from_linear(light[0]), srgb8_from_linear(light[1]), srgb8_from_linear(light[2]), alpha};
+    return {srgb8_by_table(light[0]), srgb8_by_table(light[1]), srgb8_by_table(light[2]), alpha};
 }
 
 }  // namespace rs::capture

@@ -1,6 +1,5 @@
 #include "capture/photos/matte/contrast_cut.hpp"
 
-#include "capture/photos/intake/colour_difference.hpp"
 #include "capture/photos/matte/object_mask.hpp"
 
 #include <opencv2/core.hpp>
@@ -19,17 +18,13 @@ constexpr int kNoNode = -1;
 // Half of the 8-neighbourhood, so that every pair is met once.
 constexpr std::pair<int, int> kNeighbours[] = {{1, 0}, {-1, 1}, {0, 1}, {1, 1}};
 
-float difference(const Rgba8& p, const Rgba8& q) {
-    return delta_e(lab_from_linear(linear_rgb(p)), lab_from_linear(linear_rgb(q)));
-}
-
 }  // namespace
 
-Image<std::uint8_t> cut_by_contrast(ConstImageView<Rgba8> photo, ConstImageView<float> preference,
+Image<std::uint8_t> cut_by_contrast(ConstImageView<Lab> looks, ConstImageView<float> preference,
                                     const CutOptions& options) {
-    RS_CHECK(photo.width() == preference.width() && photo.height() == preference.height());
-    const int width = photo.width();
-    const int height = photo.height();
+    RS_CHECK(looks.width() == preference.width() && looks.height() == preference.height());
+    const int width = looks.width();
+    const int height = looks.height();
     Image<int> node(width, height, kNoNode);
     int nodes = 0;
     for (int y = 0; y < height; ++y) {
@@ -60,7 +55,7 @@ Image<std::uint8_t> cut_by_contrast(ConstImageView<Rgba8> photo, ConstImageView<
                 const int a = node(x, y);
                 const int b = node(u, v);
                 if (a == kNoNode && b == kNoNode) continue;
-                const float contrast = difference(photo(x, y), photo(u, v)) / options.contrast_delta_e;
+                const float contrast = delta_e(looks(x, y), looks(u, v)) / options.contrast_delta_e;
                 const float length = dx != 0 && dy != 0 ? 0.70710678F : 1.0F;
                 const float cost =
                     length * (options.floor + options.smoothness * std::exp(-0.5F * contrast * contrast));

@@ -2,6 +2,7 @@
 // Decides undecided pixels so that borders run where the contrast is: the minimum cut of a grid graph, after Boykov and
 // Jolly, "Interactive graph cuts for optimal boundary and region segmentation of objects in N-D images" (ICCV 2001).
 
+#include "capture/photos/intake/colour_difference.hpp"
 #include "rayspace/image/image.hpp"
 
 namespace rs::capture {
@@ -12,9 +13,10 @@ struct CutOptions {
     float floor = 0.05F;            // what it costs at the very least: short borders are better than long ones
 };
 
-// 255 where the object is. `preference` as in object_mask.hpp: pixels at +-kDecided keep their side, the rest is cut
-// over the 8-neighbourhood. Memory and time go with the number of undecided pixels, not with the size of the picture.
-Image<std::uint8_t> cut_by_contrast(ConstImageView<Rgba8> photo, ConstImageView<float> preference,
+// 255 where the object is. `looks`: of the photograph. `preference` as in object_mask.hpp: pixels at +-kDecided keep
+// their side, the rest is cut over the 8-neighbourhood. Memory and time go with the number of undecided pixels, not
+// with the size of the picture.
+Image<std::uint8_t> cut_by_contrast(ConstImageView<Lab> looks, ConstImageView<float> preference,
                                     const CutOptions& options);
 
 }  // namespace rs::capture

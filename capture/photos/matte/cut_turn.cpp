@@ -75,7 +75,7 @@ std::string cut_picture_name(std::size_t view) {
     return name;
 }
 
-Result<CutTurn> cut_turn(const PhotoFolder& folder, const CutSource& source, const std::filesystem::path& output,
+Result<CutTurn> cut_turn(const PhotoFolder& folder, const CutSource& source, const CutPictures& cuts,
                          Progress* progress) {
     // A mask is an alpha that is given.
     const Backdrop& backdrop = source.backdrop;
@@ -97,7 +97,7 @@ Result<CutTurn> cut_turn(const PhotoFolder& folder, const CutSource& source, con
         const Image<Rgba8> cut = cutter.cut(*photo);
         const double covered = coverage(cut);
         if (Status status = check_coverage(covered, kind, name); !status) return status;
-        if (Status status = write_png(output / cut_picture_name(i), cut); !status) return status;
+        if (Status status = cuts.put(i, cut); !status) return status;
         turn.small[i] = reduced(cut, kTurningSide_px);
         TurnOutline outline(folder.width, folder.height);
         outline.add(cut);

@@ -1,9 +1,10 @@
 #pragma once
-// The second pass over the photographs: every one is cut out and written, and what the later stages ask of the whole
+// The second pass over the photographs: every one is cut out and put by, and what the later stages ask of the whole
 // turn is gathered on the way. Stands between backdrop and nominal_rig.
 
 #include "capture/photos/background/backdrop.hpp"
 #include "capture/photos/intake/photo_folder.hpp"
+#include "capture/photos/matte/cut_pictures.hpp"
 #include "capture/photos/matte/outline.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
@@ -37,13 +38,13 @@ struct CutTurn {
     int at_border = 0;        // views whose object reaches the picture's border
 };
 
-// Where cut_turn() writes view 0, 1, ... within its folder: "images/0000.png".
+// The name of view 0, 1, ... within a set: "images/0000.png".
 std::string cut_picture_name(std::size_t view);
 
-// Writes all photographs, cut out, to folder `output`, which holds a folder images/. Fails at a photograph that cannot
+// Puts all photographs, cut out, into `cuts`. Fails at a photograph that cannot
 // be read or has changed its size, that shows no object, whose mask is missing or of another size, or, unless it brings
 // its own alpha, nothing but the object.
-Result<CutTurn> cut_turn(const PhotoFolder& folder, const CutSource& source, const std::filesystem::path& output,
+Result<CutTurn> cut_turn(const PhotoFolder& folder, const CutSource& source, const CutPictures& cuts,
                          Progress* progress);
 
 }  // namespace rs::capture

@@ -57,13 +57,13 @@ MaskOptions options_above_ground(MaskOptions options) {
     return options;
 }
 
-float preference_against(const LinearRgb& pixel, const LinearRgb& behind, float noise_delta_e,
+float preference_against(const KnownColour& pixel, const KnownColour& behind, float noise_delta_e,
                          const MaskOptions& options) {
-    const bool colourful = is_colourful(behind);
-    const Explanation e = explain_by_backdrop(
-        pixel, behind, colourful ? options.min_shade_colourful : options.min_shade, options.max_shade);
+    const bool colourful = is_colourful(behind.look);
     const float plain_delta_e = std::max(colourful ? options.plain_colourful_delta_e : options.plain_delta_e,
                                          options.noise_margin * noise_delta_e);
+    const Explanation e = explain_by_backdrop(
+        pixel, behind, colourful ? options.min_shade_colourful : options.min_shade, options.max_shade, plain_delta_e);
     const float possible_delta_e = std::max(options.possible_delta_e, 1.5F * plain_delta_e);
     const float certain_delta_e = std::max(options.certain_delta_e, 2 * possible_delta_e);
     if (e.plain <= plain_delta_e) return -kDecided;
@@ -109,7 +109,7 @@ private:
 // White patches of an object look like a white backdrop. What looks plain on a grey backdrop but is a small island, cut
 // off from the border of the picture, is no longer certain: it becomes a slight preference, and the contrast around it
 // decides.
-void doubt_small_islands(Image<float>& preference, ConstImageView<LinearRgb> plate, double max_island) {
+void doubt_small_islands(Image<float>& preference, ConstImageView<Lab> plate, double max_island) {
     cv::Mat1b plain(preference.height(), preference.width());
     for (int y = 0; y < plain.rows; ++y) {
         for (int x = 0; x < plain.cols; ++x) plain(y, x) = preference(x, y) <= -kDecided ? 255 : 0;
@@ -151,7 +151,7 @@ void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, double 
 // Closes the holes through which the backdrop is not really seen, and the tiny ones. A hole's rim is blurred, so its
 // inner part is asked where there is one: a true hole shows the plain backdrop all over, while a white inside of the
 // object is plain only here and there. A shadow counts as the backdrop where the backdrop has a colour to know it by.
-void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstImageView<LinearRgb> plate,
+void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstImageView<Lab> plate,
                        const MaskOptions& options) {
     cv::Mat1b outside;
     cv::bitwise_not(mask, outside);
@@ -218,8 +218,8 @@ cv::Mat1b thin_parts(const cv::Mat1b& part, int width_px) {
 // Shadows are broad: a narrow part that differs clearly from a plate of which noise and exposure are known is the
 // object's, wires and stripes of rods, even if a shadow of that depth would look the same. Not before a colour that
 // tells shadows from grey parts.
-void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options,
-                                  Image<float>& preference) {
+void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const PlateView& plate, ConstImageView<Lab> plate_looks,
+                                  const MaskOptions& options, Image<float>& preference) {
     constexpr int kThinShare = 45;  // of the picture's longer side: narrower than that is thin
     constexpr float kThinRather = 2;
     cv::Mat3f smooth;
@@ -238,7 +238,7 @@ void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const PlateView& 
             if (asked(y, x) == 0) continue;
             const cv::Vec3f& p = smooth(y, x);
             const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
-            const float delta = delta_e(lab_from_linear({p[0], p[1], p[2]}), lab_from_linear(plate.light(x, y)));
+            const float delta = delta_e(lab_from_linear({p[0], p[1], p[2]}), plate_looks(x, y));
             beyond_noise(y, x) = delta - noise;
             differs(y, x) = delta > std::max(options.plain_delta_e, 1.2F * noise) ? 255 : 0;
         }
@@ -249,7 +249,7 @@ void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const PlateView& 
             float& own = preference(x, y);
             if (std::abs(own) >= kDecided || thin(y, x) == 0 || beyond_noise(y, x) < options.thin_delta_e) continue;
             if (beyond_noise(y, x) < options.thin_on_ground_delta_e && on_ground(plate, x, y)) continue;
-            if (!is_colourful(plate.light(x, y))) own = std::max(own, kThinRather);
+            if (!is_colourful(plate_looks(x, y))) own = std::max(own, kThinRather);
         }
     }
 }
@@ -273,17 +273,32 @@ MaskOptions mask_options_for(const Backdrop& backdrop) {
     return options;
 }
 
-Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& anywhere) {
+namespace {
+
+// The photograph and what is behind the object, as they look.
+struct Looks {
+    Image<Lab> photo;
+    Image<Lab> plate;
+};
+
+Looks looks_of(ConstImageView<Rgba8> photo, const PlateView& plate) {
     RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
+    return {lab_picture(photo), lab_picture(plate.light)};
+}
+
+Image<float> preference_by(const Looks& looks, ConstImageView<Rgba8> photo, const PlateView& plate,
+                           const MaskOptions& anywhere) {
     const MaskOptions ground = options_on_ground(anywhere);
     const MaskOptions above = options_above_ground(anywhere);
+    std::vector<KnownColour> screen;
+    for (const LinearRgb& colour : plate.screen) screen.emplace_back(colour);
     Image<float> preference(photo.width(), photo.height());
     for (int y = 0; y < photo.height(); ++y) {
         for (int x = 0; x < photo.width(); ++x) {
             const MaskOptions& options = plate.ground.empty() ? anywhere : (on_ground(plate, x, y) ? ground : above);
-            const LinearRgb pixel = linear_rgb(photo(x, y));
+            const KnownColour pixel(linear_rgb(photo(x, y)), looks.photo(x, y));
             const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
-            const LinearRgb& behind = plate.light(x, y);
+            const KnownColour behind(plate.light(x, y), looks.plate(x, y));
             float best = preference_against(pixel, behind, noise, options);
             if (!plate.hidden.empty() && plate.hidden(x, y) != 0) {
                 preference(x, y) = std::max(best, kHidden);
@@ -292,13 +307,14 @@ Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& pla
             if (best > 0) {
                 for (const auto& [dx, dy] :
                      {std::pair{-kShake_px, 0}, {kShake_px, 0}, {0, -kShake_px}, {0, kShake_px}}) {
-                    const LinearRgb& beside = plate.light(std::clamp(x + dx, 0, plate.light.width() - 1),
-                                                          std::clamp(y + dy, 0, plate.light.height() - 1));
-                    if (delta_e(lab_from_linear(beside), lab_from_linear(behind)) < options.plain_delta_e) continue;
+                    const int u = std::clamp(x + dx, 0, photo.width() - 1);
+                    const int v = std::clamp(y + dy, 0, photo.height() - 1);
+                    const KnownColour beside(plate.light(u, v), looks.plate(u, v));
+                    if (delta_e(beside.look, behind.look) < options.plain_delta_e) continue;
                     best = std::min(best, preference_against(pixel, beside, noise, options));
                 }
             }
-            for (const LinearRgb& colour : plate.screen) {
+            for (const KnownColour& colour : screen) {
                 if (best <= 0) break;
                 best = std::min(best, preference_against(pixel, colour, noise, options));
             }
@@ -308,17 +324,24 @@ Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& pla
     return preference;
 }
 
+}  // namespace
+
+Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options) {
+    return preference_by(looks_of(photo, plate), photo, plate, options);
+}
+
 Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options) {
     RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
     Image<std::uint8_t> result(photo.width(), photo.height());
     if (result.empty()) return result;
-    Image<float> preference = object_preference(photo, plate, options);
-    if (options.thin_delta_e > 0) lean_to_object_in_thin_parts(photo, plate, options, preference);
-    doubt_small_islands(preference, plate.light, options.max_island);
-    result = cut_by_contrast(photo, preference, {});
+    const Looks looks = looks_of(photo, plate);
+    Image<float> preference = preference_by(looks, photo, plate, options);
+    if (options.thin_delta_e > 0) lean_to_object_in_thin_parts(photo, plate, looks.plate, options, preference);
+    doubt_small_islands(preference, looks.plate, options.max_island);
+    result = cut_by_contrast(looks.photo, preference, {});
     cv::Mat1b mask(result.height(), result.width(), result.data());
     keep_solid_parts(mask, preference, options.min_part);
-    close_false_holes(mask, preference, plate.light, options);
+    close_false_holes(mask, preference, looks.plate, options);
     return result;
 }
 

@@ -1,6 +1,7 @@
 #include "capture/photos/matte/soft_edge.hpp"
 
 #include "capture/photos/intake/opencv_image.hpp"
+#include "capture/photos/matte/band_sides.hpp"
 
 #include <opencv2/imgproc.hpp>
 
@@ -29,37 +30,6 @@ constexpr float kAlphaPerPx = 0.75F;
 // distance says are taken for so many times what they are where edges are clear.
 constexpr std::array<float, 2> kLeeway{3.0F, 1.5F};
 
-// What one side of the border looks like near by.
-struct Side {
-    using Covariance = cv::Vec<float, 6>;  // of red and red, red and green, red and blue, green and green, ...
-    cv::Mat3f mean;                        // linear light; 0 where nothing weighs
-    cv::Mat_<Covariance> covariance;
-};
-
-// Of `colour` with `weight`, over a Gaussian neighbourhood.
-Side side_of(const cv::Mat3f& colour, const cv::Mat1f& weight, double sigma_px) {
-    using Moments = cv::Vec<float, 10>;
-    cv::Mat_<Moments> moments(colour.size());
-    for (int y = 0; y < colour.rows; ++y) {
-        for (int x = 0; x < colour.cols; ++x) {
-            const auto [r, g, b] = colour(y, x).val;
-            moments(y, x) = Moments(1, r, g, b, r * r, r * g, r * b, g * g, g * b, b * b) * weight(y, x);
-        }
-    }
-    cv::GaussianBlur(moments, moments, {0, 0}, sigma_px);
-    Side side{cv::Mat3f(colour.size()), cv::Mat_<Side::Covariance>(colour.size())};
-    for (int y = 0; y < colour.rows; ++y) {
-        for (int x = 0; x < colour.cols; ++x) {
-            const float sum = moments(y, x)[0];
-            const Moments m = sum > 1e-6F ? moments(y, x) * (1 / sum) : Moments();
-            side.mean(y, x) = {m[1], m[2], m[3]};
-            side.covariance(y, x) = {m[4] - m[1] * m[1], m[5] - m[1] * m[2], m[6] - m[1] * m[3],
-                                     m[7] - m[2] * m[2], m[8] - m[2] * m[3], m[9] - m[3] * m[3]};
-        }
-    }
-    return side;
-}
-
 // In px from the border, which runs half a pixel before the first pixel of either side; positive inside.
 cv::Mat1f signed_distance(const cv::Mat1b& inside) {
     cv::Mat1f distance;  // to the nearest pixel of the other side
@@ -75,22 +45,6 @@ cv::Mat1f signed_distance(const cv::Mat1b& inside) {
         }
     }
     return distance;
-}
-
-// How much a pixel's colour is that of `side` (1: the object, -1: the backdrop): little at the border, where both mix,
-// growing to band_px + 1. Not nothing at the border either, for of a thin claw there may be no more than that.
-cv::Mat1f trust(const cv::Mat1f& distance, int band_px, int side) {
-    constexpr float kMixed = 0.02F;
-    cv::Mat1f weight(distance.size(), 0.0F);
-    for (int y = 0; y < distance.rows; ++y) {
-        for (int x = 0; x < distance.cols; ++x) {
-            const float depth = static_cast<float>(side) * distance(y, x) + 0.5F;
-            if (depth <= 0.5F) continue;
-            const float own = std::min(depth, static_cast<float>(band_px + 1)) - 1;
-            weight(y, x) = kMixed + own * own;
-        }
-    }
-    return weight;
 }
 
 LinearRgb rgb(const cv::Vec3f& v) {
@@ -176,52 +130,21 @@ struct InBand {
     Reading reading;
 };
 
-// The band's pixels within `core` and what their colours say; both sides' colours go to `edge`.
-void read_band(const cv::Mat3f& light, const cv::Mat1f& distance, const cv::Rect& core, int band_px, SoftEdge& edge,
-               std::vector<InBand>& in_band) {
-    const double sigma_px = band_px + 1.0;
-    const int margin_px = static_cast<int>(std::ceil(4 * sigma_px)) + 1;  // beyond OpenCV's kernel
-    const cv::Rect around =
-        cv::Rect(core.x - margin_px, core.y - margin_px, core.width + 2 * margin_px, core.height + 2 * margin_px) &
-        cv::Rect(0, 0, light.cols, light.rows);
-    const Side object = side_of(light(around), trust(distance(around), band_px, 1), sigma_px);
-    const Side backdrop = side_of(light(around), trust(distance(around), band_px, -1), sigma_px);
-    for (int y = core.y; y < core.y + core.height; ++y) {
-        for (int x = core.x; x < core.x + core.width; ++x) {
-            if (std::abs(distance(y, x)) >= static_cast<float>(band_px)) continue;
-            const int v = y - around.y;
-            const int u = x - around.x;
-            const Reading reading =
-                read_alpha(light(y, x), object.mean(v, u), backdrop.mean(v, u), object.covariance(v, u),
-                           backdrop.covariance(v, u), EdgeProfile::by_distance(distance(y, x)));
-            edge.object(x, y) = rgb(object.mean(v, u));
-            edge.backdrop(x, y) = rgb(backdrop.mean(v, u));
-            in_band.push_back({x, y, distance(y, x), reading});
-        }
-    }
-}
-
 SoftEdge softened(const cv::Mat3f& light, const cv::Mat1b& inside, int band_px, float leeway) {
     SoftEdge edge{Image<float>(light.cols, light.rows), Image<LinearRgb>(light.cols, light.rows),
                   Image<LinearRgb>(light.cols, light.rows)};
     const cv::Mat1f distance = signed_distance(inside);
-    std::vector<InBand> in_band;
-    // In strips, and of them what the band takes of their width: memory and time go with the border, not the picture.
-    constexpr int kStrip_px = 128;
-    for (int top = 0; top < light.rows; top += kStrip_px) {
-        const int bottom = std::min(light.rows, top + kStrip_px);
-        int left = light.cols;
-        int right = 0;
-        for (int y = top; y < bottom; ++y) {
-            for (int x = 0; x < light.cols; ++x) {
-                edge.alpha(x, y) = distance(y, x) > 0 ? 1.0F : 0.0F;
-                if (std::abs(distance(y, x)) >= static_cast<float>(band_px)) continue;
-                left = std::min(left, x);
-                right = std::max(right, x + 1);
-            }
-        }
-        if (left < right) read_band(light, distance, {left, top, right - left, bottom - top}, band_px, edge, in_band);
+    for (int y = 0; y < light.rows; ++y) {
+        for (int x = 0; x < light.cols; ++x) edge.alpha(x, y) = distance(y, x) > 0 ? 1.0F : 0.0F;
     }
+    std::vector<InBand> in_band;
+    for_each_in_band(light, distance, band_px, [&](int x, int y, const Side& object, const Side& backdrop) {
+        const Reading reading = read_alpha(light(y, x), object.mean, backdrop.mean, object.covariance,
+                                           backdrop.covariance, EdgeProfile::by_distance(distance(y, x)));
+        edge.object(x, y) = rgb(object.mean);
+        edge.backdrop(x, y) = rgb(backdrop.mean);
+        in_band.push_back({x, y, distance(y, x), reading});
+    });
     EdgeProfile profile(band_px);
     for (const InBand& p : in_band) profile.learn(p.distance_px, p.reading);
     for (const InBand& p : in_band) {

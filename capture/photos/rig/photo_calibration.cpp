@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr int kSilhouetteSide_px = 640;
 
 // Cut-outs, so that nothing of the backdrop is followed.
-Result<TurnPictures> read_turn(const PhotoFolder& folder, const fs::path& cut_folder, Progress* progress) {
+Result<TurnPictures> read_turn(const PhotoFolder& folder, const CutPictures& cuts, Progress* progress) {
     TurnPictures turn;
     turn.width = folder.width;
     turn.height = folder.height;
@@ -30,7 +30,7 @@ Result<TurnPictures> read_turn(const PhotoFolder& folder, const fs::path& cut_fo
     turn.pictures.resize(folder.photos.size());
     for (const fs::path& photo : folder.photos) turn.names.push_back(photo.filename().string());
     const auto read = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> cut = read_picture(cut_folder / cut_picture_name(i));
+        const Result<Image<Rgba8>> cut = cuts.get(i);
         if (!cut) return cut.error();
         turn.pictures[i] = calibration_picture(*cut, turn.reduction);
         return {};
@@ -153,7 +153,7 @@ std::optional<Calibration> given(const CalibrationRequest& request, std::size_t 
 
 }  // namespace
 
-Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const fs::path& cut_folder,
+Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const CutPictures& cuts,
                                           const CalibrationRequest& request, Progress* progress) {
     PhotoCalibration result;
     const CalibrationChoice choice = request.choice;
@@ -163,7 +163,7 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const fs::p
         return Error{"the given rig has " + std::to_string(request.known.angles_rad->size()) + " views, the folder " +
                      std::to_string(views) + " photographs; give a rig of these photographs"};
     }
-    Result<TurnPictures> turn = read_turn(folder, cut_folder, progress);
+    Result<TurnPictures> turn = read_turn(folder, cuts, progress);
     if (!turn) return turn.error();
     if (choice == CalibrationChoice::kBoard && !request.board) {
         return Error{

@@ -38,9 +38,9 @@ struct CalibrationRequest {
     TurntableModel nominal;  // what is assumed where nothing is found: the start for silhouettes
 };
 
-// `cut_folder` holds cut_turn()'s pictures of `folder`. Fails where a picture cannot be read, and where the choice was
+// `cuts` are cut_turn()'s pictures of `folder`. Fails where a picture cannot be read, and where the choice was
 // not kAuto and does not work.
-Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const std::filesystem::path& cut_folder,
+Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const CutPictures& cuts,
                                           const CalibrationRequest& request, Progress* progress);
 
 }  // namespace rs::capture

@@ -149,18 +149,22 @@ Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, C
     const glm::dmat3 camera_from_table = camera_rotation(model.pose);
     const double fold = fold_radius(model.lens);
     const glm::dvec2 middle(model.lens.width / 2.0, model.lens.height / 2.0);
+    const Lens& lens = model.lens;
+    const PremultipliedPicture from(cut_out);
     Image<Rgba8> upright(frame.lens.width, frame.lens.height);
     for (int y = 0; y < upright.height(); ++y) {
         for (int x = 0; x < upright.width(); ++x) {
             const glm::dvec3 ray((x + 0.5 - frame.lens.cx) / frame.lens.f_px,
                                  (frame.lens.cy - y - 0.5) / frame.lens.f_px, -1);
-            const glm::dvec3 ray_in_camera = camera_from_table * ray;
-            if (std::hypot(ray_in_camera.x, ray_in_camera.y) >= -ray_in_camera.z * fold) continue;
-            const auto put_back = project(model.lens, {}, ray_in_camera + glm::dvec3(0, 0, 1));
-            if (!put_back) continue;
-            const glm::dvec2 p = place.seen(*put_back, middle);
-            if (p.x < -1 || p.y < -1 || p.x > cut_out.width() + 1 || p.y > cut_out.height() + 1) continue;
-            upright(x, y) = sample_premultiplied(cut_out, p.x, p.y);
+            const glm::dvec3 seen = camera_from_table * ray;
+            if (!(seen.z < -1e-6)) continue;
+            const glm::dvec2 at(seen.x / -seen.z, -seen.y / -seen.z);
+            const double r2 = glm::dot(at, at);
+            if (r2 >= fold * fold) continue;
+            const double scale = lens.f_px * (1 + r2 * (lens.k1 + r2 * lens.k2));
+            const glm::dvec2 p = place.seen(glm::dvec2(lens.cx, lens.cy) + scale * at, middle);
+            if (!(p.x >= -1 && p.y >= -1 && p.x <= cut_out.width() + 1 && p.y <= cut_out.height() + 1)) continue;
+            upright(x, y) = from.sample(p.x, p.y);
         }
     }
     bleed_colours(upright);

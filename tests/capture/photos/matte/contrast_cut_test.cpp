@@ -65,7 +65,7 @@ TEST(ContrastCut, NoLabellingCostsLess) {
             }
         }
         const CutOptions options{.smoothness = static_cast<float>(1 + trial % 6)};
-        const Image<std::uint8_t> cut = cut_by_contrast(photo, preference, options);
+        const Image<std::uint8_t> cut = cut_by_contrast(lab_picture(photo), preference, options);
         Image<std::uint8_t> tried(kWidth, kHeight);
         for (int y = 0; y < kHeight; ++y) {
             for (int x = 0; x < kWidth; ++x) {
@@ -89,7 +89,7 @@ TEST(ContrastCut, NoLabellingCostsLess) {
 TEST(ContrastCut, WithoutAnyDoubtTheSidesStay) {
     Image<float> preference(3, 1);
     for (int x = 0; x < 3; ++x) preference(x, 0) = x == 1 ? kDecided : -kDecided;
-    const Image<std::uint8_t> cut = cut_by_contrast(Image<Rgba8>(3, 1), preference, {});
+    const Image<std::uint8_t> cut = cut_by_contrast(Image<Lab>(3, 1), preference, {});
     EXPECT_EQ(cut(0, 0), 0);
     EXPECT_EQ(cut(1, 0), 255);
     EXPECT_EQ(cut(2, 0), 0);

@@ -1,0 +1,218 @@
+#include "capture/calibration/silhouettes/ray_probe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace rs::capture {
+namespace {
+
+constexpr int kDepths = 96;            // tried along a ray
+constexpr int kRefinements = 12;       // golden sections around the best of them
+constexpr int kPruneEvery = 4;         // of those: as the interval shrinks fewer views can decide
+constexpr std::size_t kFewViews = 10;  // are asked as quickly as it is found out who need not be
+constexpr int kFewRefinements = 9;     // around a depth that is known closely
+constexpr int kNearDepths = 2;         // tried on either side of a depth that is roughly known
+// By how much more than a point moves its distance to an outline may change: chamfer distances are a little longer than
+// straight ones, and edge pixels add up to half a pixel of their own.
+constexpr float kSteepest = 1.06F;
+constexpr float kEdgeJump_px = 1;
+constexpr float kBehind = std::numeric_limits<float>::lowest();
+
+}  // namespace
+
+std::vector<Sight> sights_of(const TurntableModel& model, std::size_t view, const std::vector<char>& left_out) {
+    const glm::dmat3 rotation = camera_rotation(model.pose);
+    std::vector<Sight> sights;
+    for (std::size_t j = 0; j < model.angles_rad.size(); ++j) {
+        if (j == view || (!left_out.empty() && left_out[j] != 0)) continue;
+        const double turn_rad = model.angles_rad[j] - model.angles_rad[view];
+        glm::dmat3 other_from_table;
+        for (int k = 0; k < 3; ++k) {
+            glm::dvec3 unit(0);
+            unit[k] = 1;
+            other_from_table[k] = turned(unit, turn_rad);
+        }
+        const glm::dvec3 camera(0, 0, 1);
+        sights.push_back({j, rotation * (other_from_table * camera - camera), rotation * other_from_table});
+    }
+    std::stable_sort(sights.begin(), sights.end(), [&](const Sight& a, const Sight& b) {
+        const auto across = [&](const Sight& s) {
+            return std::abs(std::sin(model.angles_rad[s.view] - model.angles_rad[view]));
+        };
+        return across(a) > across(b) + 1e-9;
+    });
+    return sights;
+}
+
+RayProbe::RayProbe(const SilhouetteTurn& turn, const Lens& lens, const std::vector<Sight>& sights)
+    : turn_(turn),
+      lens_{static_cast<float>(lens.f_px), static_cast<float>(lens.cx), static_cast<float>(lens.cy),
+            static_cast<float>(lens.k1), static_cast<float>(lens.k2)},
+      sights_(sights),
+      directions_(sights.size()),
+      heeded_(sights.size()),
+      deciding_(sights.size()),
+      bounds_(sights.size()) {
+    std::iota(heeded_.begin(), heeded_.end(), std::size_t{0});
+    sight_of_.assign(turn.views(), sights.size());
+    for (std::size_t j = 0; j < sights.size(); ++j) sight_of_[sights[j].view] = j;
+}
+
+void RayProbe::heed_only(const std::vector<std::size_t>& views) {
+    heeded_.clear();
+    for (const std::size_t view : views) {
+        if (sight_of_[view] < sights_.size()) heeded_.push_back(sight_of_[view]);
+    }
+}
+
+void RayProbe::aim(const glm::dvec3& direction) {
+    for (const std::size_t j : heeded_) directions_[j] = sights_[j].camera_from_table * direction;
+    deciding_ = heeded_.size();
+}
+
+double RayProbe::best(const glm::dvec3& direction, double reach, double& known_depth) {
+    aim(direction);
+    // From (0, 0, 1): nearest to the axis at `middle`.
+    const double flat2 = direction.x * direction.x + direction.z * direction.z;
+    const double middle = -direction.z / flat2;
+    const double miss2 = direction.x * direction.x / flat2;
+    const double half = std::sqrt(std::max(1e-6, reach * reach - miss2) / flat2);
+    const double step = 2 * half / kDepths;
+    float most = kBehind;
+    const bool is_known = known_depth > 0;
+    // Outwards from the middle, or from where it was, so that a good value comes early and prunes the rest.
+    const double from = is_known ? known_depth : middle - 0.5 * step;
+    const int tried = is_known ? 2 * kNearDepths + 1 : kDepths;
+    double at = from;
+    for (int k = 0; k < tried; ++k) {
+        const double depth = from + step * (k % 2 == 0 ? -(k / 2) : k / 2 + 1);
+        const float least = least_over_views(depth, most);
+        if (least > most) {
+            most = least;
+            at = depth;
+        }
+        if (most >= 0) {
+            known_depth = at;
+            return most;
+        }
+    }
+    const auto [found, found_at] = refined(at - step, at + step, kRefinements);
+    known_depth = found > most ? found_at : at;
+    return std::max(most, found);
+}
+
+double RayProbe::best_beside(const glm::dvec3& direction, double reach, double known_depth) {
+    aim(direction);
+    const float here = least_over_views(known_depth, kBehind);
+    if (here >= 0) return here;
+    const double flat2 = direction.x * direction.x + direction.z * direction.z;
+    const double half =
+        std::sqrt(std::max(1e-6, reach * reach - direction.x * direction.x / flat2) / flat2) / (2 * kDepths);
+    const auto [found, at] = refined(known_depth - half, known_depth + half, kFewRefinements);
+    if (found < here || std::abs(at - known_depth) < 0.9 * half) return std::max(here, found);
+    return best(direction, reach, known_depth);
+}
+
+std::vector<std::size_t> RayProbe::strongest(const glm::dvec3& direction, double depth, double margin_px,
+                                             std::size_t most) {
+    aim(direction);
+    std::vector<std::pair<float, std::size_t>> views;
+    for (const std::size_t j : heeded_) views.emplace_back(distance(j, depth), sights_[j].view);
+    std::sort(views.begin(), views.end());
+    std::vector<std::size_t> strong;
+    for (const auto& [distance_px, view] : views) {
+        if (strong.size() == most || distance_px > views.front().first + static_cast<float>(margin_px)) break;
+        strong.push_back(view);
+    }
+    return strong;
+}
+
+RayProbe::Seen RayProbe::seen(std::size_t j, double depth) const {
+    const glm::vec3 p(sights_[j].centre + depth * directions_[j]);
+    if (!(p.z < -1e-6F)) return {};
+    const float x = p.x / -p.z;
+    const float y = -p.y / -p.z;
+    const float r2 = x * x + y * y;
+    const float scale = lens_.f * (1 + r2 * (lens_.k1 + r2 * lens_.k2));
+    return {lens_.cx + scale * x, lens_.cy + scale * y, true};
+}
+
+// Of the ray's point at `depth` from the outline in a view, positive inside.
+float RayProbe::distance(std::size_t j, double depth) const {
+    const Seen p = seen(j, depth);
+    return p.before_camera ? turn_.distance(sights_[j].view, p.x, p.y) : kBehind;
+}
+
+// May stop at the first value below `floor`.
+float RayProbe::least_over_views(double depth, float floor) {
+    float least = std::numeric_limits<float>::max();
+    for (std::size_t i = 0; i < deciding_; ++i) {
+        least = std::min(least, distance(heeded_[i], depth));
+        if (least < floor || least == kBehind) {
+            // Who contradicts one point contradicts the next ones, too.
+            if (i > 0) std::swap(heeded_[i], heeded_[i / 2]);
+            return least;
+        }
+    }
+    return least;
+}
+
+float RayProbe::apart_px(const Seen& a, const Seen& b) {
+    return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
+}
+
+// Leaves out views that cannot be the nearest to contradict anywhere in an interval of depths, nor contradict at all.
+void RayProbe::keep_deciding(double low, double high) {
+    const double middle = 0.5 * (low + high);
+    float most = 0;  // more than any point of the interval has for its least distance
+    for (std::size_t i = 0; i < deciding_; ++i) {
+        const std::size_t j = heeded_[i];
+        const Seen a = seen(j, low), b = seen(j, middle), c = seen(j, high);
+        if (!a.before_camera || !b.before_camera || !c.before_camera) return;
+        const float way_px = std::max(apart_px(a, b), apart_px(b, c));
+        const float here = turn_.distance(sights_[j].view, b.x, b.y);
+        const float change = kSteepest * way_px + kEdgeJump_px;
+        bounds_[i] = {here - change, here + change};
+        most = std::min(most, bounds_[i].second);
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < deciding_; ++i) {
+        if (bounds_[i].first > most) continue;
+        std::swap(heeded_[i], heeded_[kept]);
+        bounds_[kept++] = bounds_[i];
+    }
+    deciding_ = kept;
+}
+
+// The largest value, and where; some value above 0 where there is one.
+std::pair<float, double> RayProbe::refined(double low, double high, int rounds) {
+    constexpr double kGolden = 0.6180339887498949;
+    if (deciding_ > kFewViews) keep_deciding(low, high);
+    double a = high - kGolden * (high - low);
+    double b = low + kGolden * (high - low);
+    float at_a = least_over_views(a, kBehind);
+    float at_b = least_over_views(b, at_a);
+    for (int i = 0; i < rounds && at_a < 0 && at_b < 0; ++i) {
+        // The smaller of both may be less than it says: it goes.
+        if (at_a > at_b) {
+            high = b;
+            b = a;
+            at_b = at_a;
+            a = high - kGolden * (high - low);
+            if (i % kPruneEvery == kPruneEvery - 1 && deciding_ > kFewViews) keep_deciding(low, high);
+            at_a = least_over_views(a, at_b);
+        } else {
+            low = a;
+            a = b;
+            at_a = at_b;
+            b = low + kGolden * (high - low);
+            if (i % kPruneEvery == kPruneEvery - 1 && deciding_ > kFewViews) keep_deciding(low, high);
+            at_b = least_over_views(b, at_a);
+        }
+    }
+    return at_a > at_b ? std::pair{at_a, a} : std::pair{at_b, b};
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,39 @@
+#include "rayspace/image/premultiplied_sampling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace rs {
+namespace {
+
+TEST(PremultipliedPicture, SamplesAreThoseOfThePlainFunction) {
+    std::minstd_rand random(11);
+    std::uniform_int_distribution<int> code(0, 255);
+    const auto any = [&] { return static_cast<std::uint8_t>(code(random)); };
+    for (const bool with_rim : {false, true}) {
+        Image<Rgba8> picture(23, 17);
+        for (int y = 0; y < picture.height(); ++y) {
+            for (int x = 0; x < picture.width(); ++x) {
+                const bool rim = x < 5 || y < 3 || x > 18 || y > 12;
+                const std::uint8_t alpha = any() < 100 ? 255 : any();
+                picture(x, y) = {any(), any(), any(), with_rim && rim ? std::uint8_t{0} : alpha};
+            }
+        }
+        const PremultipliedPicture ready(picture);
+        std::uniform_real_distribution<double> across(-6, 29), down(-6, 23);
+        for (int i = 0; i < 20'000; ++i) {
+            const double x = across(random), y = down(random);
+            ASSERT_EQ(ready.sample(x, y), sample_premultiplied(picture, x, y)) << x << ", " << y;
+        }
+        EXPECT_EQ(ready.sample(1e9, -1e9), Rgba8{});
+    }
+}
+
+TEST(PremultipliedPicture, OfNothingIsNothing) {
+    EXPECT_EQ(PremultipliedPicture(Image<Rgba8>(4, 4)).sample(2, 2), Rgba8{});
+    EXPECT_EQ(PremultipliedPicture(Image<Rgba8>()).sample(0, 0), Rgba8{});
+}
+
+}  // namespace
+}  // namespace rs
