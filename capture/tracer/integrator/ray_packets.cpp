@@ -33,9 +33,15 @@ std::size_t fill(std::span<const RayScene::Ray> rays, RTCRay16& packet, int (&va
     return count;
 }
 
-RTCIntersectContext coherent() {
+// For instances: Embree 3.13.5 does not come back from some coherent packets there.
+RTCIntersectContext incoherent() {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    return context;
+}
+
+RTCIntersectContext coherent() {
+    RTCIntersectContext context = incoherent();
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     return context;
 }
@@ -52,7 +58,10 @@ void RayScene::intersect_many(std::span<const Ray> rays, std::span<Hit> hits) co
         std::fill(std::begin(packet.hit.instID[0]), std::end(packet.hit.instID[0]), RTC_INVALID_GEOMETRY_ID);
         RTCIntersectContext context = coherent();
         rtcIntersect16(valid, still_->embree(), &context, &packet);
-        if (moving_) rtcIntersect16(valid, moving_->embree(), &context, &packet);
+        if (moving_) {
+            context = incoherent();
+            rtcIntersect16(valid, moving_->embree(), &context, &packet);
+        }
         for (std::size_t i = 0; i < count; ++i) {
             hits[first + i] = {};
             if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
@@ -72,6 +81,7 @@ void RayScene::occluded_many(std::span<const Ray> rays, std::span<std::uint8_t> 
         rtcOccluded16(valid, still_->embree(), &context, &packet);
         if (moving_) {
             for (std::size_t i = 0; i < count; ++i) valid[i] = packet.tfar[i] < 0.0F ? 0 : -1;
+            context = incoherent();
             rtcOccluded16(valid, moving_->embree(), &context, &packet);
         }
         for (std::size_t i = 0; i < count; ++i) {
@@ -79,8 +89,7 @@ void RayScene::occluded_many(std::span<const Ray> rays, std::span<std::uint8_t> 
             if (!in_the_way && primitives_) {
                 // Primitives take one ray at a time.
                 const Ray& ray = rays[first + i];
-                RTCIntersectContext single;
-                rtcInitIntersectContext(&single);
+                RTCIntersectContext single = incoherent();
                 RTCRay asked{ray.origin.x,
                              ray.origin.y,
                              ray.origin.z,

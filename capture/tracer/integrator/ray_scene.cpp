@@ -249,6 +249,8 @@ RayScene::Bundle RayScene::distances(const std::array<glm::vec3, kBundle>& origi
         query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     rtcIntersect8(valid.data(), still_->embree(), &context, &query);
+    // Coherent packets and instances do not go together (ray_packets.cpp).
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     if (moving_) rtcIntersect8(valid.data(), moving_->embree(), &context, &query);
     Bundle found;
     for (std::size_t i = 0; i < kBundle; ++i) {

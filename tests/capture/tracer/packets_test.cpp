@@ -37,8 +37,7 @@ Scene scene_of_all_kinds() {
     return scene;
 }
 
-TEST(Packets, GiveTheBitsOfSingleRays) {
-    const Scene scene = scene_of_all_kinds();
+void expect_the_bits_of_single_rays(const Scene& scene) {
     const auto rays = RayScene::create(scene);
     ASSERT_TRUE(rays);
     rs::test::Random random(3);
@@ -79,6 +78,34 @@ TEST(Packets, GiveTheBitsOfSingleRays) {
     }
     EXPECT_GT(in_the_way, 500);
     rays->intersect_many({}, {});
+}
+
+TEST(Packets, GiveTheBitsOfSingleRays) {
+    Scene scene = scene_of_all_kinds();
+    expect_the_bits_of_single_rays(scene);
+    for (Instance& instance : scene.instances) instance.at_close.reset();
+    expect_the_bits_of_single_rays(scene);
+}
+
+// Neighbours that go to one lamp, which kept Embree busy for ever where all that stands in the way are instances.
+TEST(Packets, OfNeighboursComeBackFromInstances) {
+    Scene scene = scene_of_all_kinds();
+    for (Instance& instance : scene.instances) instance.at_close.reset();
+    const auto rays = RayScene::create(scene);
+    ASSERT_TRUE(rays);
+    std::vector<RayScene::Ray> asked;
+    for (int i = 0; i < 4096; ++i) {
+        const glm::vec3 from(-3.0F + 0.1F * static_cast<float>(i % 64), -0.999F,
+                             -3.0F + 0.1F * static_cast<float>(i / 64));
+        const glm::vec3 way = glm::vec3(1, 3, 1) - from;
+        asked.push_back({from, glm::normalize(way), 0, glm::length(way)});
+    }
+    std::vector<std::uint8_t> hidden(asked.size());
+    rays->occluded_many(asked, hidden);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        const RayScene::Ray& ray = asked[i];
+        ASSERT_EQ(rays->occluded(ray.origin, ray.direction, ray.reach, ray.time), hidden[i] != 0) << i;
+    }
 }
 
 TEST(Packets, OfWhittedGiveTheBitsOfSingleRays) {
