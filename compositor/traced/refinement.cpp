@@ -1,19 +1,13 @@
 #include "compositor/traced/refinement.hpp"
 
-#include <array>
+#include <chrono>
 #include <exception>
 #include <utility>
 
 namespace rs::compositor {
-namespace {
 
-constexpr std::array kGrids = {16, 8, 4, 2};
-constexpr int kMostPasses = 65536;
-
-}  // namespace
-
-Refinement::Refinement(std::function<Result<TracedRenderer>()> make)
-    : thread_([this, made = std::move(make)] { work(made); }) {}
+Refinement::Refinement(std::function<Result<TracedRenderer>()> make, Clock clock)
+    : clock_(std::move(clock)), thread_([this, made = std::move(make)] { work(made); }) {}
 
 Refinement::~Refinement() {
     {
@@ -25,12 +19,21 @@ Refinement::~Refinement() {
     thread_.join();
 }
 
+double Refinement::steady_clock_s() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// What is under way ends, after its first picture.
+void Refinement::drop_view() {
+    if (newest_) newest_->passes = 0;
+    if (first_is_out_) stop_ = true;
+}
+
 void Refinement::begin(const Camera& camera, TracedMethod method) {
     {
         const std::lock_guard lock(mutex_);
         wanted_ = View{camera, method};
-        newest_.reset();
-        stop_ = true;
+        drop_view();
     }
     changed_.notify_all();
 }
@@ -39,8 +42,7 @@ void Refinement::set_lights(Lighting lighting) {
     const std::lock_guard lock(mutex_);
     lighting_ = std::move(lighting);
     wanted_.reset();
-    newest_.reset();
-    stop_ = true;
+    drop_view();
 }
 
 void Refinement::end() {
@@ -60,10 +62,13 @@ std::optional<Error> Refinement::failure() {
     return failure_;
 }
 
-void Refinement::publish(Image<Rgba8> picture, int passes) {
+void Refinement::publish(Image<Rgba8> picture, const Camera& camera, int passes) {
     auto shared = std::make_shared<const Image<Rgba8>>(std::move(picture));
     const std::lock_guard lock(mutex_);
-    if (!stop_) newest_ = Step{std::move(shared), passes};
+    const bool outdated = wanted_ || lighting_;
+    if (!stop_) newest_ = Step{std::move(shared), camera, outdated ? 0 : passes};
+    first_is_out_ = true;
+    if (outdated) stop_ = true;
 }
 
 void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
@@ -84,26 +89,16 @@ void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
                 view = *std::exchange(wanted_, std::nullopt);
                 lighting = std::exchange(lighting_, std::nullopt);
                 stop_ = false;
+                first_is_out_ = false;
             }
             if (lighting) made->set_lights(*lighting->scene, lighting->exposure_ev);
             made->set_method(view.method);
-            refine(*made, view.camera);
+            refine(*made, view.camera, grid_, clock_, stop_,
+                   [&](Image<Rgba8> picture, int passes) { publish(std::move(picture), view.camera, passes); });
         }
     } catch (const std::exception& thrown) {
         const std::lock_guard lock(mutex_);
         failure_ = Error{std::string("tracing: ") + thrown.what()};
-    }
-}
-
-void Refinement::refine(TracedRenderer& renderer, const Camera& camera) {
-    for (const int side : kGrids) {
-        std::optional<Image<Rgba8>> coarse = renderer.coarse_picture(camera, side, &stop_);
-        if (!coarse) return;
-        publish(std::move(*coarse), 0);
-    }
-    renderer.look(camera);
-    while (renderer.passes() < kMostPasses && renderer.add_pass(nullptr, &stop_)) {
-        publish(renderer.picture(), renderer.passes());
     }
 }
 

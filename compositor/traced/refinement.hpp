@@ -1,9 +1,11 @@
 #pragma once
-// A traced picture that is there at once and gets better while nobody moves: coarse grids first, each twice as fine as
-// the one before, then a sample of each pixel at a time. What comes when is counted in pictures, never by the clock.
+// A traced picture that is there at once and gets better while nobody moves (progression.hpp), in a thread of its own.
 //
-//     begin(camera) -> 16x16 pixels as one -> 8x8 -> 4x4 -> 2x2 -> pass 1 -> pass 2 -> ... until end()
+//     begin(camera) -> first grid -> finer grids -> pass 1 -> pass 2 -> ... until end()
+//
+// The first picture of a view is always finished, so that somebody who moves all the time sees where he goes.
 
+#include "compositor/traced/progression.hpp"
 #include "compositor/traced/traced_renderer.hpp"
 #include "rayspace/image/image.hpp"
 
@@ -17,16 +19,16 @@
 
 namespace rs::compositor {
 
-// Works in a thread of its own; all functions may be called from one other thread and return at once.
+// All functions may be called from one other thread than its own, and return at once.
 class Refinement {
 public:
     // `make` is called in the thread, at once: it may take its time.
-    explicit Refinement(std::function<Result<TracedRenderer>()> make);
+    explicit Refinement(std::function<Result<TracedRenderer>()> make, Clock clock = steady_clock_s);
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
     ~Refinement();  // waits for what is under way, a tile or two
 
-    // Drops what was begun before.
+    // Drops what was begun before, but for its first picture.
     void begin(const Camera& camera, TracedMethod method = TracedMethod::kPath);
     // Other light from now on (TracedRenderer::set_lights); begin() must follow.
     struct Lighting {
@@ -38,17 +40,19 @@ public:
 
     struct Step {
         std::shared_ptr<const Image<Rgba8>> picture;  // of the camera's size
-        int passes = 0;                               // 0: of a coarse grid
+        Camera camera;
+        int passes = 0;  // 0: of a coarse grid, or the first picture of a view that was begun before the last
     };
-    // The newest picture of what was begun last; nothing where there is none since the last call.
+    // The newest picture; nothing where there is none since the last call.
     std::optional<Step> take();
     // Why there will be no pictures; nothing where there will.
     [[nodiscard]] std::optional<Error> failure();
 
 private:
     void work(const std::function<Result<TracedRenderer>()>& make);
-    void refine(TracedRenderer& renderer, const Camera& camera);
-    void publish(Image<Rgba8> picture, int passes);
+    void publish(Image<Rgba8> picture, const Camera& camera, int passes);
+    static double steady_clock_s();
+    void drop_view();
 
     std::mutex mutex_;
     std::condition_variable changed_;
@@ -61,6 +65,9 @@ private:
     std::optional<Step> newest_;
     std::optional<Error> failure_;
     bool leaving_ = false;
+    bool first_is_out_ = true;  // the first picture of what is under way
+    Clock clock_;
+    FirstGrid grid_;  // of the thread
     std::atomic<bool> stop_{false};
     std::thread thread_;  // the last member: it uses all others
 };

@@ -153,8 +153,13 @@ std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera,
     if (!tracer_.accumulate(coarse, render_options(coarse), 1, sum, nullptr, stop)) return std::nullopt;
     const Image<Rgba8> small = shown(sum.mean());
     Image<Rgba8> picture(camera.width, camera.height);
-    for (int y = 0; y < camera.height; ++y) {
-        for (int x = 0; x < camera.width; ++x) picture(x, y) = small(x / side, y / side);
+    for (int y = 0; y < small.height(); ++y) {
+        const int top = y * side, bottom = std::min(top + side, camera.height);
+        for (int x = 0; x < small.width(); ++x) {
+            const int right = std::min((x + 1) * side, camera.width);
+            for (int row = top; row < bottom; ++row)
+                std::fill(&picture(x * side, row), &picture(right - 1, row) + 1, small(x, y));
+        }
     }
     return picture;
 }

@@ -69,6 +69,7 @@ public:
 
     // For pictures that begin after this.
     void set_method(TracedMethod method) { render_.method = method; }
+    [[nodiscard]] TracedMethod method() const { return render_.method; }
     // Only these pixels of pictures that begin after this are traced; they have the bytes that they have in whole ones.
     void set_part(const capture::PixelRectangle& part) { render_.part = part; }
     // The lights, environment and headlight of `scene`, whose geometry is that of the scene that this was made of, and

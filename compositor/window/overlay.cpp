@@ -105,6 +105,8 @@ void draw_switches(PanelState& state) {
             if (ImGui::RadioButton(named.name, state.method == named.method)) state.method = named.method;
             ImGui::SameLine();
         }
+        ImGui::Checkbox("walk on", &state.walk_on);
+        ImGui::SameLine();
         ImGui::Text("%d samples a pixel", state.passes);
     }
     ImGui::SameLine();

@@ -267,7 +267,7 @@ void Visit::hear_showroom() {
 bool Visit::move(double seconds) {
     navigation_.speed = panel_.speed;
     const NavigationInput movement = input_.movement(seconds);
-    if (panel_.traced) {
+    if (panel_.traced && !panel_.walk_on) {
         travel_.reset();
     } else if (travel_) {
         travel_->t += seconds / kTravelSeconds;
@@ -329,7 +329,7 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     // A view that stands still is drawn again when it is better, or something in it may have changed.
     const bool changed = refine(here) || turned || *played || !showroom_->settled();
     if (changed) {
-        if (Status status = compositor_.draw(here); !status) return status.error();
+        if (Status status = compositor_.draw(refined_ ? shown_from_ : here); !status) return status.error();
     } else {
         std::this_thread::sleep_for(kPauseWhileTracing);
     }

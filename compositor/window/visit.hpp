@@ -59,6 +59,8 @@ public:
     [[nodiscard]] Window& window() { return window_; }
     [[nodiscard]] const Visitor& visitor() const { return visitor_; }
     [[nodiscard]] const PanelState& panel() const { return panel_; }
+    // Traced light follows whoever moves, by coarse pictures; else the view stands still.
+    void walk_on(bool on) { panel_.walk_on = on; }
     [[nodiscard]] LightDesk& lights() { return desk_; }
     // Of the last frame, without the overlay.
     [[nodiscard]] Image<Rgba8> picture() const { return compositor_.picture(); }
@@ -110,6 +112,7 @@ private:
     std::vector<double> frame_seconds_;
     std::optional<Refinement> refinement_;
     std::optional<Camera> refined_;  // what is traced now
+    Camera shown_from_;              // of the traced picture, which is behind where one walks on
     TracedMethod refined_by_ = TracedMethod::kPath;
     bool relit_ = false;  // since the tracer began
     LightDesk desk_;

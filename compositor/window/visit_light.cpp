@@ -64,18 +64,22 @@ bool Visit::refine(const Camera& here) {
     }
     const bool otherwise =
         !refined_ || refined_->width != here.width || refined_->height != here.height || refined_by_ != panel_.method;
-    if (otherwise || relit_) {
+    const bool moved = !otherwise && refined_->world_from_camera != here.world_from_camera;
+    if (otherwise || moved || relit_) {
         refined_ = here;
         refined_by_ = panel_.method;
-        if (otherwise) compositor_.set_traced(nullptr);
-        relit_ = false;
         refinement_->begin(here, panel_.method);
         panel_.passes = 0;
-        return true;
     }
+    if (otherwise) {
+        compositor_.set_traced(nullptr);
+        shown_from_ = here;
+    }
+    const bool anew = otherwise || std::exchange(relit_, false);
     const std::optional<Refinement::Step> step = refinement_->take();
-    if (!step) return false;
+    if (!step || step->camera.width != here.width || step->camera.height != here.height) return anew;
     panel_.passes = step->passes;
+    shown_from_ = step->camera;
     compositor_.set_traced(step->picture);
     return true;
 }

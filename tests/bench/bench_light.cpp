@@ -8,10 +8,9 @@
 // reference's mean, "dB" the PSNR of the 8-bit pictures. Nothing else should run beside it.
 
 #include "capture/tracer/light/directions.hpp"
-#include "compositor/scene/light/lights_file.hpp"
-#include "compositor/scene/scene_file.hpp"
 #include "compositor/traced/traced_renderer.hpp"
 #include "rayspace/tool/tool_main.hpp"
+#include "tests/bench/lit_scene.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -23,9 +22,7 @@ namespace rs::compositor {
 namespace {
 
 struct Arguments {
-    std::string scene, lights, eye, at, size = "480x300";
-    double fov_deg = 50;
-    double exposure_ev = 0;
+    LitSceneArguments lit{"480x300"};
     double seconds = 15;
     int reference = 1024;
     int passes = 0;
@@ -65,28 +62,11 @@ void print_row(const char* name, const TracedRenderer& renderer, double seconds,
                 10 * std::log10(255.0 * 255.0 * 3 * pixels / std::max(difference, 1e-9)));
 }
 
-Result<Scene> read_lit_scene(const Arguments& arguments) {
-    Result<Scene> scene = read_scene(arguments.scene);
-    if (!scene || arguments.lights.empty()) return scene;
-    Result<LightList> list = read_light_list(arguments.lights);
-    if (!list) return list.error();
-    if (list->replace) scene->lights.clear();
-    scene->lights.insert(scene->lights.end(), list->lights.begin(), list->lights.end());
-    scene->environment = std::move(list->environment);
-    return scene;
-}
-
 Status run(const Arguments& arguments) {
-    const Result<Scene> scene = read_lit_scene(arguments);
-    if (!scene) return scene.error();
-    const auto size = parse_size(arguments.size);
-    if (!size) return size.error();
-    const auto eye = parse_triple(arguments.eye, "--eye"), at = parse_triple(arguments.at, "--at");
-    if (!eye) return eye.error();
-    if (!at) return at.error();
-    const Camera camera = look_at_camera({eye->x, eye->y, eye->z}, {at->x, at->y, at->z}, radians(arguments.fov_deg),
-                                         size->width, size->height);
-    auto renderer = TracedRenderer::create(*scene, {}, {.exposure_ev = arguments.exposure_ev});
+    const Result<LitScene> lit = read_lit_scene(arguments.lit);
+    if (!lit) return lit.error();
+    const Camera& camera = lit->camera;
+    auto renderer = TracedRenderer::create(lit->scene, {}, {.exposure_ev = arguments.lit.exposure_ev});
     if (!renderer) return renderer.error();
     // A hair's breadth aside, so that its noise is not that of the others.
     Camera aside = camera;
@@ -126,13 +106,7 @@ int main(int argc, char** argv) {
     using namespace rs::compositor;
     CLI::App app("Renderers of traced light against a converged picture", "bench_light");
     Arguments arguments;
-    app.add_option("scene", arguments.scene, "scene file")->required();
-    app.add_option("--lights", arguments.lights, "list of lights");
-    app.add_option("--eye", arguments.eye, "X,Y,Z")->required();
-    app.add_option("--at", arguments.at, "X,Y,Z")->required();
-    app.add_option("--fov", arguments.fov_deg, "horizontal, degrees")->capture_default_str();
-    app.add_option("--size", arguments.size, "WxH")->capture_default_str();
-    app.add_option("--exposure", arguments.exposure_ev, "EV")->capture_default_str();
+    arguments.lit.add_to(app);
     app.add_option("--reference", arguments.reference, "passes of the reference")->capture_default_str();
     app.add_option("--seconds", arguments.seconds, "for each renderer")->capture_default_str();
     app.add_option("--passes", arguments.passes, "and as many passes, if given");

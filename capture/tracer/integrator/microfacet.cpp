@@ -9,13 +9,6 @@ namespace rs::capture {
 
 namespace {
 
-// Smith's Lambda for GGX.
-float smith_lambda(const glm::vec3& w, float alpha) {
-    const float cos2 = w.z * w.z;
-    const float tan2 = std::max(0.0F, 1.0F - cos2) / std::max(cos2, 1e-12F);
-    return 0.5F * (std::sqrt(1.0F + alpha * alpha * tan2) - 1.0F);
-}
-
 // The mean over visible normals of Fresnel reflectance times the share that is not shadowed on the way out. A midpoint
 // rule suffices: the integrand is smooth, and it is evaluated once per table.
 template <class Fresnel>
@@ -42,6 +35,12 @@ float integrate_albedo(float cos_angle, float alpha, Fresnel fresnel) {
 
 }  // namespace
 
+float smith_lambda(const glm::vec3& w, float alpha) {
+    const float cos2 = w.z * w.z;
+    const float tan2 = std::max(0.0F, 1.0F - cos2) / std::max(cos2, 1e-12F);
+    return 0.5F * (std::sqrt(1.0F + alpha * alpha * tan2) - 1.0F);
+}
+
 float fresnel_dielectric(float cos_incident, float ior) {
     const float c = std::clamp(cos_incident, 0.0F, 1.0F);
     const float sin2_refracted = (1.0F - c * c) / (ior * ior);
@@ -67,16 +66,15 @@ glm::vec3 sample_visible_normal(const glm::vec3& wo, float alpha, const glm::vec
     return glm::normalize(glm::vec3(half.x * alpha, half.y * alpha, std::max(half.z, 1e-7F)));
 }
 
-MicrofacetValue evaluate_microfacet(const glm::vec3& wo, const glm::vec3& wi, float alpha) {
+MicrofacetValue evaluate_microfacet(const glm::vec3& wo, const glm::vec3& wi, float alpha, float lambda_o) {
     const glm::vec3 half = glm::normalize(wo + wi);
     const float alpha2 = alpha * alpha;
     // 1 - z^2 through x and y: the lobe of a smooth surface is narrower than the rounding of z^2.
     const float root = alpha2 * half.z * half.z + half.x * half.x + half.y * half.y;
     const float distribution = alpha2 / (kPiF * root * root);
-    const float lambda_o = smith_lambda(wo, alpha);
     const float lambda_i = smith_lambda(wi, alpha);
     const float common = distribution / (4.0F * wo.z);
-    return {common / (1.0F + lambda_o + lambda_i), common / (1.0F + lambda_o)};
+    return {common / (1.0F + lambda_o + lambda_i), common / (1.0F + lambda_o), glm::dot(wo, half)};
 }
 
 AlbedoTable AlbedoTable::conductor(float alpha) {

@@ -29,8 +29,12 @@ glm::vec3 sample_visible_normal(const glm::vec3& wo, float alpha, const glm::vec
 struct MicrofacetValue {
     float f_cos;
     float pdf;
+    float cos_facet;  // between wo and the facets' normal
 };
-MicrofacetValue evaluate_microfacet(const glm::vec3& wo, const glm::vec3& wi, float alpha);
+// `lambda_o` is smith_lambda() of wo.
+MicrofacetValue evaluate_microfacet(const glm::vec3& wo, const glm::vec3& wi, float alpha, float lambda_o);
+// Smith's Lambda for GGX.
+float smith_lambda(const glm::vec3& w, float alpha);
 
 // Directional albedo E(cos) of one roughness: the share of the light arriving under `cos` that one scattering reflects.
 // Of a perfect mirror's microfacets (conductors), or with dielectric Fresnel reflectance (coats).

@@ -171,12 +171,17 @@ bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, fl
     rtcIntersect1(still_->embree(), &context, &query);
     if (moving_) rtcIntersect1(moving_->embree(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    surface_at({query.ray.tfar, query.hit.u, query.hit.v, query.hit.geomID, query.hit.primID, query.hit.instID[0]},
+               direction, time, point);
+    return true;
+}
 
-    const unsigned instance = query.hit.instID[0];
+void RayScene::surface_at(const Hit& hit, const glm::vec3& direction, float time, SurfacePoint& point) const {
+    const unsigned instance = hit.instance;
     const bool moves = instance != RTC_INVALID_GEOMETRY_ID;
-    const Mesh& mesh = moves ? scene_->parts[scene_->instances[instance].part].meshes[query.hit.geomID]
-                             : scene_->meshes[query.hit.geomID];
-    const glm::uvec3 t = mesh.triangles[query.hit.primID];
+    const Mesh& mesh =
+        moves ? scene_->parts[scene_->instances[instance].part].meshes[hit.mesh] : scene_->meshes[hit.mesh];
+    const glm::uvec3 t = mesh.triangles[hit.triangle];
     glm::vec3 corners[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
     glm::vec3 normals[3] = {};
     if (!mesh.normals.empty()) {
@@ -189,14 +194,14 @@ bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, fl
         for (glm::vec3& normal : normals) normal = unit_or_zero(placed.normals * normal);
         if (glm::determinant(placed.normals) < 0.0F) winding = -1.0F;
     }
-    const float weights[3] = {1.0F - query.hit.u - query.hit.v, query.hit.u, query.hit.v};
+    const float weights[3] = {1.0F - hit.u - hit.v, hit.u, hit.v};
     point.time = time;
     point.light_drawn = !moves || !scene_->instances[instance].at_close;
     point.position = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
-    point.distance = query.ray.tfar;
+    point.distance = hit.distance;
     point.material = mesh.material;
-    point.uv = interpolate_uv(mesh, query.hit.primID, query.hit.u, query.hit.v);
-    point.colour = interpolate_colour(mesh, query.hit.primID, query.hit.u, query.hit.v);
+    point.uv = interpolate_uv(mesh, hit.triangle, hit.u, hit.v);
+    point.colour = interpolate_colour(mesh, hit.triangle, hit.u, hit.v);
 
     const glm::vec3 cross = winding * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const float length = glm::length(cross);
@@ -208,11 +213,11 @@ bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, fl
     }
     point.shading_normal = point.geometric_normal;
     point.lifted_position = point.position;
-    if (mesh.normals.empty()) return true;
+    if (mesh.normals.empty()) return;
 
     const glm::vec3 blended = normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2];
     const float blended_length = glm::length(blended);
-    if (!(blended_length > 1e-6F)) return true;
+    if (!(blended_length > 1e-6F)) return;
     // Some files wind triangles against their normals: the sides follow the winding, the curvature follows the normals.
     const float side = glm::dot(blended, point.geometric_normal) < 0.0F ? -1.0F : 1.0F;
     point.shading_normal = blended * (side / blended_length);
@@ -221,7 +226,6 @@ bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, fl
         const float below = std::min(0.0F, glm::dot(point.position - corners[i], normal));
         point.lifted_position -= normal * (weights[i] * below);
     }
-    return true;
 }
 
 RayScene::Bundle RayScene::distances(const std::array<glm::vec3, kBundle>& origins, const glm::vec3& direction,
@@ -245,6 +249,8 @@ RayScene::Bundle RayScene::distances(const std::array<glm::vec3, kBundle>& origi
         query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     rtcIntersect8(valid.data(), still_->embree(), &context, &query);
+    // Coherent packets and instances do not go together (ray_packets.cpp).
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     if (moving_) rtcIntersect8(valid.data(), moving_->embree(), &context, &query);
     Bundle found;
     for (std::size_t i = 0; i < kBundle; ++i) {

@@ -15,6 +15,7 @@
 #include "rayspace/base/result.hpp"
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -58,6 +59,26 @@ public:
     using Bundle = std::array<float, kBundle>;
     [[nodiscard]] Bundle distances(const std::array<glm::vec3, kBundle>& origins, const glm::vec3& direction,
                                    float time) const;
+    // The same for many rays, in Embree's packets of 16: the same bits, and the quicker the more alike neighbouring
+    // rays are. As many results as rays.
+    struct Ray {
+        glm::vec3 origin;
+        glm::vec3 direction;  // unit length
+        float time;
+        float reach;  // what is farther away counts nothing; may be infinite
+    };
+    struct Hit {
+        float distance = -1.0F;  // below 0: nothing was met
+        float u = 0.0F, v = 0.0F;
+        unsigned mesh = 0, triangle = 0;
+        unsigned instance = ~0U;  // ~0: a mesh that stands still
+        [[nodiscard]] bool met() const { return distance >= 0.0F; }
+    };
+    void intersect_many(std::span<const Ray> rays, std::span<Hit> hits) const;
+    // 1 where something is in the way, primitives included; else 0.
+    void occluded_many(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
+    // What is where a ray has met something.
+    void surface_at(const Hit& hit, const glm::vec3& direction, float time, SurfacePoint& point) const;
     // What a primitive answers that is nearer than `distance`.
     [[nodiscard]] std::optional<RayPrimitive::Answer> ask_primitives(const glm::vec3& origin,
                                                                      const glm::vec3& direction, float distance) const;

@@ -40,7 +40,10 @@ std::vector<SurfaceModel> make_surface_models(const std::vector<Material>& mater
 
 Surface::Surface(const SurfaceModel& model, const glm::vec3& colour, const glm::vec3& wo, bool leaving)
     : model_(model), colour_(colour), wo_(wo), leaving_(leaving) {
-    if (model.albedo) albedo_ = model.albedo->at(wo.z);
+    if (model.albedo) {
+        albedo_ = model.albedo->at(wo.z);
+        lambda_ = smith_lambda(wo, model.alpha);
+    }
     if (model.kind == SurfaceKind::glossy) {
         const float base = (1.0F - albedo_) * luminance(colour);
         coat_probability_ = std::clamp(albedo_ / (albedo_ + base + 1e-6F), 0.05F, 1.0F);
@@ -56,8 +59,8 @@ Surface::Value Surface::evaluate(const glm::vec3& wi) const {
         }
         case SurfaceKind::glossy: {
             if (wi.z <= 0.0F) return {};
-            const MicrofacetValue coat = evaluate_microfacet(wo_, wi, model_.alpha);
-            const float reflected = fresnel_dielectric(glm::dot(wo_, glm::normalize(wo_ + wi)), model_.ior);
+            const MicrofacetValue coat = evaluate_microfacet(wo_, wi, model_.alpha, lambda_);
+            const float reflected = fresnel_dielectric(coat.cos_facet, model_.ior);
             const float through =
                 (1.0F - albedo_) * (1.0F - model_.albedo->at(wi.z)) / std::max(1.0F - model_.albedo->mean(), 1e-4F);
             return {glm::vec3(coat.f_cos * reflected) + colour_ * (through * cos_in / kPiF),
@@ -65,8 +68,8 @@ Surface::Value Surface::evaluate(const glm::vec3& wi) const {
         }
         case SurfaceKind::metal: {
             if (wi.z <= 0.0F) return {};
-            const MicrofacetValue facets = evaluate_microfacet(wo_, wi, model_.alpha);
-            const glm::vec3 reflected = fresnel_schlick(glm::dot(wo_, glm::normalize(wo_ + wi)), colour_);
+            const MicrofacetValue facets = evaluate_microfacet(wo_, wi, model_.alpha, lambda_);
+            const glm::vec3 reflected = fresnel_schlick(facets.cos_facet, colour_);
             const glm::vec3 rescattered = glm::vec3(1.0F) + colour_ * ((1.0F - albedo_) / std::max(albedo_, 1e-3F));
             return {reflected * rescattered * facets.f_cos, facets.pdf};
         }

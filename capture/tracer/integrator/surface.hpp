@@ -79,6 +79,7 @@ private:
     glm::vec3 wo_;
     bool leaving_;
     float albedo_ = 0.0F;            // E(wo)
+    float lambda_ = 0.0F;            // smith_lambda() of wo
     float coat_probability_ = 0.0F;  // glossy: share of the samples that the coat gets
 };
 

@@ -84,20 +84,18 @@ float ToonTracer::intensity(const LightTransport::Vertex& vertex, Sampler& sampl
             lit += strength * received;
     };
     if (of_sky_ > 0.0F) add(of_sky_, sky_, kFarAway);
+    const LightSet& lights = transport().lights();
     const glm::vec3 place = vertex.start_of(vertex.point.geometric_normal, true);
     const int rays = std::max(style_.shadow_rays, 1);
     const glm::vec2 shift = style_.shadow_rays > 0 ? sampler.next_2d() : glm::vec2(0.0F);
     for (int ray = 0; ray < rays; ++ray) {
-        const auto visit = [&](const LightSample& light) {
-            if (light.delta && ray > 0) return;
-            const float share = light.delta ? 1.0F : 1.0F / static_cast<float>(rays);
-            add(share * luminance(light.radiance) / light.pdf, light.direction, light.distance);
-        };
-        if (style_.shadow_rays > 0) {
-            transport().lights().visit_points(
-                place, [&] { return even_place(shift, ray); }, visit);
-        } else {
-            transport().lights().visit_middles(place, visit);
+        const auto place_on_light = [&] { return even_place(shift, ray); };
+        for (std::size_t i = 0; i < lights.light_count(); ++i) {
+            const auto light =
+                style_.shadow_rays > 0 ? lights.point(i, place, place_on_light) : lights.middle(i, place);
+            if (!light || (light->delta && ray > 0)) continue;
+            const float share = light->delta ? 1.0F : 1.0F / static_cast<float>(rays);
+            add(share * luminance(light->radiance) / light->pdf, light->direction, light->distance);
         }
     }
     const float most = std::max(glm::length(towards), 0.5F * sum) + everywhere_;

@@ -17,6 +17,8 @@
 #include "capture/tracer/integrator/whitted.hpp"
 #include "capture/tracer/scene/toon_style.hpp"
 
+#include <span>
+
 namespace rs::capture {
 
 class ToonTracer final : public WhittedTracer {
@@ -26,6 +28,9 @@ public:
 
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
+    void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override {
+        Integrator::trace_many(rays, arrived);
+    }
 
 protected:
     bool shade(const LightTransport::Vertex& vertex, const glm::vec3& direction, Sampler& sampler,

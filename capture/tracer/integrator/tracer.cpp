@@ -55,6 +55,22 @@ PixelRectangle visible_rectangle(const Camera& camera, const RayScene& rays) {
             clamp(std::ceil(right) + 1, camera.width), clamp(std::ceil(bottom) + 1, camera.height)};
 }
 
+// Those that are visible of the tile with this corner, in squares of 4 x 4, which are packets of rays.
+std::vector<glm::ivec2> pixels_of_tile(int left, int top, const PixelRectangle& visible) {
+    constexpr int kSquare = 4;
+    std::vector<glm::ivec2> pixels;
+    for (int y0 = top; y0 < top + kTileSide_px; y0 += kSquare) {
+        for (int x0 = left; x0 < left + kTileSide_px; x0 += kSquare) {
+            for (int y = std::max(y0, visible.y0); y < std::min(y0 + kSquare, visible.y1); ++y) {
+                for (int x = std::max(x0, visible.x0); x < std::min(x0 + kSquare, visible.x1); ++x) {
+                    pixels.emplace_back(x, y);
+                }
+            }
+        }
+    }
+    return pixels;
+}
+
 // Each camera position has noise of its own, so that neighbouring views do not share a pattern.
 std::uint64_t picture_key(std::uint64_t seed, std::initializer_list<glm::dvec3> placement) {
     std::uint64_t key = mix_bits(seed);
@@ -176,7 +192,7 @@ Rendering Tracer::render(const RayPicture& rays, const Frame& frame, const Rende
     Accumulation sum;
     accumulate(rays, frame, options, options.samples_per_pixel, sum, progress, nullptr);
     Rendering rendering;
-    rendering.picture = sum.mean();
+    rendering.picture = std::move(sum).mean();
     if (options.depth) rendering.depth = first_depths(rays, frame.visible, *state_->rays, options.threads);
     return rendering;
 }
@@ -190,9 +206,8 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
                         Accumulation& into, Progress* progress, const std::atomic<bool>* stop) const {
     RS_CHECK(options.filter_radius_px > 0.0F && options.filter_radius_px <= 0.5F);
     RS_CHECK(options.max_bounces >= 0 && count >= 1);
-    if (into.samples == 0) into.sum = Image<RgbaF>(rays.width, rays.height);
-    RS_CHECK(into.sum.width() == rays.width && into.sum.height() == rays.height);
-    Image<RgbaF> sum = into.sum;
+    RS_CHECK(into.samples == 0 || (into.sum.width() == rays.width && into.sum.height() == rays.height));
+    Image<RgbaF> sum = into.samples == 0 ? Image<RgbaF>(rays.width, rays.height) : into.sum;
 
     const LightTransport transport(state_->scene, *state_->rays, *state_->lights, state_->models,
                                    {options.see_areas, options.see_environment});
@@ -202,36 +217,38 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
     const bool blurred = state_->rays->blurred();
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);
 
-    const auto add_samples = [&](int x, int y) {
+    const auto camera_ray = [&](int x, int y, int sample) {
         const std::uint64_t pixel_key =
             mix_bits(frame.key ^ (static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x)));
-        RgbaF& pixel = sum(x, y);
-        for (int s = into.samples; s < into.samples + count; ++s) {
-            Sampler sampler(pixel_key, static_cast<std::uint32_t>(s));
-            const glm::dvec2 offset = (glm::dvec2(sampler.next_2d()) - 0.5) * filter_width_px;
-            ThinLens::Ray ray{rays.centre, rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)};
-            const float time = blurred ? sampler.next_2d().x : 0.0F;
-            if (options.lens.aperture > 0) {
-                ray = options.lens.through(ray.origin, rays.forward, ray.direction, sampler.next_2d());
-            }
-            const glm::vec3 direction(glm::normalize(ray.direction));
-            glm::vec3 radiance;
-            if (!integrator->trace(glm::vec3(ray.origin), direction, time, sampler, radiance)) continue;
-            pixel.r += radiance.r;
-            pixel.g += radiance.g;
-            pixel.b += radiance.b;
-            pixel.a += 1.0F;
+        Sampler sampler(pixel_key, static_cast<std::uint32_t>(sample));
+        const glm::dvec2 offset = (glm::dvec2(sampler.next_2d()) - 0.5) * filter_width_px;
+        ThinLens::Ray ray{rays.centre, rays.ray(x + 0.5 + offset.x, y + 0.5 + offset.y)};
+        const float time = blurred ? sampler.next_2d().x : 0.0F;
+        if (options.lens.aperture > 0) {
+            ray = options.lens.through(ray.origin, rays.forward, ray.direction, sampler.next_2d());
         }
+        return CameraRay{glm::vec3(ray.origin), glm::vec3(glm::normalize(ray.direction)), time, sampler};
     };
     const auto add_tile = [&](std::int64_t tile) {
         if (stop != nullptr && *stop) return;
         const int across = tiles_along(rays.width);
-        const int tile_x = static_cast<int>(tile % across) * kTileSide_px;
-        const int tile_y = static_cast<int>(tile / across) * kTileSide_px;
-        const int x1 = std::min(tile_x + kTileSide_px, visible.x1);
-        const int y1 = std::min(tile_y + kTileSide_px, visible.y1);
-        for (int y = std::max(tile_y, visible.y0); y < y1; ++y) {
-            for (int x = std::max(tile_x, visible.x0); x < x1; ++x) add_samples(x, y);
+        const std::vector<glm::ivec2> pixels = pixels_of_tile(static_cast<int>(tile % across) * kTileSide_px,
+                                                              static_cast<int>(tile / across) * kTileSide_px, visible);
+        std::vector<CameraRay> many;
+        many.reserve(pixels.size());
+        std::vector<Arrived> arrived(pixels.size());
+        for (int s = into.samples; s < into.samples + count && !pixels.empty(); ++s) {
+            many.clear();
+            for (const glm::ivec2& p : pixels) many.push_back(camera_ray(p.x, p.y, s));
+            integrator->trace_many(many, arrived);
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                if (!arrived[i].met) continue;
+                RgbaF& pixel = sum(pixels[i].x, pixels[i].y);
+                pixel.r += arrived[i].radiance.r;
+                pixel.g += arrived[i].radiance.g;
+                pixel.b += arrived[i].radiance.b;
+                pixel.a += 1.0F;
+            }
         }
         if (progress != nullptr) progress->advance(1);
     };
@@ -242,15 +259,15 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
     return true;
 }
 
-Image<RgbaF> Accumulation::mean() const {
-    Image<RgbaF> mean(sum.width(), sum.height());
-    for (int y = 0; y < sum.height(); ++y) {
-        for (int x = 0; x < sum.width(); ++x) {
-            const RgbaF& s = sum(x, y);
-            if (s.a > 0.0F) mean(x, y) = {s.r / s.a, s.g / s.a, s.b / s.a, s.a / static_cast<float>(samples)};
-        }
+Image<RgbaF> Accumulation::mean() const& {
+    return Accumulation(*this).mean();
+}
+
+Image<RgbaF> Accumulation::mean() && {
+    for (RgbaF& s : sum.pixels()) {
+        if (s.a > 0.0F) s = {s.r / s.a, s.g / s.a, s.b / s.a, s.a / static_cast<float>(samples)};
     }
-    return mean;
+    return std::move(sum);
 }
 
 const std::vector<Light>& Tracer::lights() const {

@@ -65,7 +65,8 @@ struct Accumulation {
     int samples = 0;   // of each pixel so far
 
     // Linear light, straight alpha = share of camera rays that hit a surface.
-    [[nodiscard]] Image<RgbaF> mean() const;
+    [[nodiscard]] Image<RgbaF> mean() const&;
+    [[nodiscard]] Image<RgbaF> mean() &&;
 };
 
 class Integrator;

@@ -58,6 +58,12 @@ LightTransport::Vertex LightTransport::vertex_at(const SurfacePoint& point, cons
 LightTransport::Met LightTransport::meet(const Segment& segment, const MediumStack& media, glm::vec3& throughput,
                                          glm::vec3& radiance, SurfacePoint& point) const {
     const bool hit = rays_.intersect(segment.origin, segment.direction, segment.time, point);
+    return arrive(segment, hit, media, throughput, radiance, point);
+}
+
+LightTransport::Met LightTransport::arrive(const Segment& segment, bool hit, const MediumStack& media,
+                                           glm::vec3& throughput, glm::vec3& radiance,
+                                           const SurfacePoint& point) const {
     const float reach = hit ? point.distance : std::numeric_limits<float>::infinity();
     if (!segment.of_camera) {
         if (const auto shown = rays_.ask_primitives(segment.origin, segment.direction, reach)) {

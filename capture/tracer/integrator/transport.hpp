@@ -11,6 +11,8 @@
 #include "capture/tracer/light/directions.hpp"
 #include "capture/tracer/light/light_set.hpp"
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace rs::capture {
@@ -19,6 +21,19 @@ namespace rs::capture {
 struct Seen {
     bool areas = false;
     bool environment = false;
+};
+
+// A ray of a picture.
+struct CameraRay {
+    glm::vec3 origin;
+    glm::vec3 direction;  // unit length
+    float time;           // 0..1 as ray_scene.hpp has it
+    Sampler sampler;
+};
+// What arrived along it.
+struct Arrived {
+    glm::vec3 radiance{0.0F};
+    bool met = false;
 };
 
 // The light that arrives along one ray of a picture.
@@ -32,6 +47,13 @@ public:
     // ray_scene.hpp has it. Thread-safe.
     virtual bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                        glm::vec3& radiance) const = 0;
+    // The same bits for many rays, as many results; neighbours in the list should be neighbours in the picture.
+    virtual void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            arrived[i].met =
+                trace(rays[i].origin, rays[i].direction, rays[i].time, rays[i].sampler, arrived[i].radiance);
+        }
+    }
 };
 
 // Thread-safe.
@@ -87,6 +109,10 @@ public:
     // included, and gives where it ends.
     Met meet(const Segment& segment, const MediumStack& media, glm::vec3& throughput, glm::vec3& radiance,
              SurfacePoint& point) const;
+
+    // The same where `hit` tells whether `point` is what the segment meets first.
+    Met arrive(const Segment& segment, bool hit, const MediumStack& media, glm::vec3& throughput, glm::vec3& radiance,
+               const SurfacePoint& point) const;
 
     [[nodiscard]] Vertex vertex_at(const SurfacePoint& point, const glm::vec3& direction) const;
     // Makes ready for light samples.

@@ -14,7 +14,12 @@
 #include "capture/tracer/integrator/transport.hpp"
 #include "capture/tracer/light/irradiance_map.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace rs::capture {
 
@@ -30,6 +35,8 @@ public:
 
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
+    // Camera rays and those to lights in packets, light by light; mirrors and glass are followed ray by ray.
+    void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override;
 
 protected:
     // What a surface sends back along `direction`, beside what it reflects or lets pass. False where it does neither.
@@ -45,9 +52,39 @@ private:
         MediumStack media{};
         int depth = 0;
     };
-    bool follow(Ray ray, Sampler& sampler, glm::vec3& radiance) const;
+    // The ray to a light, and what the light makes the surface send where nothing is in its way.
+    struct Shadow {
+        RayScene::Ray ray;
+        glm::vec3 light;
+    };
+    // Rays of neighbours, and what they have met; kept from one batch to the next, for its memory.
+    struct Batch {
+        struct Lit {
+            std::size_t ray;  // of the batch
+            Ray followed;
+            LightTransport::Vertex vertex;
+            glm::vec3 sent;
+        };
+        struct Brought {
+            Lit* to;
+            glm::vec3 light;
+        };
+        std::vector<RayScene::Ray> queries;
+        std::vector<RayScene::Hit> hits;
+        std::vector<Lit> surfaces;
+        std::vector<Brought> brought;
+        std::vector<std::uint8_t> hidden;
+    };
+    void trace_batch(std::span<CameraRay> rays, std::span<Arrived> arrived, Batch& batch) const;
+    void light_surfaces(std::span<CameraRay> rays, Batch& batch) const;
+    bool follow(const Ray& ray, Sampler& sampler, glm::vec3& radiance) const;
+    void follow_mirrors(const Ray& ray, const LightTransport::Vertex& vertex, Sampler& sampler,
+                        glm::vec3& radiance) const;
+    // Nothing where the light of this number brings nothing.
+    [[nodiscard]] std::optional<Shadow> shadow_of(std::size_t number, const LightTransport::Vertex& vertex,
+                                                  Sampler& sampler) const;
+    [[nodiscard]] bool is_metal(const LightTransport::Vertex& vertex) const;
     [[nodiscard]] glm::vec3 matte_light(const LightTransport::Vertex& vertex) const;
-    [[nodiscard]] glm::vec3 light_of(const LightTransport::Vertex& vertex, const LightSample& light) const;
 
     LightTransport transport_;
     IrradianceMap irradiance_;

@@ -34,52 +34,45 @@ void LightSet::gather_glow(const Mesh& mesh) {
     glows_.push_back(glow);
 }
 
-void LightSet::visit_middles(const glm::vec3& position, const std::function<void(const LightSample&)>& visit) const {
-    for (const Source& source : sources_) {
-        if (source.kind == SourceKind::environment || source.kind == SourceKind::emitters) continue;
-        if (!(estimate(source, position) > 0.0F)) continue;
-        if (source.kind == SourceKind::area) {
-            const Area& area = areas_[source.index];
-            const glm::vec2 middle = area.round ? glm::vec2(0.0F) : glm::vec2(0.5F);
-            if (const auto light = sample_area(area, position, 1.0F, middle)) visit(*light);
-        } else if (const auto light = sample_light(lights_[source.index], position, 1.0F)) {
-            visit(*light);
-        }
-    }
-    for (const Glow& glow : glows_) {
-        const glm::vec3 to_light = glow.middle - position;
-        const float distance2 = glm::dot(to_light, to_light);
-        if (!(distance2 > 0.0F)) continue;
-        const float distance = std::sqrt(distance2);
-        const glm::vec3 direction = to_light / distance;
-        const bool flat = glm::length(glow.mean_normal) > 0.5F * glow.area;
-        // A closed surface shows a quarter of its area to any side, on average.
-        float facing = -glm::dot(direction, glow.mean_normal);
-        if (glow.two_sided) facing = std::abs(facing);
-        if (!flat) facing = glow.area / 4.0F;
-        const float clear = flat ? distance : distance - glow.radius;
-        if (!(facing > 0.0F) || !(clear > 0.0F)) continue;
-        // As an area of that size which faces the place; never larger than half of what it sees.
-        visit({direction, clear, glow.emission, std::max(distance2 / facing, 1.0F / kPiF), false});
-    }
+std::optional<LightSample> LightSet::middle(std::size_t number, const glm::vec3& position) const {
+    if (number >= sources_.size()) return glow(glows_[number - sources_.size()], position);
+    const Source& source = sources_[number];
+    if (source.kind == SourceKind::environment || source.kind == SourceKind::emitters) return std::nullopt;
+    if (source.kind == SourceKind::distant) return sample_light(lights_[source.index], position, 1.0F);
+    // Before a web is asked.
+    if (!(estimate(source, position) > 0.0F)) return std::nullopt;
+    if (source.kind == SourceKind::local) return sample_light(lights_[source.index], position, 1.0F);
+    const Area& area = areas_[source.index];
+    return sample_area(area, position, 1.0F, area.round ? glm::vec2(0.0F) : glm::vec2(0.5F));
 }
 
-void LightSet::visit_points(const glm::vec3& position, const std::function<glm::vec2()>& draw,
-                            const std::function<void(const LightSample&)>& visit) const {
-    for (const Source& source : sources_) {
-        if (source.kind == SourceKind::environment || !(estimate(source, position) > 0.0F)) continue;
-        std::optional<LightSample> light;
-        if (source.kind == SourceKind::area) {
-            light = sample_area(areas_[source.index], position, 1.0F, draw());
-        } else if (source.kind == SourceKind::emitters) {
-            const Selection alone{position, source.power, 1.0F};  // drawn for certain
-            const float which = draw().x;
-            light = sample_emitter(alone, which, draw());
-        } else {
-            light = sample_light(lights_[source.index], position, 1.0F);
-        }
-        if (light) visit(*light);
-    }
+std::optional<LightSample> LightSet::glow(const Glow& glow, const glm::vec3& position) {
+    const glm::vec3 to_light = glow.middle - position;
+    const float distance2 = glm::dot(to_light, to_light);
+    if (!(distance2 > 0.0F)) return std::nullopt;
+    const float distance = std::sqrt(distance2);
+    const glm::vec3 direction = to_light / distance;
+    const bool flat = glm::length(glow.mean_normal) > 0.5F * glow.area;
+    // A closed surface shows a quarter of its area to any side, on average.
+    float facing = -glm::dot(direction, glow.mean_normal);
+    if (glow.two_sided) facing = std::abs(facing);
+    if (!flat) facing = glow.area / 4.0F;
+    const float clear = flat ? distance : distance - glow.radius;
+    if (!(facing > 0.0F) || !(clear > 0.0F)) return std::nullopt;
+    // As an area of that size which faces the place; never larger than half of what it sees.
+    return LightSample{direction, clear, glow.emission, std::max(distance2 / facing, 1.0F / kPiF), false};
+}
+
+std::optional<LightSample> LightSet::point(std::size_t number, const glm::vec3& position,
+                                           const std::function<glm::vec2()>& draw) const {
+    if (number >= sources_.size()) return std::nullopt;
+    const Source& source = sources_[number];
+    if (source.kind == SourceKind::environment || !(estimate(source, position) > 0.0F)) return std::nullopt;
+    if (source.kind == SourceKind::area) return sample_area(areas_[source.index], position, 1.0F, draw());
+    if (source.kind != SourceKind::emitters) return sample_light(lights_[source.index], position, 1.0F);
+    const Selection alone{position, source.power, 1.0F};  // drawn for certain
+    const float which = draw().x;
+    return sample_emitter(alone, which, draw());
 }
 
 }  // namespace rs::capture

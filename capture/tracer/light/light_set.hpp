@@ -71,13 +71,14 @@ public:
     [[nodiscard]] std::optional<Photon> emit(float u_source, const glm::vec2& u_place,
                                              const glm::vec2& u_direction) const;
 
+    // How many lights middle() and point() know by their numbers.
+    [[nodiscard]] std::size_t light_count() const { return sources_.size() + glows_.size(); }
     // Each source but the environment as one point that stands for all of it: areas, and each mesh that shines, by
-    // their middle. `radiance / pdf` is irradiance.
-    void visit_middles(const glm::vec3& position, const std::function<void(const LightSample&)>& visit) const;
-
+    // their middle. `radiance / pdf` is irradiance. Nothing where it does not light the place.
+    [[nodiscard]] std::optional<LightSample> middle(std::size_t number, const glm::vec3& position) const;
     // The same, but each area by a point of it, and all meshes that shine by one point together; `draw` says where.
-    void visit_points(const glm::vec3& position, const std::function<glm::vec2()>& draw,
-                      const std::function<void(const LightSample&)>& visit) const;
+    [[nodiscard]] std::optional<LightSample> point(std::size_t number, const glm::vec3& position,
+                                                   const std::function<glm::vec2()>& draw) const;
 
     [[nodiscard]] const EnvironmentMap& environment() const { return environment_; }
     // Density with which sample() gives this direction through the environment.
@@ -143,6 +144,7 @@ private:
     };
 
     static Cone cone_of(const Light& light);
+    [[nodiscard]] static std::optional<LightSample> glow(const Glow& glow, const glm::vec3& position);
     void gather_emitters();
     void gather_emitter(const Mesh& mesh);
     void gather_glow(const Mesh& mesh);

@@ -7,11 +7,6 @@ namespace rs::capture {
 
 namespace {
 
-int wrap(int i, int size) {
-    const int rest = i % size;
-    return rest < 0 ? rest + size : rest;
-}
-
 // The fraction of `coordinate` in [0, 1); coordinates so large that they have no fraction, and NaN, become 0.
 float repeat(float coordinate) {
     const float fraction = coordinate - std::floor(coordinate);
@@ -36,8 +31,8 @@ RgbaF sample_texture(const Texture& texture, const glm::vec2& uv) {
     const float top = std::floor(y);
     const float fx = x - left;
     const float fy = y - top;
-    const int x0 = wrap(static_cast<int>(left), pixels.width());
-    const int y0 = wrap(static_cast<int>(top), pixels.height());
+    const int x0 = left < 0.0F ? pixels.width() - 1 : static_cast<int>(left);
+    const int y0 = top < 0.0F ? pixels.height() - 1 : static_cast<int>(top);
     const int x1 = x0 + 1 == pixels.width() ? 0 : x0 + 1;
     const int y1 = y0 + 1 == pixels.height() ? 0 : y0 + 1;
     const auto vec = [&](int px, int py) {

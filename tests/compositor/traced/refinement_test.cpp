@@ -75,6 +75,23 @@ TEST(Refinement, ChangesItsLightWithoutANewTracer) {
     EXPECT_EQ(made, 1);
 }
 
+// Begun anew all the time, it still shows something now and then.
+TEST(Refinement, FinishesTheFirstPictureOfEachView) {
+    Refinement refinement([] { return renderer_of(small_room()); });
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    int pictures = 0;
+    for (int i = 0; pictures < 3 && std::chrono::steady_clock::now() < patience; ++i) {
+        const Camera camera = looking_from({3 + 1e-4 * i, 2, 4}, {0, 0.4, 0}, 200);
+        refinement.begin(camera);
+        const auto step = refinement.take();
+        if (!step) continue;
+        ++pictures;
+        EXPECT_EQ(step->picture->width(), 200);
+        EXPECT_LE(step->camera.centre().x, camera.centre().x);
+    }
+    EXPECT_EQ(pictures, 3);
+}
+
 TEST(Refinement, AGridIsTheMiddleOfItsPixels) {
     auto renderer = renderer_of(small_room());
     ASSERT_TRUE(renderer);

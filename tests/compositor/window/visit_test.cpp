@@ -169,6 +169,36 @@ TEST_F(VisitInWindow, TTracesTheLightAndHoldsTheViewStill) {
     EXPECT_EQ(visit_->picture(), raster);
 }
 
+TEST_F(VisitInWindow, WhoWalksOnByTracedLightSeesWhereHeGoes) {
+    press(Key::kTrace);
+    visit_->walk_on(true);
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    const auto wait_for = [&](int passes) {
+        while (visit_->panel().passes < passes && std::chrono::steady_clock::now() < patience) {
+            ASSERT_TRUE(step(0.001));
+        }
+        ASSERT_GE(visit_->panel().passes, passes);
+    };
+    wait_for(1);
+    const Image<Rgba8> before = visit_->picture();
+    const glm::dvec3 eye = visit_->visitor().eye;
+    visit_->window().inject(KeyEvent{Key::kForward, true});
+    // The view never stands still, and yet there are pictures of it.
+    Image<Rgba8> last = before;
+    int pictures = 0;
+    while (pictures < 3 && std::chrono::steady_clock::now() < patience) {
+        ASSERT_TRUE(step(0.01));
+        if (visit_->picture() != last) ++pictures;
+        last = visit_->picture();
+    }
+    EXPECT_EQ(pictures, 3);
+    EXPECT_NE(visit_->visitor().eye, eye);
+    visit_->window().inject(KeyEvent{Key::kForward, false});
+    ASSERT_TRUE(step(0.001));
+    wait_for(2);
+    EXPECT_NE(visit_->picture(), before);
+}
+
 TEST_F(VisitInWindow, SwitchesSwitchAndEscapeLeaves) {
     const bool panel = visit_->panel().show_panel;
     for (const Key key : {Key::kHelp, Key::kPanel, Key::kWireFrame, Key::kFly}) press(key);

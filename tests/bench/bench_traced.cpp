@@ -1,0 +1,257 @@
+// Whitted's ray tracing of the halls, beside Embree's packets alone in the same run.
+//
+//     bench_traced [--scene hall|great-hall] [--width PX] [--height PX] [--frames N] [--threads N]
+//
+// Prints milliseconds for a frame, of a clock and of the processors: of Whitted, whole frames; of its rays alone, ray
+// by ray and in packets; of bare Embree on the same camera rays and the rays to the lights from what they meet; of
+// Whitted where everything is an instance; of a grid of 16x16 pixels; and of moving 1000 instances. Ratios are of
+// processor time, so that what runs beside it counts less.
+
+#include "capture/tracer/integrator/ray_scene.hpp"
+#include "capture/tracer/integrator/tracer.hpp"
+#include "capture/tracer/integrator/whitted.hpp"
+#include "capture/tracer/scene/flatten.hpp"
+#include "datasets-synthetic/measuring/hall.hpp"
+#include "rayspace/base/parallel.hpp"
+#include "rayspace/geometry/camera.hpp"
+#include "rayspace/image/linear_light.hpp"
+#include "rayspace/light/light.hpp"
+#include "rayspace/tool/tool_main.hpp"
+
+#include <CLI/CLI.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+struct Arguments {
+    std::string scene = "hall";
+    int width = 512;
+    int height = 512;
+    int frames = 9;
+    int threads = 0;
+};
+
+// As rs-view takes it from glTF: a coat over a matte surface.
+Scene scene_of(const synthetic::Model& model) {
+    Scene scene;
+    scene.name = model.name;
+    std::map<std::string, int> pictures;
+    for (const auto& [file, picture] : model.pictures) {
+        pictures[file] = static_cast<int>(scene.textures.size());
+        Texture texture;
+        texture.pixels = Image<RgbaF>(picture.width(), picture.height());
+        for (int y = 0; y < picture.height(); ++y) {
+            for (int x = 0; x < picture.width(); ++x) {
+                const Rgba8 p = picture(x, y);
+                texture.pixels(x, y) = {linear_from_srgb8(p.r), linear_from_srgb8(p.g), linear_from_srgb8(p.b), 1};
+            }
+        }
+        scene.textures.push_back(std::move(texture));
+    }
+    for (const synthetic::ModelLook& look : model.looks) {
+        Material material;
+        material.name = look.name;
+        material.kind = SurfaceKind::glossy;
+        material.colour = look.colour;
+        material.roughness = look.roughness;
+        if (!look.picture.empty()) material.texture = pictures[look.picture];
+        scene.materials.push_back(material);
+    }
+    for (const synthetic::ModelGroup& group : model.groups) scene.parts.push_back({group.name, group.meshes});
+    for (const synthetic::ModelNode& node : model.nodes) {
+        scene.instances.push_back({node.group, glm::dmat4(node.world_from_group)});
+    }
+    const nlohmann::json list = nlohmann::json::parse(model.lights);
+    for (const auto& light : list["lights"]) {
+        const auto triple = [&](const char* key) {
+            return glm::dvec3(light[key][0].get<double>(), light[key][1].get<double>(), light[key][2].get<double>());
+        };
+        const glm::vec3 colour(triple("colour"));
+        if (light["kind"] == "directional") {
+            scene.lights.push_back(directional_light(glm::normalize(triple("aim")),
+                                                     static_cast<float>(light["lux"].get<double>() / 179) * colour));
+        } else {
+            scene.lights.push_back(
+                point_light(triple("location"), static_cast<float>(light["candela"].get<double>() / 179) * colour));
+        }
+    }
+    return scene;
+}
+
+struct Cost {
+    double wall_ms, processor_ms;
+};
+// The least of so many frames.
+Cost measure(const char* what, int frames, const std::function<void()>& frame) {
+    std::vector<double> wall_ms, processor_ms;
+    for (int i = 0; i < frames; ++i) {
+        const auto begin = std::chrono::steady_clock::now();
+        const std::clock_t begin_processor = std::clock();
+        frame();
+        processor_ms.push_back(1e3 * static_cast<double>(std::clock() - begin_processor) / CLOCKS_PER_SEC);
+        wall_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    }
+    std::ranges::sort(wall_ms);
+    std::ranges::sort(processor_ms);
+    std::printf("%-40s %8.2f ms, median %8.2f; processors %8.2f, median %8.2f\n", what, wall_ms.front(),
+                wall_ms[wall_ms.size() / 2], processor_ms.front(), processor_ms[processor_ms.size() / 2]);
+    std::fflush(stdout);
+    return {wall_ms.front(), processor_ms.front()};
+}
+
+// The camera's rays in squares of 4 x 4, and the rays to the lights from what they meet, light by light for 256 of
+// them: what a frame of Whitted asks, tile by tile.
+struct Asked {
+    std::vector<RayScene::Ray> camera;
+    std::vector<RayScene::Ray> to_lights;
+};
+std::vector<Asked> rays_of_frame(const RayScene& rays, const Scene& scene, const Camera& camera) {
+    std::vector<Asked> tiles;
+    for (int top = 0; top < camera.height; top += 16) {
+        for (int left = 0; left < camera.width; left += 16) {
+            Asked asked;
+            for (int i = 0; i < 256; ++i) {
+                const int x = left + i / 16 % 4 * 4 + i % 4, y = top + i / 64 * 4 + i / 4 % 4;
+                if (x >= camera.width || y >= camera.height) continue;
+                asked.camera.push_back({glm::vec3(camera.centre()),
+                                        glm::vec3(glm::normalize(camera.ray(x + 0.5, y + 0.5))), 0,
+                                        std::numeric_limits<float>::infinity()});
+            }
+            for (const Light& light : scene.lights) {
+                for (const RayScene::Ray& ray : asked.camera) {
+                    SurfacePoint point;
+                    if (!rays.intersect(ray.origin, ray.direction, 0, point)) continue;
+                    const glm::vec3 from = point.lifted_position + point.geometric_normal * rays.step_off();
+                    const bool far = light.kind == LightKind::kDirectional;
+                    const glm::vec3 way = far ? glm::vec3(-light.towards) : glm::vec3(light.location) - from;
+                    const float length = glm::length(way);
+                    if (!(glm::dot(way, point.shading_normal) > 0)) continue;
+                    asked.to_lights.push_back(
+                        {from, way / length, 0, far ? std::numeric_limits<float>::infinity() : length * (1 - 1e-4F)});
+                }
+            }
+            tiles.push_back(std::move(asked));
+        }
+    }
+    return tiles;
+}
+
+Status run(const Arguments& arguments) {
+    const synthetic::Model model = arguments.scene == "hall" ? synthetic::make_hall() : synthetic::make_great_hall();
+    const Scene instanced = scene_of(model);
+    const Scene flat = flattened(instanced);
+    const Camera camera = look_at_camera(glm::dvec3(model.views[0].eye), glm::dvec3(model.views[0].at), radians(60),
+                                         arguments.width, arguments.height);
+    Result<Tracer> tracer = Tracer::create(flat);
+    if (!tracer) return tracer.error();
+    Result<Tracer> of_instances = Tracer::create(instanced);
+    if (!of_instances) return of_instances.error();
+    const Result<RayScene> rays = RayScene::create(flat);
+    if (!rays) return rays.error();
+    std::printf("%s, %lld triangles, %dx%d, %zu lights\n", model.name.c_str(),
+                static_cast<long long>(synthetic::triangle_count(model)), arguments.width, arguments.height,
+                flat.lights.size());
+    RenderOptions options;
+    options.method = RenderMethod::kWhitted;
+    options.samples_per_pixel = 1;
+    options.ambient = glm::vec3(0.1F);
+    options.threads = arguments.threads;
+    const std::vector<Asked> tiles = rays_of_frame(*rays, flat, camera);
+    std::size_t count = 0;
+    for (const Asked& asked : tiles) count += asked.camera.size() + asked.to_lights.size();
+
+    const Cost whitted = measure("Whitted", arguments.frames, [&] { (void)tracer->render(camera, options); });
+    const LightSet lights(flat, flat.environment, {0.5F * (rays->upper() + rays->lower()), glm::length(rays->upper())});
+    const std::vector<SurfaceModel> models = make_surface_models(flat.materials);
+    const LightTransport transport(flat, *rays, lights, models);
+    const WhittedTracer alone(transport, IrradianceMap(lights.environment()), options.ambient, 8);
+    const auto of_rays = [&](bool packets) {
+        return measure(packets ? "its rays, in packets" : "its rays, one by one", arguments.frames, [&] {
+            for_each_index(static_cast<std::int64_t>(tiles.size()), arguments.threads, [&](std::int64_t i) {
+                std::vector<CameraRay> many;
+                for (const RayScene::Ray& ray : tiles[static_cast<std::size_t>(i)].camera) {
+                    many.push_back({ray.origin, ray.direction, 0, Sampler(0, 0)});
+                }
+                std::vector<Arrived> arrived(many.size());
+                if (packets) {
+                    alone.trace_many(many, arrived);
+                } else {
+                    alone.Integrator::trace_many(many, arrived);
+                }
+            });
+        });
+    };
+    const Cost single = of_rays(false), packets = of_rays(true);
+    const Cost bare = measure("bare Embree, packets, the same rays", arguments.frames, [&] {
+        for_each_index(static_cast<std::int64_t>(tiles.size()), arguments.threads, [&](std::int64_t i) {
+            const Asked& asked = tiles[static_cast<std::size_t>(i)];
+            std::vector<RayScene::Hit> hits(asked.camera.size());
+            std::vector<std::uint8_t> hidden(asked.to_lights.size());
+            rays->intersect_many(asked.camera, hits);
+            rays->occluded_many(asked.to_lights, hidden);
+        });
+    });
+    const Cost instances =
+        measure("Whitted, all instances", arguments.frames, [&] { (void)of_instances->render(camera, options); });
+    Camera coarse = camera;
+    coarse.width = 1280 / 16;
+    coarse.height = 720 / 16;
+    coarse.fl_x = coarse.fl_y = coarse.fl_x * coarse.width / camera.width;
+    coarse.cx = coarse.width / 2.0;
+    coarse.cy = coarse.height / 2.0;
+    measure("a grid of 16x16 pixels of 1280x720", arguments.frames, [&] { (void)tracer->render(coarse, options); });
+
+    Scene movers = flat;
+    movers.parts = {{"chair", model.groups[3].meshes}};
+    for (int i = 0; i < 1000; ++i) movers.instances.push_back({0});
+    Result<Tracer> moving = Tracer::create(movers);
+    if (!moving) return moving.error();
+    int step = 0;
+    measure("1000 instances moved", arguments.frames, [&] {
+        ++step;
+        for (std::size_t i = 0; i < 1000; ++i) {
+            const auto place = static_cast<double>(i);
+            (void)moving->move(i, glm::translate(glm::dmat4(1), {0.02 * place, 0.1 * step, 0.003 * place}));
+        }
+        moving->commit();
+    });
+    std::printf("%.1f frames/s; %.2f rays a pixel; %.2f Mray/s a processor\n", 1000 / whitted.wall_ms,
+                static_cast<double>(count) / camera.width / camera.height,
+                static_cast<double>(count) / whitted.processor_ms / 1000);
+    std::printf(
+        "of bare Embree: frames %.2f, rays in packets %.2f, one by one %.2f; flattened %.2f times as fast as "
+        "instances\n",
+        bare.processor_ms / whitted.processor_ms, bare.processor_ms / packets.processor_ms,
+        bare.processor_ms / single.processor_ms, instances.processor_ms / whitted.processor_ms);
+    return {};
+}
+
+}  // namespace
+}  // namespace rs::capture
+
+int main(int argc, char** argv) {
+    CLI::App app("Whitted's ray tracing of the halls beside bare Embree", "bench_traced");
+    rs::capture::Arguments arguments;
+    app.add_option("--scene", arguments.scene, "hall or great-hall")
+        ->check(CLI::IsMember({"hall", "great-hall"}))
+        ->capture_default_str();
+    app.add_option("--width", arguments.width, "px")->capture_default_str();
+    app.add_option("--height", arguments.height, "px")->capture_default_str();
+    app.add_option("--frames", arguments.frames, "of each kind")->capture_default_str();
+    app.add_option("--threads", arguments.threads, "0: all")->capture_default_str();
+    std::function<rs::Status()> action;
+    app.callback([&] { action = [&] { return rs::capture::run(arguments); }; });
+    return rs::tool_main(app, argc, argv, action);
+}
