@@ -25,6 +25,7 @@ struct PlainSide {
         cv::GaussianBlur(moments, moments, {0, 0}, band_px + 1.0);
     }
     [[nodiscard]] Side at(int x, int y) const {
+        if (!(moments(y, x)[0] > 1e-6F)) return {};
         const cv::Vec<float, 10> m = moments(y, x) * (1 / moments(y, x)[0]);
         return {{m[1], m[2], m[3]},
                 {m[4] - m[1] * m[1], m[5] - m[1] * m[2], m[6] - m[1] * m[3], m[7] - m[2] * m[2], m[8] - m[2] * m[3],
