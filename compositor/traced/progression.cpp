@@ -17,7 +17,8 @@ std::size_t level_of(int side) {
 }  // namespace
 
 double FirstGrid::cells(int width, int height, int side) {
-    return static_cast<double>((width + side - 1) / side) * ((height + side - 1) / side);
+    const int across = (width + side - 1) / side, down = (height + side - 1) / side;
+    return static_cast<double>(across) * down;
 }
 
 int FirstGrid::coarsest_side(int width, int height) {
