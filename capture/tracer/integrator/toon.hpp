@@ -29,7 +29,7 @@ public:
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
     void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override {
-        Integrator::trace_many(rays, arrived);
+        trace_one_by_one(rays, arrived);
     }
 
 protected:

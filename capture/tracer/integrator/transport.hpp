@@ -49,6 +49,11 @@ public:
                        glm::vec3& radiance) const = 0;
     // The same bits for many rays, as many results; neighbours in the list should be neighbours in the picture.
     virtual void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
+        trace_one_by_one(rays, arrived);
+    }
+
+protected:
+    void trace_one_by_one(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             arrived[i].met =
                 trace(rays[i].origin, rays[i].direction, rays[i].time, rays[i].sampler, arrived[i].radiance);
