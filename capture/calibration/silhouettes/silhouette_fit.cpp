@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -15,10 +14,6 @@ constexpr double kIndependentPerView = 8;
 
 // For derivatives: wide enough to look past the steps of the distances, narrow enough for what is asked.
 constexpr std::array<double, SilhouetteParameters::kCount> kSteps = {0.3, 0.004, 0.002, 0.02, 0.002};
-
-// Views that contradict a ray by this much less than the strongest do not become the strongest within a step.
-constexpr double kContradictionMargin_px = 3;
-constexpr std::size_t kMostContradictions = 10;
 
 // Weight of one ray's squared residual.
 double ray_weight(const SilhouetteProblem& problem, const RaySelection& rays, std::size_t count) {
@@ -50,15 +45,9 @@ double cost_of(const SilhouetteProblem& problem, const SilhouetteParameters& at,
            prior_cost(problem, at);
 }
 
-struct Shortfalls {
-    std::vector<double> residuals;
-    RayDepths depths;
-};
-
-Shortfalls shortfalls_at(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays) {
-    Shortfalls found;
-    found.residuals = consistency_residuals_px(*problem.turn, changed(problem.start, at), rays, &found.depths);
-    return found;
+std::vector<double> residuals_at(const SilhouetteProblem& problem, const SilhouetteParameters& at,
+                                 const RaySelection& rays) {
+    return consistency_residuals_px(*problem.turn, changed(problem.start, at), rays);
 }
 
 struct Normals {
@@ -67,14 +56,7 @@ struct Normals {
 };
 
 Normals normals_at(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays,
-                   const std::vector<std::size_t>& free, const Shortfalls& here) {
-    const std::vector<double>& residuals = here.residuals;
-    // What contradicts a ray here does so a little beside it, too.
-    const auto verdicts = ray_verdicts(*problem.turn, changed(problem.start, at), rays, here.depths,
-                                       kContradictionMargin_px, kMostContradictions);
-    const auto beside = [&](const SilhouetteParameters& there) {
-        return residuals_by_verdicts(*problem.turn, changed(problem.start, there), rays, verdicts);
-    };
+                   const std::vector<std::size_t>& free, const std::vector<double>& residuals) {
     const auto rows = static_cast<Eigen::Index>(residuals.size());
     const auto columns = static_cast<Eigen::Index>(free.size());
     Eigen::MatrixXd jacobian(rows, columns);
@@ -84,8 +66,8 @@ Normals normals_at(const SilhouetteProblem& problem, const SilhouetteParameters&
         SilhouetteParameters behind = at;
         before.value[name] -= kSteps[name];
         behind.value[name] += kSteps[name];
-        const auto low = beside(before);
-        const auto high = beside(behind);
+        const auto low = residuals_at(problem, before, rays);
+        const auto high = residuals_at(problem, behind, rays);
         for (Eigen::Index r = 0; r < rows; ++r) {
             const auto k = static_cast<std::size_t>(r);
             jacobian(r, c) = (high[k] - low[k]) / (2 * kSteps[name]);
@@ -133,7 +115,7 @@ TurntableModel changed(const TurntableModel& start, const SilhouetteParameters& 
 }
 
 double silhouette_cost(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays) {
-    return cost_of(problem, at, rays, shortfalls_at(problem, at, rays).residuals);
+    return cost_of(problem, at, rays, residuals_at(problem, at, rays));
 }
 
 SilhouetteFit fit_silhouettes(const SilhouetteProblem& problem, const SilhouetteParameters& at,
@@ -143,12 +125,12 @@ SilhouetteFit fit_silhouettes(const SilhouetteProblem& problem, const Silhouette
         if (problem.free[i]) free.push_back(i);
     }
     SilhouetteFit fit{at, 0, {}};
-    Shortfalls here = shortfalls_at(problem, at, rays);
-    fit.cost = cost_of(problem, at, rays, here.residuals);
+    std::vector<double> residuals = residuals_at(problem, at, rays);
+    fit.cost = cost_of(problem, at, rays, residuals);
     if (free.empty()) return fit;
 
     double damping = 1e-2;
-    Normals normals = normals_at(problem, fit.at, rays, free, here);
+    Normals normals = normals_at(problem, fit.at, rays, free, residuals);
     for (int i = 0; i < iterations; ++i) {
         const Eigen::MatrixXd full = with_priors(normals.data, free);
         bool better = false;
@@ -164,18 +146,18 @@ SilhouetteFit fit_silhouettes(const SilhouetteProblem& problem, const Silhouette
                 next.value[free[k]] += change;
                 small = small && std::abs(change) < 0.02 * kSteps[free[k]];
             }
-            Shortfalls tried = shortfalls_at(problem, next, rays);
-            const double cost = cost_of(problem, next, rays, tried.residuals);
+            const std::vector<double> tried = residuals_at(problem, next, rays);
+            const double cost = cost_of(problem, next, rays, tried);
             better = cost < fit.cost;
             damping = better ? std::max(damping / 5, 1e-6) : damping * 6;
             if (better) {
                 fit.at = next;
                 fit.cost = cost;
-                here = std::move(tried);
+                residuals = tried;
             }
         }
         if (!better) break;
-        normals = normals_at(problem, fit.at, rays, free, here);
+        normals = normals_at(problem, fit.at, rays, free, residuals);
         if (small) break;
     }
 

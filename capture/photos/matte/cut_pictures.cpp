@@ -1,12 +1,12 @@
 #include "capture/photos/matte/cut_pictures.hpp"
 
 #include "rayspace/base/check.hpp"
+#include "rayspace/file/file_output.hpp"
 
 #include <zstd.h>
 
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <span>
 #include <string>
 #include <utility>
@@ -40,27 +40,16 @@ Status CutPictures::put(std::size_t view, ConstImageView<Rgba8> picture) const {
     std::vector<char> frame(ZSTD_compressBound(bytes.size()));
     const std::size_t size = ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), kQuickest);
     RS_CHECK(!ZSTD_isError(size));  // it cannot lack room
-    const std::filesystem::path path = file_of(view);
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(frame.data(), static_cast<std::streamsize>(size));
-    file.close();
-    if (!file) return Error{path.string() + ": cannot be written; is the disk full?"};
-    return {};
+    return write_file(file_of(view), std::as_bytes(std::span(frame).first(size)));
 }
 
 Result<Image<Rgba8>> CutPictures::get(std::size_t view) const {
     const std::filesystem::path path = file_of(view);
     const std::uint64_t size = bytes_of(width_, height_);
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    const std::streamoff length = file ? static_cast<std::streamoff>(file.tellg()) : -1;
-    if (length < 0 || static_cast<std::uint64_t>(length) > 2 * size + 1024) {
-        return Error{path.string() + ": cannot be read back; was it changed meanwhile? Import again"};
-    }
-    std::vector<char> frame(static_cast<std::size_t>(length));
-    file.seekg(0);
-    file.read(frame.data(), length);
+    const Result<std::vector<std::byte>> frame = read_file(path, 2 * size + 1024);
+    if (!frame) return frame.error();
     Image<Rgba8> picture(width_, height_);
-    if (!file || ZSTD_decompress(picture.data(), size, frame.data(), frame.size()) != size) {
+    if (ZSTD_decompress(picture.data(), size, frame->data(), frame->size()) != size) {
         return Error{path.string() + ": cannot be read back; check the disk, and import again"};
     }
     return picture;

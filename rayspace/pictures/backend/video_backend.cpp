@@ -67,7 +67,7 @@ public:
             return failed(failure);
         }
         stream_->time_base = codec_->time_base;
-        if (const Status status = make_frame(); !status) return status;
+        if (Status status = make_frame(); !status) return status;
         if (const int failure = avio_open(&format->pb, path.c_str(), AVIO_FLAG_WRITE); failure < 0) {
             return failed(failure);
         }

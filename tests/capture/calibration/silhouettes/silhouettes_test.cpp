@@ -190,7 +190,7 @@ TEST(Silhouettes, TheOtherSenseOfTurningIsNoticed) {
     const auto found = calibrate_with_silhouettes(figure_masks(), start, {});
     if (found.ok()) {
         ASSERT_FALSE(found->warnings.empty());
-        EXPECT_NE(found->warnings[0].find("the other sense of turning"), std::string::npos);
+        EXPECT_NE(found->warnings[0].find("the other sense of turning"), std::string::npos) << found->warnings[0];
         EXPECT_LT(found->model.pose.tilt_rad, 0);
     } else {
         EXPECT_NE(found.error().message.find("sense of turning"), std::string::npos);
