@@ -114,20 +114,27 @@ public:
         return kIndependentRays * static_cast<double>(turn_.views()) / std::max(robust_sum(residuals), finest);
     }
 
-    // After residuals(z). Only what contradicts a ray at z is asked again beside z.
-    [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::VectorXd& z, Eigen::Index rays) const {
+    // After residuals(z). Only what contradicts a ray at z is asked again beside z: quick, and near enough to go down
+    // by.
+    [[nodiscard]] Eigen::MatrixXd quick_slopes(const Eigen::VectorXd& z, Eigen::Index rays) const {
         const auto verdicts = ray_verdicts(turn_, in_turn(z), rays_, depths_, kVerdictMargin_px, kMostVerdicts);
-        const auto beside = [&](const Eigen::VectorXd& there) {
+        return slopes(z, rays, [&](const Eigen::VectorXd& there) {
             return vector_of(residuals_by_verdicts(turn_, in_turn(there), rays_, verdicts));
-        };
-        Eigen::MatrixXd result(rays, columns_.cols());
-        for (Eigen::Index k = 0; k < columns_.cols(); ++k) {
-            Eigen::VectorXd before = z, behind = z;
-            before(k) -= kWidth;
-            behind(k) += kWidth;
-            result.col(k) = (beside(behind) - beside(before)) / (2 * kWidth);
-        }
-        return result;
+        });
+    }
+
+    // What the outlines tell of the combinations. All views are asked: beside a body of revolution the few that
+    // contradict it would seem to know how it stands.
+    [[nodiscard]] Eigen::MatrixXd information(const Eigen::VectorXd& z, const Eigen::VectorXd& found) {
+        const Eigen::MatrixXd exact =
+            slopes(z, found.size(), [&](const Eigen::VectorXd& there) { return residuals(there); });
+        return exact.transpose() * weights(found).asDiagonal() * exact;
+    }
+
+    // Of each ray's square in the cost.
+    [[nodiscard]] Eigen::VectorXd weights(const Eigen::VectorXd& found) const {
+        const Eigen::ArrayXd tail = 1 + found.array().square() / (kOutlier_px * kOutlier_px);
+        return weight(found) / tail.square();
     }
 
 private:
@@ -137,6 +144,17 @@ private:
         model.lens.cx /= picture_px_;
         model.lens.cy /= picture_px_;
         return model;
+    }
+    template <typename Residuals>
+    Eigen::MatrixXd slopes(const Eigen::VectorXd& z, Eigen::Index rays, const Residuals& residuals_at) const {
+        Eigen::MatrixXd result(rays, columns_.cols());
+        for (Eigen::Index k = 0; k < columns_.cols(); ++k) {
+            Eigen::VectorXd before = z, behind = z;
+            before(k) -= kWidth;
+            behind(k) += kWidth;
+            result.col(k) = (residuals_at(behind) - residuals_at(before)) / (2 * kWidth);
+        }
+        return result;
     }
     static Eigen::VectorXd vector_of(const std::vector<double>& found) {
         return Eigen::Map<const Eigen::VectorXd>(found.data(), static_cast<Eigen::Index>(found.size()));
@@ -154,26 +172,24 @@ private:
 struct Descent {
     Eigen::VectorXd z;
     Eigen::VectorXd residuals;
-    Eigen::MatrixXd of_outlines;  // their information
 };
 
 // From z down to where outlines and what was known before (z of variance 1 around 0) are likeliest together.
 Descent descended(Outlines& outlines, const Eigen::VectorXd& from, int rounds) {
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(from.size(), from.size());
-    Descent at{from, outlines.residuals(from), {}};
+    Descent at{from, outlines.residuals(from)};
     double damping = 1e-3;
     for (int round = 0; round < rounds; ++round) {
         const double weight = outlines.weight(at.residuals);
-        const Eigen::MatrixXd slopes = outlines.slopes(at.z, at.residuals.size());
-        const Eigen::ArrayXd tail = 1 + at.residuals.array().square() / (kOutlier_px * kOutlier_px);
-        const Eigen::VectorXd weights = weight / tail.square();
-        at.of_outlines = slopes.transpose() * weights.asDiagonal() * slopes;
+        const Eigen::MatrixXd slopes = outlines.quick_slopes(at.z, at.residuals.size());
+        const Eigen::VectorXd weights = outlines.weights(at.residuals);
+        const Eigen::MatrixXd of_outlines = slopes.transpose() * weights.asDiagonal() * slopes;
         const Eigen::VectorXd gradient = slopes.transpose() * weights.cwiseProduct(at.residuals) + at.z;
         const double cost_before = weight * Outlines::robust_sum(at.residuals) + at.z.squaredNorm();
         double cost = cost_before;
         bool better = false;
         for (int i = 0; i < kCoherenceTries && !better; ++i) {
-            Eigen::MatrixXd damped = unit + at.of_outlines;
+            Eigen::MatrixXd damped = unit + of_outlines;
             damped.diagonal() *= 1 + damping;
             const Eigen::VectorXd step = damped.ldlt().solve(-gradient);
             // Shortfalls grow from nothing, so slopes at one place say too little of the next.
@@ -213,13 +229,15 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     if (n == 0) return std::nullopt;
     Eigen::VectorXd z = Eigen::VectorXd::Zero(n);
     int rounds = kCoherenceRounds;
-    if (const std::size_t every = most_rays_of_a_view(turn) / kCoarseRaysPerView; every > 1) {
+    const std::size_t every = options.few_rays_first ? most_rays_of_a_view(turn) / kCoarseRaysPerView : 1;
+    if (every > 1) {
         Outlines few(model, places, turn, picture_px, columns, every);
         z = descended(few, z, kCoherenceRounds).z;
         rounds = kFineRounds;
     }
     Outlines outlines(model, places, turn, picture_px, columns, 1);
-    const auto [found, residuals, of_outlines] = descended(outlines, z, rounds);
+    const auto [found, residuals] = descended(outlines, z, rounds);
+    const Eigen::MatrixXd of_outlines = outlines.information(found, residuals);
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(n, n);
     CoherenceFit fit{outlines.at(found), covariance, 0};
     fit.consistency_residual_px =

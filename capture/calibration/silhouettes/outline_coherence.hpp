@@ -24,6 +24,9 @@ struct CoherenceOptions {
     int most_directions = 14;  // combinations of numbers that are looked at; the work grows with them
     // Outlines err together in ways no residual shows: they are taken to be off by so many times what they say.
     double untold_together = 6;
+    // Begins with a hundred rays of a view: four times as quick where `model` is nearly right. From afar so few lead
+    // astray: a body of revolution then seems to tell its angles.
+    bool few_rays_first = false;
 };
 
 // `model`, known with `covariance` of the numbers at `places`, and the outlines together: what both make likeliest,

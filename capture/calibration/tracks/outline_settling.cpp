@@ -89,7 +89,7 @@ void settle_all(TrackSolution& solution, const TurnPictures& turn, std::size_t f
     if (!outlines || outlines->touches_border()) return;
     const double picture_px = outlines->reduction() * turn.reduction;
     const auto fit = fit_coherence(solution.bundle.model, solution.places, solution.covariance, *outlines, picture_px,
-                                   {kWorstTogether_px * turn.reduction});
+                                   {.worst_px = kWorstTogether_px * turn.reduction, .few_rays_first = true});
     if (fit) take(fit->model, fit->covariance, solution, fewest_tracks);
 }
 
