@@ -3,15 +3,11 @@
 #include "rayspace/image/linear_light.hpp"
 
 #include <bit>
-#include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace rs::detail {
 namespace {
-
-std::uint8_t code_by_curve(float linear) {
-    return static_cast<std::uint8_t>(std::lround(srgb_from_linear(linear) * 255.0F));
-}
 
 // Positive floats are in the order of their bits.
 float least_with_code(std::uint8_t code) {
@@ -19,7 +15,7 @@ float least_with_code(std::uint8_t code) {
     auto reached = std::bit_cast<std::uint32_t>(1.0F);
     while (reached - below > 1) {
         const std::uint32_t middle = below + (reached - below) / 2;
-        (code_by_curve(std::bit_cast<float>(middle)) >= code ? reached : below) = middle;
+        (srgb8_from_linear(std::bit_cast<float>(middle)) >= code ? reached : below) = middle;
     }
     return std::bit_cast<float>(reached);
 }
@@ -33,7 +29,7 @@ const CodeThresholds& code_thresholds() {
             made.least[code] = least_with_code(static_cast<std::uint8_t>(code));
         made.least[256] = std::numeric_limits<float>::infinity();
         for (std::size_t bin = 0; bin < made.first.size(); ++bin) {
-            made.first[bin] = code_by_curve(static_cast<float>(bin) / CodeThresholds::kBins);
+            made.first[bin] = srgb8_from_linear(static_cast<float>(bin) / CodeThresholds::kBins);
         }
         return made;
     }();

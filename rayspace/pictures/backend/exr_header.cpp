@@ -1,9 +1,7 @@
 #include "rayspace/pictures/backend/exr_header.hpp"
 
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <fstream>
