@@ -26,25 +26,30 @@ std::int64_t modified_ns(const struct stat& info) {
     return std::int64_t{info.st_mtim.tv_sec} * 1'000'000'000 + info.st_mtim.tv_nsec;
 }
 
+bool is_control(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 || byte == 0x7F;
+}
+
 std::string escaped(const std::string& path) {
     std::string text;
     for (const char c : path) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte >= 0x20 && byte != 0x7F && c != '%') {
+        if (!is_control(c) && c != '%') {
             text += c;
             continue;
         }
         char hexadecimal[4];
-        std::snprintf(hexadecimal, sizeof hexadecimal, "%%%02x", byte);
+        std::snprintf(hexadecimal, sizeof hexadecimal, "%%%02x", static_cast<unsigned char>(c));
         text += hexadecimal;
     }
     return text;
 }
 
-// Nothing where an escape is broken.
+// Nothing where an escape is broken, or a character is there that is always escaped.
 std::optional<std::string> unescaped(std::string_view text) {
     std::string path;
     while (!text.empty()) {
+        if (is_control(text.front())) return std::nullopt;
         if (text.front() != '%') {
             path += text.front();
             text.remove_prefix(1);

@@ -29,9 +29,10 @@ TEST(InputList, WhatIsCutOrFaultyIsRefused) {
         ASSERT_FALSE(read.ok()) << length;
         EXPECT_EQ(read.error().message.find('\n'), std::string::npos);
     }
-    for (const char* const line :
-         {"1 2 3 ", "1 2 3", "x 2 3 /a", "1 -2 3 /a", "1 2 3 /a%0", "1 2 3 /a%00", "1 2 3 /%zz"}) {
-        EXPECT_FALSE(parse_input_list("rayspace inputs 1\n" + std::string(line) + "\n", "list").ok()) << line;
+    using namespace std::string_literals;
+    for (const std::string& line : {"1 2 3 "s, "1 2 3"s, "x 2 3 /a"s, "1 -2 3 /a"s, "1 2 3 /a%0"s, "1 2 3 /a%00"s,
+                                    "1 2 3 /%zz"s, "1 2 3 /a\0b"s, "1 2 3 /a\x1b"s, "1 2 3 /a\x7f"s}) {
+        EXPECT_FALSE(parse_input_list("rayspace inputs 1\n" + line + "\n", "list").ok()) << line;
     }
 }
 
