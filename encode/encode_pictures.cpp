@@ -1,11 +1,13 @@
 #include "encode/encode_pictures.hpp"
 
+#include "encode/set/soft_coverage.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/codec/stream/coded_chunks.hpp"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <string>
@@ -20,6 +22,22 @@ constexpr int kCoarsest = 60;
 
 double step_of_index(int index) {
     return std::exp2(index / 8.0);
+}
+
+// At full size; wider than the rims of cut-outs are soft.
+constexpr int kSoftRadius_px = 6;
+// Of what pictures show, from which on steps of alpha are seen as contour lines.
+constexpr double kSoftShare = .01;
+
+double soft_share(const std::vector<SourcePicture>& sources) {
+    std::atomic<std::int64_t> soft = 0;
+    std::atomic<std::int64_t> shown = 0;
+    tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t v) {
+        const Image<std::uint8_t> patches = soft_patches(sources[v].coverage, kSoftRadius_px);
+        soft += std::ranges::count(patches.pixels(), 255);
+        shown += std::ranges::count_if(sources[v].coverage.pixels(), [](int alpha) { return alpha >= kFaintest; });
+    });
+    return static_cast<double>(soft) / static_cast<double>(std::max<std::int64_t>(shown, 1));
 }
 
 std::string text_of(double value) {
@@ -163,6 +181,9 @@ Result<EncodedPictures> encode_pictures(const CaptureSet& set, const RaySpaceObj
             return {};
         });
     if (!read) return read.error();
+    if (!alpha_bits && goal.profile == codec::Profile::kDense && soft_share(sources) >= kSoftShare) {
+        alpha_bits = codec::kMaxAlphaBits;
+    }
     GoalSearch search(object, sources, goal, alpha_bits, progress);
     if (goal.pictures_bytes) return search.for_size(*goal.pictures_bytes);
     if (goal.psnr_db) return search.for_psnr(*goal.psnr_db);

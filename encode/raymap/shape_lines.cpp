@@ -3,6 +3,7 @@
 #include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/depth_range.hpp"
 #include "encode/raymap/semi_global.hpp"
+#include "encode/set/soft_coverage.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace rs::encode {
 namespace {
@@ -110,14 +112,15 @@ HorizontalRay line_ray(const glm::dvec2& viewpoint, double p) {
     return ray;
 }
 
-// The depth nearest to `depth` that is inside, the farther one of two; `depth` where there is none.
-std::uint8_t nearest_inside(const std::uint8_t* inside, int depth) {
+// The depth nearest to `depth` for which `holds`, the farther one of two; nothing where there is none.
+template <class Holds>
+std::optional<std::uint8_t> nearest_depth(int depth, const Holds& holds) {
     for (int away = 0; away < kDepths; ++away) {
         for (const int d : {depth + away, depth - away}) {
-            if (d >= 0 && d < kDepths && inside[d] != 0) return static_cast<std::uint8_t>(d);
+            if (d >= 0 && d < kDepths && holds(d)) return static_cast<std::uint8_t>(d);
         }
     }
-    return static_cast<std::uint8_t>(depth);
+    return std::nullopt;
 }
 
 // Moves surfaces that lie outside of the hull to the nearest place in it, and finds where the object ends behind them:
@@ -146,7 +149,7 @@ void heed_hull(const LineGrid& grid, const SampledHull& hull, const glm::dvec2& 
         if (!cell.has_surface()) continue;
         const std::uint8_t* const inside = within.data() + h * kDepths;
         meets_hull[h] = std::find(inside, inside + kDepths, 1) != inside + kDepths ? 1 : 0;
-        cell.depth = nearest_inside(inside, cell.depth);
+        cell.depth = nearest_depth(cell.depth, [&](int d) { return inside[d] != 0; }).value_or(cell.depth);
         int last = kDepths - 1;
         while (last > cell.depth && inside[last] == 0) --last;
         constexpr int kStride = 8;  // a coarse back is enough, and packs well
@@ -173,13 +176,116 @@ void drop_floating(const LineGrid& grid, const std::vector<std::uint8_t>& meets_
     }
 }
 
+// Whether a picture shows something else where the point is, or a pixel away from there: what hides it.
+bool is_hidden(const DepthView& picture, const glm::dvec2& place, double y) {
+    const SeenColumn seen = picture.view.see(place);
+    if (seen.axial <= 0) return false;
+    const double row = picture.view.row_of(y, seen.axial);
+    if (!(seen.column >= 0 && seen.column < picture.view.width && row >= 0 && row < picture.view.height)) return false;
+    const auto column = static_cast<int>(seen.column);
+    const auto row_number = static_cast<int>(row);
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, picture.view.width - 1); ++c) {
+        for (int r = std::max(row_number - 1, 0); r <= std::min(row_number + 1, picture.view.height - 1); ++r) {
+            if (std::isnan(picture.depth(r, c)) && picture.view.at(c, r).a >= kFaintest) return true;
+        }
+    }
+    return false;
+}
+
+// Both pictures' rays are blended. So a surface that one of them hides is moved along the line's ray to the nearest
+// depth at which none does, which is beside the rim of what hides it; where there is none it is removed.
+void avoid_hidden(const LineGrid& grid, const DepthView& first, const DepthView& second, const glm::dvec2& viewpoint,
+                  int p_cell, double step, ShapeCell* cells) {
+    const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
+    const HorizontalRay ray = line_ray(viewpoint, p);
+    const double rho = grid.rho(p);
+    for (int h = 0; h < grid.bands; ++h) {
+        ShapeCell& cell = cells[h];
+        if (!cell.has_surface()) continue;
+        const double from_camera_height = grid.h_low + (h + 0.5) / grid.bands_per_unit - grid.height;
+        const auto both_show = [&](int d) {
+            const double depth = -kHalfWidth + d * step;
+            const glm::dvec2 place = ray.place_at(depth);
+            const double y = grid.height + from_camera_height * (rho + depth) / rho;
+            return !is_hidden(first, place, y) && !is_hidden(second, place, y);
+        };
+        const std::optional<std::uint8_t> depth = nearest_depth(cell.depth, both_show);
+        if (!depth) {
+            cell = {};
+            continue;
+        }
+        cell.depth = *depth;
+        cell.back = std::max(cell.back, cell.depth);
+    }
+}
+
+// What a line sees of a layer's two pictures beside it.
+class LineSurfaces {
+public:
+    LineSurfaces(const LineGrid& grid, double step)
+        : grid_(grid),
+          step_(step),
+          from_first_(grid),
+          from_second_(grid),
+          cells_(static_cast<std::size_t>(grid.p_cells) * static_cast<std::size_t>(grid.bands)) {}
+
+    // Cells of the line of `viewpoint`, until the next call.
+    const std::vector<ShapeCell>& see(const SurfaceLayer& layer, const DepthView& first, const DepthView& second,
+                                      const glm::dvec2& viewpoint) {
+        from_first_.draw(first, viewpoint);
+        from_second_.draw(second, viewpoint);
+        for (int p = 0; p < grid_.p_cells; ++p) {
+            for (int h = 0; h < grid_.bands; ++h) {
+                find(p, h);
+                cells_[static_cast<std::size_t>(p * grid_.bands + h)] = make_cell(found_, -kHalfWidth, step_);
+            }
+        }
+        std::vector<std::uint8_t> meets_hull(cells_.size(), 0);
+        for (int p = 0; p < grid_.p_cells; ++p) {
+            const auto column = static_cast<std::size_t>(p * grid_.bands);
+            heed_hull(grid_, layer.hull, viewpoint, p, step_, cells_.data() + column, meets_hull.data() + column);
+        }
+        if (layer.silhouettes_agree) drop_floating(grid_, meets_hull, cells_.data());
+        if (!layer.in_front) {
+            for (int p = 0; p < grid_.p_cells; ++p) {
+                avoid_hidden(grid_, first, second, viewpoint, p, step_, cells_.data() + p * grid_.bands);
+            }
+        }
+        return cells_;
+    }
+
+private:
+    // The depths that both pictures have within a cell.
+    void find(int p, int h) {
+        found_.clear();
+        for (int x = p * grid_.fine; x < (p + 1) * grid_.fine; ++x) {
+            for (int y = h * grid_.fine; y < (h + 1) * grid_.fine; ++y) {
+                for (const LineRaster* const raster : {&from_first_, &from_second_}) {
+                    if (!std::isnan(raster->at(x, y))) found_.push_back(raster->at(x, y));
+                }
+            }
+        }
+    }
+
+    const LineGrid& grid_;
+    double step_;
+    LineRaster from_first_, from_second_;
+    std::vector<float> found_;
+    std::vector<ShapeCell> cells_;
+};
+
 struct HeightRange {
     double low = 1e30, high = -1e30;
 };
 
-HeightRange height_range(const std::vector<DepthView>& ring, double distance, double height) {
+HeightRange height_range(const std::vector<SurfaceLayer>& layers, double distance, double height) {
     HeightRange range;
-    for (const DepthView& source : ring) {
+    std::vector<const DepthView*> sources;
+    for (const SurfaceLayer& layer : layers) {
+        for (const DepthView& source : layer.ring) sources.push_back(&source);
+    }
+    for (const DepthView* const each : sources) {
+        const DepthView& source = *each;
         for (int column = 0; column < source.view.width; ++column) {
             const HorizontalRay ray = source.view.ray_of(column + 0.5);
             for (int row = 0; row < source.view.height; ++row) {
@@ -203,9 +309,9 @@ double gap_width(const std::vector<DepthView>& ring, std::size_t n) {
     return width > 0 ? width : width + 2 * kPi;
 }
 
-ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const SampledHull& hull,
-                          const ShapeLinesOptions& options) {
+ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLinesOptions& options) {
     ShapeMap map;
+    const std::vector<DepthView>& ring = layers.front().ring;
     const double count = static_cast<double>(ring.size());
     LineGrid grid;
     double scale = 0;
@@ -214,7 +320,7 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const SampledHull&
         grid.height += source.view.centre_y / count;
         scale += source.view.fl_x / glm::length(source.view.centre) / count;
     }
-    const HeightRange heights = height_range(ring, grid.distance, grid.height);
+    const HeightRange heights = height_range(layers, grid.distance, grid.height);
     const double cell = options.cell_px / scale;
     map.p_cells = std::clamp(static_cast<int>(std::ceil(2 * kHalfWidth / cell)), 1, 4096);
     map.p_half_q20 = fixed_point(kHalfWidth, 20);
@@ -250,33 +356,18 @@ ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const SampledHull&
 
     tbb::parallel_for(std::size_t{0}, ring.size(), [&](std::size_t n) {
         const ShapeGap& gap = map.gaps[n];
-        const DepthView& first = ring[n];
-        const DepthView& second = ring[(n + 1) % ring.size()];
-        LineRaster from_first(grid), from_second(grid);
-        std::vector<float> found;
+        LineSurfaces surfaces(grid, step);
         for (int s = 0; s < gap.lines; ++s) {
             const double part = (s + 0.5) / gap.lines;
-            const glm::dvec2 viewpoint = glm::mix(first.view.centre, second.view.centre, part);
-            from_first.draw(first, viewpoint);
-            from_second.draw(second, viewpoint);
+            const std::size_t next = (n + 1) % ring.size();
+            const glm::dvec2 viewpoint = glm::mix(ring[n].view.centre, ring[next].view.centre, part);
             ShapeCell* const cells = map.cells.data() + (gap.first_line + static_cast<std::size_t>(s)) * line_cells;
-            for (int p = 0; p < map.p_cells; ++p) {
-                for (int h = 0; h < map.bands; ++h) {
-                    found.clear();
-                    for (int x = p * grid.fine; x < (p + 1) * grid.fine; ++x) {
-                        for (int y = h * grid.fine; y < (h + 1) * grid.fine; ++y) {
-                            if (!std::isnan(from_first.at(x, y))) found.push_back(from_first.at(x, y));
-                            if (!std::isnan(from_second.at(x, y))) found.push_back(from_second.at(x, y));
-                        }
-                    }
-                    cells[p * map.bands + h] = make_cell(found, -kHalfWidth, step);
+            for (const SurfaceLayer& layer : layers) {
+                const std::vector<ShapeCell>& found = surfaces.see(layer, layer.ring[n], layer.ring[next], viewpoint);
+                for (std::size_t i = 0; i < line_cells; ++i) {
+                    if (!cells[i].has_surface()) cells[i] = found[i];
                 }
             }
-            std::vector<std::uint8_t> meets_hull(line_cells, 0);
-            for (int p = 0; p < map.p_cells; ++p) {
-                heed_hull(grid, hull, viewpoint, p, step, cells + p * map.bands, meets_hull.data() + p * map.bands);
-            }
-            if (options.silhouettes_agree) drop_floating(grid, meets_hull, cells);
         }
     });
     return map;

@@ -25,14 +25,21 @@ struct ShapeLinesOptions {
     double line_deg = 2;  // a gap of n times that has n - 1 lines, rounded up, and one at least
     int jump = 24;        // depth steps between neighbouring cells that are still one surface, 1..255
     double widest_gap_deg = 45.01;  // wider ones stay without lines
+};
+
+// Surfaces and the hull that encloses them.
+struct SurfaceLayer {
+    const std::vector<DepthView>& ring;  // in turning order
+    const SampledHull& hull;
     bool silhouettes_agree = true;  // else the hull moves surfaces, but removes none
+    bool in_front = true;           // of what the pictures show beside it; else pictures' other pixels may hide it
 };
 
 // From view n of a ring to the next one in turning order, above 0 and at most 2 pi.
 double gap_width(const std::vector<DepthView>& ring, std::size_t n);
 
-// `ring` in turning order. All but normal_lines is filled in.
-ShapeMap make_shape_lines(const std::vector<DepthView>& ring, const SampledHull& hull,
-                          const ShapeLinesOptions& options);
+// Layers of the same pictures, one at least; a cell is of the first that has a surface there. All but normal_lines is
+// filled in.
+ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLinesOptions& options);
 
 }  // namespace rs::encode

@@ -36,11 +36,22 @@ std::string sector_text(const DepthView& from, const DepthView& to) {
     return std::to_string(azimuth_deg(from.view)) + " and " + std::to_string(azimuth_deg(to.view)) + " degrees";
 }
 
-// One ring's search; holds what its steps share.
+// What of the pictures a search looks for: the object, or what is soft behind and beside it (soft_pixels), which the
+// object's silhouettes do not enclose.
+enum class Layer { kSolid, kSoft };
+
+// One ring's search for one layer; holds what its steps share.
 class RingSearch {
 public:
-    RingSearch(const CaptureSet& set, const Rig& rig, const ViewRing& ring, const ShapeOptions& options)
-        : set_(set), rig_(rig), ring_(ring), options_(options), views_(ring.views.size()) {}
+    RingSearch(const CaptureSet& set, const Rig& rig, const ViewRing& ring, const ShapeOptions& options,
+               Layer layer = Layer::kSolid)
+        : set_(set),
+          rig_(rig),
+          ring_(ring),
+          options_(options),
+          layer_(layer),
+          views_(ring.views.size()),
+          soft_(ring.views.size()) {}
 
     Status read(Progress* progress) {
         const int longest = std::max(set_.width, set_.height);
@@ -53,6 +64,9 @@ public:
                                         const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
                                         WorkView& view = views_[static_cast<std::size_t>(n)].view;
                                         view = make_work_view(camera, *picture, reduction);
+                                        Image<std::uint8_t>& soft = soft_[static_cast<std::size_t>(n)];
+                                        soft = soft_pixels(view);
+                                        if (layer_ == Layer::kSoft) cover_soft(view, soft);
                                         weaken_shading(view);
                                         return {};
                                     });
@@ -82,14 +96,23 @@ public:
                 FoundDepth& sample = samples[first_sample + static_cast<std::size_t>(n / every)];
                 sample = {ring_.views[static_cast<std::size_t>(n)], first_allowed(view.view, costs, range), view.depth};
             }
+            keep_layer(view.depth, soft_[static_cast<std::size_t>(n)]);
             return {};
         });
     }
 
-    [[nodiscard]] ShapeMap lines(int planes) const {
-        ShapeLinesOptions options = options_.lines;
-        options.silhouettes_agree = silhouettes_agree_;
-        ShapeMap shape = make_shape_lines(views_, *sampled_hull_, options);
+    [[nodiscard]] bool shows_soft() const {
+        return std::ranges::any_of(soft_, [](const Image<std::uint8_t>& soft) {
+            return std::ranges::any_of(soft.pixels(), [](int pixel) { return pixel != 0; });
+        });
+    }
+
+    [[nodiscard]] SurfaceLayer surfaces() const {
+        return {views_, *sampled_hull_, silhouettes_agree_, layer_ == Layer::kSolid};
+    }
+
+    [[nodiscard]] ShapeMap lines(const std::vector<SurfaceLayer>& layers, int planes) const {
+        ShapeMap shape = make_shape_lines(layers, options_.lines);
         for (const int v : ring_.views) {
             for (int k = 0; k < planes; ++k) {
                 const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
@@ -119,6 +142,12 @@ public:
     }
 
 private:
+    void keep_layer(Image<float>& depth, const Image<std::uint8_t>& soft) const {
+        std::ranges::transform(depth.pixels(), soft.pixels(), depth.pixels().begin(), [&](float value, int pixel) {
+            return (pixel != 0) == (layer_ == Layer::kSoft) ? value : kNoDepth;
+        });
+    }
+
     // Of this ring and the others.
     [[nodiscard]] std::vector<const WorkView*> work_views(const std::vector<const RingSearch*>& others) const {
         std::vector<const WorkView*> all;
@@ -231,7 +260,9 @@ private:
     const Rig& rig_;
     const ViewRing& ring_;
     const ShapeOptions& options_;
+    Layer layer_;
     std::vector<DepthView> views_;
+    std::vector<Image<std::uint8_t>> soft_;  // of each view
     std::unique_ptr<VisualHull> hull_;
     std::unique_ptr<SampledHull> sampled_hull_;  // kHullSpacing_px apart
     int margin_px_ = 1;
@@ -256,7 +287,15 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
         if (r + 1 < rings.size()) beside.push_back(&searches[r + 1]);
         if (const Status status = searches[r].search(beside, progress, found.samples); !status) return status.error();
         Ring& ring = object.rings[r];
-        ring.shape = searches[r].lines(ring.planes);
+        std::vector<SurfaceLayer> layers = {searches[r].surfaces()};
+        RingSearch soft(set, rig, rings[r], options, Layer::kSoft);
+        if (searches[r].shows_soft()) {
+            std::vector<FoundDepth> unused;
+            if (const Status status = soft.read(progress); !status) return status.error();
+            if (const Status status = soft.search({}, progress, unused); !status) return status.error();
+            layers.push_back(soft.surfaces());
+        }
+        ring.shape = searches[r].lines(layers, ring.planes);
         searches[r].warn(ring.shape, found.warnings);
     }
     return found;

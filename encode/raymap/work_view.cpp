@@ -1,5 +1,7 @@
 #include "encode/raymap/work_view.hpp"
 
+#include "encode/set/soft_coverage.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -60,6 +62,28 @@ WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int
         }
     }
     return view;
+}
+
+Image<std::uint8_t> soft_pixels(const WorkView& view) {
+    constexpr int kRadius_px = 2;
+    constexpr int kHalf = 128;
+    Image<std::uint8_t> alpha(view.columns.width(), view.columns.height());
+    std::ranges::transform(view.columns.pixels(), alpha.pixels().begin(), &Rgba8::a);
+    Image<std::uint8_t> soft = soft_patches(alpha, kRadius_px);
+    std::ranges::transform(soft.pixels(), alpha.pixels(), soft.pixels().begin(),
+                           [](std::uint8_t patch, int a) { return a < kHalf ? patch : std::uint8_t{0}; });
+    return soft;
+}
+
+void cover_soft(WorkView& view, const Image<std::uint8_t>& soft) {
+    const auto before_white = [](int value, int alpha) {
+        return static_cast<std::uint8_t>((value * alpha + 255 * (255 - alpha) + 127) / 255);
+    };
+    for (std::size_t n = 0; n < soft.pixels().size(); ++n) {
+        if (soft.pixels()[n] == 0) continue;
+        Rgba8& pixel = view.columns.pixels()[n];
+        pixel = {before_white(pixel.r, pixel.a), before_white(pixel.g, pixel.a), before_white(pixel.b, pixel.a), 255};
+    }
 }
 
 void weaken_shading(WorkView& view) {

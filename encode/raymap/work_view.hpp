@@ -50,6 +50,13 @@ struct WorkView {
 // (colour weighted by alpha); what is left over at the right and lower edges is dropped.
 WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int reduction);
 
+// 255 where something soft is (soft_coverage.hpp, patches of 5x5 pixels) that covers less than half, else 0; transposed
+// as WorkView::columns is. A shadow that was cut out along with the object is a surface, too.
+Image<std::uint8_t> soft_pixels(const WorkView& view);
+
+// Makes these pixels part of the object: covered altogether, in the colours that they have before white.
+void cover_soft(WorkView& view, const Image<std::uint8_t>& soft);
+
 // Moves each pixel's mean colour of the object around it (9x9 pixels) towards grey, to a quarter of its contrast, and
 // keeps what differs from it: gloss and shading change from picture to picture, detail stays. Alpha is not changed.
 void weaken_shading(WorkView& view);

@@ -268,5 +268,45 @@ TEST(ShapeMap, AnObjectThatLeavesTheFrameKeepsWhatIsSeen) {
               psnr_of(build(folder / "set", MapKind::kPlane), folder / "halfway") + 3);
 }
 
+// A ball above a floor with a soft blue stain around it, which covers less than half everywhere.
+Image<Rgba8> ball_over_stain(const Camera& camera) {
+    Image<Rgba8> picture(camera.width, camera.height);
+    constexpr double kRadius = 0.35;
+    constexpr double kFloor = -0.35;
+    constexpr double kStain = 0.9;
+    const glm::dvec3 eye = camera.centre();
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            const glm::dvec3 ray = glm::normalize(camera.ray(x + 0.5, y + 0.5));
+            const double along = -glm::dot(ray, eye);
+            const double inside = kRadius * kRadius + along * along - glm::dot(eye, eye);
+            if (inside >= 0) {
+                const glm::dvec3 hit = eye + (along - std::sqrt(inside)) * ray;
+                const auto code = [](double wave) { return static_cast<std::uint8_t>(160 + std::lround(90 * wave)); };
+                picture(x, y) = {code(std::sin(25 * hit.x)), code(std::cos(25 * hit.y)), code(std::sin(25 * hit.z)),
+                                 255};
+                continue;
+            }
+            if (ray.y >= 0) continue;
+            const glm::dvec3 floor = eye + ((kFloor - eye.y) / ray.y) * ray;
+            const double out = (floor.x * floor.x + floor.z * floor.z) / (kStain * kStain);
+            if (out >= 1) continue;
+            picture(x, y) = {30, 80, 250, static_cast<std::uint8_t>(std::lround(110 * (1 - out)))};
+        }
+    }
+    return picture;
+}
+
+TEST(ShapeMap, WhatIsSoftIsShownBetweenPictures) {
+    const test::TemporaryFolder folder;
+    Rig rig = ring_above(24, 0, 20);
+    rig.object_radius = 0.9;
+    test::write_drawn_set(folder / "set", rig, ball_over_stain);
+    Rig halfway = ring_above(24, 7.5, 20);
+    halfway.object_radius = 0.9;
+    test::write_drawn_set(folder / "halfway", halfway, ball_over_stain);
+    EXPECT_GT(psnr_of(build(folder / "set"), folder / "halfway"), 25) << "the ball alone: 18";
+}
+
 }  // namespace
 }  // namespace rs::encode

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 namespace rs::encode {
@@ -119,6 +120,38 @@ TEST(SampledHull, HasTheHeightsOfTheNextPointOfItsGrid) {
     }
 }
 
+// Where a cell of a map of cameras at one height lies when its line is that of `viewpoint`.
+class CellPlaces {
+public:
+    CellPlaces(const ShapeMap& map, const glm::dvec2& viewpoint) : map_(map), viewpoint_(viewpoint) {}
+
+    struct Point {
+        glm::dvec2 place;
+        double y = 0;
+    };
+    [[nodiscard]] Point at(int p_cell, int band, double depth) const {
+        const double p = -kDeepest + (p_cell + 0.5) * 2 * kDeepest / map_.p_cells;
+        const double sine = p / glm::length(viewpoint_);
+        const glm::dvec2 inwards = -glm::normalize(viewpoint_);
+        const glm::dvec2 along = inwards * std::sqrt(1 - sine * sine) + glm::dvec2(-inwards.y, inwards.x) * sine;
+        const double distance = std::ldexp(map_.reference_distance_q20, -20);
+        const double camera_height = std::ldexp(map_.reference_height_q20, -20);
+        const double rho = std::sqrt(distance * distance - p * p);
+        const double h = std::ldexp(map_.h_low_q20, -20) + (band + 0.5) / std::ldexp(map_.bands_per_unit_q12, -12);
+        return {p * glm::dvec2(-along.y, along.x) + depth * along,
+                camera_height + (h - camera_height) * (rho + depth) / rho};
+    }
+    [[nodiscard]] const ShapeCell& cell(std::uint32_t line, int p_cell, int band) const {
+        return map_.cells[(line * static_cast<std::size_t>(map_.p_cells) + static_cast<std::size_t>(p_cell)) *
+                              static_cast<std::size_t>(map_.bands) +
+                          static_cast<std::size_t>(band)];
+    }
+
+private:
+    const ShapeMap& map_;
+    glm::dvec2 viewpoint_;
+};
+
 // Each picture's depths are as wrong as they can be: the far end of the search. From between two pictures such points
 // stand aside of the object.
 TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
@@ -135,44 +168,79 @@ TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
     }
     ShapeLinesOptions options;
     options.line_deg = 30;
-    const ShapeMap clean = make_shape_lines(found, hull, options);
-    options.silhouettes_agree = false;
-    const ShapeMap all = make_shape_lines(found, hull, options);
+    const ShapeMap clean = make_shape_lines({{.ring = found, .hull = hull}}, options);
+    const ShapeMap all = make_shape_lines({{.ring = found, .hull = hull, .silhouettes_agree = false}}, options);
     ASSERT_EQ(clean.cells.size(), all.cells.size());
 
-    const double cell = 2 * kDeepest / all.p_cells;
-    const double distance = std::ldexp(all.reference_distance_q20, -20);
-    const double camera_height = std::ldexp(all.reference_height_q20, -20);
-    const glm::dvec2 viewpoint = 0.5 * (views[0].centre + views[1].centre);
+    const CellPlaces places(all, 0.5 * (views[0].centre + views[1].centre));
+    const CellPlaces clean_places(clean, 0.5 * (views[0].centre + views[1].centre));
     ASSERT_EQ(all.gaps[0].lines, 1) << "which looks from halfway";
-    const std::size_t line = all.gaps[0].first_line;
+    const std::uint32_t line = all.gaps[0].first_line;
     const auto allowed = [&](int pi, int hi) {
-        const double sine = (-kDeepest + (pi + 0.5) * cell) / glm::length(viewpoint);
-        const glm::dvec2 inwards = -glm::normalize(viewpoint);
-        const glm::dvec2 along = inwards * std::sqrt(1 - sine * sine) + glm::dvec2(-inwards.y, inwards.x) * sine;
-        const double p = sine * glm::length(viewpoint);
-        const double rho = std::sqrt(distance * distance - p * p);
-        const double h = std::ldexp(all.h_low_q20, -20) + (hi + 0.5) / std::ldexp(all.bands_per_unit_q12, -12);
         for (double depth = -kDeepest; depth <= kDeepest; depth += 0.01) {
-            const double y = camera_height + (h - camera_height) * (rho + depth) / rho;
-            if (is_allowed(views, p * glm::dvec2(-along.y, along.x) + depth * along, y, 2)) return true;
+            const CellPlaces::Point point = places.at(pi, hi, depth);
+            if (is_allowed(views, point.place, point.y, 2)) return true;
         }
         return false;
     };
     int dropped = 0;
     for (int pi = 1; pi + 1 < all.p_cells; ++pi) {
         for (int hi = 1; hi + 1 < all.bands; ++hi) {
-            const std::size_t at = (line * static_cast<std::size_t>(all.p_cells) + static_cast<std::size_t>(pi)) *
-                                       static_cast<std::size_t>(all.bands) +
-                                   static_cast<std::size_t>(hi);
-            if (!all.cells[at].has_surface()) continue;
+            if (!places.cell(line, pi, hi).has_surface()) continue;
+            const bool stays = clean_places.cell(line, pi, hi).has_surface();
             bool near_object = false;
             for (int n = 0; n < 9; ++n) near_object |= allowed(pi + n % 3 - 1, hi + n / 3 - 1);
-            dropped += clean.cells[at].has_surface() ? 0 : 1;
-            EXPECT_TRUE(near_object || !clean.cells[at].has_surface()) << "cell " << pi << ", " << hi;
+            dropped += stays ? 0 : 1;
+            EXPECT_TRUE(near_object || !stays) << "cell " << pi << ", " << hi;
         }
     }
     EXPECT_GT(dropped, 20);
+}
+
+// A wall of gauze behind the object: halfway between two pictures it is also seen where one of them shows the object.
+TEST(ShapeLines, NoPictureHidesWhatStandsBehind) {
+    std::vector<DepthView> gauze;
+    for (const WorkView& view : drawn_views(drawn_ring(12))) {
+        DepthView& one = gauze.emplace_back(DepthView{view, Image<float>(view.height, view.width, kNoDepth)});
+        for (std::size_t n = 0; n < one.depth.pixels().size(); ++n) {
+            Rgba8& pixel = one.view.columns.pixels()[n];
+            if (pixel.a != 0) continue;
+            pixel = {90, 90, 90, 255};
+            one.depth.pixels()[n] = 0.8F;
+        }
+    }
+    const SampledHull everywhere(VisualHull({}, 1), 0.05);
+    ShapeLinesOptions options;
+    options.line_deg = 30;
+    const glm::dvec2 viewpoint = 0.5 * (gauze[0].view.centre + gauze[1].view.centre);
+    const auto hidden_and_shown = [&](bool in_front) {
+        const ShapeMap map = make_shape_lines({{.ring = gauze, .hull = everywhere, .in_front = in_front}}, options);
+        const CellPlaces places(map, viewpoint);
+        std::array<int, 2> hidden_shown{};
+        for (int pi = 0; pi < map.p_cells; ++pi) {
+            for (int hi = 0; hi < map.bands; ++hi) {
+                const ShapeCell& cell = places.cell(map.gaps[0].first_line, pi, hi);
+                if (!cell.has_surface()) continue;
+                const double depth =
+                    std::ldexp(map.depth_low_q20, -20) + cell.depth * std::ldexp(map.depth_step_q24, -24);
+                const CellPlaces::Point point = places.at(pi, hi, depth);
+                const bool hides = std::any_of(gauze.begin(), gauze.begin() + 2, [&](const DepthView& picture) {
+                    const SeenColumn seen = picture.view.see(point.place);
+                    const double row = picture.view.row_of(point.y, seen.axial);
+                    return seen.column >= 0 && seen.column < picture.view.width && row >= 0 &&
+                           row < picture.view.height &&
+                           std::isnan(picture.depth(static_cast<int>(row), static_cast<int>(seen.column)));
+                });
+                ++hidden_shown[hides ? 0 : 1];
+            }
+        }
+        return hidden_shown;
+    };
+    const auto [hidden, shown] = hidden_and_shown(false);
+    const auto [hidden_before, shown_before] = hidden_and_shown(true);
+    EXPECT_EQ(hidden, 0);
+    EXPECT_GT(hidden_before, 50);
+    EXPECT_GT(shown, shown_before + hidden_before / 4) << "many have moved, not gone";
 }
 
 }  // namespace
