@@ -56,7 +56,12 @@ Result<Outcome> outcome_from(const nlohmann::json& json) {
         outcome.staged = json.value("staged", "");
         outcome.recorded = json.value("recorded", false);
         outcome.seconds = json.value("seconds", 0.0);
-        outcome.memory_bytes = json.value("memory_bytes", std::int64_t{0});
+        if (json.contains("memory_bytes")) {
+            const nlohmann::json& bytes = json["memory_bytes"];
+            // A number with a fraction or an exponent may be beyond all integers.
+            if (!bytes.is_number_integer()) return Error{"memory_bytes is no whole number"};
+            outcome.memory_bytes = bytes;
+        }
     } catch (const nlohmann::json::exception& wrong) {
         return Error{std::string("what became of an item cannot be read: ") + wrong.what()};
     }

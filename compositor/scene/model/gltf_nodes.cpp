@@ -44,7 +44,9 @@ public:
 
     void walk_scene() {
         const json& scenes = list(top_, "scenes");
-        const std::size_t index = top_.value("scene", std::size_t{0});
+        const json& chosen = top_.contains("scene") ? top_["scene"] : json(0U);
+        if (!chosen.is_number_unsigned()) return;
+        const std::size_t index = chosen;
         if (index >= scenes.size()) return;
         for (const json& root : list(scenes[index], "nodes")) walk(root, glm::dmat4(1.0), {}, 0);
     }

@@ -66,7 +66,7 @@ TEST(FarmManifest, ALineThatWasCutShortIsCutOff) {
 TEST(FarmManifest, FaultsAreNamedByTheirLine) {
     for (const char* const wrong :
          {"{", "[]", "{}", R"({"item": 3, "state": "made"})", R"({"item": "a"})", R"({"item": "a", "state": "eaten"})",
-          R"({"item": "a", "state": "made", "sum": 3})"}) {
+          R"({"item": "a", "state": "made", "sum": 3})", R"({"item": "a", "state": "made", "memory_bytes": 1e30})"}) {
         const auto read = parse_manifest(R"({"item": "a", "state": "made"})"
                                          "\n" +
                                              std::string(wrong) + "\n",
