@@ -28,6 +28,7 @@ double step_of_index(int index) {
 constexpr int kSoftRadius_px = 6;
 // Of what pictures show, from which on steps of alpha are seen as contour lines.
 constexpr double kSoftShare = .01;
+constexpr int kSoftAlphaBits = 6;
 
 double soft_share(const std::vector<SourcePicture>& sources) {
     std::atomic<std::int64_t> soft = 0;
@@ -182,7 +183,7 @@ Result<EncodedPictures> encode_pictures(const CaptureSet& set, const RaySpaceObj
         });
     if (!read) return read.error();
     if (!alpha_bits && goal.profile == codec::Profile::kDense && soft_share(sources) >= kSoftShare) {
-        alpha_bits = codec::kMaxAlphaBits;
+        alpha_bits = kSoftAlphaBits;
     }
     GoalSearch search(object, sources, goal, alpha_bits, progress);
     if (goal.pictures_bytes) return search.for_size(*goal.pictures_bytes);

@@ -56,8 +56,8 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
         ->capture_default_str();
     command.add_option(
         "--alpha-bits", arguments.alpha_bits,
-        "bits of compressed pictures' alpha, 1..4; without it 2, or 1 for dense pictures of a --psnr below 31 "
-        "or a quality below 54");
+        "bits of compressed pictures' alpha, 1..6; without it 2, or for dense pictures 6 where something is soft over "
+        "an area, such as a shadow, else 1 for a --psnr below 31 or a quality below 54");
 }
 
 Result<std::optional<PictureGoal>> goal_of(const ProfileArguments& arguments) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 namespace rs::codec {
 
@@ -101,19 +102,40 @@ private:
         }
     }
 
+    // The depth of (x, y), of which `own` is the mask, as a sample of that mask sees it: one on the other side of half
+    // lies beyond all depths.
+    [[nodiscard]] int depth_as_seen(int x, int y, int own) const {
+        return mask_.at(x, y) == own ? depths_.at(x, y) : (1 << (bits_ - 1)) - 1;
+    }
+
+    int code_depth(int x, int y, int mask, int sum, int predicted) {
+        const bool has_west = x > 0;
+        const bool has_north = y > 0;
+        int west = has_west ? depth_as_seen(x - 1, y, mask) : 0;
+        int north = has_north ? depth_as_seen(x, y - 1, mask) : west;
+        if (!has_west) west = north;
+        const int north_west = has_west && has_north ? depth_as_seen(x - 1, y - 1, mask) : west;
+        // As far on from one as the other is from that between them, but not beyond both.
+        const int guess = std::clamp(west + north - north_west, std::min(west, north), std::max(west, north));
+        const int activity = std::abs(west - north_west) + std::abs(north - north_west);
+        const int beside = unlike_weight(mask, sum) != 0 ? 1 : 0;
+        return syntax::alpha_depth(coder_, bits_, guess, activity, beside, predicted, depths_.at(x, y));
+    }
+
     void refine(int bx, int by) {
         const BlockInfo& info = grid_.at(bx, by);
         const int full = (1 << bits_) - 1;
         for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
             for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
                 const int mask = mask_.at(x, y);
-                const int neighbours = (depths_.at(x - 1, y) != 0 ? 1 : 0) + (depths_.at(x, y - 1) != 0 ? 1 : 0);
                 const int shown =
                     interpolated_alpha(info.source, info.motion, references_, place_.left + x, place_.top + y);
                 const int predicted = shown < 0 ? 0 : shown < 32 || shown > 223 ? 1 : 2;
                 const int sum = mask_sum(mask_, x, y, place_.width, place_.height);
-                const int depth =
-                    syntax::alpha_depth(coder_, bits_, mask, sum, neighbours, predicted, depths_.at(x, y));
+                const int neighbours = (depths_.at(x - 1, y) != 0 ? 1 : 0) + (depths_.at(x, y - 1) != 0 ? 1 : 0);
+                const int depth = bits_ == 2
+                                      ? syntax::alpha_inner(coder_, mask, sum, neighbours, predicted, depths_.at(x, y))
+                                      : code_depth(x, y, mask, sum, predicted);
                 depths_.at(x, y) = static_cast<std::uint8_t>(depth);
                 out_(place_.left + x, place_.top + y) =
                     static_cast<std::uint8_t>(alpha_of_level(mask != 0 ? full - depth : depth, bits_));

@@ -35,7 +35,7 @@ public:
         for (int y = 0; y < place_.height; y += kMacroblock) {
             for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
         }
-        if (code_.alpha_coding == AlphaCoding::kMask) {
+        if (code_.has_masks) {
             AlphaFinish(reader_, code_, grid_, alpha_, depths_, references_, place_, out_[3]).finish();
         }
         filter_edges(grid_, code_, head_.step, place_, out_);
@@ -67,7 +67,7 @@ private:
         choice.coded = false;
         code_prediction(reader_, grid_, part, around_, choice);
         if (listener_ != nullptr) announce(part, choice);
-        if (code_.alpha_coding == AlphaCoding::kMask) {
+        if (code_.has_masks) {
             mask(part, choice);
         } else {
             alpha(part, choice);

@@ -10,6 +10,7 @@
 #include "rayspace/codec/kernels/transform.hpp"
 #include "rayspace/codec/levels.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
@@ -232,15 +233,28 @@ int alpha_sample(Coder& coder, int bits, int west, int north, int north_west, in
     return tree(coder, context::kAlphaBetween + 16 * mean, bits, value);
 }
 
-// What a sample of a mixed block lies away from the end that its mask names, in levels, 0 .. 2^(bits - 1) - 1. `sum`:
-// of the mask around it, 0 .. 16; `neighbours`: how many of those to the left and above are not 0; `predicted`: 0
-// without references, 1 where those show an end, 2 where they show something between.
+// What a sample of a mixed block lies away from the end that its mask names, of two bits of alpha: 0 or 1. `sum`: of
+// the mask around it, 0 .. 16; `neighbours`: how many of those to the left and above are not 0; `predicted`: 0 without
+// references, 1 where those show an end, 2 where they show something between.
 template <class Coder>
-int alpha_depth(Coder& coder, int bits, int mask, int sum, int neighbours, int predicted, int value) {
-    const int inner = context::kInner + ((3 * neighbours + predicted) * 2 + mask) * 17 + sum;
-    if (coder.bit(inner, value != 0 ? 1 : 0) == 0) return 0;
-    if (bits == 2) return 1;
-    return tree(coder, context::kInnerLevel + (5 * mask + (sum >> 2)) * 8, bits - 1, value);
+int alpha_inner(Coder& coder, int mask, int sum, int neighbours, int predicted, int value) {
+    return coder.bit(context::kInner + ((3 * neighbours + predicted) * 2 + mask) * 17 + sum, value);
+}
+
+// The same of more bits: 0 .. 2^(bits - 1) - 1, as its distance from `guess`. `activity`: how much the depths around it
+// differ; `beside`: 1 where masks around it are unlike its own, else 0.
+template <class Coder>
+int alpha_depth(Coder& coder, int bits, int guess, int activity, int beside, int predicted, int value) {
+    constexpr int kActivities = 6;
+    const int most = (1 << (bits - 1)) - 1;
+    const int at = kActivities * beside + (activity <= 2 ? activity : activity <= 4 ? 3 : activity <= 8 ? 4 : 5);
+    const int off = coder.bit(context::kDepthOff + 2 * kActivities * predicted + at, value != guess ? 1 : 0);
+    if (off == 0) return guess;
+    int below = guess == most ? 1 : 0;
+    if (guess > 0 && guess < most) below = coder.bit(context::kDepthBelow + at, value < guess ? 1 : 0);
+    const int distance = 1 + number(coder, context::kDepthClass + 8 * beside, bits - 1, context::kDepthTop + 8 * beside,
+                                    std::abs(value - guess) - 1);
+    return std::clamp(below != 0 ? guess - distance : guess + distance, 0, most);
 }
 
 }  // namespace rs::codec::syntax

@@ -69,7 +69,7 @@ protected:
     static void expect_same_dense(const Code& expected, const codec::DenseCode& found, const std::string& what) {
         ASSERT_EQ(expected.alpha_bits, found.alpha_bits) << what;
         ASSERT_TRUE(std::ranges::equal(expected.edge_alpha, found.edge_alpha)) << what;
-        ASSERT_EQ(expected.alpha_coding, static_cast<int>(found.alpha_coding)) << what;
+        ASSERT_EQ(expected.alpha_coding, static_cast<int>(found.alpha_coding())) << what;
         ASSERT_EQ(expected.u_offset, found.chroma_step_offset[0]) << what;
         ASSERT_EQ(expected.v_offset, found.chroma_step_offset[1]) << what;
         const auto contexts = static_cast<std::size_t>(found.contexts());

@@ -72,9 +72,11 @@ std::vector<std::uint8_t> frame_of(const std::vector<std::uint8_t>& books, Rando
 std::vector<std::uint8_t> random_dense_code(const std::vector<int>& levels, bool is_tame, Random& random) {
     std::vector<std::uint8_t> code = {1};
     for (int i = 0; i < 2; ++i) put(code, random.whole(4, 6));
-    put(code, random.whole(1, 4));
+    const int bits = random.whole(1, 6);
+    const bool has_levels = random.one_in(3);
+    put(code, has_levels ? 1 + bits % 4 : bits);
     for (int i = 0; i < 2; ++i) put(code, is_tame ? random.whole(-4, 4) : random.whole(-31, 31));
-    const std::size_t alpha_coding = random.one_in(3) ? 0 : 1;
+    const std::size_t alpha_coding = has_levels ? 0 : bits <= 2 ? 1 : 2;
     put(code, static_cast<int>(alpha_coding));
     put(code, random.one_in(2) ? 7 : random.whole(0, 7));
     for (const int level : levels) put(code, level);

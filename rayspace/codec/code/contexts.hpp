@@ -37,10 +37,14 @@ inline constexpr int kLevelsCount = kAlphaBetween + 3 * 16;
 
 // Objects whose alpha is a mask have these in place of the three above.
 inline constexpr int kMaskFroms = 8;
-inline constexpr int kMask = kAlphaZero;                     // [predicted 8][samples coded before 64]
-inline constexpr int kInner = kMask + kMaskFroms * 64;       // [neighbours 3][predicted 3][mask 2][sum of mask 17]
-inline constexpr int kInnerLevel = kInner + 3 * 3 * 2 * 17;  // [mask 2][sum of mask / 4 5][node 8]
-inline constexpr int kMaskCount = kInnerLevel + 2 * 5 * 8;
+inline constexpr int kMask = kAlphaZero;                // [predicted 8][samples coded before 64]
+inline constexpr int kInner = kMask + kMaskFroms * 64;  // [neighbours 3][predicted 3][mask 2][sum of mask 17]
+// Of more than two bits; beside: whether the mask changes around the sample.
+inline constexpr int kDepthOff = kInner + 3 * 3 * 2 * 17;  // [predicted 3][beside 2][activity 6]
+inline constexpr int kDepthBelow = kDepthOff + 3 * 2 * 6;  // [beside 2][activity 6]
+inline constexpr int kDepthClass = kDepthBelow + 2 * 6;    // [beside 2][place 8]
+inline constexpr int kDepthTop = kDepthClass + 2 * 8;      // [beside 2][class 8]
+inline constexpr int kMaskCount = kDepthTop + 2 * 8;
 
 inline constexpr int kCount = kMaskCount > kLevelsCount ? kMaskCount : kLevelsCount;
 

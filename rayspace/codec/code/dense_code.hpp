@@ -14,8 +14,9 @@
 namespace rs::codec {
 
 enum class AlphaCoding : std::uint8_t {
-    kLevels = 0,  // every sample's level
-    kMask = 1,    // which samples are half covered at least, and of more than one bit, how much
+    kLevels = 0,  // every sample's level, of 1 to 4 bits
+    kMask = 1,    // which samples are half covered at least, and of two bits, how much
+    kDepths = 2,  // the same of 3 to 6 bits
 };
 
 // What alpha lies off 0 (255) beside a mask's edge: [mask][weight of the samples around that are unlike it, 1 .. 12].
@@ -24,8 +25,8 @@ inline constexpr int kEdgeWeights = 12;
 inline constexpr int kMaxEdgeAlpha = 127;
 
 struct DenseCode {
-    AlphaCoding alpha_coding = AlphaCoding::kMask;
-    int alpha_bits = 2;                              // 1 .. kMaxAlphaBits
+    bool has_masks = true;                           // else levels
+    int alpha_bits = 2;                              // 1 .. kMaxAlphaBits, or kMaxAlphaLevelBits
     EdgeAlpha edge_alpha = {};                       // 0 .. kMaxEdgeAlpha; of masks of one bit only
     bool deblocking = true;                          // deblocking.hpp
     bool adaptation = true;                          // context_states.hpp
@@ -33,18 +34,21 @@ struct DenseCode {
     std::array<int, 2> chroma_step_offset = {0, 0};  // of U and V, added to the step index of Y; +-kMaxChromaOffset
     std::array<std::uint16_t, context::kCount> probabilities = {};  // of 0, in 4096ths; 8 .. 4088
 
-    [[nodiscard]] bool has_edge_alpha() const { return alpha_coding == AlphaCoding::kMask && alpha_bits == 1; }
-    // How many contexts there are.
-    [[nodiscard]] int contexts() const {
-        return alpha_coding == AlphaCoding::kMask ? context::kMaskCount : context::kLevelsCount;
+    [[nodiscard]] AlphaCoding alpha_coding() const {
+        if (!has_masks) return AlphaCoding::kLevels;
+        return alpha_bits <= 2 ? AlphaCoding::kMask : AlphaCoding::kDepths;
     }
+    [[nodiscard]] bool has_edge_alpha() const { return has_masks && alpha_bits == 1; }
+    // How many contexts there are.
+    [[nodiscard]] int contexts() const { return has_masks ? context::kMaskCount : context::kLevelsCount; }
     // Of plane 0 .. 2.
     [[nodiscard]] int plane_step(int step, int plane) const {
         if (plane == 0) return step;
         return std::clamp(step + chroma_step_offset[static_cast<std::size_t>(plane - 1)], 0, kMaxStep);
     }
 };
-inline constexpr int kMaxAlphaBits = 4;
+inline constexpr int kMaxAlphaBits = 6;       // of masks
+inline constexpr int kMaxAlphaLevelBits = 4;  // of levels
 inline constexpr int kMaxChromaOffset = 31;
 
 inline constexpr std::uint16_t kNoReference = 0xFFFF;

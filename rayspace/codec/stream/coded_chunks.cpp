@@ -120,7 +120,7 @@ std::vector<std::byte> code_payload(const CodedPictures& coded) {
     const bool board = coded.profile == Profile::kBoard;
     out.put(static_cast<std::uint8_t>(board ? 0 : coded.dense.alpha_bits));
     for (const int offset : coded.dense.chroma_step_offset) out.put(static_cast<std::int8_t>(board ? 0 : offset));
-    out.put(static_cast<std::uint8_t>(board ? 0 : static_cast<int>(coded.dense.alpha_coding)));
+    out.put(static_cast<std::uint8_t>(board ? 0 : static_cast<int>(coded.dense.alpha_coding())));
     out.put(board ? std::uint8_t{0} : features_of(coded.dense));
     out.put(std::span<const std::uint8_t>(coded.levels));
     if (board) {
@@ -163,8 +163,11 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
             return out_of_range("the logarithm of a tile's side", log2, lowest, highest);
         }
     }
-    const int fewest_bits = board ? 0 : 1;
-    const int most_bits = board ? 0 : kMaxAlphaBits;
+    const int most_codings = board ? 0 : static_cast<int>(AlphaCoding::kDepths);
+    if (alpha_coding > most_codings) return out_of_range("the coding of alpha", alpha_coding, 0, most_codings);
+    constexpr int kBits[][2] = {{1, kMaxAlphaLevelBits}, {1, 2}, {3, kMaxAlphaBits}};  // of each coding
+    const int fewest_bits = board ? 0 : kBits[alpha_coding][0];
+    const int most_bits = board ? 0 : kBits[alpha_coding][1];
     if (alpha_bits < fewest_bits || alpha_bits > most_bits) {
         return out_of_range("the number of alpha bits", alpha_bits, fewest_bits, most_bits);
     }
@@ -174,8 +177,6 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
             return out_of_range("a chroma step's offset", offset, -largest_offset, largest_offset);
         }
     }
-    const int most_codings = board ? 0 : static_cast<int>(AlphaCoding::kMask);
-    if (alpha_coding > most_codings) return out_of_range("the coding of alpha", alpha_coding, 0, most_codings);
     const int all_features = board ? 0 : kAllFeatures;
     if (features > all_features) return out_of_range("the set of features", features, 0, all_features);
     coded.profile = static_cast<Profile>(profile);
@@ -183,7 +184,7 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     coded.height = height;
     coded.tile_width_log2 = tile_width_log2;
     coded.tile_height_log2 = tile_height_log2;
-    coded.dense.alpha_coding = static_cast<AlphaCoding>(alpha_coding);
+    coded.dense.has_masks = alpha_coding != static_cast<int>(AlphaCoding::kLevels);
     coded.dense.alpha_bits = alpha_bits;
     coded.dense.deblocking = (features & kDeblocking) != 0;
     coded.dense.adaptation = (features & kAdaptation) != 0;

@@ -144,8 +144,8 @@ TEST_F(CodedFile, AnyBytesDecode) {
     std::mt19937 random(2024);
     for (int round = 0; round < 60; ++round) {
         CodedPictures coded = *object_.coded;
-        coded.dense.alpha_bits = 1 + static_cast<int>(random() % 4);
-        coded.dense.alpha_coding = random() % 2 == 0 ? AlphaCoding::kLevels : AlphaCoding::kMask;
+        coded.dense.has_masks = random() % 2 == 0;
+        coded.dense.alpha_bits = 1 + static_cast<int>(random() % (coded.dense.has_masks ? 6 : 4));
         for (auto& p : coded.dense.probabilities) p = static_cast<std::uint16_t>(16 * (1 + random() % 255));
         for (CodedPicture& picture : coded.pictures) {
             picture.head.step = static_cast<int>(random() % (kMaxStep + 1));

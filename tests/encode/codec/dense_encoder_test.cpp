@@ -117,14 +117,14 @@ TEST(Transform, FewerRowsAndColumnsGiveTheSame) {
 }
 
 TEST(DenseEncoder, TheDecoderShowsWhatTheEncoderMeasured) {
-    for (const double step : {3.0, 12.0, 60.0}) {
+    for (const auto& [step, bits] : {std::pair{3.0, 4}, std::pair{12.0, 6}, std::pair{30.0, 3}, std::pair{60.0, 5}}) {
         RaySpaceObject object = test::small_object(kSmallDense);
         const std::vector<Image<Rgba8>> pictures = test::drawn_pictures(object);
         DenseSettings settings;
         settings.step = step;
-        settings.alpha_bits = 4;
+        settings.alpha_bits = bits;
         std::vector<SourcePicture> sources;
-        for (const auto& picture : pictures) sources.push_back(source_picture(picture, 4));
+        for (const auto& picture : pictures) sources.push_back(source_picture(picture, bits));
         EncodedPictures encoded = encode_dense(object, sources, settings);
         object.coded = std::make_shared<codec::CodedPictures>(std::move(encoded.coded));
         codec::decode_pictures(object);
@@ -133,8 +133,8 @@ TEST(DenseEncoder, TheDecoderShowsWhatTheEncoderMeasured) {
         for (std::size_t v = 0; v < pictures.size(); ++v) {
             for (int y = 0; y < object.height; ++y) {
                 for (int x = 0; x < object.width; ++x) {
-                    const int level = codec::level_of_alpha(pictures[v](x, y).a, 4);
-                    ASSERT_EQ(object.pictures[v].a(x, y), codec::alpha_of_level(level, 4));
+                    const int level = codec::level_of_alpha(pictures[v](x, y).a, bits);
+                    ASSERT_EQ(object.pictures[v].a(x, y), codec::alpha_of_level(level, bits));
                 }
             }
         }
@@ -241,9 +241,9 @@ TEST(ByteAccount, AddsUpToTheChunks) {
 class Goals : public testing::Test {
 protected:
     void SetUp() override {
-        Rig rig = make_ring({.count = 9, .fl_px = 120, .width = 96, .height = 80});
-        rig.object_radius = 0.9;
-        test::write_drawn_set(work_ / "set", rig);
+        rig_ = make_ring({.count = 9, .fl_px = 120, .width = 96, .height = 80});
+        rig_.object_radius = 0.9;
+        test::write_drawn_set(work_ / "set", rig_);
         Result<CaptureSet> set = open_capture_set(work_ / "set");
         ASSERT_TRUE(set.ok()) << set.error().message;
         set_ = std::move(*set);
@@ -254,6 +254,7 @@ protected:
     }
 
     test::TemporaryFolder work_;
+    Rig rig_;
     CaptureSet set_;
     RaySpaceObject object_;
 };
@@ -280,6 +281,34 @@ TEST_F(Goals, FineColoursHaveFineEdges) {
     const auto asked = encode(goal, 1);
     ASSERT_TRUE(asked.ok()) << asked.error().message;
     EXPECT_EQ(asked->coded.dense.alpha_bits, 1);
+}
+
+// The drawn object over something that covers less and less to both sides.
+Image<Rgba8> drawn_over_shadow(const Camera& camera) {
+    Image<Rgba8> picture = test::drawn_picture(camera);
+    for (int y = 60; y < 78; ++y) {
+        for (int x = 20; x < 80; ++x) {
+            Rgba8& pixel = picture(x, y);
+            if (pixel.a == 0) pixel = {0, 0, 0, static_cast<std::uint8_t>(150 - 4 * std::abs(x - 50))};
+        }
+    }
+    return picture;
+}
+
+TEST_F(Goals, SoftShadowsHaveManyLevels) {
+    test::write_drawn_set(work_ / "soft", rig_, drawn_over_shadow);
+    const Result<CaptureSet> set = open_capture_set(work_ / "soft");
+    ASSERT_TRUE(set.ok()) << set.error().message;
+    const auto bits = [&](PictureGoal goal, std::optional<int> asked = {}) {
+        const auto encoded = encode_pictures(*set, object_, goal, asked);
+        EXPECT_TRUE(encoded.ok()) << encoded.error().message;
+        return encoded->coded.dense.alpha_bits;
+    };
+    PictureGoal coarse;
+    coarse.quality = 30;
+    EXPECT_EQ(bits({}), 6);
+    EXPECT_EQ(bits(coarse), 6);
+    EXPECT_EQ(bits({}, 3), 3);
 }
 
 TEST_F(Goals, SizeIsKeptAndUsed) {

@@ -42,7 +42,6 @@ std::string read_fields(Bytes payload, Code& code) {
     for (std::size_t i = 1; i <= 2; ++i) {
         if (payload[i] < (is_board ? 5 : 4) || payload[i] > (is_board ? 5 : 6)) return "a tile's size is out of range";
     }
-    if (payload[3] < (is_board ? 0 : 1) || payload[3] > (is_board ? 0 : 4)) return "alpha_bits is out of range";
     code.tile_width = 1 << payload[1];
     code.tile_height = 1 << payload[2];
     code.alpha_bits = payload[3];
@@ -51,8 +50,11 @@ std::string read_fields(Bytes payload, Code& code) {
     const int largest_offset = is_board ? 0 : 31;
     if (std::abs(code.u_offset) > largest_offset) return "u_offset is out of range";
     if (std::abs(code.v_offset) > largest_offset) return "v_offset is out of range";
-    if (payload[6] > (is_board ? 0 : 1)) return "CODE has another alpha_coding";
+    if (payload[6] > (is_board ? 0 : 2)) return "CODE has another alpha_coding";
     code.alpha_coding = payload[6];
+    constexpr std::array<std::array<int, 2>, 3> kBits = {{{1, 4}, {1, 2}, {3, 6}}};
+    const std::array<int, 2> bits = is_board ? std::array{0, 0} : kBits.at(payload[6]);
+    if (code.alpha_bits < bits[0] || code.alpha_bits > bits[1]) return "alpha_bits is out of range";
     if (payload[7] > (is_board ? 0 : 7)) return "CODE has other features";
     code.has_smooth_edges = (payload[7] & 1) != 0;
     code.is_learning = (payload[7] & 2) != 0;

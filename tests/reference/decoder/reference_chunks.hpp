@@ -14,8 +14,8 @@ namespace rs::reference {
 
 using Bytes = std::span<const std::uint8_t>;
 
-inline constexpr std::array<int, 2> kContexts = {1447, 1649};  // [alpha_coding]
-inline constexpr std::array<std::size_t, 2> kListedBytes = {181, 207};
+inline constexpr std::array<int, 3> kContexts = {1447, 1649, 1649};  // [alpha_coding]
+inline constexpr std::array<std::size_t, 3> kListedBytes = {181, 207, 207};
 inline constexpr int kNoView = 65535;
 
 enum class Profile { kDense = 1, kBoard = 2 };

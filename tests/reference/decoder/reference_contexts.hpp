@@ -28,10 +28,13 @@ enum Context {
     kAlphaZero = 751,
     kAlphaFull = 1075,
     kAlphaBetween = 1399,
-    // With alpha_coding 1, instead of the last three:
+    // With alpha_coding 1 and 2, instead of the last three:
     kMask = 751,
     kInner = 1263,
-    kInnerLevel = 1569,
+    kDepthOff = 1569,
+    kDepthBelow = 1605,
+    kDepthClass = 1617,
+    kDepthTop = 1633,
 };
 
 }  // namespace rs::reference

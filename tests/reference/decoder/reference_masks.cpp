@@ -4,6 +4,8 @@
 #include "tests/reference/decoder/reference_tile.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 
 namespace rs::reference {
 
@@ -109,16 +111,51 @@ void TileDecoder::read_depths(int block_x, int block_y) {
             }
             const int mask = level_in_tile(x, y);
             const int sum = mask_sum(x, y);
-            int depth = bits_.bit(kInner + ((n * 3 + p) * 2 + mask) * 17 + sum);
-            if (depth == 1 && code_.alpha_bits > 2) {
-                depth = bits_.tree(kInnerLevel + (mask * 5 + (sum >> 2)) * 8, code_.alpha_bits - 1);
-            }
+            const int depth = code_.alpha_coding == 1 ? bits_.bit(kInner + ((n * 3 + p) * 2 + mask) * 17 + sum)
+                                                      : read_difference(x, y, p, sum);
             depths_[static_cast<std::size_t>(y * width_ + x)] = depth;
             const int level = mask == 1 ? full_ - depth : depth;
             sample(picture_, 3, tile_x_ + x, tile_y_ + y) =
                 static_cast<std::uint8_t>((255 * level + full_ / 2) / full_);
         }
     }
+}
+
+int TileDecoder::read_difference(int x, int y, int p, int sum) {
+    const int mask = level_in_tile(x, y);
+    const int most = (1 << (code_.alpha_bits - 1)) - 1;
+    // "the depth of a sample with the same mask, most of one with the other mask"
+    const auto seen = [&](int dx, int dy) {
+        if (level_in_tile(x + dx, y + dy) != mask) return most;
+        return depths_[static_cast<std::size_t>((y + dy) * width_ + x + dx)];
+    };
+    int w = 0;
+    int n = 0;
+    int nw = 0;
+    if (x > 0 && y > 0) {
+        w = seen(-1, 0);
+        n = seen(0, -1);
+        nw = seen(-1, -1);
+    } else if (x > 0) {
+        w = n = nw = seen(-1, 0);
+    } else if (y > 0) {
+        w = n = nw = seen(0, -1);
+    }
+    const std::array<int, 3> three = {w, n, w + n - nw};
+    const int guess = three[0] + three[1] + three[2] - std::ranges::max(three) - std::ranges::min(three);
+    const int difference = std::abs(w - nw) + std::abs(n - nw);
+    int a = 5;
+    for (const int end : {0, 1, 2, 4, 8}) a -= difference <= end ? 1 : 0;
+    const int e = sum == 16 * mask ? 0 : 1;
+    if (bits_.bit(kDepthOff + 12 * p + 6 * e + a) == 0) return guess;
+    int below = 0;
+    if (guess == most) {
+        below = 1;
+    } else if (guess != 0) {
+        below = bits_.bit(kDepthBelow + 6 * e + a);
+    }
+    const int distance = 1 + bits_.number(kDepthClass + 8 * e, code_.alpha_bits - 1, kDepthTop + 8 * e);
+    return std::clamp(below == 1 ? guess - distance : guess + distance, 0, most);
 }
 
 }  // namespace rs::reference

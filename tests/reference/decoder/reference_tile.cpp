@@ -37,7 +37,7 @@ void TileDecoder::decode() {
     for (int y = 0; y < height_; y += 16) {
         for (int x = 0; x < width_; x += 16) decode_macroblock(x, y);
     }
-    if (code_.alpha_coding == 1) make_alpha();
+    if (code_.alpha_coding != 0) make_alpha();
     if (!code_.has_smooth_edges) return;
     for (int plane = 0; plane < 3; ++plane) {
         smooth_edges(plane, true);
@@ -107,7 +107,7 @@ void TileDecoder::decode_part(int x, int y, int n) {
     }
     for (int by = y; by < y + n; by += 8) {
         for (int bx = x; bx < x + n; bx += 8) {
-            if (code_.alpha_coding == 1) {
+            if (code_.alpha_coding != 0) {
                 read_mask(part, bx, by);
             } else {
                 read_alpha(part, bx, by);

@@ -76,6 +76,7 @@ private:
     void make_alpha();
     void make_smooth_alpha(int x, int y);
     void read_depths(int x, int y);
+    int read_difference(int x, int y, int p, int sum);
     int step_index(int plane) const;
     void read_transforms(Part& part);
     Square read_coefficients(int n, int kind);
@@ -94,7 +95,7 @@ private:
     int tile_x_ = 0, tile_y_ = 0, width_ = 0, height_ = 0;
     int full_ = 0;
     std::vector<Block> blocks_;
-    std::vector<int> levels_;  // with alpha_coding 1: masks
+    std::vector<int> levels_;  // but for alpha_coding 0: masks
     std::vector<int> depths_;
 };
 

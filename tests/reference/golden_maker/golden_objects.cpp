@@ -77,8 +77,7 @@ RaySpaceObject board(const DrawnSize& size, double step) {
 // A stream with a picture of two references, tiles that do not fill the last byte of their list, and all four levels,
 // that has no more bytes than this, and no less than half as many; of dense pictures with alpha so coded, and all
 // features if as masks, else none.
-RaySpaceObject random_object(Profile profile, std::size_t most_bytes,
-                             codec::AlphaCoding alpha_coding = codec::AlphaCoding::kLevels) {
+RaySpaceObject random_object(Profile profile, std::size_t most_bytes, bool has_masks = false) {
     for (std::uint64_t seed = 1; seed < 100000; ++seed) {
         const reference::Stream stream = reference::random_stream(seed, profile);
         std::size_t bytes = stream.code.size();
@@ -94,9 +93,8 @@ RaySpaceObject random_object(Profile profile, std::size_t most_bytes,
         const bool is_tame = profile == Profile::kBoard || coded->dense.probabilities[0] != 2048;
         if (!has_two || tiles % 8 == 0 || tiles < 2 || levels != 15 || !is_tame) continue;
         const codec::DenseCode& dense = coded->dense;
-        const bool has_features = alpha_coding == codec::AlphaCoding::kMask;
-        const bool is_wanted = dense.alpha_coding == alpha_coding && dense.deblocking == has_features &&
-                               dense.adaptation == has_features && dense.sign_data_hiding == has_features;
+        const bool is_wanted = dense.has_masks == has_masks && dense.deblocking == has_masks &&
+                               dense.adaptation == has_masks && dense.sign_data_hiding == has_masks;
         if (profile == Profile::kDense && !is_wanted) continue;
         RaySpaceObject object =
             without_pictures({coded->width, coded->height, static_cast<int>(coded->pictures.size()), 1, false});
@@ -121,12 +119,12 @@ std::vector<GoldenObject> golden_objects() {
     objects.push_back({"dense-32x32-alpha2-shape", dense({100, 64, 8, 1, true}, 5, 5, 2, 12)});
     objects.push_back({"dense-64x16-alpha4", dense({97, 33, 6, 2, false}, 6, 4, 4, 30)});
     objects.push_back({"dense-64x64-alpha3", dense({128, 96, 9, 1, false}, 6, 6, 3, 8)});
+    objects.push_back({"dense-32x64-alpha6", dense({90, 70, 8, 1, false}, 5, 6, 6, 16)});
     objects.push_back({"board", board({96, 80, 9, 1, false}, 12)});
     objects.push_back({"board-shape", board({70, 50, 10, 1, true}, 24)});
-    for (const auto& [name, alpha_coding] : {std::pair{"dense-random", codec::AlphaCoding::kLevels},
-                                             std::pair{"dense-random-masks", codec::AlphaCoding::kMask}}) {
-        objects.push_back({name, random_object(Profile::kDense, 50000, alpha_coding)});
-        objects.push_back({std::string(name) + "-small", random_object(Profile::kDense, 8000, alpha_coding)});
+    for (const auto& [name, has_masks] : {std::pair{"dense-random", false}, std::pair{"dense-random-masks", true}}) {
+        objects.push_back({name, random_object(Profile::kDense, 50000, has_masks)});
+        objects.push_back({std::string(name) + "-small", random_object(Profile::kDense, 8000, has_masks)});
     }
     objects.push_back({"board-random", random_object(Profile::kBoard, 30000)});
     objects.push_back({"board-random-small", random_object(Profile::kBoard, 8000)});
