@@ -144,6 +144,37 @@ Image<std::uint8_t> alike(const StillPicture& still, const std::vector<Rgba8>& c
     return known;
 }
 
+bool looks_even(const Rgba8& pixel, const Lab& look) {
+    constexpr float kEven_delta_e = 1;
+    return delta_e(lab_from_linear(linear_rgb(pixel)), look) <= kEven_delta_e;
+}
+
+// Whether nearly all of the pictures' borders has one colour.
+bool have_even_borders(const std::vector<Image<Rgba8>>& pictures, const Lab& look) {
+    constexpr double kEvenShare = 0.95;
+    std::int64_t border = 0;
+    std::int64_t even = 0;
+    for (const Image<Rgba8>& picture : pictures) {
+        for_border(picture.width(), picture.height(), [&](int x, int y) {
+            ++border;
+            even += looks_even(picture(x, y), look) ? 1 : 0;
+        });
+    }
+    return static_cast<double>(even) >= kEvenShare * static_cast<double>(border);
+}
+
+// Nowhere more than along the border, by its mean.
+void cap_noise(Image<float>& noise_delta_e) {
+    double sum = 0;
+    std::int64_t count = 0;
+    for_border(noise_delta_e.width(), noise_delta_e.height(), [&](int x, int y) {
+        sum += static_cast<double>(noise_delta_e(x, y));
+        ++count;
+    });
+    const auto most = static_cast<float>(sum / static_cast<double>(std::max<std::int64_t>(count, 1)));
+    for (float& noise : noise_delta_e.pixels()) noise = std::min(noise, most);
+}
+
 // Those of the border's colours that are strong, as objects hardly have them.
 std::vector<Rgba8> screen_colours(std::vector<Rgba8> colours) {
     constexpr float kScreenChroma = 30;
@@ -245,6 +276,16 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     } else {
         known = alike(still, colours, turn);
     }
+    // Before an even black whatever is a little lighter is the object's: a black strap that turns about its own place
+    // looks still, too, and where it is seen the backdrop would look noisy.
+    const Lab look = lab_from_linear(linear_rgb(found.colour));
+    found.even_black = turn && found.kind == BackdropKind::kBlack && have_even_borders(survey.samples, look);
+    if (found.even_black) {
+        std::transform(known.pixels().begin(), known.pixels().end(), still.colour.pixels().begin(),
+                       known.pixels().begin(), [&](std::uint8_t is_known, const Rgba8& pixel) {
+                           return looks_even(pixel, look) ? is_known : std::uint8_t{0};
+                       });
+    }
     if (std::count(known.pixels().begin(), known.pixels().end(), 0) == std::ssize(known.pixels())) {
         still.colour = Image<Rgba8>(known.width(), known.height(), found.colour);
     }
@@ -254,6 +295,7 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     fill_unknown(still.colour, known);
     found.plate = std::move(still.colour);
     if (turn) found.noise_delta_e = plate_noise(samples, found.plate, found.known);
+    if (found.even_black) cap_noise(found.noise_delta_e);
     return found;
 }
 

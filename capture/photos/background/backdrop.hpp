@@ -30,6 +30,7 @@ Result<BackdropRequest> parse_backdrop(const std::string& text);
 
 struct Backdrop {
     BackdropKind kind = BackdropKind::kAlpha;
+    bool even_black = false;      // so even that black parts of an object stand out from it
     Rgba8 colour;                 // the commonest colour along the border (kAlpha: transparent black)
     std::vector<Rgba8> screen{};  // strong colours of the border, as of a chroma key: backdrop wherever they are seen
     Image<Rgba8> plate;           // sRGB, opaque, in the samples' size; empty for kAlpha

@@ -258,7 +258,14 @@ void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const PlateView& 
 
 MaskOptions mask_options_for(const Backdrop& backdrop) {
     MaskOptions options;
-    if (backdrop.kind == BackdropKind::kBlack) options.min_shade = options.min_shade_colourful = options.max_shade = 1;
+    if (backdrop.kind == BackdropKind::kBlack) {
+        options.min_shade = options.min_shade_colourful = options.max_shade = 1;
+        if (backdrop.even_black) {
+            options.plain_delta_e = .4F;
+            options.possible_delta_e = .9F;
+            options.certain_delta_e = 2;
+        }
+    }
     // A plate that is known exactly, texture and all, is hardly met by chance.
     if (backdrop.kind == BackdropKind::kColour && !backdrop.untouched.empty()) {
         options.max_island = kChance;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace rs::capture {
 namespace {
@@ -94,6 +95,49 @@ TEST(CutOut, LeavesASoftShadowOut) {
         // The disc covers 1256 px, its shadow about as many.
         EXPECT_LT(shadow_alpha, 40) << "view " << i;
         EXPECT_LT(missing, 15) << "view " << i;
+    }
+}
+
+// A black strap hangs below the disc's place in every picture. Before an even black it is cut out whole; where the
+// black itself is as noisy, nobody can tell.
+TEST(CutOut, KeepsABlackStrapBeforeAnEvenBlack) {
+    test::DrawnTurn turn;
+    turn.backdrop = {0, 0, 0, 255};
+    std::mt19937 random(3);
+    for (const bool noisy : {false, true}) {
+        std::vector<Image<Rgba8>> photos = test::draw_photos(turn);
+        for (Image<Rgba8>& photo : photos) {
+            for (int y = 0; y < turn.height; ++y) {
+                for (int x = 0; x < turn.width; ++x) {
+                    const bool strap = x >= 70 && x < 96 && y >= 90 && y < 112;
+                    Rgba8& pixel = photo(x, y);
+                    if (pixel != turn.backdrop) continue;
+                    const auto code = static_cast<std::uint8_t>(noisy ? random() % 14 : strap ? 7 : 0);
+                    pixel = {code, code, code, 255};
+                }
+            }
+        }
+        Survey survey;
+        survey.samples = photos;
+        const Result<Backdrop> backdrop = find_backdrop(survey, {}, "drawn");
+        ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
+        EXPECT_EQ(backdrop->even_black, !noisy);
+        const Image<Rgba8> cut = ObjectCutter(*backdrop, turn.width, turn.height).cut(photos[2]);
+        int strap_pixels = 0;
+        int elsewhere = 0;
+        for (int y = 0; y < turn.height; ++y) {
+            for (int x = 0; x < turn.width; ++x) {
+                if (cut(x, y).a < 128 || std::hypot(x - 116, y - 60) < 24) continue;
+                const bool strap = x >= 69 && x < 97 && y >= 89 && y < 113;
+                ++(strap ? strap_pixels : elsewhere);
+            }
+        }
+        EXPECT_EQ(elsewhere, 0);
+        if (noisy) {
+            EXPECT_EQ(strap_pixels, 0);
+        } else {
+            EXPECT_GT(strap_pixels, 500) << "of 572";
+        }
     }
 }
 
