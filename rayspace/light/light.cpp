@@ -55,6 +55,11 @@ double area_of(const Light& light) {
     return glm::length(glm::cross(light.half_u, light.half_v)) * (light.kind == LightKind::kDisc ? kPi : 4.0);
 }
 
+bool is_inverse_square(const Light& light) {
+    return (light.kind == LightKind::kPoint || light.kind == LightKind::kSpot) &&
+           light.attenuation == glm::vec3(0, 0, 1) && light.least_attenuation == 0;
+}
+
 glm::vec3 irradiance_at(const Light& light, const glm::dvec3& position) {
     if (light.kind == LightKind::kDirectional) return kPiF * light.colour;
     const glm::dvec3 way = position - light.location;

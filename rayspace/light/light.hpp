@@ -62,6 +62,9 @@ Light rectangle_light(const glm::dvec3& corner, const glm::dvec3& side_u, const 
 // Of area lights, in square units.
 double area_of(const Light& light);
 
+// Whether a point or spot falls off by the square of the distance, however near, as lights of so many candelas do.
+bool is_inverse_square(const Light& light);
+
 // Of directional lights, points, spots and luminaires: irradiance at `position`, which faces the light, with nothing in
 // between; 0 where none arrives. Areas give 0: they are no point.
 glm::vec3 irradiance_at(const Light& light, const glm::dvec3& position);

@@ -149,7 +149,7 @@ LightEntry entry_of(const Light& light) {
             break;
         case LightKind::kPoint:
         case LightKind::kSpot:
-            if (light.attenuation == glm::vec3(0, 0, 1) && light.least_attenuation == 0) {
+            if (is_inverse_square(light)) {
                 set_colour(entry, light.colour, kLuxOfWhite);
             } else {
                 entry.radiance = glm::dvec3(light.colour);

@@ -9,11 +9,33 @@ namespace {
 
 constexpr double kReflectance = 0.5;
 
-// Radiant; of points and the like 0, for their ambient part is their own.
+// Times the intensity along the axis, the flux of a point or spot.
+double solid_angle_of(const Light& light) {
+    if (light.kind == LightKind::kPoint) return 4 * kPi;
+    const double cut_off = light.cut_off_rad;
+    const double beam = std::min(light.beam_width_rad, cut_off);
+    // The integral of the straight line from the beam to the cut-off.
+    const double mean_cos =
+        beam < cut_off ? (std::sin(cut_off) - std::sin(beam)) / (cut_off - beam) : std::cos(cut_off);
+    return 2 * kPi * (1 - mean_cos);
+}
+
+// Radiant. Of VRML97's lights 0, for their ambient part is their own; of the sun 0, for it shines from outside.
 glm::dvec3 flux_of(const Light& light) {
     const glm::dvec3 colour(light.colour);
-    if (light.kind == LightKind::kLuminaire) return colour * (light.luminaire->web.lumens() / kLumensPerWatt);
-    return colour * (kPi * area_of(light));
+    switch (light.kind) {
+        case LightKind::kLuminaire:
+            return colour * (light.luminaire->web.lumens() / kLumensPerWatt);
+        case LightKind::kRectangle:
+        case LightKind::kDisc:
+            return colour * (kPi * area_of(light));
+        case LightKind::kPoint:
+        case LightKind::kSpot:
+            return is_inverse_square(light) ? colour * (kPi * solid_angle_of(light)) : glm::dvec3(0);
+        case LightKind::kDirectional:
+            break;
+    }
+    return glm::dvec3(0);
 }
 
 // Radiance, over all directions.

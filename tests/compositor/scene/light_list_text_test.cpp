@@ -161,6 +161,31 @@ TEST(RasterLights, OfTheSameFileAreEachTheirOwn) {
     for (std::size_t i = 0; i < 2; ++i) expect_same_light(lights.at(i), punctual_of(scene.lights[i]));
 }
 
+// In a box of 24 square metres whose walls reflect half.
+TEST(RasterLights, WallsReflectWhatLightsOfCandelasGive) {
+    Scene scene;
+    GeometryNode room;
+    room.mesh = std::make_shared<const Mesh>(box_mesh({2, 2, 2}));
+    scene.geometry = {room};
+    Light lamp = point_light({0, 0, 0}, {3, 6, 0});
+    const auto reflected = [&] {
+        scene.lights = {lamp};
+        return reflected_light(scene);
+    };
+    EXPECT_NEAR(reflected().x, 4 * 3.0 / 24, 1e-6);  // flux 4 pi I over the surface, and over pi
+    EXPECT_NEAR(reflected().y, 4 * 6.0 / 24, 1e-6);
+    EXPECT_EQ(reflected().z, 0);
+    lamp.kind = LightKind::kSpot;
+    lamp.cut_off_rad = lamp.beam_width_rad = kPi / 2;
+    EXPECT_NEAR(reflected().x, 2 * 3.0 / 24, 1e-6);
+    lamp.beam_width_rad = 0;  // a straight line from the axis: the integral of (1 - 2 a / pi) sin a is 1 - 2 / pi
+    EXPECT_NEAR(reflected().x, 2 * 3.0 / 24 * (1 - 2 / kPi), 1e-6);
+    lamp.least_attenuation = 1;  // as VRML97's, whose ambient part is their own
+    EXPECT_EQ(reflected(), glm::vec3(0));
+    lamp = directional_light({0, -1, 0}, glm::vec3(5));
+    EXPECT_EQ(reflected(), glm::vec3(0));
+}
+
 TEST(LightListText, WhatNoListMayHoldIsNotWritten) {
     LightList list;
     list.entries = {LightEntry{.kind = LightKind::kLuminaire}};
