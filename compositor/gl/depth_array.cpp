@@ -8,6 +8,15 @@
 
 namespace rs::gl {
 
+Scissor::Scissor(const TexelArea& area) {
+    glScissor(area.x, area.y, area.width, area.height);
+    glEnable(GL_SCISSOR_TEST);
+}
+
+Scissor::~Scissor() {
+    glDisable(GL_SCISSOR_TEST);
+}
+
 Result<DepthArray> DepthArray::create(int side, int layers) {
     RS_CHECK(side >= 1 && layers >= 1);
     GLint largest = 0;
@@ -44,11 +53,21 @@ Result<DepthArray> DepthArray::create(int side, int layers) {
     return made;
 }
 
-void DepthArray::begin(int layer) const {
+void DepthArray::resume(int layer) const {
     RS_CHECK(layer >= 0 && layer < layers_);
     glNamedFramebufferTextureLayer(handle_.name(), GL_DEPTH_ATTACHMENT, texture_.name(), 0, layer);
     glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
     glViewport(0, 0, side_, side_);
+}
+
+void DepthArray::copy(const DepthArray& from, int layer, const TexelArea& area) const {
+    RS_CHECK(from.side_ == side_ && layer < from.layers_ && layer < layers_);
+    glCopyImageSubData(from.texture_.name(), GL_TEXTURE_2D_ARRAY, 0, area.x, area.y, layer, texture_.name(),
+                       GL_TEXTURE_2D_ARRAY, 0, area.x, area.y, layer, area.width, area.height, 1);
+}
+
+void DepthArray::begin(int layer) const {
+    resume(layer);
     glDepthMask(GL_TRUE);  // it holds for clears too
     const float infinity = 0;
     glClearNamedFramebufferfv(handle_.name(), GL_DEPTH, 0, &infinity);

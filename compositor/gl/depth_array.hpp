@@ -7,6 +7,24 @@
 
 namespace rs::gl {
 
+// Texels [x, x + width) x [y, y + height) of a picture, rows as it is read.
+struct TexelArea {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    bool operator==(const TexelArea&) const = default;
+};
+
+// While it lives, nothing is drawn or cleared outside of the area. One at a time.
+class Scissor {
+public:
+    explicit Scissor(const TexelArea& area);
+    ~Scissor();
+    Scissor(const Scissor&) = delete;
+    Scissor& operator=(const Scissor&) = delete;
+};
+
 class DepthArray {
 public:
     // Float depths, `side` x `side` texels each. Fails where the driver cannot.
@@ -16,6 +34,10 @@ public:
 
     // Draws go into this layer from now on, depths only. Clears it (to infinity).
     void begin(int layer) const;
+    // The same, but what is there stays.
+    void resume(int layer) const;
+    // Puts this area of the same layer of `from`, which has the same size, in the place of what is there.
+    void copy(const DepthArray& from, int layer, const TexelArea& area) const;
     // To `uniform sampler2DArrayShadow` with layout(binding = unit): how much of the nearest four texels is not nearer
     // than the reference, by their weights; all of it beyond the border. Depth is reversed (context.hpp).
     void bind(unsigned unit) const;

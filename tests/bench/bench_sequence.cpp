@@ -42,6 +42,7 @@ struct Options {
     int frames = 50;
     int samples = 4;
     bool shadows = false;
+    bool upright = false;
 };
 
 double cpu_seconds() {
@@ -118,6 +119,7 @@ Result<compositor::PlayerOptions> player_options(const Options& options) {
     player.frame.height = size->height;
     player.frame.samples = options.samples;
     player.frame.shadows = options.shadows;
+    player.frame.upright_pictures = options.upright;
     player.passes = options.passes;
     for (const compositor::NamedMethod& named : compositor::kTracedMethods) {
         if (options.renderer == named.name) player.tracing = compositor::TracedOptions{.method = named.method};
@@ -218,6 +220,7 @@ int main(int argc, char** argv) {
         command->add_option("--passes", options.passes, "of traced light")->capture_default_str();
         command->add_option("--samples", options.samples, "per pixel, of raster")->capture_default_str();
         command->add_flag("--shadows", options.shadows, "in raster");
+        command->add_flag("--upright", options.upright, "objects by upright pictures, as in a window");
     }
     thousand->callback([&] { run = [&] { return rs::bench::run_thousand(options); }; });
     play->callback([&] { run = [&] { return rs::bench::run_play(options); }; });

@@ -153,8 +153,9 @@ Status FrameCompositor::draw(const Camera& camera) {
     if (shadows()) statistics_.shadow_maps_drawn = renderers_.lit.draw_shadows(throwing_objects());
     statistics_.shadows_s = clock.lap();
     renderers_.frame.drawn.begin(renderers_.background.zenith());
-    if (!renderers_.background.plain()) renderers_.background.draw(camera);
-    const auto transparent = renderers_.lit.surfaces().draw_opaque(view, wire_frame_);
+    if (!traced_ && !renderers_.background.plain()) renderers_.background.draw(camera);
+    const auto transparent =
+        renderers_.lit.surfaces().draw_opaque(view, wire_frame_, traced_ ? OpaquePass::kDepthOnly : OpaquePass::kLit);
     statistics_.geometry_in_view = renderers_.lit.surfaces().nodes_in_view();
     if (const FloorRenderer* floor = renderers_.lit.floor()) floor->draw(view);
     if (traced_) {

@@ -81,7 +81,7 @@ Status LitGeometry::move(std::size_t node, const std::optional<glm::dmat4>& worl
 }
 
 int LitGeometry::draw_shadows(const std::vector<std::optional<PlacedObject>>& objects) {
-    const int drawn = shadows_->update(objects, [&](const ShadowFace& face) { surfaces_.draw_casters(face); });
+    const int drawn = shadows_->update(objects, [&](const ShadowPass& pass) { surfaces_.draw_casters(pass); });
     shadows_->bind();
     return drawn;
 }

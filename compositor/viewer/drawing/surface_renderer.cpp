@@ -186,16 +186,14 @@ Status SurfaceRenderer::put(Item& item) {
     auto made = program(kind);
     if (!made) return made.error();
     item.program = std::move(*made);
-    if (kind.fog != 0) {
-        SurfaceKind veil{.fog = kind.fog, .veil = true};
-        if (kind.picture_alpha == AlphaUse::kMask) {
-            veil.picture = kind.picture;
-            veil.picture_alpha = kind.picture_alpha;
-        }
-        auto veiled = program(veil);
-        if (!veiled) return veiled.error();
-        item.veil = std::move(*veiled);
+    SurfaceKind veil{.fog = kind.fog, .veil = true};
+    if (kind.picture_alpha == AlphaUse::kMask) {
+        veil.picture = kind.picture;
+        veil.picture_alpha = kind.picture_alpha;
     }
+    auto veiled = program(veil);
+    if (!veiled) return veiled.error();
+    item.veil = std::move(*veiled);
     const glm::vec3 reflected = kind.phong ? phong_terms(node.material).ambient * lights.ambient : lights.ambient;
     item.material.ambient_light = glm::vec4(reflected, 0);
     item.mirrored = glm::determinant(glm::dmat3(item.world_from_node)) < 0;
@@ -318,25 +316,18 @@ void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const F
     gl::draw(program, *item.mesh, state);
 }
 
-std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const FrameView& view, bool wire_frame) {
-    set_frame(view);
-    nodes_in_view_ = 0;
-    std::vector<Transparent> transparent;
-    std::vector<std::size_t> opaque;
+SurfaceRenderer::InView SurfaceRenderer::in_view(const FrameView& view) {
+    InView seen;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
         if (item.hidden || !may_be_seen(item.bounds, view.clip_from_world)) continue;
-        ++nodes_in_view_;
         if (item.transparent) {
-            transparent.push_back({i, glm::distance(item.bounds.middle(), view.camera.centre())});
+            seen.transparent.push_back({i, glm::distance(item.bounds.middle(), view.camera.centre())});
         } else {
-            opaque.push_back(i);
+            seen.opaque.push_back(i);
         }
     }
-    const auto state_of = [&](const Item& item) {
-        return gl::DrawState{.culling = item.two_sided || wire_frame ? gl::Culling::kNone : gl::Culling::kBack,
-                             .wire_frame = wire_frame};
-    };
+    nodes_in_view_ = static_cast<int>(seen.transparent.size() + seen.opaque.size());
     // What hides first, so that what is hidden is not lit: by the farthest corner, for the floor and walls of a room
     // are also near, but behind all that stands in it.
     const auto distance = [&](std::size_t i) {
@@ -344,15 +335,28 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
         const glm::dvec3& eye = view.camera.centre();
         return glm::length(glm::max(glm::abs(box.lowest - eye), glm::abs(box.highest - eye)));
     };
-    std::stable_sort(opaque.begin(), opaque.end(),
+    std::stable_sort(seen.opaque.begin(), seen.opaque.end(),
                      [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
-    for (const std::size_t i : opaque) draw(items_[i], *items_[i].program, view, state_of(items_[i]));
-    return transparent;
+    return seen;
+}
+
+std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const FrameView& view, bool wire_frame,
+                                                                       OpaquePass pass) {
+    set_frame(view);
+    InView seen = in_view(view);
+    for (const std::size_t i : seen.opaque) {
+        const Item& item = items_[i];
+        draw(item, pass == OpaquePass::kDepthOnly ? *item.veil : *item.program, view,
+             {.culling = item.two_sided || wire_frame ? gl::Culling::kNone : gl::Culling::kBack,
+              .wire_frame = wire_frame});
+    }
+    return std::move(seen.transparent);
 }
 
 void SurfaceRenderer::draw_veil(const FrameView& view) const {
+    if (!scene_.fog) return;
     for (const Item& item : items_) {
-        if (!item.veil || item.hidden || item.transparent || !may_be_seen(item.bounds, view.clip_from_world)) continue;
+        if (item.hidden || item.transparent || !may_be_seen(item.bounds, view.clip_from_world)) continue;
         draw(item, *item.veil, view,
              {.depth_write = false,
               .blending = gl::Blending::kOverPremultiplied,
@@ -360,10 +364,13 @@ void SurfaceRenderer::draw_veil(const FrameView& view) const {
     }
 }
 
-void SurfaceRenderer::draw_casters(const ShadowFace& face) const {
+void SurfaceRenderer::draw_casters(const ShadowPass& pass) const {
+    const ShadowFace& face = pass.face;
     for (const Item& item : items_) {
-        if (!item.throws_shadows || item.hidden || !may_be_seen(item.bounds, face.clip_from_world, face.perspective))
+        if (!item.throws_shadows || item.hidden || !may_be_seen(item.bounds, pass.area_from_world, face.perspective))
             continue;
+        const bool moving = scene_.geometry[item.node].moving.has_value();
+        if (pass.casters == (moving ? Casters::kStill : Casters::kMoving)) continue;
         const std::vector<std::uint32_t>& own_lights = scene_.geometry[item.node].lights;
         if (!scene_.lights[face.light].everywhere && std::ranges::find(own_lights, face.light) == own_lights.end()) {
             continue;

@@ -9,6 +9,7 @@
 #include "compositor/gl/vertex_array.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/surface_tables.hpp"
+#include "compositor/viewer/shadows/shadow_maps.hpp"
 #include "compositor/viewer/shadows/shadow_plan.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
 #include "rayspace/base/result.hpp"
@@ -57,6 +58,11 @@ struct SurfaceKind {
 SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const GeometryNode& node, AlphaUse alpha,
                     const std::vector<std::uint32_t>& lights);
 
+enum class OpaquePass {
+    kLit,
+    kDepthOnly,  // the same depths, and colours that mean nothing: quick
+};
+
 inline constexpr int kMostCountedLights = 48;  // that a `counted` kind has room for
 
 // The head of its fragment shader.
@@ -78,7 +84,7 @@ public:
         double distance;  // from the viewpoint to the middle of what is drawn, scene units
     };
     // Draws what is opaque and returns what is not but may be in the picture, to be drawn from the farthest on.
-    std::vector<Transparent> draw_opaque(const FrameView& view, bool wire_frame);
+    std::vector<Transparent> draw_opaque(const FrameView& view, bool wire_frame, OpaquePass pass = OpaquePass::kLit);
     // The fog before what is opaque, over a picture of it that has none. Nothing where there is no fog.
     void draw_veil(const FrameView& view) const;
     void draw_transparent(const Transparent& item, const FrameView& view, bool wire_frame) const;
@@ -98,7 +104,7 @@ public:
 
     // What throws shadows on a map that has begun: opaque surfaces, with the holes of their pictures, from the sides
     // from which they are seen.
-    void draw_casters(const ShadowFace& face) const;
+    void draw_casters(const ShadowPass& pass) const;
 
     // Of the last draw_opaque(): geometry nodes that the frustum let pass.
     [[nodiscard]] int nodes_in_view() const { return nodes_in_view_; }
@@ -114,7 +120,7 @@ private:
         std::size_t node = 0;                        // of Scene::geometry
         AlphaUse alpha = AlphaUse::kNone;            // of its picture
         std::shared_ptr<const gl::Program> program;  // of its kind
-        std::shared_ptr<const gl::Program> veil;     // null where there is no fog
+        std::shared_ptr<const gl::Program> veil;     // the fog before it alone
         MaterialRow material;
         std::vector<LightRow> lights;
         std::vector<ShadowRow> shadows;
@@ -134,6 +140,11 @@ private:
     Status put(Item& item);
     void gather_ambient_light();
     void set_frame(const FrameView& view) const;
+    struct InView {
+        std::vector<std::size_t> opaque;  // of items_, what hides others first
+        std::vector<Transparent> transparent;
+    };
+    InView in_view(const FrameView& view);
     void draw(const Item& item, const gl::Program& program, const FrameView& view, gl::DrawState state) const;
 
     Scene scene_;

@@ -6,7 +6,6 @@
 #include "compositor/viewer/views/screen_rectangle.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -40,6 +39,61 @@ bool throws_on(const BoundingBox& box, const ShadowFace& face) {
            (face.scope.empty() || holds(face.scope, box.middle()));
 }
 
+// The texels that a box may cover on a map: all of them where it reaches behind the light's place.
+gl::TexelArea area_of(const BoundingBox& box, const ShadowFace& face, int side) {
+    glm::dvec2 lowest(1);
+    glm::dvec2 highest(-1);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p((corner & 1) != 0 ? box.highest.x : box.lowest.x,
+                           (corner & 2) != 0 ? box.highest.y : box.lowest.y,
+                           (corner & 4) != 0 ? box.highest.z : box.lowest.z);
+        const glm::dvec4 clip = face.clip_from_world * glm::dvec4(p, 1);
+        if (clip.w < kNear && face.perspective) return {0, 0, side, side};
+        const glm::dvec2 on_map = glm::clamp(glm::dvec2(clip.x, -clip.y) / clip.w, -1.0, 1.0);  // rows go down
+        lowest = glm::min(lowest, on_map);
+        highest = glm::max(highest, on_map);
+    }
+    constexpr int kRim = 1;  // for what rasterisation rounds
+    const auto first = [&](double at) { return std::max(static_cast<int>((at + 1) / 2 * side) - kRim, 0); };
+    const auto end = [&](double at) { return std::min(static_cast<int>((at + 1) / 2 * side) + 1 + kRim, side); };
+    const int x = first(lowest.x);
+    const int y = first(lowest.y);
+    return {x, y, end(highest.x) - x, end(highest.y) - y};
+}
+
+bool overlap(const gl::TexelArea& a, const gl::TexelArea& b) {
+    return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+gl::TexelArea around(const gl::TexelArea& a, const gl::TexelArea& b) {
+    const int x = std::min(a.x, b.x);
+    const int y = std::min(a.y, b.y);
+    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
+}
+
+// Adds an area; those that overlap become one, so that no texel is in two.
+void add_area(gl::TexelArea area, std::vector<gl::TexelArea>& areas) {
+    for (;;) {
+        const auto other = std::ranges::find_if(areas, [&](const gl::TexelArea& a) { return overlap(a, area); });
+        if (other == areas.end()) break;
+        area = around(area, *other);
+        areas.erase(other);
+    }
+    areas.push_back(area);
+}
+
+// The projection whose picture is that area of the face's map.
+glm::dmat4 area_from_world(const ShadowFace& face, const gl::TexelArea& area, int side) {
+    const glm::dvec2 size(area.width, area.height);
+    const glm::dvec2 middle = (glm::dvec2(area.x, area.y) + 0.5 * size) * (2.0 / side) - 1.0;
+    const glm::dvec2 scale = static_cast<double>(side) / size;
+    glm::dmat4 area_from_map(1.0);
+    area_from_map[0][0] = scale.x;
+    area_from_map[1][1] = scale.y;
+    area_from_map[3] = glm::dvec4(-middle.x * scale.x, middle.y * scale.y, 0, 1);
+    return area_from_map * face.clip_from_world;
+}
+
 }  // namespace
 
 Result<ShadowMaps> ShadowMaps::create(ShadowPlan plan) {
@@ -47,13 +101,14 @@ Result<ShadowMaps> ShadowMaps::create(ShadowPlan plan) {
     if (!program) return program.error();
     ShadowMaps maps(std::move(plan), std::move(*program));
     const ShadowPlan& planned = maps.plan_;
-    for (const auto& [side, layers, array] : {std::tuple{planned.plane_side, planned.plane_layers, &maps.planes_},
-                                              std::tuple{planned.cube_side, planned.cube_layers, &maps.cubes_}}) {
+    for (const auto& [side, layers, array] : {std::tuple{planned.plane_side, planned.plane_layers, &maps.planes_.all},
+                                              std::tuple{planned.cube_side, planned.cube_layers, &maps.cubes_.all}}) {
         if (layers == 0) continue;
         auto made = gl::DepthArray::create(side, layers);
         if (!made) return made.error();
         array->emplace(std::move(*made));
     }
+    maps.still_drawn_.resize(planned.faces.size());
     return maps;
 }
 
@@ -66,8 +121,7 @@ ShadowMaps::Thrown ShadowMaps::thrown_by(const std::optional<PlacedObject>& plac
     return thrown;
 }
 
-int ShadowMaps::update(const std::vector<std::optional<PlacedObject>>& objects,
-                       const std::function<void(const ShadowFace&)>& draw_geometry) {
+int ShadowMaps::update(const std::vector<std::optional<PlacedObject>>& objects, const DrawGeometry& draw_geometry) {
     objects_.resize(objects.size());
     std::vector<BoundingBox> changed = std::exchange(touched_, {});  // what was or is there
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -81,34 +135,83 @@ int ShadowMaps::update(const std::vector<std::optional<PlacedObject>>& objects,
         objects_[i] = std::move(now);
     }
     int count = 0;
-    for (const ShadowFace& face : plan_.faces) {
-        const bool is_new =
-            !drawn_ || std::ranges::any_of(changed, [&](const BoundingBox& box) { return throws_on(box, face); });
-        if (!is_new) continue;
-        draw_face(face, draw_geometry);
+    for (std::size_t i = 0; i < plan_.faces.size(); ++i) {
+        const ShadowFace& face = plan_.faces[i];
+        if (!drawn_) {
+            draw_whole(face, draw_geometry);
+            ++count;
+            continue;
+        }
+        std::vector<gl::TexelArea> areas;
+        for (const BoundingBox& box : changed) {
+            if (throws_on(box, face)) add_area(area_of(box, face, side_of(face)), areas);
+        }
+        if (areas.empty()) continue;
+        if (keep_still(i, draw_geometry)) {
+            draw_areas(face, areas, draw_geometry);
+        } else {
+            draw_whole(face, draw_geometry);
+        }
         ++count;
     }
     drawn_ = true;
     return count;
 }
 
-void ShadowMaps::draw_face(const ShadowFace& face, const std::function<void(const ShadowFace&)>& draw_geometry) const {
-    (face.of_cube ? *cubes_ : *planes_).begin(face.layer);
-    draw_geometry(face);
+void ShadowMaps::draw_objects(const ShadowPass& pass) const {
     for (const Thrown& thrown : objects_) {
-        if (!thrown.shell || !throws_on(thrown.box, face)) continue;
-        program_.set("clip_from_node", glm::mat4(face.clip_from_world * thrown.world_from_object));
+        if (!thrown.shell || !throws_on(thrown.box, pass.face) ||
+            !may_be_seen(thrown.box, pass.area_from_world, pass.face.perspective)) {
+            continue;
+        }
+        program_.set("clip_from_node", glm::mat4(pass.face.clip_from_world * thrown.world_from_object));
         gl::draw(program_, *thrown.shell, {});
     }
 }
 
+void ShadowMaps::draw_whole(const ShadowFace& face, const DrawGeometry& draw_geometry) const {
+    const ShadowPass pass{face, Casters::kAll, face.clip_from_world};
+    maps_of(face).all->begin(face.layer);
+    draw_geometry(pass);
+    draw_objects(pass);
+}
+
+// False where the driver has no room for it.
+bool ShadowMaps::keep_still(std::size_t index, const DrawGeometry& draw_geometry) {
+    if (still_drawn_[index]) return true;
+    const ShadowFace& face = plan_.faces[index];
+    Maps& maps = maps_of(face);
+    if (!maps.still) {
+        auto made = gl::DepthArray::create(maps.all->side(), maps.all->layers());
+        if (!made) return false;
+        maps.still.emplace(std::move(*made));
+    }
+    maps.still->begin(face.layer);
+    draw_geometry({face, Casters::kStill, face.clip_from_world});
+    still_drawn_[index] = true;
+    return true;
+}
+
+void ShadowMaps::draw_areas(const ShadowFace& face, const std::vector<gl::TexelArea>& areas,
+                            const DrawGeometry& draw_geometry) const {
+    const Maps& maps = maps_of(face);
+    for (const gl::TexelArea& area : areas) maps.all->copy(*maps.still, face.layer, area);
+    maps.all->resume(face.layer);
+    for (const gl::TexelArea& area : areas) {
+        const gl::Scissor scissor(area);
+        const ShadowPass pass{face, Casters::kMoving, area_from_world(face, area, side_of(face))};
+        draw_geometry(pass);
+        draw_objects(pass);
+    }
+}
+
 void ShadowMaps::bind() const {
-    if (planes_) planes_->bind(kPlaneUnit);
-    if (cubes_) cubes_->bind(kCubeUnit);
+    if (planes_.all) planes_.all->bind(kPlaneUnit);
+    if (cubes_.all) cubes_.all->bind(kCubeUnit);
 }
 
 Image<float> ShadowMaps::read(const ShadowFace& face) const {
-    return (face.of_cube ? *cubes_ : *planes_).read(face.layer);
+    return maps_of(face).all->read(face.layer);
 }
 
 }  // namespace rs::compositor

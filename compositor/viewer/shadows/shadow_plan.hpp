@@ -59,7 +59,8 @@ struct ShadowPlan {
 // At most so many lights have maps, the brightest first; the others shine through everything.
 inline constexpr int kMostPlaneShadows = 16;  // directional lights and narrow spots
 inline constexpr int kMostCubeShadows = 48;   // points and wide spots
-// Maps are as fine as so many texels of each of the two arrays allow (64 MiB each), up to the sides below.
+// Maps are as fine as so many texels of each of the two arrays allow (64 MiB each, and as much again once something
+// has moved), up to the sides below.
 inline constexpr int kMostShadowTexels = 1 << 24;
 inline constexpr int kLargestPlaneSide = 2048;
 inline constexpr int kLargestCubeSide = 1024;

@@ -307,6 +307,56 @@ TEST_F(Compositing, APlaceholderStandsWhereTheObjectWillBe) {
     EXPECT_EQ(*compositor->compose(kFront), empty);
 }
 
+// A traced picture stands for geometry, which still hides objects: it is as far as without.
+TEST_F(Compositing, ATracedPictureHasTheDepthsOfTheGeometry) {
+    for (const bool in_fog : {false, true}) {
+        Scene scene = with_box({1, 3, 0.2}, {0.6, 0, 1.5});
+        if (in_fog) scene.fog = Fog{.colour = {0.5F, 0.5F, 0.5F}, .visibility = 60};
+        auto frames = FrameCompositor::create(scene, {test::placed_at(test::drum(kRed))},
+                                              {.width = kFrameWidth, .height = kFrameHeight, .samples = 1});
+        ASSERT_TRUE(frames);
+        const Result<Image<Rgba8>> lit = frames->compose(kFront);
+        ASSERT_TRUE(lit.ok());
+        const auto depths = [&] {
+            std::vector<double> inverse;
+            for (int y = 0; y < kFrameHeight; ++y) {
+                for (int x = 0; x < kFrameWidth; ++x) {
+                    const auto point = frames->surface_at(x, y);
+                    inverse.push_back(point ? point->place.z : -100);
+                }
+            }
+            return inverse;
+        };
+        const std::vector<double> lit_depths = depths();
+        frames->set_traced(std::make_shared<const Image<Rgba8>>(kFrameWidth, kFrameHeight, kBlue));
+        const Result<Image<Rgba8>> traced = frames->compose(kFront);
+        ASSERT_TRUE(traced.ok());
+        EXPECT_EQ(depths(), lit_depths);
+        int of_picture = 0;
+        int of_object = 0;
+        for (int y = 0; y < kFrameHeight; ++y) {
+            for (int x = 0; x < kFrameWidth; ++x) {
+                const bool object = is_colour((*lit)(x, y), kRed);
+                of_object += object ? 1 : 0;
+                if (object) {
+                    EXPECT_EQ((*traced)(x, y), (*lit)(x, y));
+                }
+                of_picture += (*traced)(x, y) == kBlue ? 1 : 0;
+            }
+        }
+        if (in_fog) {  // it dims the object and lies over the geometry of the picture
+            EXPECT_GT(of_picture, kFrameWidth * kFrameHeight / 2);
+        } else {
+            EXPECT_GT(of_object, 300);
+            EXPECT_GT(of_picture, kFrameWidth * kFrameHeight - 2500);
+        }
+        frames->set_traced(nullptr);
+        const Result<Image<Rgba8>> again = frames->compose(kFront);
+        ASSERT_TRUE(again.ok());
+        EXPECT_EQ(count_different(*again, *lit, 0), 0);
+    }
+}
+
 TEST_F(Compositing, ABoardDrawsTheSameBits) {
     const auto config = engine::model::read_board_config("prototype-2000");
     ASSERT_TRUE(config);

@@ -30,9 +30,11 @@ struct NamedLight {
     Light light;
 };
 std::vector<NamedLight> hard_lights() {
+    Light point = point_light({0.3, 2.4, 1.2}, glm::vec3(12));
+    point.least_attenuation = 1e-3F;  // not by candelas: walls reflect nothing of it
     return {{"directional", directional_light({-0.5, -1, -0.3}, glm::vec3(3))},
             {"low directional", directional_light({-1, -0.45, 0.2}, glm::vec3(5))},
-            {"point", point_light({0.3, 2.4, 1.2}, glm::vec3(12))},
+            {"point", point},
             {"narrow spot", test::spot_light({2.5, 3, 1.5}, {0, 0, 0}, 0.6)},
             {"wide spot", test::spot_light({-0.4, 2.6, 0.9}, {0.2, 0, 0.3}, 1.45)}};
 }
@@ -166,6 +168,47 @@ TEST_F(Shadows, AreDrawnAgainOnlyWhereSomethingHasChanged) {
     ASSERT_TRUE(frames->set_shadows(false));
     ASSERT_TRUE(frames->draw(camera));
     EXPECT_EQ(frames->statistics().shadow_maps_drawn, 0);
+}
+
+// What has moved is drawn anew in its part of the maps alone: frames are still those of maps that are drawn whole.
+TEST_F(Shadows, OfWhatHasMovedAreThoseOfMapsDrawnWhole) {
+    const Camera camera = over_the_boxes();
+    const std::vector<PlacedObject> objects{
+        test::placed_at(test::drum(Rgba8{200, 60, 40, 255}), {.translation = {1.5, 0.3, 1.4}, .scale = 0.3})};
+    for (const auto& [name, light] : hard_lights()) {
+        Scene scene = test::boxes(light);
+        for (std::uint32_t i = 1; i < 4; ++i) scene.geometry[i].moving = i;
+        scene.geometry.push_back(test::matte_box({0.2, 1.2, 0.2}, {-1.6, 0.6, -0.9}));  // stands among them
+        const auto make = [&] {
+            auto frames = FrameCompositor::create(
+                scene, objects, {.width = camera.width, .height = camera.height, .samples = 1, .shadows = true});
+            RS_CHECK(frames.ok());
+            return std::move(*frames);
+        };
+        FrameCompositor walked = make();
+        ASSERT_TRUE(walked.draw(camera));
+        const Image<Rgba8> before = walked.picture();
+        for (const double shift : {0.0, 0.13, 0.9, 2.5, 40.0, -1.0}) {
+            const auto move = [&](FrameCompositor& frames) {
+                for (std::uint32_t i = 1; i < 4; ++i) {
+                    std::optional<glm::dmat4> place = scene.geometry[i].world_from_node;
+                    (*place)[3] += glm::dvec4(i == 1 ? shift : 0, i == 2 ? shift : 0, i == 3 ? -shift : 0, 0);
+                    if (i == 3 && shift == 0.9) place.reset();
+                    RS_CHECK(frames.move_geometry(i, place).ok());
+                }
+                frames.turn_object(0, shift);
+                RS_CHECK(frames.draw(camera).ok());
+            };
+            FrameCompositor fresh = make();
+            move(walked);
+            move(fresh);
+            EXPECT_TRUE(std::ranges::equal(walked.picture().pixels(), fresh.picture().pixels()))
+                << name << " " << shift;
+            if (shift == 0.13) {
+                EXPECT_FALSE(std::ranges::equal(walked.picture().pixels(), before.pixels())) << name;
+            }
+        }
+    }
 }
 
 TEST_F(Shadows, FallOntoTheFloor) {
