@@ -43,6 +43,7 @@ struct Options {
     int samples = 4;
     bool shadows = false;
     bool upright = false;
+    bool parts = false;
 };
 
 double cpu_seconds() {
@@ -120,6 +121,7 @@ Result<compositor::PlayerOptions> player_options(const Options& options) {
     player.frame.samples = options.samples;
     player.frame.shadows = options.shadows;
     player.frame.upright_pictures = options.upright;
+    player.frame.time_parts = options.parts;
     player.passes = options.passes;
     for (const compositor::NamedMethod& named : compositor::kTracedMethods) {
         if (options.renderer == named.name) player.tracing = compositor::TracedOptions{.method = named.method};
@@ -138,10 +140,14 @@ void print_times(const char* what, std::vector<double> wall_ms, std::vector<doub
                 longest, median(cpu_ms));
 }
 
-// Frames from the second on.
-Status time_frames(SequencePlayer& player, int frames, const char* what) {
+// Frames from the second on; with `parts` what they consist of, each waited for.
+Status time_frames(SequencePlayer& player, int frames, const char* what, bool parts) {
     std::vector<double> wall_ms;
     std::vector<double> cpu_ms;
+    std::vector<double> maps_ms;
+    std::vector<double> geometry_ms;
+    std::vector<double> objects_ms;
+    std::vector<int> maps;
     const auto count = std::min<std::size_t>(static_cast<std::size_t>(frames), player.frames());
     for (std::size_t i = 0; i < count; ++i) {
         const double wall = wall_seconds();
@@ -151,8 +157,17 @@ Status time_frames(SequencePlayer& player, int frames, const char* what) {
         if (i == 0 && count > 1) continue;
         wall_ms.push_back(1e3 * (wall_seconds() - wall));
         cpu_ms.push_back(1e3 * (cpu_seconds() - cpu));
+        const compositor::FrameStatistics& statistics = player.compositor().statistics();
+        maps_ms.push_back(1e3 * statistics.shadows_s);
+        geometry_ms.push_back(1e3 * statistics.geometry_s);
+        objects_ms.push_back(1e3 * (statistics.engine_wait_s + statistics.upload_s + statistics.composite_s));
+        maps.push_back(statistics.shadow_maps_drawn);
     }
     print_times(what, wall_ms, cpu_ms);
+    if (parts) {
+        std::printf("  of it %.2f ms for drawing on %d shadow maps, %.2f ms geometry, %.2f ms objects and blending\n",
+                    median(maps_ms), median(maps), median(geometry_ms), median(objects_ms));
+    }
     return {};
 }
 
@@ -176,7 +191,7 @@ Status run_thousand(const Options& options) {
     if (!again) return again.error();
     const bool same = std::equal(second->pixels().begin(), second->pixels().end(), again->pixels().begin());
     std::printf("second frame against a fresh load: %s\n", same ? "same bytes" : "DIFFERENT");
-    if (Status status = time_frames(*player, 12, options.renderer.c_str()); !status) return status;
+    if (Status status = time_frames(*player, 12, options.renderer.c_str(), options.parts); !status) return status;
     std::printf("meshes and pictures uploaded: %d before the first frame, %d after it\n", uploads,
                 player->compositor().uploads() - uploads);
     std::vector<double> ms;
@@ -198,7 +213,7 @@ Status run_play(const Options& options) {
     if (!with) return with.error();
     auto player = SequencePlayer::create(std::make_shared<const Sequence>(std::move(*sequence)), *with);
     if (!player) return player.error();
-    return time_frames(*player, options.frames, (options.renderer + " " + options.size).c_str());
+    return time_frames(*player, options.frames, (options.renderer + " " + options.size).c_str(), options.parts);
 }
 
 }  // namespace
@@ -220,6 +235,7 @@ int main(int argc, char** argv) {
         command->add_option("--passes", options.passes, "of traced light")->capture_default_str();
         command->add_option("--samples", options.samples, "per pixel, of raster")->capture_default_str();
         command->add_flag("--shadows", options.shadows, "in raster");
+        command->add_flag("--parts", options.parts, "of raster's frames, each waited for");
         command->add_flag("--upright", options.upright, "objects by upright pictures, as in a window");
     }
     thousand->callback([&] { run = [&] { return rs::bench::run_thousand(options); }; });

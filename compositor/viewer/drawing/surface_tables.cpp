@@ -1,6 +1,7 @@
 #include "compositor/viewer/drawing/surface_tables.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rs::compositor {
@@ -8,6 +9,18 @@ namespace rs::compositor {
 static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 64 && sizeof(ShadowRow) == 64);
 
 namespace {
+
+// Of a spot: false only where its light ends beside all of the box, by the ball around it. Others shine everywhere.
+bool cone_may_meet(const Light& light, const BoundingBox& box) {
+    constexpr double kMargin_rad = 1e-3;
+    const double cut_off = light.cut_off_rad + kMargin_rad;
+    if (light.kind != LightKind::kSpot || cut_off >= kPi / 2) return true;
+    const glm::dvec3 way = box.middle() - light.location;
+    const double along = glm::dot(way, light.towards);
+    const double across = std::sqrt(std::max(glm::dot(way, way) - along * along, 0.0));
+    const double beside = across * std::cos(cut_off) - along * std::sin(cut_off);  // from the cone's side
+    return beside <= 0.5 * glm::distance(box.lowest, box.highest);
+}
 
 // The corners of a node's triangles as its shader lights them.
 class SurfaceInWorld {
@@ -22,26 +35,41 @@ public:
         }
     }
 
-    // Nowhere on a triangle can the light be reflected: neither place nor normal leave the hull of its corners', and
-    // normal . (light - place) is linear in both.
-    [[nodiscard]] bool turns_its_back_to(const Light& light) const {
-        if (mesh_.two_sided || mesh_.topology != Topology::kTriangles) return false;
-        constexpr double kGrazing = 1e-4;  // the shader computes in single precision
+    // Whether the light can be reflected somewhere on a triangle. Neither place nor normal leave the hull of its
+    // corners', and normal . (light - place) is linear in both.
+    [[nodiscard]] bool may_reflect(const Light& light) const {
+        if (mesh_.topology != Topology::kTriangles) return true;
         if (light.kind == LightKind::kDirectional) {
-            return std::none_of(mesh_.indices.begin(), mesh_.indices.end(),
-                                [&](std::uint32_t i) { return -glm::dot(normals_[i], light.towards) > -kGrazing; });
+            return mesh_.two_sided || std::any_of(mesh_.indices.begin(), mesh_.indices.end(), [&](std::uint32_t i) {
+                       return -glm::dot(normals_[i], light.towards) > -kGrazing;
+                   });
         }
+        if (mesh_.two_sided && light.kind == LightKind::kPoint) return true;
         for (std::size_t first = 0; first + 2 < mesh_.indices.size(); first += 3) {
-            for (std::size_t corner = 0; corner < 9; ++corner) {
-                const glm::dvec3& normal = normals_[mesh_.indices[first + corner / 3]];
-                const glm::dvec3 way = light.location - places_[mesh_.indices[first + corner % 3]];
-                if (glm::dot(normal, way) > -kGrazing * glm::length(way)) return false;
-            }
+            if (may_face(light, first) && may_be_in_cone(light, first)) return true;
         }
-        return true;
+        return false;
     }
 
 private:
+    static constexpr double kGrazing = 1e-4;  // the shader computes in single precision
+
+    [[nodiscard]] bool may_face(const Light& light, std::size_t first) const {
+        if (mesh_.two_sided) return true;
+        for (std::size_t corner = 0; corner < 9; ++corner) {
+            const glm::dvec3& normal = normals_[mesh_.indices[first + corner / 3]];
+            const glm::dvec3 way = light.location - places_[mesh_.indices[first + corner % 3]];
+            if (glm::dot(normal, way) > -kGrazing * glm::length(way)) return true;
+        }
+        return false;
+    }
+
+    [[nodiscard]] bool may_be_in_cone(const Light& light, std::size_t first) const {
+        BoundingBox box;
+        for (std::size_t corner = 0; corner < 3; ++corner) box.include(places_[mesh_.indices[first + corner]]);
+        return cone_may_meet(light, box);
+    }
+
     const Mesh& mesh_;
     std::vector<glm::dvec3> places_;
     std::vector<glm::dvec3> normals_;  // of unit length, or 0
@@ -79,7 +107,8 @@ std::vector<std::uint32_t> lights_that_reach(const Scene& scene, const GeometryN
         const Light& light = scene.lights[i];
         if (!light.everywhere) continue;
         const glm::dvec3 nearest = glm::clamp(light.location, box_in_world.lowest, box_in_world.highest);
-        if (light.kind == LightKind::kDirectional || glm::distance(nearest, light.location) <= light.radius) {
+        if (light.kind == LightKind::kDirectional ||
+            (glm::distance(nearest, light.location) <= light.radius && cone_may_meet(light, box_in_world))) {
             reaching.push_back(i);
         }
     }
@@ -104,7 +133,7 @@ SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const Boun
         const bool directional = light.kind == LightKind::kDirectional;
         if (directional) found.ambient += light.ambient;
         const bool ambient_is_counted = directional || light.ambient == glm::vec3(0);
-        if (ambient_is_counted && surface.turns_its_back_to(light)) continue;
+        if (ambient_is_counted && !surface.may_reflect(light)) continue;
         found.lights.push_back(i);
     }
     return found;

@@ -35,8 +35,8 @@ struct SurfaceLights {
     glm::vec3 ambient{0};               // of all directional lights, also of those that are not reflected
 };
 // The lights that reach a node: those of `node.lights`, and of those everywhere all that are near enough to the node's
-// box. Of a surface that is seen from its front only, lights that shine on its back everywhere are left out: a wall has
-// few lights, and a shader asks each of them at every pixel.
+// box, and spots whose cone may meet it. Of a surface that is seen from its front only, lights that shine on its back
+// everywhere are left out: a wall has few lights, and a shader asks each of them at every pixel.
 SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world);
 
 // Of a node that moves: as lights_of(), but no light is left out for shining on its back.
