@@ -5,7 +5,7 @@
 namespace rs::compositor::vrml {
 namespace {
 
-constexpr long kMaxSide = 8192;  // of a PixelTexture, px
+constexpr long kMaxSide = 8192;  // of an image, px
 constexpr long kMaxPixels = 1L << 24;
 constexpr std::size_t kMaxString_bytes = 1 << 16;
 
@@ -57,7 +57,8 @@ private:
             case FieldType::kString:
                 return read_text();
             case FieldType::kImage:
-                return read_image();
+                value_.numbers = read_image(lexer_, field_, [&] { return take_integer(); });
+                return;
             case FieldType::kInt32:
                 return read_integer();
             default:
@@ -103,20 +104,6 @@ private:
         value_.numbers.push_back(static_cast<double>(value));
     }
 
-    void read_image() {
-        const int line = lexer_.peek().line;
-        const long width = take_integer();
-        const long height = take_integer();
-        const long components = take_integer();
-        if (width < 0 || height < 0 || width > kMaxSide || height > kMaxSide || components < 0 || components > 4 ||
-            (width > 0 && height > kMaxPixels / width)) {
-            throw lexer_.wrong(line, field_ + ": an image of " + std::to_string(width) + "x" + std::to_string(height) +
-                                         " with " + std::to_string(components) + " components; it cannot be read");
-        }
-        for (const long number : {width, height, components}) value_.numbers.push_back(static_cast<double>(number));
-        for (long i = 0; i < width * height; ++i) value_.numbers.push_back(static_cast<unsigned>(take_integer()));
-    }
-
     Lexer& lexer_;
     const FieldSpec& spec_;
     const std::string& field_;
@@ -124,6 +111,22 @@ private:
 };
 
 }  // namespace
+
+std::vector<double> read_image(Lexer& lexer, const std::string& field, const std::function<long()>& take_integer) {
+    const int line = lexer.peek().line;
+    const long width = take_integer();
+    const long height = take_integer();
+    const long components = take_integer();
+    if (width < 0 || height < 0 || width > kMaxSide || height > kMaxSide || components < 0 || components > 4 ||
+        (width > 0 && height > kMaxPixels / width)) {
+        throw lexer.wrong(line, field + ": an image of " + std::to_string(width) + "x" + std::to_string(height) +
+                                    " with " + std::to_string(components) + " components; it cannot be read");
+    }
+    std::vector<double> numbers;
+    for (const long number : {width, height, components}) numbers.push_back(static_cast<double>(number));
+    for (long i = 0; i < width * height; ++i) numbers.push_back(static_cast<unsigned>(take_integer()));
+    return numbers;
+}
 
 Value read_value(Lexer& lexer, const FieldSpec& spec, const std::string& field) {
     return ValueReader(lexer, spec, field).read();

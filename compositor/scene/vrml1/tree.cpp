@@ -16,8 +16,6 @@ using vrml::TokenKind;
 
 namespace {
 
-constexpr long kMaxSide = 8192;  // of an image, px
-constexpr long kMaxPixels = 1L << 24;
 constexpr std::size_t kMaxString_bytes = 1 << 16;
 
 bool is_name(const Token& token) {
@@ -58,7 +56,8 @@ private:
             case FieldKind::kWords:
                 return read_words();
             case FieldKind::kImage:
-                return read_image();
+                value_.numbers = vrml::read_image(lexer_, name_, [&] { return take_integer(); });
+                return;
             case FieldKind::kInteger:
                 value_.numbers.push_back(static_cast<double>(take_integer()));
                 return;
@@ -120,20 +119,6 @@ private:
         }
         lexer_.take();
         value_.numbers.push_back(static_cast<double>(value));
-    }
-
-    void read_image() {
-        const int line = lexer_.peek().line;
-        const long width = take_integer();
-        const long height = take_integer();
-        const long components = take_integer();
-        if (width < 0 || height < 0 || width > kMaxSide || height > kMaxSide || components < 0 || components > 4 ||
-            (width > 0 && height > kMaxPixels / width)) {
-            throw lexer_.wrong(line, name_ + ": an image of " + std::to_string(width) + "x" + std::to_string(height) +
-                                         " with " + std::to_string(components) + " components; it cannot be read");
-        }
-        for (const long number : {width, height, components}) value_.numbers.push_back(static_cast<double>(number));
-        for (long i = 0; i < width * height; ++i) value_.numbers.push_back(static_cast<unsigned>(take_integer()));
     }
 
     Lexer& lexer_;
