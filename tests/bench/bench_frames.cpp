@@ -15,14 +15,13 @@
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/output/view_output.hpp"
 #include "rayspace/tool/tool_main.hpp"
+#include "tests/bench/stopwatch.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <random>
 
@@ -158,12 +157,6 @@ struct Options {
     bool direct = false;
 };
 
-double cpu_ms_of_process() {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
 struct Times {
     double frame_ms = 0;
     double cpu_ms = 0;
@@ -191,13 +184,12 @@ Result<Times> timed(const Scene& scene, const std::vector<PlacedObject>& objects
         const double sway = 0.15 * std::sin(0.2 * n);
         const Camera camera =
             look_at_camera({sway, 1.75, 1.9}, {0.5 * sway, 1.5, -3}, radians(50), options.width, options.height);
-        const auto begin = std::chrono::steady_clock::now();
-        const double cpu_begin = cpu_ms_of_process();
+        const Stopwatch watch;
         if (const Status status = frames->draw(camera); !status) return status.error();
         if (frames->picture().empty()) return Error{"an empty picture was read back"};
         if (n < 0) continue;
-        frame.push_back(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-        cpu.push_back(cpu_ms_of_process() - cpu_begin);
+        frame.push_back(watch.wall_ms());
+        cpu.push_back(watch.cpu_ms());
         const compositor::FrameStatistics& s = frames->statistics();
         geometry.push_back(1e3 * s.geometry_s);
         engine.push_back(1e3 * s.engine_s);

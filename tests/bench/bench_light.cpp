@@ -11,8 +11,8 @@
 #include "compositor/traced/traced_renderer.hpp"
 #include "rayspace/tool/tool_main.hpp"
 #include "tests/bench/lit_scene.hpp"
+#include "tests/bench/stopwatch.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -84,11 +84,11 @@ Status run(const Arguments& arguments) {
     const auto trace = [&](const NamedMethod& named, double seconds, int passes) {
         renderer->set_method(named.method);
         renderer->look(camera);
-        const auto begin = std::chrono::steady_clock::now();
+        const bench::Stopwatch watch;
         double gone = 0;
         do {
             renderer->add_pass();
-            gone = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            gone = watch.wall_s();
         } while (passes > 0 ? renderer->passes() < passes : gone < seconds);
         print_row(named.name, *renderer, gone, reference);
     };

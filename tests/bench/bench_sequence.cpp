@@ -11,14 +11,13 @@
 #include "compositor/playback/sequence_player.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/tool/tool_main.hpp"
+#include "tests/bench/stopwatch.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <string>
@@ -45,16 +44,6 @@ struct Options {
     bool upright = false;
     bool parts = false;
 };
-
-double cpu_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double wall_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // Hills of 150,000 triangles.
 std::shared_ptr<const Mesh> hills() {
@@ -150,13 +139,12 @@ Status time_frames(SequencePlayer& player, int frames, const char* what, bool pa
     std::vector<int> maps;
     const auto count = std::min<std::size_t>(static_cast<std::size_t>(frames), player.frames());
     for (std::size_t i = 0; i < count; ++i) {
-        const double wall = wall_seconds();
-        const double cpu = cpu_seconds();
+        const Stopwatch watch;
         const auto frame = player.frame(i);
         if (!frame) return frame.error();
         if (i == 0 && count > 1) continue;
-        wall_ms.push_back(1e3 * (wall_seconds() - wall));
-        cpu_ms.push_back(1e3 * (cpu_seconds() - cpu));
+        wall_ms.push_back(watch.wall_ms());
+        cpu_ms.push_back(watch.cpu_ms());
         const compositor::FrameStatistics& statistics = player.compositor().statistics();
         maps_ms.push_back(1e3 * statistics.shadows_s);
         geometry_ms.push_back(1e3 * statistics.geometry_s);
@@ -196,9 +184,9 @@ Status run_thousand(const Options& options) {
                 player->compositor().uploads() - uploads);
     std::vector<double> ms;
     for (std::size_t i = 0; i < 40; ++i) {
-        const double begin = wall_seconds();
+        const Stopwatch watch;
         const auto moved = moved_slots(*sequence, i % 12);
-        ms.push_back(1e3 * (wall_seconds() - begin));
+        ms.push_back(watch.wall_ms());
     }
     std::printf("matrices of 1000 instances: median %.3f ms\n", median(ms));
     return {};

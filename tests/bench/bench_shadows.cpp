@@ -15,15 +15,14 @@
 #include "rayspace/base/median.hpp"
 #include "rayspace/output/view_output.hpp"
 #include "rayspace/tool/tool_main.hpp"
+#include "tests/bench/stopwatch.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <string>
 #include <thread>
@@ -41,12 +40,6 @@ struct Options {
     std::string size = "1280x720";
 };
 
-double cpu_ms_of_process() {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
 struct Times {
     std::vector<double> frame_ms;
     std::vector<double> cpu_ms;
@@ -54,15 +47,14 @@ struct Times {
 };
 
 Status draw(compositor::FrameCompositor& frames, const Camera& camera, int number, Times& times) {
-    const auto begin = std::chrono::steady_clock::now();
-    const double cpu_begin = cpu_ms_of_process();
+    const Stopwatch watch;
     if (const Status status = frames.draw(camera); !status) return status;
     if (frames.picture().empty()) return Error{"an empty picture was read back"};
-    const double frame_ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double frame_ms = watch.wall_ms();
     if (number == 0) times.first_ms = frame_ms;
     if (number < 3) return {};  // to warm up
     times.frame_ms.push_back(frame_ms);
-    times.cpu_ms.push_back(cpu_ms_of_process() - cpu_begin);
+    times.cpu_ms.push_back(watch.cpu_ms());
     return {};
 }
 

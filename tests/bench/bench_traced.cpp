@@ -17,15 +17,14 @@
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/light/light.hpp"
 #include "rayspace/tool/tool_main.hpp"
+#include "tests/bench/stopwatch.hpp"
 
 #include <CLI/CLI.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <limits>
 #include <map>
@@ -97,11 +96,10 @@ struct Cost {
 Cost measure(const char* what, int frames, const std::function<void()>& frame) {
     std::vector<double> wall_ms, processor_ms;
     for (int i = 0; i < frames; ++i) {
-        const auto begin = std::chrono::steady_clock::now();
-        const std::clock_t begin_processor = std::clock();
+        const bench::Stopwatch watch;
         frame();
-        processor_ms.push_back(1e3 * static_cast<double>(std::clock() - begin_processor) / CLOCKS_PER_SEC);
-        wall_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+        processor_ms.push_back(watch.cpu_ms());
+        wall_ms.push_back(watch.wall_ms());
     }
     std::ranges::sort(wall_ms);
     std::ranges::sort(processor_ms);

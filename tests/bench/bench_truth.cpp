@@ -10,11 +10,11 @@
 #include "compositor/gl/context.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
+#include "tests/bench/stopwatch.hpp"
 #include "tests/compositor/truth_comparison.hpp"
 #include "tests/compositor/truth_scene.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 
@@ -77,10 +77,10 @@ Status print_costs(const compositor::Scene& scene, const std::vector<compositor:
         int count = 0;
         for (int i = -1; i < kTimes; ++i) {
             for (const TruthViewpoint& viewpoint : truth_walk(size.width, size.height)) {
-                const auto begun = std::chrono::steady_clock::now();
+                const bench::Stopwatch watch;
                 if (Status drawn = frames->draw(viewpoint.camera); !drawn) return drawn;
                 if (i < 0) continue;  // the first walk fills caches
-                whole_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+                whole_s += watch.wall_s();
                 engine_s += frames->statistics().engine_s;
                 upload_s += frames->statistics().upload_s;
                 pixels += frames->statistics().pixels_rendered;
@@ -137,14 +137,14 @@ Status run_bench(Arguments arguments) {
             std::find(arguments.only.begin(), arguments.only.end(), number) == arguments.only.end()) {
             continue;
         }
-        const auto begun = std::chrono::steady_clock::now();
+        const bench::Stopwatch watch;
         const Result<TruthDifference> difference = comparison->compare(viewpoint.camera, arguments.truth);
         if (!difference) return difference.error();
         const EdgeDistances& cuts = difference->cuts;
         std::printf("%-20s %8.2f %10.2f %8.2f %8.1f%% %6d %8.2f %8.2f %8.2f %7.1f\n", viewpoint.what.c_str(),
                     difference->objects_db, difference->elsewhere_db, difference->alone_db,
                     100 * difference->object_share, cuts.places, cuts.mean_px, cuts.within_px, cuts.largest_px,
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+                    watch.wall_s());
         std::fflush(stdout);
         if (arguments.output.empty()) continue;
         std::filesystem::create_directories(arguments.output);

@@ -18,23 +18,16 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/tool/tool_main.hpp"
+#include "tests/bench/stopwatch.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 
 namespace rs::bench {
 namespace {
 
 using namespace compositor;
-
-double now_ms(clockid_t clock) {
-    timespec time{};
-    clock_gettime(clock, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 struct Options {
     std::string scene;
@@ -59,7 +52,7 @@ Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor
     if (!frames) return frames.error();
     std::vector<double> wall_ms, cpu_ms;
     for (int frame = 0; frame <= options.frames; ++frame) {
-        const double wall_begin = now_ms(CLOCK_MONOTONIC), cpu_begin = now_ms(CLOCK_PROCESS_CPUTIME_ID);
+        const Stopwatch watch;
         Head head = cave.head;
         head.position.x += 0.01 * frame;
         for (const Wall& wall : cave.walls) {
@@ -70,8 +63,8 @@ Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor
             }
         }
         if (frame == 0) continue;  // the first one warms up
-        wall_ms.push_back(now_ms(CLOCK_MONOTONIC) - wall_begin);
-        cpu_ms.push_back(now_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin);
+        wall_ms.push_back(watch.wall_ms());
+        cpu_ms.push_back(watch.cpu_ms());
     }
     std::printf("three walls x two eyes, %dx%d: %.0f ms a frame (%.1f frames/s), cpu %.0f ms\n", options.side,
                 options.side, median(wall_ms), 1e3 / median(wall_ms), median(cpu_ms));
@@ -89,24 +82,23 @@ Status bench_quilt(const Scene& scene, Showroom& showroom, const Camera& middle,
     bool equal = true;
     for (int round = 0; round < 3; ++round) {
         alone.clear();
-        double begin = now_ms(CLOCK_MONOTONIC), cpu = now_ms(CLOCK_PROCESS_CPUTIME_ID);
+        const Stopwatch alone_watch;
         for (const Camera& camera : cameras) {
             auto picture = frames->compose(camera);
             if (!picture) return picture.error();
             alone.push_back(std::move(*picture));
         }
-        single_ms += now_ms(CLOCK_MONOTONIC) - begin;
-        single_cpu += now_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu;
-        begin = now_ms(CLOCK_MONOTONIC);
-        cpu = now_ms(CLOCK_PROCESS_CPUTIME_ID);
+        single_ms += alone_watch.wall_ms();
+        single_cpu += alone_watch.cpu_ms();
+        const Stopwatch quilt_watch;
         Image<Rgba8> quilt(layout.width(), layout.height());
         for (int view = 0; view < layout.views(); ++view) {
             auto picture = frames->compose(cameras[static_cast<std::size_t>(view)]);
             if (!picture) return picture.error();
             place_tile(layout, view, *picture, quilt);
         }
-        quilt_ms += now_ms(CLOCK_MONOTONIC) - begin;
-        quilt_cpu += now_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+        quilt_ms += quilt_watch.wall_ms();
+        quilt_cpu += quilt_watch.cpu_ms();
         for (int view = 0; view < layout.views(); ++view) {
             const Image<Rgba8>& one = alone[static_cast<std::size_t>(view)];
             const auto tile =

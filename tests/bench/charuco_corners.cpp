@@ -7,11 +7,11 @@
 // than 2 px off, those farther off, and the milliseconds per view.
 
 #include "capture/calibration/board/aruco_dictionary.hpp"
+#include "tests/bench/stopwatch.hpp"
 #include "tests/capture/calibration/drawn_board.hpp"
 
 #include <opencv2/aruco/charuco.hpp>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -50,9 +50,9 @@ struct Sum {
 void add(Sum& sum, const Image<Rgba8>& picture, const capture::BoardTurn& turn, std::size_t view,
          const std::function<capture::BoardCorners(const Image<Rgba8>&)>& find) {
     constexpr double kFar_px = 2;
-    const auto begun = std::chrono::steady_clock::now();
+    const bench::Stopwatch watch;
     const capture::BoardCorners seen = find(picture);
-    sum.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    sum.seconds += watch.wall_s();
     for (const capture::SeenCorner& one : seen.corners) {
         const auto p =
             capture::project(turn.model.lens, turn.model.pose, test::corner_in_table(turn, {}, one.corner, view));

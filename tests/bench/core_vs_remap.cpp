@@ -24,6 +24,7 @@
 #include "engine/core/fast/sample_store.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "tests/bench/ball_picture.hpp"
+#include "tests/bench/stopwatch.hpp"
 #include "tests/support/ring_object.hpp"
 #include "tests/support/small_shape.hpp"
 
@@ -32,7 +33,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <random>
 #include <vector>
@@ -218,9 +218,9 @@ void coded_random_pixel(benchmark::State& state, codec::Profile profile) {
             view = static_cast<int>(random() % static_cast<unsigned>(views));
             tile = static_cast<int>(random() % static_cast<unsigned>(tiles));
         } while (!coded.pictures[static_cast<std::size_t>(view)].tiles[static_cast<std::size_t>(tile)].present);
-        const auto begin = std::chrono::steady_clock::now();
+        const bench::Stopwatch watch;
         samples->need_tile(view, tile);
-        state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        state.SetIterationTime(watch.wall_s());
         double bytes = 0;
         for (int v = 0; v < views; ++v) {
             if (samples->decoded_bytes(v) == 0) continue;

@@ -19,11 +19,11 @@
 #include "capture/photos/matte/cut_out.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
+#include "tests/bench/stopwatch.hpp"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -136,11 +136,10 @@ public:
     static Result<Cutter> create(const PhotoFolder& folder, const std::string& pictures_out) {
         const Result<Survey> survey = survey_photos(folder, nullptr);
         if (!survey) return survey.error();
-        const auto begun = std::chrono::steady_clock::now();
+        const bench::Stopwatch watch;
         const Result<Backdrop> backdrop = find_backdrop(*survey, {}, folder.photos.front().parent_path().string());
         if (!backdrop) return backdrop.error();
-        std::printf("# backdrop %s, found in %.2f s\n", to_string(backdrop->kind).c_str(),
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+        std::printf("# backdrop %s, found in %.2f s\n", to_string(backdrop->kind).c_str(), watch.wall_s());
         if (!pictures_out.empty()) {
             if (Status status = write_png(fs::path(pictures_out) / "plate.png", shown_plate(*backdrop)); !status)
                 return status.error();
@@ -148,9 +147,9 @@ public:
         return Cutter(ObjectCutter(*backdrop, folder.width, folder.height));
     }
     Image<Rgba8> cut(ConstImageView<Rgba8> photo) {
-        const auto begun = std::chrono::steady_clock::now();
+        const bench::Stopwatch watch;
         Image<Rgba8> result = cutter_.cut(photo);
-        seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        seconds_ += watch.wall_s();
         return result;
     }
     [[nodiscard]] double seconds() const { return seconds_; }
