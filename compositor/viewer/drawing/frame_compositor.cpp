@@ -150,7 +150,9 @@ Status FrameCompositor::draw(const Camera& camera) {
     EngineViews views(*engine_);
     if (const Status status = views.submit(std::move(requests)); !status) return status.error();
 
-    if (shadows()) statistics_.shadow_maps_drawn = renderers_.lit.draw_shadows(throwing_objects());
+    // Under a traced picture only what is blended is lit here.
+    const bool lights_something = !traced_ || renderers_.lit.surfaces().has_transparent();
+    if (shadows() && lights_something) statistics_.shadow_maps_drawn = renderers_.lit.draw_shadows(throwing_objects());
     statistics_.shadows_s = clock.lap();
     renderers_.frame.drawn.begin(renderers_.background.zenith());
     if (!traced_ && !renderers_.background.plain()) renderers_.background.draw(camera);

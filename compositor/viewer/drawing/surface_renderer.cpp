@@ -215,6 +215,10 @@ bool SurfaceRenderer::stands(std::size_t node, const std::optional<glm::dmat4>& 
     return world_from_node ? !item.hidden && *world_from_node == item.world_from_node : item.hidden;
 }
 
+bool SurfaceRenderer::has_transparent() const {
+    return std::ranges::any_of(items_, [](const Item& item) { return item.transparent; });
+}
+
 BoundingBox SurfaceRenderer::caster_bounds(std::size_t node) const {
     if (!item_of_node_[node]) return {};
     const Item& item = items_[*item_of_node_[node]];

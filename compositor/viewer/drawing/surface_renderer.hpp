@@ -55,6 +55,9 @@ public:
     // Whether it stands there, or nowhere, already.
     [[nodiscard]] bool stands(std::size_t node, const std::optional<glm::dmat4>& world_from_node) const;
 
+    // Whether something is blended, wherever it stands.
+    [[nodiscard]] bool has_transparent() const;
+
     // From where a node throws shadows, in scene coordinates; empty where it throws none.
     [[nodiscard]] BoundingBox caster_bounds(std::size_t node) const;
 

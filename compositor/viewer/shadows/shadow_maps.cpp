@@ -158,6 +158,15 @@ int ShadowMaps::update(const std::vector<std::optional<PlacedObject>>& objects, 
     return count;
 }
 
+void ShadowMaps::touch(const BoundingBox& box) {
+    constexpr std::size_t kMostTouched = 4096;  // maps may stay undrawn for long, as under traced pictures
+    if (!drawn_ || box.empty()) return;
+    touched_.push_back(box);
+    if (touched_.size() < kMostTouched) return;
+    touched_.clear();
+    drawn_ = false;
+}
+
 void ShadowMaps::draw_objects(const ShadowPass& pass) const {
     for (const Thrown& thrown : objects_) {
         if (!thrown.shell || !throws_on(thrown.box, pass.face) ||

@@ -48,9 +48,7 @@ public:
     void take_shells(const ShadowMaps& from) { objects_ = from.objects_; }
     // Geometry that may be moved has come, moved or gone in this box, scene coordinates: what it may cover on the maps
     // is drawn anew by the next update().
-    void touch(const BoundingBox& box) {
-        if (!box.empty()) touched_.push_back(box);
-    }
+    void touch(const BoundingBox& box);
     // For shaders with shadow_shaders.hpp.
     void bind() const;
 
@@ -90,7 +88,7 @@ private:
     std::vector<bool> still_drawn_;  // [face of the plan]
     std::vector<Thrown> objects_;
     std::vector<BoundingBox> touched_;  // since the last update
-    bool drawn_ = false;
+    bool drawn_ = false;                // else all of them are drawn by the next update
 };
 
 }  // namespace rs::compositor

@@ -165,6 +165,14 @@ TEST_F(Shadows, AreDrawnAgainOnlyWhereSomethingHasChanged) {
     ASSERT_TRUE(frames->draw(camera));
     EXPECT_GT(frames->statistics().shadow_maps_drawn, 0);
     EXPECT_LT(frames->statistics().shadow_maps_drawn, 6);
+    // Not under a traced picture, which shows shadows of its own, but as soon as it is gone.
+    frames->set_traced(std::make_shared<const Image<Rgba8>>(64, 48));
+    frames->turn_object(0, 0.7);
+    ASSERT_TRUE(frames->draw(camera));
+    EXPECT_EQ(frames->statistics().shadow_maps_drawn, 0);
+    frames->set_traced(nullptr);
+    ASSERT_TRUE(frames->draw(camera));
+    EXPECT_GT(frames->statistics().shadow_maps_drawn, 0);
     ASSERT_TRUE(frames->set_shadows(false));
     ASSERT_TRUE(frames->draw(camera));
     EXPECT_EQ(frames->statistics().shadow_maps_drawn, 0);
