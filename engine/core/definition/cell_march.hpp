@@ -9,13 +9,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 
 namespace rs::engine {
 
 // A ray with the slope of the reference viewpoint's stays in one band. Any other passes from band to band, linearly in
 // depth: band = zero + d * per_depth. It is followed away from the viewer in steps of half a band, and gives the
 // surfaces whose object, between surface and back, it meets, one after the other; at the end the one that a ray of
-// reference slope would meet.
+// reference slope would meet, and the one behind it where the cells there lie on two.
 class CellMarch {
 public:
     static constexpr int kMostSteps = 64;
@@ -42,22 +43,24 @@ public:
         while (begin_ < 256) {
             const int begin = begin_;
             begin_ += step_;
-            SurfaceCell cell = surface_at(band_q12(begin + step_ / 2));
+            SurfaceCell cell = surfaces_at(band_q12(begin + step_ / 2)).first;
             if (!cell.exists() || cell.depth_q3 > 8 * begin_ || cell.back < begin) continue;
             cell.depth_q3 = std::max(cell.depth_q3, 8 * begin);
             return cell;
         }
-        if (ended_) return {};
+        if (ended_) return std::exchange(behind_, {});
         ended_ = true;
-        const SurfaceCell cell = surface_at(foot_q12_);
-        if (!cell.exists()) return cell;
-        const SurfaceCell there = surface_at(band_q12(cell.depth_q3 >> 3));
-        return there.exists() ? there : cell;
+        const SurfacePair at_foot = surfaces_at(foot_q12_);
+        if (!at_foot.first.exists()) return {};
+        const SurfacePair there = surfaces_at(band_q12(at_foot.first.depth_q3 >> 3));
+        const SurfacePair& last = there.first.exists() ? there : at_foot;
+        behind_ = last.behind;
+        return last.first;
     }
 
 private:
     // Cells are samples at the middles of their bands.
-    [[nodiscard]] SurfaceCell surface_at(std::int32_t at_q12) const {
+    [[nodiscard]] SurfacePair surfaces_at(std::int32_t at_q12) const {
         const std::int32_t from_middle_q12 = at_q12 - (1 << 11);
         const std::int32_t band = from_middle_q12 >> 12;
         SurfaceCell around[2][2];
@@ -68,7 +71,7 @@ private:
                     between_lines(cells_.at[p][0][band + h], cells_.at[p][1][band + h], cells_.line_part, jump_);
             }
         }
-        return between_cells(around, cells_.p_part, (from_middle_q12 >> 9) & 7, jump_);
+        return surfaces_between(around, cells_.p_part, (from_middle_q12 >> 9) & 7, jump_);
     }
     [[nodiscard]] std::int32_t band_q12(int d) const { return zero_q12_ + ((d * per_depth_q20_) >> 8); }
 
@@ -81,6 +84,7 @@ private:
     int step_ = 256;
     int begin_ = 0;
     bool ended_ = false;
+    SurfaceCell behind_;  // the last surface
 };
 
 }  // namespace rs::engine

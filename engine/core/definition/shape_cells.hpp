@@ -19,6 +19,12 @@ struct SurfaceCell {
     bool operator==(const SurfaceCell&) const = default;
 };
 
+// What lies between cells and, where they lie on two surfaces and it is the nearer one, what lies behind it.
+struct SurfacePair {
+    SurfaceCell first;
+    SurfaceCell behind;
+};
+
 // The columns of cells around a ray and its place between them.
 struct CellColumns {
     const ShapeCell* at[2][2] = {};  // [p][line], each `bands` long; null: there is no shape
@@ -40,7 +46,7 @@ inline SurfaceCell between_lines(ShapeCell first, ShapeCell second, int part, in
 
 // cells[p][h] around a point at p_part and h_part eighths between them. Where they lie on one surface, its mean;
 // elsewhere that of the nearer ones or of the farther ones, whichever have more weight.
-inline SurfaceCell between_cells(const SurfaceCell (&cells)[2][2], int p_part, int h_part, int jump) {
+inline SurfacePair surfaces_between(const SurfaceCell (&cells)[2][2], int p_part, int h_part, int jump) {
     int nearest = 1 << 12;
     int farthest = -1;
     int back = 0;
@@ -65,9 +71,12 @@ inline SurfaceCell between_cells(const SurfaceCell (&cells)[2][2], int p_part, i
             sum[group] += part * cell.depth_q3;
         }
     }
-    const int group = weight[0] >= weight[1] ? 0 : 1;
-    if (weight[group] == 0) return {};
-    return {(sum[group] + weight[group] / 2) / weight[group], back};
+    const auto mean = [&](int group) {
+        if (weight[group] == 0) return SurfaceCell{};
+        return SurfaceCell{(sum[group] + weight[group] / 2) / weight[group], back};
+    };
+    if (weight[0] < weight[1]) return {mean(1), {}};
+    return {mean(0), mean(1)};
 }
 
 }  // namespace rs::engine

@@ -20,8 +20,11 @@ HWY_INLINE LaneMask is_surface(Vector depth_q3) {
     return at_least(depth_q3, hn::Zero(Lanes()));
 }
 
-// between_cells() of four depths [p][band], -1 where there is nothing; -1 where the answer is nothing. Their backs are
-// known beforehand.
+enum class OfPair { first, behind };  // of SurfacePair
+
+// surfaces_between() of four depths [p][band], -1 where there is nothing; -1 where the answer is nothing. Their backs
+// are known beforehand.
+template <OfPair kWhich>
 HWY_INLINE Vector between_steps(const Vector (&depth)[2][2], Vector p_part, Vector h_part, int jump) {
     const Vector zero = hn::Zero(Lanes());
     Vector nearest = number(1 << 12);
@@ -54,8 +57,11 @@ HWY_INLINE Vector between_steps(const Vector (&depth)[2][2], Vector p_part, Vect
         }
     }
     const LaneMask nearer = at_least(weight[0], weight[1]);
-    const Vector divisor = hn::IfThenElse(nearer, weight[0], weight[1]);
-    const Vector dividend = hn::Add(hn::IfThenElse(nearer, sum[0], sum[1]), hn::ShiftRight<1>(divisor));
+    const auto of_group = [&](const Vector(&of)[2]) {
+        return kWhich == OfPair::first ? hn::IfThenElse(nearer, of[0], of[1]) : hn::IfThenElseZero(nearer, of[1]);
+    };
+    const Vector divisor = of_group(weight);
+    const Vector dividend = hn::Add(of_group(sum), hn::ShiftRight<1>(divisor));
     // Below 2^18 by at most 64: a float quotient that is no whole number keeps clear of them.
     const Floats floats;
     const Vector quotient = hn::ConvertTo(
@@ -74,7 +80,8 @@ public:
           p_part_(hn::Load(Lanes(), strip.p_part + lane)),
           beyond_(hn::Load(Lanes(), strip.beyond + lane)),
           begin_(number(256)),
-          step_(number(256)) {
+          step_(number(256)),
+          last_at_(hn::Zero(Lanes())) {
         const Vector h = hn::Add(number(walk.b_q16),
                                  multiply_shift_within<28>(hn::Load(Lanes(), strip.lambda_foot_q20 + lane), rise));
         const auto shifted = [&](auto shift, Vector a, Vector b) {
@@ -99,6 +106,12 @@ public:
     // Depths of the lanes `looking`, -1 where there is nothing; others get any.
     HWY_INLINE Vector next(LaneMask looking) {
         Vector found = number(-1);
+        const LaneMask again = hn::And(looking, ended_);
+        if (!hn::AllFalse(Lanes(), again)) {
+            all_given_ = hn::Or(all_given_, again);
+            found = hn::IfThenElse(again, at_step<OfPair::behind>(last_at_, entry_at(last_at_), again), found);
+            looking = hn::AndNot(again, looking);
+        }
         LaneMask marching = hn::And(looking, hn::Lt(begin_, beyond_));
         while (!hn::AllFalse(Lanes(), marching)) {
             const Vector begin = begin_;
@@ -121,19 +134,28 @@ public:
         const LaneMask last = hn::And(looking, hn::AndNot(ended_, hn::Not(is_surface(found))));
         if (hn::AllFalse(Lanes(), last)) return found;
         ended_ = hn::Or(ended_, last);
+        last_at_ = hn::IfThenElse(last, foot_, last_at_);
         Vector depth = surface_at(foot_, last);
         const Vector there_at = band(hn::ShiftRight<3>(depth));
         const LaneMask elsewhere =
             hn::AndNot(hn::Eq(hn::ShiftRight<9>(there_at), hn::ShiftRight<9>(foot_)), hn::And(last, is_surface(depth)));
         if (!hn::AllFalse(Lanes(), elsewhere)) {
             const Vector there = surface_at(there_at, elsewhere);
-            depth = hn::IfThenElse(hn::And(elsewhere, is_surface(there)), there, depth);
+            const LaneMask is_there = hn::And(elsewhere, is_surface(there));
+            depth = hn::IfThenElse(is_there, there, depth);
+            last_at_ = hn::IfThenElse(is_there, there_at, last_at_);
         }
         return hn::IfThenElse(last, depth, found);
     }
 
-    // Lanes that have no surface left.
-    [[nodiscard]] HWY_INLINE LaneMask ended() const { return ended_; }
+    // Of the lanes `looking`, those that may have a surface left.
+    [[nodiscard]] HWY_INLINE LaneMask go_on(LaneMask looking) const {
+        const LaneMask marching = hn::AndNot(ended_, looking);
+        const LaneMask last_given = hn::AndNot(all_given_, hn::And(looking, ended_));
+        if (hn::AllFalse(Lanes(), last_given)) return marching;
+        const Vector smooth = hn::GatherIndex(Lanes(), entries_.smooth.data(), entry_at(last_at_));
+        return hn::Or(marching, hn::And(last_given, says(smooth, kSurfaceSteps)));
+    }
 
 private:
     HWY_INLINE void begin_march(Vector nearest) {
@@ -165,6 +187,11 @@ private:
         return hn::Add(start_, entry);
     }
 
+    // Of entries' `smooth`.
+    static HWY_INLINE LaneMask says(Vector smooth, std::int32_t bit) {
+        return hn::Ne(hn::And(smooth, number(bit)), hn::Zero(Lanes()));
+    }
+
     HWY_INLINE Vector surface_at(Vector at_q12, LaneMask wanted) const {
         const Vector entry = entry_at(at_q12);
         const Vector h_part = hn::And(hn::ShiftRight<9>(at_q12), number(7));
@@ -172,17 +199,23 @@ private:
         const Vector low = hn::And(smooth, number((1 << kLowBits) - 1));
         const Vector sum = hn::Add(hn::ShiftLeft<3>(low), hn::Mul(h_part, hn::ShiftRight<16>(smooth)));
         const Vector depth = hn::ShiftRight<6>(hn::Add(sum, number(32)));
-        const auto says = [&](std::int32_t bit) { return hn::Ne(hn::And(smooth, number(bit)), hn::Zero(Lanes())); };
-        const Vector known = hn::IfThenElse(says(kSurfaceNothing), number(-1), depth);
-        const LaneMask steps = says(kSurfaceSteps);
+        const Vector known = hn::IfThenElse(says(smooth, kSurfaceNothing), number(-1), depth);
+        const LaneMask steps = says(smooth, kSurfaceSteps);
         if (hn::AllFalse(Lanes(), hn::And(steps, wanted))) return known;
+        return hn::IfThenElse(steps, at_step<OfPair::first>(at_q12, entry, steps), known);
+    }
+
+    // A surface where `entry`, that of the place, says that cells differ; others get any.
+    template <OfPair kWhich>
+    HWY_INLINE Vector at_step(Vector at_q12, Vector entry, LaneMask steps) const {
         const auto pair_at = [&](Vector index) { return hn::GatherIndex(Lanes(), entries_.pairs.data(), index); };
         const Vector lower = pair_at(entry);
         const Vector upper = pair_at(hn::Add(entry, hn::IfThenElseZero(steps, number(1))));
         const auto first = [](Vector pair) { return hn::ShiftRight<16>(hn::ShiftLeft<16>(pair)); };
         const auto second = [](Vector pair) { return hn::ShiftRight<16>(pair); };
         const Vector depths[2][2] = {{first(lower), first(upper)}, {second(lower), second(upper)}};
-        return hn::IfThenElse(steps, between_steps(depths, p_part_, h_part, jump_), known);
+        const Vector h_part = hn::And(hn::ShiftRight<9>(at_q12), number(7));
+        return between_steps<kWhich>(depths, p_part_, h_part, jump_);
     }
 
     const SurfaceEntries& entries_;
@@ -197,6 +230,8 @@ private:
     Vector zero_;
     Vector per_depth_;
     LaneMask ended_ = none();
+    Vector last_at_;  // where the last surface is, of lanes that have ended
+    LaneMask all_given_ = none();
 };
 
 }  // namespace rs::engine::HWY_NAMESPACE

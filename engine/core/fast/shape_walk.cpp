@@ -146,7 +146,7 @@ HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int l
         const ShownLanes surface = shown_lanes(walk, strip, lane, rise, depth, looking);
         shown_colour = hn::IfThenElse(surface.shown, surface.colour, shown_colour);
         shown_lambda = hn::IfThenElse(surface.shown, surface.lambda_q20, shown_lambda);
-        looking = hn::AndNot(hn::Or(hn::Or(surface.shown, alone), march.ended()), looking);
+        looking = march.go_on(hn::AndNot(hn::Or(surface.shown, alone), looking));
     }
     hn::StoreU(shown_colour, Lanes(), colour);
     if (lambda != nullptr) hn::StoreU(hn::IfThenZeroElse(hn::Eq(shown_colour, zero), shown_lambda), Lanes(), lambda);

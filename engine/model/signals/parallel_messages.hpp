@@ -131,7 +131,9 @@ struct RisenPixel {
 // Where the march along a ray goes on.
 struct MarchState {
     static constexpr int kBits = 9;
-    int begin = 0;  // depth; 256: at the foot
+    static constexpr int kFoot = 256;    // at the foot, for the last surface
+    static constexpr int kBehind = 257;  // likewise, for the one behind it
+    int begin = 0;                       // depth, or one of these
 };
 
 // Cell march: a surface that the pixel's ray meets.

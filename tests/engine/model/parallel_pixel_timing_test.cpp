@@ -254,6 +254,30 @@ TEST(ParallelPixelTiming, CellMarchShowsTheSurfaceBetweenItsCells) {
     EXPECT_EQ(m.met.front().depth_q3, 8 * (106 + 116) / 2);
 }
 
+// Two places in p on two surfaces: the nearer one has more weight. A pixel that comes back takes the foot's turns
+// again.
+TEST(ParallelPixelTiming, CellMarchGivesAPixelThatComesBackWhatLiesBehindTheLastSurface) {
+    March m;
+    ColumnSetup column = column_of(RayKind::shape, 2);
+    column.p_part = 3;
+    put(m.columns, column);
+    m.bench.step(m.block);
+    for (const int depth : {100, 100, 0, 0, 140, 140, 0, 0}) {  // of band 1, [p][word][line]
+        put(m.words, {depth == 0 ? 0 : std::uint64_t{packed_cell({static_cast<std::uint8_t>(depth), 200})} << 16U});
+        m.bench.step(m.block);
+    }
+    m.push(2, middle_of(1), 0);
+    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
+    EXPECT_EQ(m.met.front().depth_q3, 800);
+    EXPECT_FALSE(m.met.front().final);
+    m.again.push({2, m.met.pop().next});
+    m.met.commit();
+    m.again.commit();
+    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
+    EXPECT_EQ(m.met.front().depth_q3, 8 * 140);
+    EXPECT_TRUE(m.met.front().final);
+}
+
 TEST(ParallelPixelTiming, SamplePlaceGivesASamplePerCycleOfLatency53) {
     const PixelRegisters r;
     Fifo<ColumnSetup> columns("columns", 2, 1);

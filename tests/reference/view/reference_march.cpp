@@ -14,6 +14,12 @@ struct Surface {
 };
 using Found = std::optional<Surface>;
 
+// "surface(v)" and "behind(v)"
+struct Surfaces {
+    Found surface;
+    Found behind;
+};
+
 struct Bands {
     Whole at_foot = 0, zero = 0, per_d = 0;
     [[nodiscard]] Whole band_at(Whole d) const { return zero + (below(d * per_d, 30.4, "d * per_d") >> 8); }
@@ -47,8 +53,7 @@ public:
     CellsAround(const ShapeMap& shape, const ShapeRay& ray, Branches& branches)
         : shape_(shape), ray_(ray), branches_(branches) {}
 
-    // "surface(v)"
-    Found surface(Whole v) {
+    Surfaces at(Whole v) {
         struct Weighted {
             Surface surface;
             Whole weight;
@@ -90,12 +95,15 @@ public:
             group.weights += weight;
             group.depths += weight * surface.depth;
         }
+        const auto surface_of = [&](const Group& group) -> Found {
+            within(group.weights, 0, 64, "weights");
+            within(group.depths, 0, 64 * 2040, "depths");
+            if (group.weights == 0) return {};
+            const Whole sum = below(group.depths + floor_div(group.weights, 2), 17, "depths + floor(weights / 2)");
+            return Surface{within(floor_div(sum, group.weights), 0, 2040, "depth"), back};
+        };
         const bool takes_nearer = nearer.weights >= farther.weights;
-        const auto [weights, depths] = takes_nearer ? nearer : farther;
-        within(weights, 0, 64, "weights");
-        within(depths, 0, 64 * 2040, "depths");
-        below(depths + floor_div(weights, 2), 17, "depths + floor(weights / 2)");
-        if (weights == 0) {
+        if (nearer.weights == 0 && farther.weights == 0) {
             branches_.take(Branch::nothing_has_weight);
             return {};
         }
@@ -103,7 +111,8 @@ public:
                        : !takes_nearer                     ? Branch::farther_group
                        : nearer.weights == farther.weights ? Branch::nearer_group_of_equals
                                                            : Branch::nearer_group);
-        return Surface{within(floor_div(depths + floor_div(weights, 2), weights), 0, 2040, "depth"), back};
+        if (!takes_nearer) return {surface_of(farther), {}};
+        return {surface_of(nearer), surface_of(farther)};
     }
 
 private:
@@ -160,7 +169,7 @@ void march(const ShapeMap& shape, const engine::ViewRegisters& view, const Shape
         int looks = 0;
         for (Whole begin = 0; begin < 256; begin = begin + size) {
             within(++looks, 1, 64, "looks of the march");
-            const Found e = cells.surface(bands.band_at(begin + (size >> 1)));
+            const Found e = cells.at(bands.band_at(begin + (size >> 1))).surface;
             if (!e) {
                 branches.take(Branch::not_met_nothing);
             } else if (e->depth > 8 * (begin + size)) {
@@ -173,14 +182,17 @@ void march(const ShapeMap& shape, const engine::ViewRegisters& view, const Shape
             }
         }
     }
-    const Found e = cells.surface(bands.at_foot);
-    if (!e) {
+    const Surfaces at_foot = cells.at(bands.at_foot);
+    if (!at_foot.surface) {
         branches.take(Branch::end_is_nothing);
         return;
     }
-    const Found e2 = cells.surface(bands.band_at(e->depth >> 3));
-    branches.take(e2 ? Branch::second_look : Branch::second_look_is_nothing);
-    meets(e2 ? e2->depth : e->depth);
+    const Surfaces at_v2 = cells.at(bands.band_at(at_foot.surface->depth >> 3));
+    branches.take(at_v2.surface ? Branch::second_look : Branch::second_look_is_nothing);
+    const Surfaces& last = at_v2.surface ? at_v2 : at_foot;
+    if (meets(last.surface->depth)) return;
+    branches.take(last.behind ? Branch::met_behind : Branch::nothing_behind);
+    if (last.behind) meets(last.behind->depth);
 }
 
 }  // namespace rs::reference

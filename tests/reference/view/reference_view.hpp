@@ -60,6 +60,8 @@ enum class Branch {
     end_is_nothing,
     second_look,
     second_look_is_nothing,
+    met_behind,
+    nothing_behind,
     met_after_another,
     too_near,  // 7
     beside_the_picture,

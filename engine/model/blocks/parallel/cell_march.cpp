@@ -77,7 +77,7 @@ void CellMarch::keep_cells(std::uint64_t first_line, std::uint64_t second_line) 
     }
 }
 
-SurfaceCell CellMarch::surface_at(const ColumnSetup& column, std::int32_t at_q12) {
+SurfacePair CellMarch::surfaces_at(const ColumnSetup& column, std::int32_t at_q12) {
     ++looks_;
     const ShapeRegisters& shape = registers_.object_of(column.view).shape;
     const Cells& cells = cells_[ColumnTable::place(column.stripe, column.column)];
@@ -89,7 +89,7 @@ SurfaceCell CellMarch::surface_at(const ColumnSetup& column, std::int32_t at_q12
             if (band >= 0 && band < shape.bands) around[p][h] = cells[p][static_cast<std::size_t>(band)];
         }
     }
-    return between_cells(around, column.p_part, (from_middle_q12 >> 9) & 7, shape.jump);
+    return surfaces_between(around, column.p_part, (from_middle_q12 >> 9) & 7, shape.jump);
 }
 
 // The next pixel; false where there is none.
@@ -104,37 +104,41 @@ bool CellMarch::next_ray(Turn& turn) {
     if (!in_.can_pop() || !table_.holds(in_.front().pixel)) return false;
     turn.ray = in_.pop();
     pixels_[static_cast<std::size_t>(turn.ray.pixel.id)] = turn.ray;
-    if (march_steps(turn.ray.per_d_q20).steps == 1) turn.state.begin = 256;
+    if (march_steps(turn.ray.per_d_q20).steps == 1) turn.state.begin = MarchState::kFoot;
     return true;
 }
 
 void CellMarch::look(Turn& turn, const ColumnSetup& column) {
     const int size = march_steps(turn.ray.per_d_q20).size;
     const int begin = turn.state.begin;
-    const SurfaceCell cell = surface_at(column, band_q12(turn.ray, begin + (size >> 1)));
-    turn.state.begin = begin + size;
-    if (!cell.exists() || cell.depth_q3 > 8 * turn.state.begin || cell.back < begin) return;
+    const SurfaceCell cell = surfaces_at(column, band_q12(turn.ray, begin + (size >> 1))).first;
+    const int end = begin + size;
+    turn.state.begin = std::min(end, MarchState::kFoot);
+    if (!cell.exists() || cell.depth_q3 > 8 * end || cell.back < begin) return;
     turn.outcome = Turn::Outcome::met;
     turn.met = {turn.ray.pixel, std::max(cell.depth_q3, 8 * begin), is_alone(column), turn.state};
 }
 
-// The surface in the foot's band, and then that of the band where it lies.
+// The surface in the foot's band, and then that of the band where it lies, or the one behind that.
 void CellMarch::look_at_foot(Turn& turn, const ColumnSetup& column) {
-    const bool at_its_depth = turn.foot.exists();
-    SurfaceCell cell =
-        surface_at(column, at_its_depth ? band_q12(turn.ray, turn.foot.depth_q3 >> 3) : turn.ray.foot_q12);
-    if (!at_its_depth && cell.exists()) {
-        turn.foot = cell;
+    const SurfaceCell& of_foot = turn.foot.first;
+    const bool at_its_depth = of_foot.exists();
+    SurfacePair last =
+        surfaces_at(column, at_its_depth ? band_q12(turn.ray, of_foot.depth_q3 >> 3) : turn.ray.foot_q12);
+    if (!at_its_depth && last.first.exists()) {
+        turn.foot = last;
         return;
     }
-    if (!cell.exists()) cell = turn.foot;
+    if (!last.first.exists()) last = turn.foot;
+    const bool is_again = turn.state.begin == MarchState::kBehind;
+    const SurfaceCell& cell = is_again ? last.behind : last.first;
     if (!cell.exists() && !is_alone(column)) {
         turn.outcome = Turn::Outcome::empty;
         return;
     }
     const int depth_q3 = cell.exists() ? cell.depth_q3 : registers_.object_of(column.view).shape.foot_d_q3;
     turn.outcome = Turn::Outcome::met;
-    turn.met = {turn.ray.pixel, depth_q3, true, turn.state};
+    turn.met = {turn.ray.pixel, depth_q3, is_again || is_alone(column) || !last.behind.exists(), {MarchState::kBehind}};
 }
 
 void CellMarch::take_turn(Turn& turn, int looks) {
@@ -146,9 +150,10 @@ void CellMarch::take_turn(Turn& turn, int looks) {
         turn.met = {turn.ray.pixel, 0, true, turn.state};
     }
     for (int n = 0; n < looks && turn.outcome == Turn::Outcome::goes_on; ++n) {
-        if (turn.state.begin < 256) {
+        // The second look at the foot waits for the first one's result.
+        if (turn.state.begin < MarchState::kFoot) {
             look(turn, column);
-        } else if (n == 0 || !turn.foot.exists()) {  // the second look at the foot waits for the first one's result
+        } else if (n == 0 || !turn.foot.first.exists()) {
             look_at_foot(turn, column);
         }
     }

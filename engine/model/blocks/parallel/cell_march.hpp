@@ -2,7 +2,8 @@
 // Cell march: follows a pixel's ray through the surface between the cells beside it (RECONSTRUCTION.md, section 6), two
 // looks in a cycle, and hands on the first place where it meets one. Where that shows nothing, surface_blend sends the
 // pixel back, and the march goes on behind it; such pixels come before new ones. So a ray never marches farther than it
-// must, and others pass it.
+// must, and others pass it. Behind the last surface comes the farther one of two, where there is one: the ray takes the
+// turns of the foot once more.
 //
 // A pipe whose end is joined to its beginning: what a *turn* of two looks gives is known kStages cycles later, and only
 // then the ray takes its next turn, before any other; up to kStages rays are marching. Stages of a look: bands from
@@ -54,7 +55,7 @@ private:
         enum class Outcome { goes_on, met, empty };
         RisenPixel ray;
         MarchState state;
-        SurfaceCell foot;  // that of the foot, behind the last look but one
+        SurfacePair foot;  // those of the foot, behind the last look but one
         Outcome outcome = Outcome::goes_on;
         MetSurface met;
     };
@@ -64,7 +65,7 @@ private:
     void take_turn(Turn& turn, int looks);
     void look(Turn& turn, const ColumnSetup& column);
     void look_at_foot(Turn& turn, const ColumnSetup& column);
-    [[nodiscard]] SurfaceCell surface_at(const ColumnSetup& column, std::int32_t at_q12);
+    [[nodiscard]] SurfacePair surfaces_at(const ColumnSetup& column, std::int32_t at_q12);
 
     const RegisterFile& registers_;
     Fifo<ColumnSetup>& columns_;

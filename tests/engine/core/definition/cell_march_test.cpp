@@ -163,14 +163,24 @@ TEST(CellMarch, EndsWithTheSurfaceThatAReferenceRayWouldMeet) {
     };
     // Depth 0 lies 2 eighths below the middle, and a quarter of the weight says there is band 3.
     EXPECT_EQ(end({16, 16}, {0, 1}), (std::vector<SurfaceCell>{{2 * 16, 16}}));
-    EXPECT_EQ(end({77, 77}, {0, 1}), (std::vector<SurfaceCell>{{0, 77}}));  // beyond a jump: the one with more weight
+    // Beyond a jump: the one with more weight, and what lies behind it.
+    EXPECT_EQ(end({77, 77}, {0, 1}), (std::vector<SurfaceCell>{{0, 77}, {8 * 77, 77}}));
+    EXPECT_EQ(end({0, 77}, {77, 77}), (std::vector<SurfaceCell>{{8 * 77, 77}}));
     EXPECT_EQ(end({}, {0, 1}), (std::vector<SurfaceCell>{{0, 1}}));
     EXPECT_TRUE(end({77, 77}, {}).empty());
-    // Where the second look finds nothing, the first one answers.
-    column.setup.cells.p_part = 0;
-    column.cells[4] = {};
-    const std::vector<ShapeCell> nothing(8);
-    EXPECT_TRUE(column.met(one_step_q20).empty());
+}
+
+// The foot lies an eighth of the way to band 1, whose cells are at depth 100 and, farther away in p, at 255; but at
+// depth 100 the ray is lower, where there is nothing.
+TEST(CellMarch, EndsWithTheFootsSurfacesWhereNothingLiesAtTheirDepth) {
+    Column column(2, {});
+    std::vector<ShapeCell> beside(2);
+    column.cells[1] = {90, 120};
+    beside[1] = {255, 255};
+    for (const ShapeCell*& line : column.setup.cells.at[1]) line = beside.data();
+    column.setup.cells.p_part = 3;
+    column.shape.h_low_q20 = -5 * kOne_q20 / 8;
+    EXPECT_EQ(column.met(2047 * 64), (std::vector<SurfaceCell>{{8 * 90, 255}, {8 * 255, 255}}));
 }
 
 }  // namespace

@@ -14,6 +14,10 @@ namespace {
 
 constexpr ShapeCell kNone{};
 
+SurfaceCell between_cells(const SurfaceCell (&cells)[2][2], int p_part, int h_part, int jump) {
+    return surfaces_between(cells, p_part, h_part, jump).first;
+}
+
 TEST(BetweenLines, InterpolatesInEighthsUpToTheJump) {
     for (int part = 0; part < 8; ++part) {
         EXPECT_EQ(between_lines({100, 110}, {120, 115}, part, 20),
@@ -59,6 +63,17 @@ TEST(BetweenCells, StepsWhereTheGreaterWeightSays) {
     EXPECT_EQ(between_cells(three, 3, 4, 20).depth_q3, (80 * 20 + 164 * 20 + 20) / 40);
     const SurfaceCell other[2][2] = {{{80, 20}, {165, 30}}, {{248, 40}, {}}};
     EXPECT_EQ(between_cells(other, 3, 4, 20).depth_q3, (165 * 20 + 248 * 12 + 16) / 32);
+}
+
+TEST(BetweenCells, BehindTheNearerGroupIsTheFartherOne) {
+    const SurfaceCell cells[2][2] = {{{80, 20}, {88, 20}}, {{248, 40}, {256, 40}}};  // 22 depths apart at most
+    for (int p = 1; p < 8; ++p) {
+        EXPECT_EQ(surfaces_between(cells, p, 4, 20).behind, (p <= 4 ? SurfaceCell{252, 40} : SurfaceCell{})) << p;
+        EXPECT_FALSE(surfaces_between(cells, p, 4, 22).behind.exists()) << p;  // one surface
+    }
+    EXPECT_FALSE(surfaces_between(cells, 0, 4, 20).behind.exists());  // without weight
+    const SurfaceCell nothing[2][2] = {};
+    EXPECT_FALSE(surfaces_between(nothing, 3, 4, 20).behind.exists());
 }
 
 TEST(BetweenCells, IsNothingWhereAllWeightIsOnNothing) {
