@@ -1,6 +1,5 @@
 // Latency and throughput of the blocks that a parallel board's pixels pass: nothing a cycle early, the result on time.
 
-#include "engine/model/blocks/parallel/cell_march.hpp"
 #include "engine/model/blocks/parallel/patch_store.hpp"
 #include "engine/model/blocks/parallel/pixel_rays.hpp"
 #include "engine/model/blocks/texels/sample_place.hpp"
@@ -8,48 +7,16 @@
 #include "engine/model/blocks/texels/texel_cache.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
 #include "tests/engine/model/block_bench.hpp"
-#include "tests/engine/model/parallel_test_objects.hpp"
+#include "tests/engine/model/pixel_registers.hpp"
 
 namespace rs::engine::model {
 namespace {
 
 using test::Bench;
+using test::column_of;
+using test::pixel_of;
+using test::PixelRegisters;
 using test::put;
-
-// A view of 40x30 pixels; a shape map of 7 bands.
-struct PixelRegisters {
-    PixelRegisters()
-        : object(test::any_object({.views = 8, .planes = 4, .x_cells = 16, .u_cells = 16}, {})),
-          board(test::parallel(1)) {
-        object.rings.front().shape = rs::test::small_shape(object, 0);
-        slot = *board.place(object);
-        file = board.top().registers;
-        file.banks[0].views = {*board.view(slot, *prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, 40, 30)))};
-    }
-    RaySpaceObject object;
-    Board board;
-    RegisterFile file;
-    int slot = 0;
-};
-
-ScannedPixel pixel_of(int id) {
-    return {id, 0, 0, id / kStripeColumns, 0};
-}
-
-ColumnSetup column_of(RayKind kind, int column) {
-    ColumnSetup setup;
-    setup.kind = kind;
-    setup.column = column;
-    setup.weight = 100;
-    setup.lambda0_q20 = 3 << 20;
-    for (PictureSetup& picture : setup.pictures) {
-        picture.l0_q20 = 3 << 20;
-        picture.cx_q16 = 20 << 16;
-        picture.cy_q16 = 20 << 16;
-        picture.fl_y_q16 = 60 << 16;
-    }
-    return setup;
-}
 
 TEST(ParallelPixelTiming, PixelScanGivesAPixelPerCycleOfFourPatches) {
     const PixelRegisters r;
@@ -116,166 +83,6 @@ TEST(ParallelPixelTiming, RayRiseWaitsForItsColumnThenGivesAPixelPerCycle) {
     EXPECT_EQ(RayRise::kStages, 25);
     EXPECT_EQ(bench.until(block, out), 1);
     EXPECT_EQ(bench.until(block, out, 60), -1);  // column 1 has not come
-}
-
-// Column 1, between two equal lines and at the first of two places in p: bands 2 and 6 of seven have a surface at depth
-// 100, up to 120.
-struct March {
-    March() {
-        put(columns, column_of(RayKind::none, 0));
-        put(columns, column_of(RayKind::shape, 1));
-        for (int n = 0; n < 2; ++n) bench.step(block);
-        for (int n = 0; n < 8; ++n) {  // words 0, 0, 1, 1 of either place
-            put(words, {std::uint64_t{packed_cell({100, 120})} << 32U});
-            bench.step(block);
-        }
-    }
-    void push(int id, std::int32_t foot_q12, std::int32_t per_d_q20) {
-        put(in, {pixel_of(id), foot_q12, foot_q12, per_d_q20});
-    }
-    PixelRegisters r;
-    Fifo<ColumnSetup> columns{"columns", 4, 1};
-    Fifo<MemoryWord> words{"words", 4, 1};
-    Fifo<RisenPixel> in{"in", 4, 1};
-    Fifo<MarchAgain> again{"again", 4, 1};
-    Fifo<MetSurface> met{"met", 4, 1};
-    Fifo<FinishedPixel> empty{"empty", 4, 1};
-    CellMarch block{r.file, columns, words, in, again, met, empty};
-    Bench bench{&columns, &words, &in, &again, &met, &empty};
-};
-
-// The middle of a band, where its cell alone counts.
-constexpr std::int32_t middle_of(int band) {
-    return (band << 12) + (1 << 11);
-}
-
-TEST(ParallelPixelTiming, CellMarchTakesATurnOfTwoLooksInEveryStageOfItsRing) {
-    constexpr int kTurn = CellMarch::kStages;
-    EXPECT_EQ(kTurn, 11);
-    March m;
-    m.push(0, 0, 0);  // no ray
-    EXPECT_EQ(m.bench.until(m.block, m.empty), kTurn + 1);
-    m.push(1, middle_of(4), 0);  // bands 4 and 5 are empty
-    EXPECT_EQ(m.bench.until(m.block, m.empty), kTurn + 1);
-    EXPECT_EQ(m.block.looks(), 1U);
-    m.push(1, middle_of(2), 0);  // band 2 at the foot, and in another turn at its depth
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * kTurn + 1);
-    EXPECT_TRUE(m.met.front().final);
-    EXPECT_EQ(m.met.pop().depth_q3, 800);
-    m.met.commit();
-    // A band in 64 depths: 9 steps of 28. Looks at depths 14, 42 (near band 2, but not so far yet), 70, 98.
-    m.push(1, middle_of(1), 1 << 14);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * kTurn + 1);
-    EXPECT_EQ(m.block.looks(), 3U + 4U);
-    EXPECT_FALSE(m.met.front().final);
-    EXPECT_EQ(m.met.front().next.begin, 112);
-    EXPECT_EQ(m.met.front().depth_q3, 800);
-}
-
-// Rays march beside one another: a turn enters in every cycle.
-TEST(ParallelPixelTiming, CellMarchGivesAPixelPerCycleOfOneTurn) {
-    March m;
-    for (int n = 0; n < 3; ++n) {
-        put(m.in, {pixel_of(1 + 16 * n), middle_of(4), middle_of(4), 0});
-    }
-    EXPECT_EQ(m.bench.until(m.block, m.empty), CellMarch::kStages + 1);
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
-}
-
-TEST(ParallelPixelTiming, CellMarchGoesOnWithPixelsThatComeBackFirst) {
-    March m;
-    m.push(1, middle_of(1), 1 << 14);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
-    m.push(17, middle_of(4), 0);
-    m.again.push({1, m.met.pop().next});
-    m.met.commit();
-    m.again.commit();
-    // The look behind 112 is at depth 126: the same surface, whose back is at 120.
-    EXPECT_EQ(m.bench.until(m.block, m.met), CellMarch::kStages + 1);
-    EXPECT_EQ(m.met.front().pixel.id, 1);
-    EXPECT_EQ(m.met.front().depth_q3, 8 * 112);
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
-    EXPECT_EQ(m.empty.front().id, 17);
-}
-
-TEST(ParallelPixelTiming, CellMarchWaitsForTheLastWordOfItsColumn) {
-    March m;
-    put(m.columns, column_of(RayKind::shape, 2));
-    m.push(2, middle_of(9), 0);
-    for (int n = 0; n < 7; ++n) {
-        put(m.words, {0});
-        EXPECT_EQ(m.bench.until(m.block, m.empty, 20), -1);
-    }
-    put(m.words, {0});
-    EXPECT_EQ(m.bench.until(m.block, m.empty), CellMarch::kStages + 1);
-}
-
-// A word of the second line is written as cells, through one of the ports of their memory.
-TEST(ParallelPixelTiming, CellMarchLooksOnceInACycleThatWritesCells) {
-    March m;
-    put(m.columns, column_of(RayKind::shape, 2));
-    m.bench.step(m.block);
-    put(m.words, {0});
-    m.push(1, middle_of(1), 1 << 14);  // the second of the two looks is put off with the word of the second line
-    m.bench.step(m.block);
-    EXPECT_EQ(m.block.looks(), 2U);
-    put(m.words, {0});
-    m.push(17, middle_of(1), 1 << 14);
-    m.bench.step(m.block);
-    EXPECT_EQ(m.block.looks(), 3U);
-}
-
-// What is kept of two lines and read beside a ray is the surface of section 6.
-TEST(ParallelPixelTiming, CellMarchShowsTheSurfaceBetweenItsCells) {
-    March m;
-    ColumnSetup column = column_of(RayKind::shape, 2);
-    column.line_part = 2;
-    column.p_part = 4;
-    put(m.columns, column);
-    m.bench.step(m.block);
-    const int jump = m.r.file.objects[static_cast<std::size_t>(m.r.slot)].shape.jump;
-    EXPECT_EQ(jump, 20);
-    for (const int depth : {100, 108, 0, 0, 110, 118, 0, 0}) {  // of band 1, [p][word][line]
-        put(m.words, {depth == 0 ? 0 : std::uint64_t{packed_cell({static_cast<std::uint8_t>(depth), 200})} << 16U});
-        m.bench.step(m.block);
-    }
-    m.push(2, middle_of(1) - (1 << 10), 0);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
-    EXPECT_EQ(m.met.pop().depth_q3, 8 * (102 + 112) / 2);
-    m.met.commit();
-    // The next column beside the same cells, nearer to the second line: the words are there, and take as many cycles.
-    column.column = 3;
-    column.line_part = 6;
-    column.same_cells = true;
-    put(m.columns, column);
-    m.push(3, middle_of(1) - (1 << 10), 0);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 1 + 8 + 2 * CellMarch::kStages);
-    EXPECT_EQ(m.met.front().depth_q3, 8 * (106 + 116) / 2);
-}
-
-// Two places in p on two surfaces: the nearer one has more weight. A pixel that comes back takes the foot's turns
-// again.
-TEST(ParallelPixelTiming, CellMarchGivesAPixelThatComesBackWhatLiesBehindTheLastSurface) {
-    March m;
-    ColumnSetup column = column_of(RayKind::shape, 2);
-    column.p_part = 3;
-    put(m.columns, column);
-    m.bench.step(m.block);
-    for (const int depth : {100, 100, 0, 0, 140, 140, 0, 0}) {  // of band 1, [p][word][line]
-        put(m.words, {depth == 0 ? 0 : std::uint64_t{packed_cell({static_cast<std::uint8_t>(depth), 200})} << 16U});
-        m.bench.step(m.block);
-    }
-    m.push(2, middle_of(1), 0);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
-    EXPECT_EQ(m.met.front().depth_q3, 800);
-    EXPECT_FALSE(m.met.front().final);
-    m.again.push({2, m.met.pop().next});
-    m.met.commit();
-    m.again.commit();
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
-    EXPECT_EQ(m.met.front().depth_q3, 8 * 140);
-    EXPECT_TRUE(m.met.front().final);
 }
 
 TEST(ParallelPixelTiming, SamplePlaceGivesASamplePerCycleOfLatency53) {
