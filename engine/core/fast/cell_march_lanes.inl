@@ -80,8 +80,7 @@ public:
           p_part_(hn::Load(Lanes(), strip.p_part + lane)),
           beyond_(hn::Load(Lanes(), strip.beyond + lane)),
           begin_(number(256)),
-          step_(number(256)),
-          last_at_(hn::Zero(Lanes())) {
+          step_(number(256)) {
         const Vector h = hn::Add(number(walk.b_q16),
                                  multiply_shift_within<28>(hn::Load(Lanes(), strip.lambda_foot_q20 + lane), rise));
         const auto shifted = [&](auto shift, Vector a, Vector b) {
@@ -106,12 +105,6 @@ public:
     // Depths of the lanes `looking`, -1 where there is nothing; others get any.
     HWY_INLINE Vector next(LaneMask looking) {
         Vector found = number(-1);
-        const LaneMask again = hn::And(looking, ended_);
-        if (!hn::AllFalse(Lanes(), again)) {
-            all_given_ = hn::Or(all_given_, again);
-            found = hn::IfThenElse(again, at_step<OfPair::behind>(last_at_, entry_at(last_at_), again), found);
-            looking = hn::AndNot(again, looking);
-        }
         LaneMask marching = hn::And(looking, hn::Lt(begin_, beyond_));
         while (!hn::AllFalse(Lanes(), marching)) {
             const Vector begin = begin_;
@@ -134,27 +127,30 @@ public:
         const LaneMask last = hn::And(looking, hn::AndNot(ended_, hn::Not(is_surface(found))));
         if (hn::AllFalse(Lanes(), last)) return found;
         ended_ = hn::Or(ended_, last);
-        last_at_ = hn::IfThenElse(last, foot_, last_at_);
         Vector depth = surface_at(foot_, last);
         const Vector there_at = band(hn::ShiftRight<3>(depth));
         const LaneMask elsewhere =
             hn::AndNot(hn::Eq(hn::ShiftRight<9>(there_at), hn::ShiftRight<9>(foot_)), hn::And(last, is_surface(depth)));
         if (!hn::AllFalse(Lanes(), elsewhere)) {
             const Vector there = surface_at(there_at, elsewhere);
-            const LaneMask is_there = hn::And(elsewhere, is_surface(there));
-            depth = hn::IfThenElse(is_there, there, depth);
-            last_at_ = hn::IfThenElse(is_there, there_at, last_at_);
+            depth = hn::IfThenElse(hn::And(elsewhere, is_surface(there)), there, depth);
         }
         return hn::IfThenElse(last, depth, found);
     }
 
-    // Of the lanes `looking`, those that may have a surface left.
-    [[nodiscard]] HWY_INLINE LaneMask go_on(LaneMask looking) const {
-        const LaneMask marching = hn::AndNot(ended_, looking);
-        const LaneMask last_given = hn::AndNot(all_given_, hn::And(looking, ended_));
-        if (hn::AllFalse(Lanes(), last_given)) return marching;
-        const Vector smooth = hn::GatherIndex(Lanes(), entries_.smooth.data(), entry_at(last_at_));
-        return hn::Or(marching, hn::And(last_given, says(smooth, kSurfaceSteps)));
+    // Lanes that have no surface left, but perhaps one behind the last.
+    [[nodiscard]] HWY_INLINE LaneMask ended() const { return ended_; }
+
+    // What lies behind the last surface of the lanes `looking`, all of which have ended with one; -1 where there is
+    // nothing. Few rays ask, so the last surface's place is found again rather than kept.
+    [[nodiscard]] HWY_INLINE Vector behind(LaneMask looking) const {
+        const Vector there_at = band(hn::ShiftRight<3>(surface_at(foot_, looking)));
+        const Vector at = hn::IfThenElse(is_surface(surface_at(there_at, looking)), there_at, foot_);
+        const Vector entry = entry_at(at);
+        const Vector smooth = hn::GatherIndex(Lanes(), entries_.smooth.data(), entry);
+        const LaneMask steps = hn::And(looking, says(smooth, kSurfaceSteps));
+        if (hn::AllFalse(Lanes(), steps)) return number(-1);
+        return hn::IfThenElse(steps, at_step<OfPair::behind>(at, entry, steps), number(-1));
     }
 
 private:
@@ -230,8 +226,6 @@ private:
     Vector zero_;
     Vector per_depth_;
     LaneMask ended_ = none();
-    Vector last_at_;  // where the last surface is, of lanes that have ended
-    LaneMask all_given_ = none();
 };
 
 }  // namespace rs::engine::HWY_NAMESPACE

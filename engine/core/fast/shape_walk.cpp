@@ -126,6 +126,22 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeStrip& strip
     return surface;
 }
 
+// Writes what lies behind the last surface of those lanes whose `unseen` is -1: 0 for the others. Few vectors come
+// here, and those that do not keep their registers.
+HWY_NOINLINE void walk_behind(const ShapeWalk& walk, const ShapeStrip& strip, int lane, std::int32_t rise_q24,
+                              const std::int32_t* unseen, std::int32_t* colour, std::int32_t* lambda) {
+    const Vector rise = number(rise_q24);
+    const LaneMask asking = hn::MaskFromVec(hn::Load(Lanes(), unseen));
+    const Vector depth = MarchLanes(walk, strip, lane, rise).behind(asking);
+    const LaneMask looking = hn::And(asking, is_surface(depth));
+    if (hn::AllFalse(Lanes(), looking)) return;
+    const ShownLanes surface = shown_lanes(walk, strip, lane, rise, depth, looking);
+    hn::StoreU(hn::IfThenElse(surface.shown, surface.colour, hn::LoadU(Lanes(), colour)), Lanes(), colour);
+    if (lambda == nullptr) return;
+    const LaneMask opaque = hn::AndNot(hn::Eq(surface.colour, hn::Zero(Lanes())), surface.shown);
+    hn::StoreU(hn::IfThenElse(opaque, surface.lambda_q20, hn::LoadU(Lanes(), lambda)), Lanes(), lambda);
+}
+
 // shape_pixel() of as many lanes as a vector has, from `lane` on.
 HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int lane, std::int32_t rise_q24,
                            std::int32_t* colour, std::int32_t* lambda) {
@@ -137,6 +153,7 @@ HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int l
     Vector shown_lambda = zero;
     LaneMask looking = hn::MaskFromVec(
         hn::Or(hn::Load(Lanes(), strip.first.used + lane), hn::Load(Lanes(), strip.second.used + lane)));
+    LaneMask unseen = none();  // whose last surface shows nothing
     while (!hn::AllFalse(Lanes(), looking)) {
         Vector depth = march.next(looking);
         const LaneMask at_foot = hn::AndNot(is_surface(depth), alone);
@@ -146,10 +163,17 @@ HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int l
         const ShownLanes surface = shown_lanes(walk, strip, lane, rise, depth, looking);
         shown_colour = hn::IfThenElse(surface.shown, surface.colour, shown_colour);
         shown_lambda = hn::IfThenElse(surface.shown, surface.lambda_q20, shown_lambda);
-        looking = march.go_on(hn::AndNot(hn::Or(surface.shown, alone), looking));
+        const LaneMask asking = hn::AndNot(hn::Or(surface.shown, alone), looking);
+        unseen = hn::Or(unseen, hn::And(asking, march.ended()));
+        looking = hn::AndNot(march.ended(), asking);
     }
     hn::StoreU(shown_colour, Lanes(), colour);
     if (lambda != nullptr) hn::StoreU(hn::IfThenZeroElse(hn::Eq(shown_colour, zero), shown_lambda), Lanes(), lambda);
+    if (!hn::AllFalse(Lanes(), unseen)) {
+        alignas(64) std::int32_t rays[kStripColumns];
+        hn::Store(hn::VecFromMask(Lanes(), unseen), Lanes(), rays);
+        walk_behind(walk, strip, lane, rise_q24, rays, colour, lambda);
+    }
 }
 
 bool can_walk() {
