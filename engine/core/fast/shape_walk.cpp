@@ -126,8 +126,8 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeStrip& strip
     return surface;
 }
 
-// What lies behind the last surface, written over the pixels of the lanes whose `unseen` is -1, not 0. A function of its
-// own, since few vectors come here: what it needs would take registers from all others.
+// What lies behind the last surface, written over the pixels of the lanes whose `unseen` is -1, not 0. A function of
+// its own, since few vectors come here: what it needs would take registers from all others.
 HWY_NOINLINE void walk_behind(const ShapeWalk& walk, const ShapeStrip& strip, int lane, std::int32_t rise_q24,
                               const std::int32_t* unseen, std::int32_t* colour, std::int32_t* lambda) {
     const Vector rise = number(rise_q24);
