@@ -25,6 +25,20 @@ struct March {
             bench.step(block);
         }
     }
+    // A column whose band 1 alone has surfaces: their depths by [p][line], up to 200.
+    void put_band_1(const ColumnSetup& column, const int (&depths)[2][2]) {
+        put(columns, column);
+        bench.step(block);
+        for (const auto& of_p : depths) {
+            for (int word = 0; word < 2; ++word) {
+                for (const int depth : of_p) {
+                    const ShapeCell cell = {static_cast<std::uint8_t>(depth), 200};
+                    put(words, {word == 0 ? std::uint64_t{packed_cell(cell)} << 16U : 0});
+                    bench.step(block);
+                }
+            }
+        }
+    }
     void push(int id, std::int32_t foot_q12, std::int32_t per_d_q20) {
         put(in, {pixel_of(id), foot_q12, foot_q12, per_d_q20});
     }
@@ -127,14 +141,9 @@ TEST(CellMarchTiming, ShowsTheSurfaceBetweenItsCells) {
     ColumnSetup column = column_of(RayKind::shape, 2);
     column.line_part = 2;
     column.p_part = 4;
-    put(m.columns, column);
-    m.bench.step(m.block);
+    m.put_band_1(column, {{100, 108}, {110, 118}});
     const int jump = m.r.file.objects[static_cast<std::size_t>(m.r.slot)].shape.jump;
     EXPECT_EQ(jump, 20);
-    for (const int depth : {100, 108, 0, 0, 110, 118, 0, 0}) {  // of band 1, [p][word][line]
-        put(m.words, {depth == 0 ? 0 : std::uint64_t{packed_cell({static_cast<std::uint8_t>(depth), 200})} << 16U});
-        m.bench.step(m.block);
-    }
     m.push(2, middle_of(1) - (1 << 10), 0);
     EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
     EXPECT_EQ(m.met.pop().depth_q3, 8 * (102 + 112) / 2);
@@ -155,12 +164,7 @@ TEST(CellMarchTiming, GivesAPixelThatComesBackWhatLiesBehindTheLastSurface) {
     March m;
     ColumnSetup column = column_of(RayKind::shape, 2);
     column.p_part = 3;
-    put(m.columns, column);
-    m.bench.step(m.block);
-    for (const int depth : {100, 100, 0, 0, 140, 140, 0, 0}) {  // of band 1, [p][word][line]
-        put(m.words, {depth == 0 ? 0 : std::uint64_t{packed_cell({static_cast<std::uint8_t>(depth), 200})} << 16U});
-        m.bench.step(m.block);
-    }
+    m.put_band_1(column, {{100, 100}, {140, 140}});
     m.push(2, middle_of(1), 0);
     EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
     EXPECT_EQ(m.met.front().depth_q3, 800);

@@ -168,10 +168,13 @@ TEST(CellMarch, EndsWithTheSurfaceThatAReferenceRayWouldMeet) {
     EXPECT_EQ(end({0, 77}, {77, 77}), (std::vector<SurfaceCell>{{8 * 77, 77}}));
     EXPECT_EQ(end({}, {0, 1}), (std::vector<SurfaceCell>{{0, 1}}));
     EXPECT_TRUE(end({77, 77}, {}).empty());
+    column.setup.cells.p_part = 0;
+    column.cells[4] = {};
+    EXPECT_TRUE(column.met(one_step_q20).empty());
 }
 
-// The foot lies an eighth of the way to band 1, whose cells are at depth 100 and, farther away in p, at 255; but at
-// depth 100 the ray is lower, where there is nothing.
+// The foot lies an eighth of the way to band 1, whose cells are at depth 90 and, farther away in p, at 255; but at
+// depth 90 the ray is lower, where there is nothing.
 TEST(CellMarch, EndsWithTheFootsSurfacesWhereNothingLiesAtTheirDepth) {
     Column column(2, {});
     std::vector<ShapeCell> beside(2);
