@@ -129,9 +129,10 @@ struct ParallelPipe {
 
 // Bits of block RAM in a pipe: codebooks, cells, texels, patches, and the FIFOs that are long enough to be one.
 struct PipeMemoryBits {
-    std::size_t books = 0, cells = 0, held_words = 0, march_pixels = 0, texels = 0, patches = 0, columns = 0, fifos = 0;
+    std::size_t books = 0, cells = 0, held_words = 0, march_pixels = 0, rim_pixels = 0, texels = 0, patches = 0,
+                columns = 0, fifos = 0;
     [[nodiscard]] std::size_t all() const {
-        return books + cells + held_words + march_pixels + texels + patches + columns + fifos;
+        return books + cells + held_words + march_pixels + rim_pixels + texels + patches + columns + fifos;
     }
 };
 PipeMemoryBits pipe_memory_bits(ParallelPipe& pipe);

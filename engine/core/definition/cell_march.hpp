@@ -38,7 +38,7 @@ public:
         if (steps == 1) begin_ = 256;
     }
 
-    // The next surface; none at the end.
+    // The next surface; none at the end. Behind the last one comes what lies behind it, where there is something.
     SurfaceCell next() {
         while (begin_ < 256) {
             const int begin = begin_;
@@ -57,6 +57,9 @@ public:
         behind_ = last.behind;
         return last.first;
     }
+
+    // What lies behind the last surface, once next() has given that one and not yet the one behind it.
+    [[nodiscard]] const SurfaceCell& behind() const { return behind_; }
 
 private:
     // Cells are samples at the middles of their bands.

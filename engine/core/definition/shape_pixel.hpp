@@ -18,6 +18,8 @@ struct ShapePixel {
     std::int32_t lambda_q20 = 0;  // axial depth in the view, object radii; only where colour.a > 0
 };
 
+// A surface of less alpha does not cover its pixel: where one lies behind the last surface, it is asked for, too.
+inline constexpr int kCoveringAlpha = 230;
 inline constexpr std::int32_t kNearest_q20 = 1 << 17;  // axial depth in a captured picture
 
 // A bilinear sample: sums over four texels of weight * alpha (the weights add up to 64) and of weight * alpha * colour.
@@ -99,6 +101,20 @@ ShownSurface shown_surface(const RaySpaceObject& object, const ViewRegisters& re
     return shown;
 }
 
+// Section 8: the last surface, which does not cover its pixel, over the one behind it, if that does.
+inline ShapePixel laid_over(const ShapePixel& nearer, const ShapePixel& farther) {
+    const Rgba8& n = nearer.colour;
+    const Rgba8& f = farther.colour;
+    if (n.a == 0) return farther;
+    if (f.a < kCoveringAlpha) return nearer;
+    const int weight = n.a + (n.a >> 7);  // of the nearer one, 256ths
+    const auto mixed = [&](int of_n, int of_f) {
+        return static_cast<std::uint8_t>((of_n * weight + of_f * (256 - weight) + 128) >> 8);
+    };
+    return {{mixed(n.r, f.r), mixed(n.g, f.g), mixed(n.b, f.b), mixed(255, f.a)},
+            n.a < 128 ? farther.lambda_q20 : nearer.lambda_q20};
+}
+
 template <class Texel>
 ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
                        std::int32_t rise_q24, const Texel& texel) {
@@ -117,7 +133,10 @@ ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& regist
     }
     for (; cell.exists(); cell = march.next()) {
         const ShownSurface shown = shown_at(cell.depth_q3);
-        if (shown.sum.a > 0) return pixel(shown);
+        if (shown.sum.a == 0) continue;
+        const ShapePixel nearer = pixel(shown);
+        if (nearer.colour.a >= kCoveringAlpha || !march.behind().exists()) return nearer;
+        return laid_over(nearer, pixel(shown_at(march.behind().depth_q3)));
     }
     return {};
 }

@@ -126,20 +126,47 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeStrip& strip
     return surface;
 }
 
-// What lies behind the last surface, written over the pixels of the lanes whose `unseen` is -1, not 0. A function of
-// its own, since few vectors come here: what it needs would take registers from all others.
+HWY_INLINE Vector alpha_of(Vector colour) {
+    const hn::RebindToUnsigned<Lanes> bits;
+    return hn::BitCast(Lanes(), hn::ShiftRight<24>(hn::BitCast(bits, colour)));
+}
+
+// laid_over() of colours where both surfaces show something and the farther one covers its pixel. Two channels at once.
+HWY_INLINE Vector laid_over(Vector nearer, Vector farther) {
+    const Vector two = number(0x00FF00FF);
+    const Vector alpha = alpha_of(nearer);
+    const Vector weight = hn::Add(alpha, hn::ShiftRight<7>(alpha));
+    const auto mixed = [&](Vector n, Vector f) {
+        const Vector sum =
+            hn::Add(hn::Mul(hn::And(n, two), weight), hn::Mul(hn::And(f, two), hn::Sub(number(256), weight)));
+        return hn::Add(sum, number(0x00800080));
+    };
+    const Vector opaque = hn::Or(nearer, number(-0x01000000));
+    const Vector red_blue = mixed(opaque, farther);
+    const Vector green_alpha = mixed(hn::ShiftRight<8>(opaque), hn::ShiftRight<8>(farther));
+    return hn::Or(hn::And(hn::ShiftRight<8>(red_blue), two), hn::AndNot(two, green_alpha));
+}
+
+// Of the lanes whose `asking` is -1, not 0, what lies behind the last surface, with `colour`, which is that surface's,
+// laid over it. A function of its own, since few vectors come here: what it needs would take registers from all others.
 HWY_NOINLINE void walk_behind(const ShapeWalk& walk, const ShapeStrip& strip, int lane, std::int32_t rise_q24,
-                              const std::int32_t* unseen, std::int32_t* colour, std::int32_t* lambda) {
+                              const std::int32_t* asking, std::int32_t* colour, std::int32_t* lambda) {
     const Vector rise = number(rise_q24);
-    const LaneMask asking = hn::MaskFromVec(hn::Load(Lanes(), unseen));
-    const Vector depth = MarchLanes(walk, strip, lane, rise).behind(asking);
-    const LaneMask looking = hn::And(asking, is_surface(depth));
+    const LaneMask wanted = hn::MaskFromVec(hn::Load(Lanes(), asking));
+    const Vector depth = MarchLanes(walk, strip, lane, rise).behind(wanted);
+    const LaneMask looking = hn::And(wanted, is_surface(depth));
     if (hn::AllFalse(Lanes(), looking)) return;
     const ShownLanes surface = shown_lanes(walk, strip, lane, rise, depth, looking);
-    hn::StoreU(hn::IfThenElse(surface.shown, surface.colour, hn::LoadU(Lanes(), colour)), Lanes(), colour);
+    const Vector nearer = hn::LoadU(Lanes(), colour);
+    const Vector farther = hn::IfThenElseZero(surface.shown, surface.colour);
+    const LaneMask alone = hn::And(looking, hn::Eq(nearer, hn::Zero(Lanes())));
+    const LaneMask covers = hn::And(looking, at_least(alpha_of(farther), number(kCoveringAlpha)));
+    const Vector over = hn::IfThenElse(covers, laid_over(nearer, farther), nearer);
+    hn::StoreU(hn::IfThenElse(alone, farther, over), Lanes(), colour);
     if (lambda == nullptr) return;
-    const LaneMask opaque = hn::AndNot(hn::Eq(surface.colour, hn::Zero(Lanes())), surface.shown);
-    hn::StoreU(hn::IfThenElse(opaque, surface.lambda_q20, hn::LoadU(Lanes(), lambda)), Lanes(), lambda);
+    const LaneMask seen = hn::Or(alone, hn::And(covers, hn::Lt(alpha_of(nearer), number(128))));
+    const Vector depth_there = hn::IfThenZeroElse(hn::Eq(farther, hn::Zero(Lanes())), surface.lambda_q20);
+    hn::StoreU(hn::IfThenElse(seen, depth_there, hn::LoadU(Lanes(), lambda)), Lanes(), lambda);
 }
 
 // shape_pixel() of as many lanes as a vector has, from `lane` on.
@@ -153,7 +180,7 @@ HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int l
     Vector shown_lambda = zero;
     LaneMask looking = hn::MaskFromVec(
         hn::Or(hn::Load(Lanes(), strip.first.used + lane), hn::Load(Lanes(), strip.second.used + lane)));
-    LaneMask unseen = none();  // whose last surface shows nothing
+    LaneMask uncovered = none();  // whose last surface does not cover the pixel
     while (!hn::AllFalse(Lanes(), looking)) {
         Vector depth = march.next(looking);
         const LaneMask at_foot = hn::AndNot(is_surface(depth), alone);
@@ -164,14 +191,15 @@ HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int l
         shown_colour = hn::IfThenElse(surface.shown, surface.colour, shown_colour);
         shown_lambda = hn::IfThenElse(surface.shown, surface.lambda_q20, shown_lambda);
         const LaneMask asking = hn::AndNot(hn::Or(surface.shown, alone), looking);
-        unseen = hn::Or(unseen, hn::And(asking, march.ended()));
+        const LaneMask covers = hn::And(surface.shown, at_least(alpha_of(surface.colour), number(kCoveringAlpha)));
+        uncovered = hn::Or(uncovered, hn::And(hn::AndNot(hn::Or(covers, alone), looking), march.ended()));
         looking = hn::AndNot(march.ended(), asking);
     }
     hn::StoreU(shown_colour, Lanes(), colour);
     if (lambda != nullptr) hn::StoreU(hn::IfThenZeroElse(hn::Eq(shown_colour, zero), shown_lambda), Lanes(), lambda);
-    if (!hn::AllFalse(Lanes(), unseen)) {
+    if (!hn::AllFalse(Lanes(), uncovered)) {
         alignas(64) std::int32_t rays[kStripColumns];
-        hn::Store(hn::VecFromMask(Lanes(), unseen), Lanes(), rays);
+        hn::Store(hn::VecFromMask(Lanes(), uncovered), Lanes(), rays);
         walk_behind(walk, strip, lane, rise_q24, rays, colour, lambda);
     }
 }

@@ -57,7 +57,8 @@ std::string memory_table(const BoardTop& board) {
            row("codebooks, two sets (double_buffered_codebook)", bits.books) +
            row("cells of two stripes (cell_march)", bits.cells) +
            row("words of the last column's cells (cell_march)", bits.held_words) +
-           row("pixels under way (cell_march)", bits.march_pixels) + row("texels (texel_cache)", bits.texels) +
+           row("pixels under way (cell_march)", bits.march_pixels) +
+           row("pixels at rims (surface_blend)", bits.rim_pixels) + row("texels (texel_cache)", bits.texels) +
            row("patches (patch_store)", bits.patches) +
            row("columns of two stripes (ray_rise, cell_march, sample_place)", bits.columns) +
            row("FIFOs of 64 places and more", bits.fifos) + row("all", bits.all());

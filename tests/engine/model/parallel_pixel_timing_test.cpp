@@ -141,7 +141,7 @@ TEST(ParallelPixelTiming, FilterAndBlendArePipelines) {
     Fifo<MarchAgain> again("again", 4, 1);
     SurfaceBlend blend(filtered, resolved, again);
     Bench blend_bench({&filtered, &resolved, &again});
-    EXPECT_EQ(SurfaceBlend::kStages, 14);
+    EXPECT_EQ(SurfaceBlend::kStages, 16);
     EXPECT_EQ(blend_bench.until(blend, resolved), 1 + SurfaceBlend::kStages + 1);  // behind the second sample
     EXPECT_EQ(resolved.pop().rgba, 0xFF000058U);  // (50 * 192 + 200 * 64) / 256, rounded
     resolved.commit();
@@ -149,12 +149,12 @@ TEST(ParallelPixelTiming, FilterAndBlendArePipelines) {
     none.head.last = true;
     none.head.next.begin = 77;
     put(filtered, none);
-    EXPECT_EQ(blend_bench.until(blend, again), 15);
+    EXPECT_EQ(blend_bench.until(blend, again), 17);
     EXPECT_EQ(again.pop().state.begin, 77);
     again.commit();
     none.head.final = true;
     put(filtered, none);
-    EXPECT_EQ(blend_bench.until(blend, resolved), 15);
+    EXPECT_EQ(blend_bench.until(blend, resolved), 17);
     EXPECT_EQ(resolved.pop().rgba, 0U);
     resolved.commit();
 }
@@ -185,6 +185,52 @@ TEST(ParallelPixelTiming, SurfaceBlendTakesThePictureWhoseFrameHasThePoint) {
     EXPECT_EQ(outcome(true, 64 * 255), 0xFF00003CU);
     EXPECT_EQ(outcome(false, 0), 0xFF000028U);
     EXPECT_EQ(outcome(true, 0), 0U);
+}
+
+// A pixel that its last surface does not cover is kept until what lies behind it comes, and laid over that.
+TEST(ParallelPixelTiming, SurfaceBlendKeepsAPixelAtARim) {
+    Fifo<FilteredSample> in("in", 4, 1);
+    Fifo<FinishedPixel> out("out", 4, 1);
+    Fifo<MarchAgain> again("again", 4, 1);
+    SurfaceBlend block(in, out, again);
+    Bench bench({&in, &out, &again});
+    const auto sample = [](int id, std::int32_t alpha, std::int32_t grey, bool final, int next) {
+        FilteredSample one;
+        one.head.id = id;
+        one.head.is_there = one.inside = one.head.last = true;
+        one.head.final = final;
+        one.head.next.begin = next;
+        one.a = 64 * alpha;
+        one.r = 64 * alpha * grey;
+        return one;
+    };
+    const auto expect = [&](std::uint32_t rgba) {
+        EXPECT_EQ(bench.until(block, out), 17);
+        EXPECT_EQ(out.pop().rgba, rgba);
+        out.commit();
+    };
+    put(in, sample(7, 230, 10, false, MarchState::kBehind));
+    expect(0xE600000AU);
+    put(in, sample(7, 229, 10, false, MarchState::kFoot));  // met on the way: nothing says what lies behind
+    expect(0xE500000AU);
+    const struct {
+        int nearer;
+        int farther;
+        std::uint32_t rgba;
+    } cases[] = {{229, 229, 0xE500000AU}, {229, 230, 0xFC00000BU}, {64, 255, 0xFF000012U}, {0, 100, 0x64000014U}};
+    for (const auto& one : cases) {
+        SCOPED_TRACE(one.farther);
+        put(in, sample(7, one.nearer, 10, false, MarchState::kBehind));
+        EXPECT_EQ(bench.until(block, again), 17);
+        EXPECT_EQ(again.pop().id, 7);
+        again.commit();
+        put(in, sample(8, 40, 30, true, MarchState::kBehind));  // another one passes
+        expect(0x2800001EU);
+        put(in, sample(7, one.farther, 20, true, MarchState::kBehind));
+        expect(one.rgba);
+    }
+    put(in, sample(7, 40, 30, true, MarchState::kBehind));  // a new pixel in its place
+    expect(0x2800001EU);
 }
 
 TEST(ParallelPixelTiming, PatchStoreWritesAPatchWhenItsLastPixelIsThere) {

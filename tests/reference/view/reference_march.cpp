@@ -157,7 +157,7 @@ private:
 }  // namespace
 
 void march(const ShapeMap& shape, const engine::ViewRegisters& view, const ShapeRay& ray, Whole rise,
-           const std::function<bool(Whole d)>& meets, Branches& branches) {
+           const std::function<bool(Whole d, bool has_behind)>& meets, Branches& branches) {
     const Bands bands = bands_of(shape, view, ray, rise, branches);
     CellsAround cells(shape, ray, branches);
     const Whole swept = bands.per_d < 0 ? -bands.per_d : bands.per_d;
@@ -178,7 +178,7 @@ void march(const ShapeMap& shape, const engine::ViewRegisters& view, const Shape
                 branches.take(Branch::not_met_ends_before);
             } else {
                 branches.take(e->depth > 8 * begin ? Branch::met_within_the_step : Branch::met_at_the_step);
-                if (meets(std::max(e->depth, 8 * begin))) return;
+                if (meets(std::max(e->depth, 8 * begin), false)) return;
             }
         }
     }
@@ -190,9 +190,9 @@ void march(const ShapeMap& shape, const engine::ViewRegisters& view, const Shape
     const Surfaces at_v2 = cells.at(bands.band_at(at_foot.surface->depth >> 3));
     branches.take(at_v2.surface ? Branch::second_look : Branch::second_look_is_nothing);
     const Surfaces& last = at_v2.surface ? at_v2 : at_foot;
-    if (meets(last.surface->depth)) return;
+    if (meets(last.surface->depth, last.behind.has_value())) return;
     branches.take(last.behind ? Branch::met_behind : Branch::nothing_behind);
-    if (last.behind) meets(last.behind->depth);
+    if (last.behind) meets(last.behind->depth, false);
 }
 
 }  // namespace rs::reference

@@ -104,12 +104,16 @@ std::optional<Shown> shown_at(const RaySpaceObject& object, const engine::ViewRe
     return shown;
 }
 
+Whole alpha(const Shown& shown) {
+    within(shown.sum.a, 1, 255 * power(14), "a of a sum");
+    return (shown.sum.a + power(13)) >> 14;
+}
+
 // "The output"
 ReferencePixel output(const std::optional<Shown>& shown, Branches& branches) {
     if (!shown) return {};
     const Sum& sum = shown->sum;
-    within(sum.a, 1, 255 * power(14), "a of a sum");
-    const Whole A = (sum.a + power(13)) >> 14;
+    const Whole A = alpha(*shown);
     if (A == 0) {
         branches.take(Branch::alpha_rounds_to_0);
         return {};
@@ -122,6 +126,26 @@ ReferencePixel output(const std::optional<Shown>& shown, Branches& branches) {
     };
     return {divided(sum.r), divided(sum.g), divided(sum.b), static_cast<std::uint8_t>(A),
             static_cast<std::int32_t>(shown->lambda)};
+}
+
+// "Over"
+ReferencePixel over(const ReferencePixel& n, const ReferencePixel& f, Branches& branches) {
+    if (n.A == 0) {
+        branches.take(Branch::over_nothing);
+        return f;
+    }
+    if (f.A < 230) {
+        branches.take(Branch::over_what_does_not_cover);
+        return n;
+    }
+    const Whole w = within(n.A + (n.A >> 7), 1, 256, "w");
+    const auto mixed = [&](Whole of_n, Whole of_f) {
+        const Whole sum = below(of_n * w + of_f * (256 - w) + 128, 16, "n * w + f * (256 - w) + 128");
+        return static_cast<std::uint8_t>(within(sum >> 8, 0, 255, "R, G, B, A over another"));
+    };
+    branches.take(n.A >= 128 ? Branch::over_and_nearer : Branch::over_and_farther);
+    return {mixed(n.R, f.R), mixed(n.G, f.G), mixed(n.B, f.B), mixed(255, f.A),
+            n.A >= 128 ? n.lambda_q20 : f.lambda_q20};
 }
 
 }  // namespace
@@ -142,7 +166,7 @@ ReferencePixel pixel_with_shape(const RaySpaceObject& object, const engine::View
     int met = 0;
     if (ray->weight == 0 || ray->weight == 256) {
         branches.take(ray->weight == 0 ? Branch::weight_is_0 : Branch::weight_is_256);
-        const auto first_met = [&](Whole d) {
+        const auto first_met = [&](Whole d, bool) {
             shown = shows(d);
             return ++met > 0;
         };
@@ -154,14 +178,18 @@ ReferencePixel pixel_with_shape(const RaySpaceObject& object, const engine::View
         return output(shown, branches);
     }
     branches.take(Branch::blended);
-    const auto first_that_shows = [&](Whole d) {
+    std::optional<ReferencePixel> nearer;  // of two, where it does not cover the pixel
+    const auto first_that_shows = [&](Whole d, bool has_behind) {
         if (++met == 2) branches.take(Branch::met_after_another);
         shown = shows(d);
-        return shown.has_value();
+        if (!shown || !has_behind || alpha(*shown) >= 230) return shown.has_value();
+        nearer = output(shown, branches);
+        return false;
     };
     march(shape, view, *ray, rise, first_that_shows, branches);
-    if (!shown) branches.take(Branch::none_shows_something);
-    return output(shown, branches);
+    if (!shown && !nearer) branches.take(Branch::none_shows_something);
+    const ReferencePixel last = output(shown, branches);
+    return nearer ? over(*nearer, last, branches) : last;
 }
 
 }  // namespace rs::reference

@@ -27,12 +27,16 @@ SurfaceBlend::SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, F
       out_(writes(out)),
       again_(writes(again)) {}
 
-SurfaceBlend::Outcome SurfaceBlend::decided(const SampleHead& last) const {
+SurfaceBlend::Outcome SurfaceBlend::decided(const SampleHead& last) {
     const SampleSum sum = blended(samples_, last.weight);
+    const Rgba8 colour = resolve(sum);
+    Rgba8& kept = kept_[static_cast<std::size_t>(last.id)];
     Outcome out;
-    out.sends_back = sum.a == 0 && !last.final;
     out.again = {last.id, last.next};
-    out.pixel = {last.id, packed(resolve(sum))};
+    const bool asks_behind = last.next.begin == MarchState::kBehind && colour.a < kCoveringAlpha;
+    out.sends_back = !last.final && (sum.a == 0 || asks_behind);
+    if (!out.sends_back) out.pixel = {last.id, packed(laid_over({kept}, {colour}).colour)};
+    kept = out.sends_back ? colour : Rgba8{};
     return out;
 }
 

@@ -10,6 +10,8 @@
 
 #include <functional>
 #include <limits>
+#include <set>
+#include <tuple>
 
 namespace rs::engine {
 namespace {
@@ -142,7 +144,7 @@ protected:
         return {grey, grey, grey, 255};
     }
 
-    static constexpr int kPixel = 60;
+    static constexpr int kPixel = 62;
     RingObjectOptions options_{.views = 18, .width = 128, .height = 128, .fl_px = 200};
     Camera camera_ = test::between_views(options_, 0, 0.5);
     RaySpaceObject object_;
@@ -187,6 +189,67 @@ TEST_F(Midway, ASurfaceOutsideOfOneFrameIsShownByTheOther) {
 TEST_F(Midway, ItsDepthIsThatOfTheSurface) {
     const double apart = std::ldexp(shown({170, 170}, plain_).lambda_q20 - shown({90, 90}, plain_).lambda_q20, -20);
     EXPECT_NEAR(apart, 80 * 2 * (1 + 1.0 / 32) / 255, 0.01);
+}
+
+// Cells along p lie on two surfaces in turn, and at the pixel the nearer one has more weight.
+class AtAStep : public Midway {
+protected:
+    AtAStep() : near_(recorded(kNearer, of_nearer_)), far_(recorded(kFarther, of_farther_)) {
+        for (const std::size_t nearer : {std::size_t{0}, std::size_t{1}}) {
+            const ShapeMap& shape = object_.rings[0].shape;
+            for (std::size_t n = 0; n < shape.cells.size(); ++n) {
+                const std::size_t place = n / static_cast<std::size_t>(shape.bands);
+                object_.rings[0].shape.cells[n] = place % 2 == nearer ? kNearer : kFarther;
+            }
+            if (pixel_at(object_, camera_, kPixel, kPixel, plain_).lambda_q20 == near_) break;
+        }
+    }
+    // Of surfaces with these alphas.
+    [[nodiscard]] ShapePixel pixel(int nearer_alpha, int farther_alpha) {
+        return pixel_at(object_, camera_, kPixel, kPixel, [=, this](int view, int column, int row) {
+            const bool is_nearer = of_nearer_.contains({view, column, row});
+            EXPECT_NE(is_nearer, of_farther_.contains({view, column, row}));
+            return is_nearer ? Rgba8{50, 50, 50, static_cast<std::uint8_t>(nearer_alpha)}
+                             : Rgba8{80, 80, 80, static_cast<std::uint8_t>(farther_alpha)};
+        });
+    }
+
+private:
+    static constexpr ShapeCell kNearer{90, 250}, kFarther{170, 250};
+    using Texels = std::set<std::tuple<int, int, int>>;  // view, column, row
+
+    std::int32_t recorded(ShapeCell cell, Texels& texels) {
+        const Texel recording = [&](int view, int column, int row) {
+            texels.emplace(view, column, row);
+            return by_view(view);
+        };
+        return shown(cell, recording).lambda_q20;
+    }
+
+    Texels of_nearer_, of_farther_;
+
+protected:
+    std::int32_t near_, far_;  // axial depths of the two
+};
+
+TEST_F(AtAStep, WhatDoesNotCoverItsPixelIsLaidOverWhatDoes) {
+    const auto expect = [&](int nearer_alpha, int farther_alpha, int grey, int alpha, std::int32_t lambda_q20) {
+        SCOPED_TRACE(std::to_string(nearer_alpha) + " before " + std::to_string(farther_alpha));
+        const ShapePixel shown = pixel(nearer_alpha, farther_alpha);
+        const auto level = static_cast<std::uint8_t>(grey);
+        EXPECT_EQ(shown.colour, (Rgba8{level, level, level, static_cast<std::uint8_t>(alpha)}));
+        EXPECT_EQ(shown.lambda_q20, lambda_q20);
+    };
+    EXPECT_LT(near_, far_);
+    expect(255, 255, 50, 255, near_);
+    expect(230, 255, 50, 230, near_);
+    expect(229, 255, 53, 255, near_);
+    expect(229, 230, 53, 252, near_);
+    expect(229, 229, 50, 229, near_);
+    expect(128, 255, 65, 255, near_);
+    expect(127, 255, 65, 255, far_);
+    expect(100, 0, 50, 100, near_);
+    expect(0, 100, 80, 100, far_);
 }
 
 TEST_F(Midway, AGapWithoutLinesShowsTheNearestPicture) {
