@@ -131,15 +131,22 @@ public:
         const Vector there_at = band(hn::ShiftRight<3>(depth));
         const LaneMask elsewhere =
             hn::AndNot(hn::Eq(hn::ShiftRight<9>(there_at), hn::ShiftRight<9>(foot_)), hn::And(last, is_surface(depth)));
+        LaneMask steps = steps_at(foot_);
         if (!hn::AllFalse(Lanes(), elsewhere)) {
             const Vector there = surface_at(there_at, elsewhere);
-            depth = hn::IfThenElse(hn::And(elsewhere, is_surface(there)), there, depth);
+            const LaneMask moves = hn::And(elsewhere, is_surface(there));
+            depth = hn::IfThenElse(moves, there, depth);
+            steps = hn::Or(hn::AndNot(moves, steps), hn::And(moves, steps_at(there_at)));
         }
+        ended_at_step_ = hn::Or(ended_at_step_, hn::And(last, steps));
         return hn::IfThenElse(last, depth, found);
     }
 
     // Lanes that have no surface left, but perhaps one behind the last.
     [[nodiscard]] HWY_INLINE LaneMask ended() const { return ended_; }
+
+    // Those of them whose last surface is one of two perhaps.
+    [[nodiscard]] HWY_INLINE LaneMask ended_at_step() const { return ended_at_step_; }
 
     // What lies behind the last surface of the lanes `looking`, all of which have ended with one; -1 where there is
     // nothing. Few rays ask, so the last surface's place is found again rather than kept.
@@ -188,6 +195,10 @@ private:
         return hn::Ne(hn::And(smooth, number(bit)), hn::Zero(Lanes()));
     }
 
+    HWY_INLINE LaneMask steps_at(Vector at_q12) const {
+        return says(hn::GatherIndex(Lanes(), entries_.smooth.data(), entry_at(at_q12)), kSurfaceSteps);
+    }
+
     HWY_INLINE Vector surface_at(Vector at_q12, LaneMask wanted) const {
         const Vector entry = entry_at(at_q12);
         const Vector h_part = hn::And(hn::ShiftRight<9>(at_q12), number(7));
@@ -226,6 +237,7 @@ private:
     Vector zero_;
     Vector per_depth_;
     LaneMask ended_ = none();
+    LaneMask ended_at_step_ = none();
 };
 
 }  // namespace rs::engine::HWY_NAMESPACE

@@ -192,7 +192,7 @@ HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int l
         shown_lambda = hn::IfThenElse(surface.shown, surface.lambda_q20, shown_lambda);
         const LaneMask asking = hn::AndNot(hn::Or(surface.shown, alone), looking);
         const LaneMask covers = hn::And(surface.shown, at_least(alpha_of(surface.colour), number(kCoveringAlpha)));
-        uncovered = hn::Or(uncovered, hn::And(hn::AndNot(hn::Or(covers, alone), looking), march.ended()));
+        uncovered = hn::Or(uncovered, hn::And(hn::AndNot(hn::Or(covers, alone), looking), march.ended_at_step()));
         looking = hn::AndNot(march.ended(), asking);
     }
     hn::StoreU(shown_colour, Lanes(), colour);

@@ -209,11 +209,11 @@ TEST(ParallelBoardCyclesGolden, AllKinds) {
         const Result<BoardRun> run = drawn(board, object, width, height);
         return run ? run->cycles[0].render_cycles() : 0;
     };
-    EXPECT_EQ(cycles_of(0, 8, 96, 64), 11'884U);
-    EXPECT_EQ(cycles_of(1, 8, 96, 64), 35'791U);
-    EXPECT_EQ(cycles_of(2, 8, 96, 64), 20'392U);
-    EXPECT_EQ(cycles_of(3, 8, 96, 64), 46'113U);
-    EXPECT_EQ(cycles_of(3, 3, 50, 33), 43'624U);
+    EXPECT_EQ(cycles_of(0, 8, 96, 64), 11'894U);
+    EXPECT_EQ(cycles_of(1, 8, 96, 64), 35'795U);
+    EXPECT_EQ(cycles_of(2, 8, 96, 64), 20'422U);
+    EXPECT_EQ(cycles_of(3, 8, 96, 64), 46'098U);
+    EXPECT_EQ(cycles_of(3, 3, 50, 33), 43'625U);
 }
 
 }  // namespace
