@@ -18,7 +18,6 @@ constexpr int kNearDepths = 2;         // tried on either side of a depth that i
 // straight ones, and edge pixels add up to half a pixel of their own.
 constexpr float kSteepest = 1.06F;
 constexpr float kEdgeJump_px = 1;
-constexpr float kBehind = std::numeric_limits<float>::lowest();
 
 }  // namespace
 
@@ -80,32 +79,52 @@ double RayProbe::best(const glm::dvec3& direction, double reach, double& known_d
     const double miss2 = direction.x * direction.x / flat2;
     const double half = std::sqrt(std::max(1e-6, reach * reach - miss2) / flat2);
     const double step = 2 * half / kDepths;
-    float most = kBehind;
-    const bool is_known = known_depth > 0;
-    // Outwards from the middle, or from where it was, so that a good value comes early and prunes the rest.
-    const double from = is_known ? known_depth : middle - 0.5 * step;
-    const int tried = is_known ? 2 * kNearDepths + 1 : kDepths;
-    double at = from;
-    for (int k = 0; k < tried; ++k) {
-        const double depth = from + step * (k % 2 == 0 ? -(k / 2) : k / 2 + 1);
-        const float least = least_over_views(depth, most);
-        if (least > most) {
-            most = least;
-            at = depth;
+    Top top;
+    if (known_depth > 0) {
+        top.at = known_depth;
+        // Outwards from where it was, so that a good value comes early and prunes the rest.
+        for (int k = 0; k < 2 * kNearDepths + 1 && top.least < 0; ++k) {
+            try_depth(known_depth + step * (k % 2 == 0 ? -(k / 2) : k / 2 + 1), top);
         }
-        if (most >= 0) {
-            known_depth = at;
-            return most;
-        }
+    } else {
+        top.at = middle;
+        try_between(middle - half + 0.5 * step, step, kDepths, top);
     }
-    const auto [found, found_at] = refined(at - step, at + step, kRefinements);
-    known_depth = found > most ? found_at : at;
-    return std::max(most, found);
+    known_depth = top.at;
+    if (top.least >= 0) return top.least;
+    const auto [found, found_at] = refined(top.at - step, top.at + step, kRefinements);
+    if (found > top.least) known_depth = found_at;
+    return std::max(top.least, found);
+}
+
+// Of the ray's point at `depth`; raises `top`. The view that says so, or says enough not to raise it.
+RayProbe::Witness RayProbe::try_depth(double depth, Top& top) {
+    const Witness witness = least_over_views(depth, top.least);
+    if (witness.least > top.least) top = {witness.least, depth};
+    return witness;
+}
+
+// Of `count` depths from `first` on, the middle one and then both sides, where the view that said least in the middle
+// could say more.
+void RayProbe::try_between(double first, double step, int count, Top& top) {
+    if (count <= 0 || top.least >= 0) return;
+    const int before = count / 2;
+    const double middle = first + step * before;
+    const Witness witness = try_depth(middle, top);
+    const Seen here = seen(witness.sight, middle);
+    const auto may_have_more = [&](double end) {
+        const Seen there = seen(witness.sight, end);
+        if (!here.before_camera || !there.before_camera) return true;
+        return witness.least + kSteepest * apart_px(here, there) + kEdgeJump_px > top.least;
+    };
+    if (may_have_more(first)) try_between(first, step, before, top);
+    const double last = first + step * (count - 1);
+    if (may_have_more(last)) try_between(middle + step, step, count - 1 - before, top);
 }
 
 double RayProbe::best_beside(const glm::dvec3& direction, double reach, double known_depth) {
     aim(direction);
-    const float here = least_over_views(known_depth, kBehind);
+    const float here = least_over_views(known_depth, kBehind).least;
     if (here >= 0) return here;
     const double flat2 = direction.x * direction.x + direction.z * direction.z;
     const double half =
@@ -146,17 +165,19 @@ float RayProbe::distance(std::size_t j, double depth) const {
 }
 
 // May stop at the first value below `floor`.
-float RayProbe::least_over_views(double depth, float floor) {
-    float least = std::numeric_limits<float>::max();
+RayProbe::Witness RayProbe::least_over_views(double depth, float floor) {
+    Witness witness{std::numeric_limits<float>::max(), 0};
     for (std::size_t i = 0; i < deciding_; ++i) {
-        least = std::min(least, distance(heeded_[i], depth));
-        if (least < floor || least == kBehind) {
+        const float here = distance(heeded_[i], depth);
+        if (here >= witness.least) continue;
+        witness = {here, heeded_[i]};
+        if (here < floor || here == kBehind) {
             // Who contradicts one point contradicts the next ones, too.
             if (i > 0) std::swap(heeded_[i], heeded_[i / 2]);
-            return least;
+            break;
         }
     }
-    return least;
+    return witness;
 }
 
 float RayProbe::apart_px(const Seen& a, const Seen& b) {
@@ -192,8 +213,8 @@ std::pair<float, double> RayProbe::refined(double low, double high, int rounds) 
     if (deciding_ > kFewViews) keep_deciding(low, high);
     double a = high - kGolden * (high - low);
     double b = low + kGolden * (high - low);
-    float at_a = least_over_views(a, kBehind);
-    float at_b = least_over_views(b, at_a);
+    float at_a = least_over_views(a, kBehind).least;
+    float at_b = least_over_views(b, at_a).least;
     for (int i = 0; i < rounds && at_a < 0 && at_b < 0; ++i) {
         // The smaller of both may be less than it says: it goes.
         if (at_a > at_b) {
@@ -202,14 +223,14 @@ std::pair<float, double> RayProbe::refined(double low, double high, int rounds) 
             at_b = at_a;
             a = high - kGolden * (high - low);
             if (i % kPruneEvery == kPruneEvery - 1 && deciding_ > kFewViews) keep_deciding(low, high);
-            at_a = least_over_views(a, at_b);
+            at_a = least_over_views(a, at_b).least;
         } else {
             low = a;
             a = b;
             at_a = at_b;
             b = low + kGolden * (high - low);
             if (i % kPruneEvery == kPruneEvery - 1 && deciding_ > kFewViews) keep_deciding(low, high);
-            at_b = least_over_views(b, at_a);
+            at_b = least_over_views(b, at_a).least;
         }
     }
     return at_a > at_b ? std::pair{at_a, a} : std::pair{at_b, b};

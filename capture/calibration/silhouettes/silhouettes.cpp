@@ -255,18 +255,25 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     const bool pose_free = !known.pose;
     problem.free = {pose_free, pose_free, pose_free, !known.f_px, !known.step_rad && !known.angles_rad};
 
+    const auto disagreement = [&](double rms_px) {
+        return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(rms_px * picture_px)) +
+                     " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
+    };
     const SilhouetteFit best = search(problem);
-    const RaySelection half{2, {}};
-    const double best_cost = silhouette_cost(problem, best.at, half);
-    const std::vector<SilhouetteFit> along = fits_along_tilts(problem, best, half);
-    SilhouetteFit fit = nearest_to_start(best, best_cost, along);
     const double start_cost = silhouette_cost(problem, {}, {});
     const double start_rms = rms(consistency_residuals_px(*turn, problem.start, {}));
-    if (start_rms > kGoodEnough_px && !(fit.cost < kImprovement * start_cost)) {
+    if (start_rms > kGoodEnough_px && !(best.cost < kImprovement * start_cost)) {
         return Error{
             "silhouettes: no axis, tilt, roll or focal length near the assumed ones makes the outlines agree "
             "better; check the steps, the sense of turning and the cut-outs"};
     }
+    // What follows finds out how sure this is; it mends no outlines that disagree so much.
+    const double best_rms = rms(consistency_residuals_px(*turn, changed(problem.start, best.at), {}));
+    if (best_rms > kDisagree_px) return disagreement(best_rms);
+    const RaySelection half{2, {}};
+    const double best_cost = silhouette_cost(problem, best.at, half);
+    const std::vector<SilhouetteFit> along = fits_along_tilts(problem, best, half);
+    SilhouetteFit fit = nearest_to_start(best, best_cost, along);
     Calibration calibration;
     calibration.method = CalibrationMethod::kSilhouettes;
     TurntableModel of_turn = changed(problem.start, fit.at);
@@ -290,10 +297,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
         residuals = consistency_residuals_px(*turn, of_turn, {});
     }
     const double fit_rms = rms(residuals);
-    if (fit_rms > kDisagree_px) {
-        return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(fit_rms * picture_px)) +
-                     " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
-    }
+    if (fit_rms > kDisagree_px) return disagreement(fit_rms);
     calibration.observations = static_cast<int>(residuals.size());
     calibration.rms_px = fit_rms * picture_px;
     calibration.views = fits_by_view(*turn, residuals, picture_px);
