@@ -7,7 +7,7 @@
 // Whitted where everything is an instance; of a grid of 16x16 pixels; and of moving 1000 instances. Ratios are of
 // processor time, so that what runs beside it counts less.
 
-#include "capture/tracer/integrator/ray_scene.hpp"
+#include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/integrator/tracer.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
 #include "capture/tracer/scene/flatten.hpp"

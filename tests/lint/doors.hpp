@@ -45,10 +45,13 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"capture/photos", {"rayspace/*", "capture/photos/*", "capture/calibration/*"}},
     {"capture/tracer/scene", {"rayspace/*"}},
     {"capture/tracer/light", {"rayspace/*", "capture/tracer/scene"}},
-    {"capture/tracer/integrator", {"rayspace/*", "capture/tracer/scene", "capture/tracer/light"}},
+    {"capture/tracer/rays", {"rayspace/*", "capture/tracer/scene"}},
+    {"capture/tracer/integrator",
+     {"rayspace/*", "capture/tracer/scene", "capture/tracer/light", "capture/tracer/rays"}},
     // Synthetic photographs follow the model that is calibrated.
     {"capture/tracer/session",
-     {"rayspace/*", "capture/tracer/scene", "capture/tracer/integrator", "capture/calibration/model"}},
+     {"rayspace/*", "capture/tracer/scene", "capture/tracer/rays", "capture/tracer/integrator",
+      "capture/calibration/model"}},
     {"capture/tools", {"rayspace/*", "capture/*", "datasets-synthetic"}},
 
     {"datasets-synthetic/shapes", {"rayspace/*", "capture/tracer/scene"}},

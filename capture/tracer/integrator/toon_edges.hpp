@@ -11,7 +11,7 @@
 // the surface's normals turn by as much: facets of a smooth mesh that are seen at a flat angle bend the slope alone.
 // A threshold on the depth alone would find edges all over steep planes.
 
-#include "capture/tracer/integrator/ray_scene.hpp"
+#include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/scene/toon_style.hpp"
 
 #include <array>

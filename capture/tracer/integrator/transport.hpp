@@ -5,7 +5,7 @@
 // Radiance is not scaled by the squared index of refraction inside glass: all lights are outside, where it cancels.
 
 #include "capture/tracer/integrator/medium_stack.hpp"
-#include "capture/tracer/integrator/ray_scene.hpp"
+#include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/integrator/sampler.hpp"
 #include "capture/tracer/integrator/surface.hpp"
 #include "capture/tracer/light/directions.hpp"

@@ -1,6 +1,6 @@
 // What moves: instances of parts, beside the same scene flattened, and the time of rays against formulas.
 
-#include "capture/tracer/integrator/ray_scene.hpp"
+#include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/scene/flatten.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 

@@ -1,4 +1,4 @@
-#include "capture/tracer/integrator/moving_parts.hpp"
+#include "capture/tracer/rays/moving_parts.hpp"
 
 #include <embree3/rtcore.h>
 #include <oneapi/tbb/task_arena.h>

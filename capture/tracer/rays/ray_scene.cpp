@@ -1,4 +1,4 @@
-#include "capture/tracer/integrator/ray_scene.hpp"
+#include "capture/tracer/rays/ray_scene.hpp"
 
 #include "capture/tracer/scene/texture_lookup.hpp"
 

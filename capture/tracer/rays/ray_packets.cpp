@@ -1,5 +1,5 @@
 // The half of RayScene that asks for many rays at a time.
-#include "capture/tracer/integrator/ray_scene.hpp"
+#include "capture/tracer/rays/ray_scene.hpp"
 #include "rayspace/base/check.hpp"
 
 #include <embree3/rtcore.h>

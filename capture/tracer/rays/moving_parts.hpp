@@ -2,7 +2,7 @@
 // The instances of a scene in Embree: each part is a tree of its own that is built once; above them stands one small
 // tree over the instances, and whoever moves an instance touches that only. Part of ray_scene.
 
-#include "capture/tracer/integrator/mesh_tree.hpp"
+#include "capture/tracer/rays/mesh_tree.hpp"
 
 #include <cstdint>
 #include <span>

@@ -9,8 +9,8 @@
 // Each ray asks one after the other, what it met before being its end. Rays have a time, 0 where the shutter opens and
 // 1 where it closes, at which they see what moves.
 
-#include "capture/tracer/integrator/mesh_tree.hpp"
-#include "capture/tracer/integrator/moving_parts.hpp"
+#include "capture/tracer/rays/mesh_tree.hpp"
+#include "capture/tracer/rays/moving_parts.hpp"
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
 

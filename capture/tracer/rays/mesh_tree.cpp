@@ -1,4 +1,4 @@
-#include "capture/tracer/integrator/mesh_tree.hpp"
+#include "capture/tracer/rays/mesh_tree.hpp"
 
 #include "capture/tracer/scene/texture_lookup.hpp"
 
