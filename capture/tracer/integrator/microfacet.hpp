@@ -48,8 +48,11 @@ public:
     // The cosine-weighted mean, 2 * integral of E(mu) mu d mu.
     [[nodiscard]] float mean() const { return mean_; }
 
-private:
     static constexpr int kSize = 64;
+    // E at (i / (kSize - 1))^2.
+    [[nodiscard]] const std::array<float, kSize>& values() const { return albedo_; }
+
+private:
     void finish();
     std::array<float, kSize> albedo_{};
     float mean_ = 0.0F;

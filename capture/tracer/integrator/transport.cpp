@@ -20,11 +20,19 @@ glm::vec3 facing_normal(const glm::vec3& normal, const glm::vec3& to_viewer) {
     return glm::normalize(normal + to_viewer * (kLeastCos - cos_viewer));
 }
 
-// The shading normal where the material has relief. Sides that are seen from behind have the front's, turned over.
-glm::vec3 normal_in_relief(const Scene& scene, const Material& material, const SurfacePoint& point) {
+glm::vec3 surface_colour(const Scene& scene, const Material& material, const SurfacePoint& point) {
+    if (material.texture < 0) return material.colour * point.colour;
+    const RgbaF texel = sample_texture(scene.textures[static_cast<std::size_t>(material.texture)], point.uv);
+    return material.colour * point.colour * glm::vec3(texel.r, texel.g, texel.b);
+}
+
+}  // namespace
+
+glm::vec3 LightTransport::normal_in_relief(const SurfacePoint& point) const {
+    const Material& material = material_of(point);
     const glm::vec3 even = point.shading_normal;
     if (material.relief < 0) return even;
-    const RgbaF texel = sample_texture(scene.reliefs[static_cast<std::size_t>(material.relief)], point.uv);
+    const RgbaF texel = sample_texture(scene_.reliefs[static_cast<std::size_t>(material.relief)], point.uv);
     if (texel.r == 0.0F && texel.g == 0.0F) return even;
     const float side = point.front_side ? 1.0F : -1.0F;
     const glm::vec3 n = even * side;
@@ -37,18 +45,10 @@ glm::vec3 normal_in_relief(const Scene& scene, const Material& material, const S
     return length > 1e-6F ? sum * (side / length) : even;
 }
 
-glm::vec3 surface_colour(const Scene& scene, const Material& material, const SurfacePoint& point) {
-    if (material.texture < 0) return material.colour * point.colour;
-    const RgbaF texel = sample_texture(scene.textures[static_cast<std::size_t>(material.texture)], point.uv);
-    return material.colour * point.colour * glm::vec3(texel.r, texel.g, texel.b);
-}
-
-}  // namespace
-
 LightTransport::Vertex LightTransport::vertex_at(const SurfacePoint& point, const glm::vec3& direction) const {
     const Material& material = material_of(point);
     const glm::vec3 to_viewer = -direction;
-    const Frame frame(facing_normal(normal_in_relief(scene_, material, point), to_viewer));
+    const Frame frame(facing_normal(normal_in_relief(point), to_viewer));
     return {
         point, frame,
         Surface(model_of(point), surface_colour(scene_, material, point), frame.to_local(to_viewer), !point.front_side),

@@ -5,11 +5,11 @@
 // Radiance is not scaled by the squared index of refraction inside glass: all lights are outside, where it cancels.
 
 #include "capture/tracer/integrator/medium_stack.hpp"
-#include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/integrator/sampler.hpp"
 #include "capture/tracer/integrator/surface.hpp"
 #include "capture/tracer/light/directions.hpp"
 #include "capture/tracer/light/light_set.hpp"
+#include "capture/tracer/rays/ray_scene.hpp"
 
 #include <cstddef>
 #include <span>
@@ -129,12 +129,19 @@ public:
     [[nodiscard]] glm::vec3 light_sample(const Vertex& vertex, float u_source, const glm::vec2& u, int count = 1) const;
     [[nodiscard]] Segment segment_from(const Vertex& vertex, const SurfaceSample& drawn, int light_samples = 1) const;
 
+    // The shading normal where the material has relief. Sides that are seen from behind have the front's, turned over.
+    [[nodiscard]] glm::vec3 normal_in_relief(const SurfacePoint& point) const;
+
     [[nodiscard]] const Material& material_of(const SurfacePoint& point) const {
         return scene_.materials[static_cast<std::size_t>(point.material)];
     }
     [[nodiscard]] const SurfaceModel& model_of(const SurfacePoint& point) const {
         return models_[static_cast<std::size_t>(point.material)];
     }
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const std::vector<SurfaceModel>& models() const { return models_; }
+    // Whether a camera ray brings nothing but what the surface sends that it meets, unless the surface itself shines.
+    [[nodiscard]] bool sees_surfaces_only() const { return !seen_.areas || lights_.area_count() == 0; }
     [[nodiscard]] const RayScene& rays() const { return rays_; }
     [[nodiscard]] const LightSet& lights() const { return lights_; }
 

@@ -1,7 +1,6 @@
 #include "capture/tracer/integrator/whitted.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace rs::capture {
 
@@ -60,66 +59,6 @@ bool WhittedTracer::shade(const LightTransport::Vertex& vertex, const glm::vec3&
     return true;
 }
 
-void WhittedTracer::trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
-    constexpr std::size_t kBatch = 64;  // what the nearest cache holds
-    Batch batch;
-    for (std::size_t first = 0; first < rays.size(); first += kBatch) {
-        const std::size_t count = std::min(kBatch, rays.size() - first);
-        trace_batch(rays.subspan(first, count), arrived.subspan(first, count), batch);
-    }
-}
-
-void WhittedTracer::trace_batch(std::span<CameraRay> rays, std::span<Arrived> arrived, Batch& batch) const {
-    using Met = LightTransport::Met;
-    constexpr float kFar = std::numeric_limits<float>::infinity();
-    batch.queries.clear();
-    batch.surfaces.clear();
-    for (const CameraRay& ray : rays) batch.queries.push_back({ray.origin, ray.direction, ray.time, kFar});
-    batch.hits.resize(rays.size());
-    transport_.rays().intersect_many(batch.queries, batch.hits);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const RayScene::Hit& hit = batch.hits[i];
-        Ray ray{LightTransport::camera_segment(rays[i].origin, rays[i].direction, rays[i].time)};
-        arrived[i] = {};
-        SurfacePoint point;
-        if (hit.met()) transport_.rays().surface_at(hit, rays[i].direction, rays[i].time, point);
-        const Met met =
-            transport_.arrive(ray.segment, hit.met(), ray.media, ray.throughput, arrived[i].radiance, point);
-        arrived[i].met = met != Met::kNothing;
-        if (met != Met::kSurface) continue;
-        batch.surfaces.push_back({i, ray, transport_.vertex_at(point, rays[i].direction), glm::vec3(0.0F)});
-    }
-    light_surfaces(rays, batch);
-    for (const Batch::Lit& lit : batch.surfaces) {
-        Arrived& into = arrived[lit.ray];
-        into.radiance += lit.followed.throughput * lit.sent;
-        follow_mirrors(lit.followed, lit.vertex, rays[lit.ray].sampler, into.radiance);
-    }
-}
-
-// Light by light, so that the rays of a packet go the same way; what a surface sends is summed in the order of shade().
-void WhittedTracer::light_surfaces(std::span<CameraRay> rays, Batch& batch) const {
-    for (Batch::Lit& lit : batch.surfaces) {
-        if (!lit.vertex.surface.is_specular()) lit.sent += matte_light(lit.vertex);
-    }
-    for (std::size_t light = 0; light < transport_.lights().light_count(); ++light) {
-        batch.queries.clear();
-        batch.brought.clear();
-        for (Batch::Lit& lit : batch.surfaces) {
-            if (lit.vertex.surface.is_specular()) continue;
-            const auto shadow = shadow_of(light, lit.vertex, rays[lit.ray].sampler);
-            if (!shadow) continue;
-            batch.queries.push_back(shadow->ray);
-            batch.brought.push_back({&lit, shadow->light});
-        }
-        batch.hidden.resize(batch.queries.size());
-        transport_.rays().occluded_many(batch.queries, batch.hidden);
-        for (std::size_t i = 0; i < batch.brought.size(); ++i) {
-            if (batch.hidden[i] == 0) batch.brought[i].to->sent += batch.brought[i].light;
-        }
-    }
-}
-
 std::optional<WhittedTracer::Shadow> WhittedTracer::shadow_of(std::size_t number, const LightTransport::Vertex& vertex,
                                                               Sampler& sampler) const {
     const LightSet& lights = transport_.lights();
@@ -144,10 +83,13 @@ bool WhittedTracer::is_metal(const LightTransport::Vertex& vertex) const {
 // What comes from everywhere: a surface reflects it by its colour, and where it is thin, lets some through.
 glm::vec3 WhittedTracer::matte_light(const LightTransport::Vertex& vertex) const {
     if (is_metal(vertex)) return glm::vec3(0.0F);
-    const glm::vec3 colour = vertex.surface.colour();
-    const float through = transport_.model_of(vertex.point).translucency;
-    const glm::vec3 near = irradiance_.at(vertex.frame.normal), far = irradiance_.at(-vertex.frame.normal);
-    return colour * (ambient_ + ((1.0F - through) * near + through * far) / kPiF);
+    return vertex.surface.colour() *
+           from_everywhere(vertex.frame.normal, transport_.model_of(vertex.point).translucency);
+}
+
+glm::vec3 WhittedTracer::from_everywhere(const glm::vec3& normal, float translucency) const {
+    const glm::vec3 near = irradiance_.at(normal), far = irradiance_.at(-normal);
+    return ambient_ + ((1.0F - translucency) * near + translucency * far) / kPiF;
 }
 
 }  // namespace rs::capture

@@ -11,6 +11,7 @@
 //
 // Rays whose light would come to less than 1/256 of the picture's are not followed.
 
+#include "capture/tracer/integrator/packet_materials.hpp"
 #include "capture/tracer/integrator/transport.hpp"
 #include "capture/tracer/light/irradiance_map.hpp"
 
@@ -31,11 +32,13 @@ public:
           irradiance_(std::move(irradiance)),
           ambient_(ambient),
           max_depth_(max_depth),
-          soft_shadows_(soft_shadows) {}
+          soft_shadows_(soft_shadows),
+          materials_(transport.scene(), transport.models()) {}
 
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
-    // Camera rays and those to lights in packets, light by light; mirrors and glass are followed ray by ray.
+    // Camera rays and those to lights in packets (packets/packet.hpp), light by light; mirrors and glass are followed
+    // ray by ray.
     void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override;
 
 protected:
@@ -57,26 +60,13 @@ private:
         RayScene::Ray ray;
         glm::vec3 light;
     };
-    // Rays of neighbours, and what they have met; kept from one batch to the next, for its memory.
-    struct Batch {
-        struct Lit {
-            std::size_t ray;  // of the batch
-            Ray followed;
-            LightTransport::Vertex vertex;
-            glm::vec3 sent;
-        };
-        struct Brought {
-            Lit* to;
-            glm::vec3 light;
-        };
-        std::vector<RayScene::Ray> queries;
-        std::vector<RayScene::Hit> hits;
-        std::vector<Lit> surfaces;
-        std::vector<Brought> brought;
-        std::vector<std::uint8_t> hidden;
-    };
-    void trace_batch(std::span<CameraRay> rays, std::span<Arrived> arrived, Batch& batch) const;
-    void light_surfaces(std::span<CameraRay> rays, Batch& batch) const;
+    // Sixteen rays of neighbours, and what they have met.
+    struct Packet;
+    void meet(std::span<const CameraRay> rays, std::span<Arrived> arrived, Packet& packet) const;
+    bool arrive_at(std::size_t lane, const Packet& packet, Arrived& arrived) const;
+    void make_ready(Packet& packet) const;
+    void light_packet(std::size_t light, std::span<CameraRay> rays, Packet& packet) const;
+    void finish(std::span<CameraRay> rays, std::span<Arrived> arrived, const Packet& packet) const;
     bool follow(const Ray& ray, Sampler& sampler, glm::vec3& radiance) const;
     void follow_mirrors(const Ray& ray, const LightTransport::Vertex& vertex, Sampler& sampler,
                         glm::vec3& radiance) const;
@@ -85,12 +75,14 @@ private:
                                                   Sampler& sampler) const;
     [[nodiscard]] bool is_metal(const LightTransport::Vertex& vertex) const;
     [[nodiscard]] glm::vec3 matte_light(const LightTransport::Vertex& vertex) const;
+    [[nodiscard]] glm::vec3 from_everywhere(const glm::vec3& normal, float translucency) const;
 
     LightTransport transport_;
     IrradianceMap irradiance_;
     glm::vec3 ambient_;
     int max_depth_;
     bool soft_shadows_;
+    PacketMaterials materials_;
 };
 
 }  // namespace rs::capture

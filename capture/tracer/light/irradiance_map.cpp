@@ -64,7 +64,7 @@ IrradianceMap::IrradianceMap(const EnvironmentMap& environment) {
 }
 
 glm::vec3 IrradianceMap::at(const glm::vec3& normal) const {
-    if (grid_.width() == 0) return glm::vec3(0.0F);
+    if (is_black()) return glm::vec3(0.0F);
     const float y = std::acos(std::clamp(normal.y, -1.0F, 1.0F)) / kPiF * (kRows - 1);
     float x = std::atan2(normal.x, -normal.z) / (2.0F * kPiF) * kColumns;
     if (x < 0.0F) x += kColumns;

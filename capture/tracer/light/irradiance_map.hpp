@@ -15,6 +15,8 @@ public:
     // 3 degrees are known. Thread-safe.
     [[nodiscard]] glm::vec3 at(const glm::vec3& normal) const;
 
+    [[nodiscard]] bool is_black() const { return grid_.width() == 0; }
+
 private:
     Image<RgbaF> grid_;  // empty: no light
 };

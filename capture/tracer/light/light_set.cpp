@@ -153,6 +153,7 @@ void LightSet::place_lights(float turn_rad) {
         area.area = static_cast<float>(area_of(light));
         area.round = light.kind == LightKind::kDisc;
     }
+    place_points();
 }
 
 float LightSet::estimate(const Source& source, const glm::vec3& position) const {

@@ -9,6 +9,7 @@
 
 #include "capture/tracer/light/environment_map.hpp"
 #include "capture/tracer/light/photon.hpp"
+#include "capture/tracer/packets/light_lanes.hpp"
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/light/light.hpp"
 
@@ -26,6 +27,8 @@ struct LightSample {
     float pdf;  // > 0
     bool delta;
 };
+// Lights a lane by it.
+void set_lane(std::size_t lane, const LightSample& sample, LightLanes& arrives);
 
 class LightSet {
 public:
@@ -76,6 +79,8 @@ public:
     // Each source but the environment as one point that stands for all of it: areas, and each mesh that shines, by
     // their middle. `radiance / pdf` is irradiance. Nothing where it does not light the place.
     [[nodiscard]] std::optional<LightSample> middle(std::size_t number, const glm::vec3& position) const;
+    // The same for the places of sixteen rays, as far as they are wanted; false where no lane is lit.
+    bool middle(std::size_t number, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives) const;
     // The same, but each area by a point of it, and all meshes that shine by one point together; `draw` says where.
     [[nodiscard]] std::optional<LightSample> point(std::size_t number, const glm::vec3& position,
                                                    const std::function<glm::vec2()>& draw) const;
@@ -150,6 +155,7 @@ private:
     void gather_glow(const Mesh& mesh);
     void add_light(const Light& light);
     void place_lights(float turn_rad);
+    void place_points();
     [[nodiscard]] float estimate(const Source& source, const glm::vec3& position) const;
     [[nodiscard]] static float probability(const Selection& selection, float estimate) {
         return estimate > 0.0F ? 0.5F * (selection.even + estimate / selection.total) : 0.0F;
@@ -175,11 +181,12 @@ private:
     const Scene& scene_;
     float environment_turn_rad_;  // at construction
     EnvironmentMap environment_;
-    float turn_rad_ = 0.0F;      // since construction
-    Extent extent_;              // nearer than its radius, surfaces that shine are not thought to be brighter
-    std::vector<Light> lights_;  // those of the scene that shine, as they are turned now
-    std::vector<Light> still_;   // the same as they were at construction
-    std::vector<Cone> cones_;    // of lights_
+    float turn_rad_ = 0.0F;           // since construction
+    Extent extent_;                   // nearer than its radius, surfaces that shine are not thought to be brighter
+    std::vector<Light> lights_;       // those of the scene that shine, as they are turned now
+    std::vector<Light> still_;        // the same as they were at construction
+    std::vector<Cone> cones_;         // of lights_
+    std::vector<PointLight> points_;  // of lights_; those of areas and directional lights are not used
     std::vector<Area> areas_;
     std::vector<std::unique_ptr<const Mesh>> placed_;  // meshes of instances that shine, in the world
     std::vector<Emitter> emitters_;

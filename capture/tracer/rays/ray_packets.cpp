@@ -5,12 +5,11 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace rs::capture {
 
 namespace {
-
-constexpr std::size_t kLanes = 16;
 
 // Fills the lanes that have a ray and gives how many they are.
 std::size_t fill(std::span<const RayScene::Ray> rays, RTCRay16& packet, int (&valid)[kLanes]) {
@@ -85,29 +84,82 @@ void RayScene::occluded_many(std::span<const Ray> rays, std::span<std::uint8_t> 
             rtcOccluded16(valid, moving_->embree(), &context, &packet);
         }
         for (std::size_t i = 0; i < count; ++i) {
-            bool in_the_way = packet.tfar[i] < 0.0F;
-            if (!in_the_way && primitives_) {
-                // Primitives take one ray at a time.
-                const Ray& ray = rays[first + i];
-                RTCIntersectContext single = incoherent();
-                RTCRay asked{ray.origin.x,
-                             ray.origin.y,
-                             ray.origin.z,
-                             0.0F,
-                             ray.direction.x,
-                             ray.direction.y,
-                             ray.direction.z,
-                             ray.time,
-                             ray.reach,
-                             0xFFFFFFFFU,
-                             0,
-                             0};
-                rtcOccluded1(primitives_.get(), &single, &asked);
-                in_the_way = asked.tfar < 0.0F;
-            }
+            const Ray& ray = rays[first + i];
+            const bool in_the_way =
+                packet.tfar[i] < 0.0F || primitive_occludes(ray.origin, ray.direction, ray.reach, ray.time);
             hidden[first + i] = in_the_way ? 1 : 0;
         }
     }
+}
+
+// Primitives take one ray at a time.
+bool RayScene::primitive_occludes(const glm::vec3& origin, const glm::vec3& direction, float distance,
+                                  float time) const {
+    if (!primitives_) return false;
+    RTCIntersectContext context = incoherent();
+    RTCRay ray{origin.x,    origin.y, origin.z, 0.0F,        direction.x, direction.y,
+               direction.z, time,     distance, 0xFFFFFFFFU, 0,           0};
+    rtcOccluded1(primitives_.get(), &context, &ray);
+    return ray.tfar < 0.0F;
+}
+
+void RayScene::intersect(const MaskLanes& asked, MetLanes& met) const {
+    static_assert(sizeof(MetLanes) == sizeof(RTCRayHit16) && offsetof(MetLanes, hit) == offsetof(RTCRayHit16, hit));
+    static_assert(offsetof(RayLanes, reach) == offsetof(RTCRay16, tfar));
+    static_assert(offsetof(HitLanes, instance) == offsetof(RTCHit16, instID));
+    auto* packet = reinterpret_cast<RTCRayHit16*>(&met);
+    RTCIntersectContext context = coherent();
+    rtcIntersect16(asked.of.data(), still_->embree(), &context, packet);
+    if (!moving_) return;
+    context = incoherent();
+    rtcIntersect16(asked.of.data(), moving_->embree(), &context, packet);
+}
+
+void RayScene::occluded(const MaskLanes& asked, RayLanes& rays) const {
+    auto* packet = reinterpret_cast<RTCRay16*>(&rays);
+    RTCIntersectContext context = coherent();
+    const Lanes reach = rays.reach;
+    rtcOccluded16(asked.of.data(), still_->embree(), &context, packet);
+    if (moving_) {
+        MaskLanes left;
+        for (std::size_t i = 0; i < kLanes; ++i) left[i] = rays.reach[i] < 0.0F ? 0 : asked[i];
+        context = incoherent();
+        rtcOccluded16(left.of.data(), moving_->embree(), &context, packet);
+    }
+    if (!primitives_) return;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        if (asked[i] == 0 || rays.reach[i] < 0.0F) continue;
+        const glm::vec3 origin(rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]);
+        const glm::vec3 direction(rays.direction.x[i], rays.direction.y[i], rays.direction.z[i]);
+        if (primitive_occludes(origin, direction, reach[i], rays.time[i])) rays.reach[i] = -1.0F;
+    }
+}
+
+const Mesh& RayScene::triangle_of(const MetLanes& met, std::size_t lane, TriangleLanes& triangles) const {
+    const HitLanes& hit = met.hit;
+    const unsigned instance = hit.instance[lane];
+    const Mesh& mesh = mesh_of(hit.mesh[lane], instance);
+    const glm::uvec3 t = mesh.triangles[hit.triangle[lane]];
+    const bool bent = !mesh.normals.empty(), mapped = !mesh.uvs.empty();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const unsigned vertex = t[static_cast<int>(i)];
+        triangles.corner[i].set(lane, mesh.positions[vertex]);
+        triangles.normal[i].set(lane, bent ? mesh.normals[vertex] : glm::vec3(0.0F));
+        triangles.uv[i].set(lane, mapped ? mesh.uvs[vertex] : glm::vec2(0.0F));
+    }
+    triangles.winding[lane] = 1.0F;
+    if (instance != RTC_INVALID_GEOMETRY_ID) {
+        Corners corners(mesh, t);
+        place(instance, met.ray.time[lane], corners);
+        for (std::size_t i = 0; i < 3; ++i) {
+            triangles.corner[i].set(lane, corners.places[i]);
+            triangles.normal[i].set(lane, corners.normals[i]);
+        }
+        triangles.winding[lane] = corners.winding;
+    }
+    triangles.u[lane] = hit.u[lane];
+    triangles.v[lane] = hit.v[lane];
+    return mesh;
 }
 
 }  // namespace rs::capture

@@ -44,7 +44,8 @@ void intersect_primitive(const RTCIntersectFunctionNArguments* arguments) {
 }
 
 // From the triangle's edges in space and on the texture; 0 where it has no area there.
-void set_texture_axes(const Mesh& mesh, const glm::uvec3& t, const glm::vec3* corners, SurfacePoint& point) {
+void set_texture_axes(const Mesh& mesh, const glm::uvec3& t, const std::array<glm::vec3, 3>& corners,
+                      SurfacePoint& point) {
     point.along_u = point.along_v = glm::vec3(0.0F);
     if (mesh.uvs.empty()) return;
     const glm::vec2 d1 = mesh.uvs[t.y] - mesh.uvs[t.x], d2 = mesh.uvs[t.z] - mesh.uvs[t.x];
@@ -176,34 +177,36 @@ bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, fl
     return true;
 }
 
+const Mesh& RayScene::mesh_of(unsigned mesh, unsigned instance) const {
+    return instance == RTC_INVALID_GEOMETRY_ID ? scene_->meshes[mesh]
+                                               : scene_->parts[scene_->instances[instance].part].meshes[mesh];
+}
+
+void RayScene::place(unsigned instance, float time, Corners& corners) const {
+    if (instance == RTC_INVALID_GEOMETRY_ID) return;
+    const PlacedAt placed = moving_->placed_at(instance, time);
+    for (glm::vec3& place : corners.places) place = glm::vec3(placed.world_from_part * glm::vec4(place, 1.0F));
+    for (glm::vec3& normal : corners.normals) normal = unit_or_zero(placed.normals * normal);
+    if (glm::determinant(placed.normals) < 0.0F) corners.winding = -1.0F;
+}
+
 void RayScene::surface_at(const Hit& hit, const glm::vec3& direction, float time, SurfacePoint& point) const {
-    const unsigned instance = hit.instance;
-    const bool moves = instance != RTC_INVALID_GEOMETRY_ID;
-    const Mesh& mesh =
-        moves ? scene_->parts[scene_->instances[instance].part].meshes[hit.mesh] : scene_->meshes[hit.mesh];
+    const Mesh& mesh = mesh_of(hit.mesh, hit.instance);
     const glm::uvec3 t = mesh.triangles[hit.triangle];
-    glm::vec3 corners[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
-    glm::vec3 normals[3] = {};
-    if (!mesh.normals.empty()) {
-        for (int i = 0; i < 3; ++i) normals[i] = mesh.normals[t[i]];
-    }
-    float winding = 1.0F;  // -1 where an instance mirrors
-    if (moves) {
-        const PlacedAt placed = moving_->placed_at(instance, time);
-        for (glm::vec3& corner : corners) corner = glm::vec3(placed.world_from_part * glm::vec4(corner, 1.0F));
-        for (glm::vec3& normal : normals) normal = unit_or_zero(placed.normals * normal);
-        if (glm::determinant(placed.normals) < 0.0F) winding = -1.0F;
-    }
+    Corners of(mesh, t);
+    place(hit.instance, time, of);
+    const auto& corners = of.places;
+    const auto& normals = of.normals;
     const float weights[3] = {1.0F - hit.u - hit.v, hit.u, hit.v};
     point.time = time;
-    point.light_drawn = !moves || !scene_->instances[instance].at_close;
+    point.light_drawn = hit.instance == RTC_INVALID_GEOMETRY_ID || !scene_->instances[hit.instance].at_close;
     point.position = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
     point.distance = hit.distance;
     point.material = mesh.material;
     point.uv = interpolate_uv(mesh, hit.triangle, hit.u, hit.v);
     point.colour = interpolate_colour(mesh, hit.triangle, hit.u, hit.v);
 
-    const glm::vec3 cross = winding * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const glm::vec3 cross = of.winding * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const float length = glm::length(cross);
     point.geometric_normal = length > 0.0F ? cross / length : -direction;
     point.front_side = glm::dot(point.geometric_normal, direction) < 0.0F;
@@ -221,7 +224,7 @@ void RayScene::surface_at(const Hit& hit, const glm::vec3& direction, float time
     // Some files wind triangles against their normals: the sides follow the winding, the curvature follows the normals.
     const float side = glm::dot(blended, point.geometric_normal) < 0.0F ? -1.0F : 1.0F;
     point.shading_normal = blended * (side / blended_length);
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
         const glm::vec3 normal = normals[i] * side;
         const float below = std::min(0.0F, glm::dot(point.position - corners[i], normal));
         point.lifted_position -= normal * (weights[i] * below);

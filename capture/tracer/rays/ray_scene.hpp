@@ -9,6 +9,7 @@
 // Each ray asks one after the other, what it met before being its end. Rays have a time, 0 where the shutter opens and
 // 1 where it closes, at which they see what moves.
 
+#include "capture/tracer/packets/packet.hpp"
 #include "capture/tracer/rays/mesh_tree.hpp"
 #include "capture/tracer/rays/moving_parts.hpp"
 #include "capture/tracer/scene/scene.hpp"
@@ -77,6 +78,11 @@ public:
     void intersect_many(std::span<const Ray> rays, std::span<Hit> hits) const;
     // 1 where something is in the way, primitives included; else 0.
     void occluded_many(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
+    // The same for the lanes `asked` of a packet; the others are left as they are. `met.hit.mesh` must be ~0 before.
+    void intersect(const MaskLanes& asked, MetLanes& met) const;
+    void occluded(const MaskLanes& asked, RayLanes& rays) const;
+    // The triangle that a lane has met, and its mesh.
+    const Mesh& triangle_of(const MetLanes& met, std::size_t lane, TriangleLanes& triangles) const;
     // What is where a ray has met something.
     void surface_at(const Hit& hit, const glm::vec3& direction, float time, SurfacePoint& point) const;
     // What a primitive answers that is nearer than `distance`.
@@ -105,7 +111,21 @@ public:
 private:
     RayScene() = default;
     static Result<RayScene> build(const Scene& scene);
+    // Of a triangle, as its mesh has it; place() puts it where its instance is.
+    struct Corners {
+        std::array<glm::vec3, 3> places;
+        std::array<glm::vec3, 3> normals{};  // 0 where the mesh has none
+        float winding = 1.0F;                // -1 where an instance mirrors
+        Corners(const Mesh& mesh, const glm::uvec3& t)
+            : places{mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]} {
+            if (!mesh.normals.empty()) normals = {mesh.normals[t.x], mesh.normals[t.y], mesh.normals[t.z]};
+        }
+    };
+    [[nodiscard]] const Mesh& mesh_of(unsigned mesh, unsigned instance) const;
+    void place(unsigned instance, float time, Corners& corners) const;
     void add_primitives();
+    [[nodiscard]] bool primitive_occludes(const glm::vec3& origin, const glm::vec3& direction, float distance,
+                                          float time) const;
     void measure();
 
     const Scene* scene_ = nullptr;

@@ -5,9 +5,14 @@
 #include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 
 namespace rs::capture::test {
 namespace {
@@ -108,14 +113,103 @@ TEST(Packets, OfNeighboursComeBackFromInstances) {
     }
 }
 
-TEST(Packets, OfWhittedGiveTheBitsOfSingleRays) {
-    const Scene scene = scene_of_all_kinds();
+// A ball that shines without a mesh.
+class ShiningBall final : public RayPrimitive {
+public:
+    [[nodiscard]] Box bounds() const override { return {kMiddle - kRadius, kMiddle + kRadius}; }
+    [[nodiscard]] std::optional<Answer> answer(const glm::vec3& origin, const glm::vec3& direction) const override {
+        const glm::vec3 way = origin - kMiddle;
+        const float b = glm::dot(way, direction), root = b * b - glm::dot(way, way) + kRadius * kRadius;
+        if (root < 0.0F || -b - std::sqrt(root) <= 0.0F) return std::nullopt;
+        return Answer{-b - std::sqrt(root), {0.5F, 0.2F, 0.9F}};
+    }
+
+private:
+    static constexpr glm::vec3 kMiddle{0.6F, 0.4F, 2.2F};
+    static constexpr float kRadius = 0.4F;
+};
+
+// Beside all kinds: relief, a border that goes on, vertices with colours, light that comes through, sides that are not
+// there, what shines, a part that is mirrored, and every kind of light.
+Scene scene_of_all_details() {
+    Scene scene = scene_of_all_kinds();
+    Texture stripes;
+    stripes.pixels = Image<RgbaF>(5, 3, {0.2F, 0.5F, 0.9F, 1});
+    for (int x = 0; x < 5; ++x) stripes.pixels(x, x % 3) = {0.9F, 0.4F, 0.1F, 1};
+    stripes.repeat_u = false;
+    scene.textures.push_back(stripes);
+    Texture bumps;
+    bumps.pixels = Image<RgbaF>(4, 4, {0.3F, -0.2F, 1, 1});
+    bumps.pixels(1, 2) = {0, 0, 1, 1};
+    scene.reliefs.push_back(bumps);
+    const auto add = [&](Mesh mesh, Material material, glm::vec3 place) {
+        mesh.material = static_cast<int>(scene.materials.size());
+        for (glm::vec3& p : mesh.positions) p = 0.45F * p + place;
+        scene.materials.push_back(material);
+        scene.meshes.push_back(std::move(mesh));
+    };
+    Mesh card = make_quad({-1, -1, 0}, {2, 0, 0.4F}, {0, 2, 0});
+    Material material = material_of(SurfaceKind::diffuse, {0.8F, 0.7F, 0.6F});
+    material.texture = 1;
+    material.relief = 0;
+    add(card, material, {-2.4F, 1.2F, 2});
+    material = material_of(SurfaceKind::diffuse, {0.3F, 0.9F, 0.4F});
+    material.translucency = 0.4F;
+    card.colours = {{1, 0.5F, 0.2F}, {0.3F, 1, 1}, {1, 1, 0.1F}, {0.6F, 0.2F, 1}};
+    add(card, material, {-1.2F, 1.2F, 2});
+    material = material_of(SurfaceKind::glossy, glm::vec3(0.7F), 0.05F);
+    material.two_sided = false;
+    add(card, material, {0, 1.2F, 2});
+    for (glm::uvec3& t : card.triangles) std::swap(t.x, t.y);
+    add(card, material, {1.2F, 1.2F, 2});
+    material = material_of(SurfaceKind::glossy, glm::vec3(0.4F), 0.9F);
+    material.emission = {0.4F, 0.3F, 0.1F};
+    material.emission_texture = 1;
+    add(card, material, {2.4F, 1.2F, 2});
+    material = material_of(SurfaceKind::diffuse, {0.9F, 0.3F, 0.3F});
+    material.translucency = 0.6F;
+    add(make_sphere(1), material, {-1.2F, -0.1F, 3.2F});  // coarse: its rim has normals that face away
+    material = material_of(SurfaceKind::glossy, glm::vec3(0.6F), 0.2F);
+    material.two_sided = false;
+    Mesh ball = make_sphere(2);
+    ball.material = static_cast<int>(scene.materials.size());
+    scene.materials.push_back(material);
+    scene.parts.push_back({"mirrored", {ball}});
+    scene.instances.push_back({scene.parts.size() - 1, glm::translate(glm::dmat4(1), {1.4, -0.2, 3.2}) *
+                                                           glm::scale(glm::dmat4(1), {-0.4, 0.5, 0.4})});
+
+    Light spot = point_light({-2, 4, 3}, glm::vec3(60));
+    spot.kind = LightKind::kSpot;
+    spot.towards = glm::normalize(glm::dvec3(1, -2, -1));
+    spot.cut_off_rad = 0.7;
+    spot.beam_width_rad = 0.3;
+    Light lamp = point_light({1, 2.5, 3}, glm::vec3(1));
+    lamp.attenuation = {1, 0.2F, 0.1F};
+    lamp.least_attenuation = 1;
+    lamp.radius = 4;
+    Light disc = rectangle_light({2, 3, 1}, {1, 0, 0}, {0, 0, 1}, {2, 1, 3});
+    disc.kind = LightKind::kDisc;
+    Light luminaire = point_light({-1, 3, 2}, glm::vec3(1));
+    luminaire.kind = LightKind::kLuminaire;
+    auto read = parse_ies(
+        "TILT=NONE\n1 -1 100 3 5 1 2 0 0 0 1 1 9\n0 45 90\n0 90 180 270 360\n"
+        "100 80 10 100 120 30 100 40 5 100 60 20 100 80 10\n",
+        "test.ies");
+    EXPECT_TRUE(read);
+    luminaire.luminaire = std::make_shared<const Luminaire>(std::move(read).value());
+    scene.lights.insert(scene.lights.end(), {spot, lamp, disc, luminaire});
+    scene.primitives.push_back(std::make_shared<const ShiningBall>());
+    return scene;
+}
+
+void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float environment, Seen seen, bool soft_shadows) {
     const auto rays = RayScene::create(scene);
     ASSERT_TRUE(rays);
-    const LightSet lights(scene, constant_environment(0.3F), {glm::vec3(0), 6.0F});
+    const LightSet lights(scene, environment > 0 ? constant_environment(environment) : Environment{},
+                          {glm::vec3(0), 6.0F});
     const auto models = make_surface_models(scene.materials);
-    const LightTransport transport(scene, *rays, lights, models, {true, true});
-    const WhittedTracer tracer(transport, IrradianceMap(lights.environment()), glm::vec3(0.1F), 8);
+    const LightTransport transport(scene, *rays, lights, models, seen);
+    const WhittedTracer tracer(transport, IrradianceMap(lights.environment()), glm::vec3(0.1F), 8, soft_shadows);
     const Camera camera = look_at_camera({0.3, 1.2, 6}, {0, 0, 0}, radians(60), 61, 47);
     std::vector<CameraRay> many;
     for (int y = 0; y < 47; ++y) {
@@ -126,17 +220,61 @@ TEST(Packets, OfWhittedGiveTheBitsOfSingleRays) {
                 {glm::vec3(camera.centre()), glm::vec3(glm::normalize(camera.ray(x + 0.5, y + 0.5))), time, sampler});
         }
     }
-    std::vector<Arrived> arrived(many.size());
-    tracer.trace_many(many, arrived);
+    std::vector<Arrived> single(many.size());
+    std::vector<int> met(scene.materials.size());
     double sum = 0;
     for (std::size_t i = 0; i < many.size(); ++i) {
-        glm::vec3 radiance;
         Sampler sampler = many[i].sampler;
-        ASSERT_EQ(tracer.trace(many[i].origin, many[i].direction, many[i].time, sampler, radiance), arrived[i].met);
-        ASSERT_EQ(radiance, arrived[i].radiance) << i;
-        sum += static_cast<double>(radiance.g);
+        single[i].met = tracer.trace(many[i].origin, many[i].direction, many[i].time, sampler, single[i].radiance);
+        sum += static_cast<double>(single[i].radiance.g);
+        SurfacePoint point{};
+        if (rays->intersect(many[i].origin, many[i].direction, many[i].time, point)) {
+            ++met[static_cast<std::size_t>(point.material)];
+        }
     }
     EXPECT_GT(sum, 100);
+    for (std::size_t i = 0; i < met.size(); ++i) EXPECT_GT(met[i], 20) << "material " << i;
+    // Whole packets, parts of them, and none.
+    for (const std::size_t at_once : {many.size(), std::size_t{256}, std::size_t{1}, std::size_t{15}, std::size_t{17},
+                                      std::size_t{65}, std::size_t{0}}) {
+        std::vector<CameraRay> asked = many;
+        std::vector<Arrived> arrived(many.size());
+        for (std::size_t i = 0; i < many.size(); i += std::max<std::size_t>(at_once, 1)) {
+            const std::size_t count = std::min(at_once, many.size() - i);
+            tracer.trace_many(std::span(asked).subspan(i, count), std::span(arrived).subspan(i, count));
+            if (at_once == 0) break;
+        }
+        for (std::size_t i = 0; i < many.size() && at_once > 0; ++i) {
+            ASSERT_EQ(single[i].met, arrived[i].met) << i << ", " << at_once << " at once";
+            ASSERT_EQ(single[i].radiance, arrived[i].radiance) << i << ", " << at_once << " at once";
+        }
+    }
+}
+
+TEST(Packets, OfWhittedGiveTheBitsOfSingleRays) {
+    for (const Scene& scene : {scene_of_all_kinds(), scene_of_all_details()}) {
+        for (const bool soft_shadows : {false, true}) {
+            expect_whitted_gives_the_bits_of_single_rays(scene, 0.3F, {true, true}, soft_shadows);
+            expect_whitted_gives_the_bits_of_single_rays(scene, 0, {}, soft_shadows);
+        }
+    }
+}
+
+TEST(Packets, GiveTheSameBitsOnEveryTarget) {
+    const Scene scene = scene_of_all_details();
+    std::int64_t targets = hwy::SupportedTargets();
+    int tried = 0;
+    for (; targets != 0; ++tried) {
+        const std::int64_t target = targets & -targets;
+        targets &= targets - 1;
+        SCOPED_TRACE(hwy::TargetName(target));
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        expect_whitted_gives_the_bits_of_single_rays(scene, 0.3F, {true, true}, false);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    EXPECT_GT(tried, 0);
 }
 
 }  // namespace

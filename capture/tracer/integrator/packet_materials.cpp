@@ -1,0 +1,46 @@
+#include "capture/tracer/integrator/packet_materials.hpp"
+
+#include "capture/tracer/light/directions.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace rs::capture {
+
+void PacketMaterial::fill(std::size_t lane, MaterialLanes& lanes) const {
+    lanes.kind[lane] = static_cast<float>(kind);
+    lanes.alpha[lane] = alpha;
+    lanes.ior[lane] = ior;
+    lanes.translucency[lane] = translucency;
+    lanes.base[lane] = base;
+    lanes.table[lane] = table;
+}
+
+PacketMaterials::PacketMaterials(const Scene& scene, const std::vector<SurfaceModel>& models) {
+    tables_.assign(AlbedoTable::kSize, 0.0F);  // of materials without one
+    std::map<const AlbedoTable*, std::int32_t> places = {{nullptr, 0}};
+    materials_.reserve(scene.materials.size());
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& of = scene.materials[i];
+        const SurfaceModel& model = models[i];
+        const AlbedoTable* table = model.albedo.get();
+        const auto [place, is_new] = places.try_emplace(table, static_cast<std::int32_t>(tables_.size()));
+        if (is_new) tables_.insert(tables_.end(), table->values().begin(), table->values().end());
+        PacketMaterial material{};
+        material.number = static_cast<int>(i);
+        material.kind = model.kind;
+        material.colour = of.colour;
+        material.texture = of.texture < 0 ? nullptr : &scene.textures[static_cast<std::size_t>(of.texture)];
+        material.alpha = model.alpha;
+        material.ior = model.ior;
+        material.translucency = model.translucency;
+        material.base = table == nullptr ? 1.0F : std::max(1.0F - table->mean(), 1e-4F);
+        material.table = place->second;
+        material.shines = max_component(of.emission) > 0.0F;
+        material.relief = of.relief >= 0;
+        material.one_sided = !of.two_sided && of.kind != SurfaceKind::glass;
+        materials_.push_back(material);
+    }
+}
+
+}  // namespace rs::capture

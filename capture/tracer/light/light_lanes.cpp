@@ -1,0 +1,81 @@
+// The part of LightSet that lights the places of sixteen rays at a time.
+#include "capture/tracer/packets/light_lanes.hpp"
+
+#include "capture/tracer/light/directions.hpp"
+#include "capture/tracer/light/light_set.hpp"
+
+namespace rs::capture {
+
+namespace {
+
+glm::vec3 of_lane(const Lanes3& lanes, std::size_t lane) {
+    return {lanes.x[lane], lanes.y[lane], lanes.z[lane]};
+}
+
+}  // namespace
+
+void set_lane(std::size_t lane, const LightSample& sample, LightLanes& arrives) {
+    arrives.lit[lane] = -1;
+    arrives.direction.set(lane, sample.direction);
+    arrives.distance[lane] = sample.distance;
+    arrives.radiance.set(lane, sample.radiance);
+    arrives.pdf[lane] = sample.pdf;
+    arrives.delta = sample.delta;
+}
+
+void LightSet::place_points() {
+    points_.clear();
+    for (const Source& source : sources_) {
+        if (source.kind != SourceKind::local) continue;
+        const Light& light = lights_[source.index];
+        points_.resize(lights_.size());
+        points_[source.index] = {light.location,
+                                 light.radius,
+                                 light.attenuation,
+                                 light.least_attenuation,
+                                 kPiF * light.colour,
+                                 source.power,
+                                 cones_[source.index].towards,
+                                 cones_[source.index].least_cos,
+                                 light.kind == LightKind::kLuminaire};
+    }
+}
+
+bool LightSet::middle(std::size_t number, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives) const {
+    MaskLanes asked = wanted;
+    if (number < sources_.size()) {
+        const Source& source = sources_[number];
+        switch (source.kind) {
+            case SourceKind::environment:
+            case SourceKind::emitters:
+                return false;
+            case SourceKind::distant: {
+                // From the same direction everywhere.
+                const auto light = sample_light(lights_[source.index], glm::vec3(0.0F), 1.0F);
+                if (!light) return false;
+                light_from_afar(light->direction, light->radiance, wanted, arrives);
+                return true;
+            }
+            case SourceKind::local:
+                if (lights_[source.index].kind == LightKind::kPoint) {
+                    return light_from_point(points_[source.index], places, wanted, arrives);
+                }
+                if (!reach_of_point(points_[source.index], places, wanted, asked)) return false;
+                break;
+            case SourceKind::area:
+                break;
+        }
+    }
+    arrives.lit = {};
+    bool some = false;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        if (asked[lane] == 0) continue;
+        const auto light = middle(number, of_lane(places, lane));
+        if (!light) continue;
+        set_lane(lane, *light, arrives);
+        some = true;
+    }
+    return some;
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,57 @@
+#pragma once
+// One light that falls on sixteen surfaces. The twins are LightSet::middle(), Surface::evaluate() and what Whitted's
+// ray tracing does between them.
+
+#include "capture/tracer/packets/surface_lanes.hpp"
+
+#include <glm/glm.hpp>
+
+namespace rs::capture {
+
+// As LightSample has it, for the lanes that are `lit`.
+struct LightLanes {
+    MaskLanes lit;
+    Lanes3 direction;
+    Lanes distance;
+    Lanes3 radiance;
+    Lanes pdf;
+    bool delta = true;  // all lanes; `pdf` is 1 then, and is not looked at
+};
+
+// A point, a spot or a luminaire, as far as it is known without its web or its cone.
+struct PointLight {
+    glm::dvec3 location{0.0};
+    double radius = 0;
+    glm::vec3 attenuation{1, 0, 0};
+    float least_attenuation = 1;
+    glm::vec3 colour{0};  // pi times the light's
+    // What LightSet estimates by.
+    float power = 0;
+    glm::vec3 towards{0};
+    float least_cos = -1;
+    bool by_square = false;  // whatever the attenuation
+};
+
+// The same light everywhere; `direction` has unit length and goes to it.
+void light_from_afar(const glm::vec3& direction, const glm::vec3& irradiance, const MaskLanes& wanted,
+                     LightLanes& arrives);
+
+// Which of `places` the light may reach: where LightSet's estimate is above 0. False where it is none.
+bool reach_of_point(const PointLight& light, const Lanes3& places, const MaskLanes& wanted, MaskLanes& reached);
+
+// The light of a point with nothing in between; false where no lane is lit.
+bool light_from_point(const PointLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives);
+
+// What light makes surfaces of matte, coated and metal materials send to their viewers, and the rays that have to find
+// nothing in the way; false where there are none.
+struct SentLanes {
+    MaskLanes asked;  // lanes that have a ray
+    RayLanes ray;     // `time` is not touched
+    Lanes3 light;
+};
+bool send_light(const SurfaceLanes& surfaces, const LightLanes& arrives, const float* tables, SentLanes& sent);
+
+// Adds the light of the rays that have found nothing in the way to `sum`.
+void add_light(const SentLanes& sent, Lanes3& sum);
+
+}  // namespace rs::capture
