@@ -62,11 +62,12 @@ private:
     };
     // Sixteen rays of neighbours, and what they have met.
     struct Packet;
+    void trace_packet(std::span<CameraRay> rays, std::span<Arrived> arrived, Packet& packet) const;
     void meet(std::span<const CameraRay> rays, std::span<Arrived> arrived, Packet& packet) const;
     bool arrive_at(std::size_t lane, const Packet& packet, Arrived& arrived) const;
     void make_ready(Packet& packet) const;
     void light_packet(std::size_t light, std::span<CameraRay> rays, Packet& packet) const;
-    void finish(std::span<CameraRay> rays, std::span<Arrived> arrived, const Packet& packet) const;
+    void go_on(std::span<CameraRay> rays, std::span<Arrived> arrived, const Packet& packet) const;
     bool follow(const Ray& ray, Sampler& sampler, glm::vec3& radiance) const;
     void follow_mirrors(const Ray& ray, const LightTransport::Vertex& vertex, Sampler& sampler,
                         glm::vec3& radiance) const;

@@ -12,8 +12,6 @@ namespace rs::capture {
 
 namespace {
 
-constexpr std::size_t kAtOnce = 4;  // packets that are lit together, light by light
-
 glm::vec3 of_lane(const Lanes3& lanes, std::size_t lane) {
     return {lanes.x[lane], lanes.y[lane], lanes.z[lane]};
 }
@@ -60,25 +58,24 @@ void WhittedTracer::Packet::take(std::span<const CameraRay> rays) {
 }
 
 void WhittedTracer::trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
-    std::array<Packet, kAtOnce> packets;
-    for (std::size_t first = 0; first < rays.size(); first += kAtOnce * kLanes) {
-        const std::size_t count = (std::min(kAtOnce * kLanes, rays.size() - first) + kLanes - 1) / kLanes;
-        const auto of_packet = [&](auto all, std::size_t i) {
-            const std::size_t from = first + i * kLanes;
-            return all.subspan(from, std::min(kLanes, all.size() - from));
-        };
-        for (std::size_t i = 0; i < count; ++i) {
-            packets[i].take(of_packet(rays, i));
-            meet(of_packet(rays, i), of_packet(arrived, i), packets[i]);
-            if (packets[i].some_lit) make_ready(packets[i]);
-        }
-        for (std::size_t light = 0; light < transport_.lights().light_count(); ++light) {
-            for (std::size_t i = 0; i < count; ++i) {
-                if (packets[i].some_lit) light_packet(light, of_packet(rays, i), packets[i]);
-            }
-        }
-        for (std::size_t i = 0; i < count; ++i) finish(of_packet(rays, i), of_packet(arrived, i), packets[i]);
+    Packet packet;
+    for (std::size_t first = 0; first < rays.size(); first += kLanes) {
+        const std::size_t count = std::min(kLanes, rays.size() - first);
+        trace_packet(rays.subspan(first, count), arrived.subspan(first, count), packet);
     }
+}
+
+void WhittedTracer::trace_packet(std::span<CameraRay> rays, std::span<Arrived> arrived, Packet& packet) const {
+    packet.take(rays);
+    meet(rays, arrived, packet);
+    if (packet.some_lit) {
+        make_ready(packet);
+        for (std::size_t i = 0; i < transport_.lights().light_count(); ++i) light_packet(i, rays, packet);
+        for (std::size_t lane = 0; lane < rays.size(); ++lane) {
+            if (packet.lit[lane] != 0) arrived[lane].radiance += of_lane(packet.sent, lane);
+        }
+    }
+    if (packet.some_go_on) go_on(rays, arrived, packet);
 }
 
 // Follows the camera's rays as far as what they meet first.
@@ -187,11 +184,8 @@ void WhittedTracer::light_packet(std::size_t light, std::span<CameraRay> rays, P
     add_light(shadows, packet.sent);
 }
 
-void WhittedTracer::finish(std::span<CameraRay> rays, std::span<Arrived> arrived, const Packet& packet) const {
-    for (std::size_t lane = 0; lane < rays.size(); ++lane) {
-        if (packet.lit[lane] != 0) arrived[lane].radiance += of_lane(packet.sent, lane);
-    }
-    if (!packet.some_go_on) return;
+// Into mirrors and glass.
+void WhittedTracer::go_on(std::span<CameraRay> rays, std::span<Arrived> arrived, const Packet& packet) const {
     for (std::size_t lane = 0; lane < rays.size(); ++lane) {
         if (!packet.goes_on[lane]) continue;
         CameraRay& from = rays[lane];
