@@ -194,10 +194,16 @@ Result<PhotometricWeb> PhotometricWeb::create(const PhotometricTable& table) {
         }
         web.azimuth_.front() = 0;
         web.azimuth_.back() = 2 * kPi;
+        web.round_ = web.is_round();
     }
     web.accumulate();
     if (!(web.total_ > 0) || !std::isfinite(web.total_)) return Error{"gives no light, or more than can be computed"};
     return web;
+}
+
+bool PhotometricWeb::is_round() const {
+    const auto plane = static_cast<std::ptrdiff_t>(polar_.size());
+    return std::equal(candela_.begin() + plane, candela_.end(), candela_.begin());  // each as the one before it
 }
 
 void PhotometricWeb::accumulate() {
@@ -219,13 +225,14 @@ double PhotometricWeb::candela(const glm::dvec3& direction) const {
     const double y = glm::dot(direction, quarter_);
     const double polar = std::atan2(std::hypot(x, y), along);
     if (polar < polar_.front() || polar > polar_.back()) return 0;
+    const std::size_t p = interval(polar_, polar);
+    const double t = (polar - polar_[p]) / (polar_[p + 1] - polar_[p]);
+    if (round_) return (1 - t) * at(0, p) + t * at(0, p + 1);
     double azimuth = std::atan2(y, x);
     if (azimuth < azimuth_.front()) azimuth += 2 * kPi;
     if (azimuth < azimuth_.front() || azimuth > azimuth_.back()) return 0;
     const std::size_t a = interval(azimuth_, azimuth);
-    const std::size_t p = interval(polar_, polar);
     const double s = (azimuth - azimuth_[a]) / (azimuth_[a + 1] - azimuth_[a]);
-    const double t = (polar - polar_[p]) / (polar_[p + 1] - polar_[p]);
     return (1 - s) * ((1 - t) * at(a, p) + t * at(a, p + 1)) + s * ((1 - t) * at(a + 1, p) + t * at(a + 1, p + 1));
 }
 

@@ -5,7 +5,9 @@
 //                   ones about it from +X (plane C0) towards -Z (plane C90): counter-clockwise, seen from above.
 //                   Types A and B: vertical 0, horizontal 0 is the aim; horizontal angles go towards +X, vertical ones
 //                   towards -Z. Type A's poles are at vertical +-90, type B's at horizontal +-90.
-// Between angles    Bilinear in (vertical, horizontal); 0 where the web holds no angles.
+// Between angles    Bilinear in (vertical, horizontal); 0 where the web holds no angles. Webs whose planes are all
+// alike
+//                   are looked up by their vertical angle alone.
 // Units             Candela, lumens, degrees in files and in PhotometricTable, radians elsewhere.
 //
 // Source: ANSI/IESNA LM-63-2002; IES LM-75 for the three types of goniometer. A radiant quantity is the photometric one
@@ -65,12 +67,14 @@ private:
         return candela_[azimuth * polar_.size() + polar];
     }
     void mirror(bool whole_circle, const PhotometricTable& table);
+    [[nodiscard]] bool is_round() const;
     void accumulate();
 
     glm::dvec3 axis_{0, -1, 0}, zero_{1, 0, 0}, quarter_{0, 0, -1};
     std::vector<double> polar_;    // radians, ascending, within 0..pi
     std::vector<double> azimuth_;  // radians, ascending; 0..2 pi for type C
     std::vector<double> candela_;
+    bool round_ = false;        // the whole circle, the same in every plane
     std::vector<double> flux_;  // of the cells, summed up: [azimuth cell][polar cell]
     double total_ = 0;
     double peak_ = 0;

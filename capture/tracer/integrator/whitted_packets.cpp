@@ -165,17 +165,16 @@ void WhittedTracer::make_ready(Packet& packet) const {
 }
 
 void WhittedTracer::light_packet(std::size_t light, std::span<CameraRay> rays, Packet& packet) const {
-    const Lanes3& places = packet.surfaces.near_start;
     LightLanes& arrives = packet.arrives;
     if (soft_shadows_) {
         arrives.lit = {};
         for (std::size_t lane = 0; lane < rays.size(); ++lane) {
             if (packet.lit[lane] == 0) continue;
             const auto draw = [&] { return rays[lane].sampler.next_2d(); };
-            const auto sample = transport_.lights().point(light, of_lane(places, lane), draw);
+            const auto sample = transport_.lights().point(light, of_lane(packet.surfaces.near_start, lane), draw);
             if (sample) set_lane(lane, *sample, arrives);
         }
-    } else if (!transport_.lights().middle(light, places, packet.lit, arrives)) {
+    } else if (!transport_.lights().middle(light, packet.surfaces, packet.lit, arrives)) {
         return;
     }
     SentLanes& shadows = packet.shadows;

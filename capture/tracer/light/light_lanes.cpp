@@ -1,4 +1,4 @@
-// The part of LightSet that lights the places of sixteen rays at a time.
+// The part of LightSet that lights sixteen surfaces at a time.
 #include "capture/tracer/packets/light_lanes.hpp"
 
 #include "capture/tracer/light/directions.hpp"
@@ -41,7 +41,9 @@ void LightSet::place_points() {
     }
 }
 
-bool LightSet::middle(std::size_t number, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives) const {
+bool LightSet::middle(std::size_t number, const SurfaceLanes& surfaces, const MaskLanes& wanted,
+                      LightLanes& arrives) const {
+    const Lanes3& places = surfaces.near_start;
     MaskLanes asked = wanted;
     if (number < sources_.size()) {
         const Source& source = sources_[number];
@@ -60,7 +62,7 @@ bool LightSet::middle(std::size_t number, const Lanes3& places, const MaskLanes&
                 if (lights_[source.index].kind == LightKind::kPoint) {
                     return light_from_point(points_[source.index], places, wanted, arrives);
                 }
-                if (!reach_of_point(points_[source.index], places, wanted, asked)) return false;
+                if (!reach_of_point(points_[source.index], surfaces, wanted, asked)) return false;
                 break;
             case SourceKind::area:
                 break;

@@ -79,8 +79,9 @@ public:
     // Each source but the environment as one point that stands for all of it: areas, and each mesh that shines, by
     // their middle. `radiance / pdf` is irradiance. Nothing where it does not light the place.
     [[nodiscard]] std::optional<LightSample> middle(std::size_t number, const glm::vec3& position) const;
-    // The same for the places of sixteen rays, as far as they are wanted; false where no lane is lit.
-    bool middle(std::size_t number, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives) const;
+    // The same for sixteen surfaces, at their near_start, as far as they are wanted; lanes on which the light has no
+    // effect may be left out. False where no lane is lit.
+    bool middle(std::size_t number, const SurfaceLanes& surfaces, const MaskLanes& wanted, LightLanes& arrives) const;
     // The same, but each area by a point of it, and all meshes that shine by one point together; `draw` says where.
     [[nodiscard]] std::optional<LightSample> point(std::size_t number, const glm::vec3& position,
                                                    const std::function<glm::vec2()>& draw) const;

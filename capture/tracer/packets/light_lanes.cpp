@@ -31,12 +31,16 @@ HWY_INLINE Mask reached_by(const PointLight& light, const Floats3& way, Floats d
     return hn::AndNot(none, hn::Gt(number(light.power) / falloff, zero));
 }
 
-bool reach(const PointLight& light, const Lanes3& places, const MaskLanes& wanted, MaskLanes& reached) {
+bool reach(const PointLight& light, const SurfaceLanes& surfaces, const MaskLanes& wanted, MaskLanes& reached) {
+    const Floats zero = number(0.0F);
     bool some = false;
     for (std::size_t i = 0; i < kLanes; i += lanes_at_once()) {
-        const Floats3 way = load(places, i) - broadcast(glm::vec3(light.location));
+        const Floats3 way = load(surfaces.near_start, i) - broadcast(glm::vec3(light.location));
         const Floats distance2 = dot(way, way);
-        const Mask there = hn::And(load_mask(wanted, i), reached_by(light, way, distance2, hn::Sqrt(distance2)));
+        const Floats distance = hn::Sqrt(distance2);
+        const Floats cosine = dot(negated(way) / distance, load(surfaces.normal, i));
+        const Mask open = hn::Or(hn::Gt(cosine, zero), hn::Gt(load(surfaces.material.translucency, i), zero));
+        const Mask there = hn::And(hn::And(load_mask(wanted, i), open), reached_by(light, way, distance2, distance));
         store_mask(there, reached, i);
         some = some || any(there);
     }
@@ -243,8 +247,9 @@ void light_from_afar(const glm::vec3& direction, const glm::vec3& irradiance, co
     HWY_DYNAMIC_DISPATCH(from_afar)(direction, irradiance, wanted, arrives);
 }
 
-bool reach_of_point(const PointLight& light, const Lanes3& places, const MaskLanes& wanted, MaskLanes& reached) {
-    return HWY_DYNAMIC_DISPATCH(reach)(light, places, wanted, reached);
+bool reach_of_point(const PointLight& light, const SurfaceLanes& surfaces, const MaskLanes& wanted,
+                    MaskLanes& reached) {
+    return HWY_DYNAMIC_DISPATCH(reach)(light, surfaces, wanted, reached);
 }
 
 bool light_from_point(const PointLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives) {

@@ -36,8 +36,9 @@ struct PointLight {
 void light_from_afar(const glm::vec3& direction, const glm::vec3& irradiance, const MaskLanes& wanted,
                      LightLanes& arrives);
 
-// Which of `places` the light may reach: where LightSet's estimate is above 0. False where it is none.
-bool reach_of_point(const PointLight& light, const Lanes3& places, const MaskLanes& wanted, MaskLanes& reached);
+// The lanes on which the light may have an effect: where LightSet's estimate is above 0, and which face it or let light
+// through. False where there are none.
+bool reach_of_point(const PointLight& light, const SurfaceLanes& surfaces, const MaskLanes& wanted, MaskLanes& reached);
 
 // The light of a point with nothing in between; false where no lane is lit.
 bool light_from_point(const PointLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives);

@@ -85,6 +85,26 @@ TEST(PhotometricWeb, PlanesThatAreLeftOutAreMirrored) {
     EXPECT_NEAR(all->candela(type_c(30, 355)), 0.5 * (130 + 350) + 0.5 * 130, 1e-9);  // round to plane 0
 }
 
+// One plane for all, and the same plane many times beside one that differs: alike where that one is not near.
+TEST(PhotometricWeb, OnePlaneForAllIsThatPlaneAllAround) {
+    const auto plane = [](double v, double) { return 310 - v * (2 + v / 200); };
+    const auto dented = [&](double v, double h) { return h == 180 ? plane(v, h) / 2 : plane(v, h); };
+    const std::vector<double> vertical = {0, 20, 45, 80, 100};
+    const auto alone = PhotometricWeb::create(table_of(Goniometer::kTypeC, vertical, {0}, plane));
+    const auto among = PhotometricWeb::create(table_of(Goniometer::kTypeC, vertical, steps(0, 360, 30), dented));
+    ASSERT_TRUE(alone && among);
+    for (int v = 1; v < 180; v += 3) {
+        for (int h = 0; h < 360; h += 7) {
+            const double found = alone->candela(type_c(v, h)), expected = among->candela(2.5 * type_c(v, h));
+            if (h <= 150 || h >= 210) {
+                EXPECT_NEAR(found, expected, 1e-10) << v << ", " << h;
+            } else if (v < 100) {
+                EXPECT_GT(found, expected) << v << ", " << h;
+            }
+        }
+    }
+}
+
 TEST(PhotometricWeb, TypesAAndBHaveTheirPolesWhereTheGoniometerHas) {
     const auto odd = [](double v, double h) { return 500 + 2 * v + h; };
     const std::vector<double> whole = steps(-90, 90, 10);
