@@ -12,10 +12,6 @@ namespace rs::capture {
 
 namespace {
 
-glm::vec3 of_lane(const Lanes3& lanes, std::size_t lane) {
-    return {lanes.x[lane], lanes.y[lane], lanes.z[lane]};
-}
-
 RayScene::Hit hit_of(const MetLanes& met, std::size_t lane) {
     const HitLanes& hit = met.hit;
     return {met.ray.reach[lane], hit.u[lane], hit.v[lane], hit.mesh[lane], hit.triangle[lane], hit.instance[lane]};
@@ -72,7 +68,7 @@ void WhittedTracer::trace_packet(std::span<CameraRay> rays, std::span<Arrived> a
         make_ready(packet);
         for (std::size_t i = 0; i < transport_.lights().light_count(); ++i) light_packet(i, rays, packet);
         for (std::size_t lane = 0; lane < rays.size(); ++lane) {
-            if (packet.lit[lane] != 0) arrived[lane].radiance += of_lane(packet.sent, lane);
+            if (packet.lit[lane] != 0) arrived[lane].radiance += packet.sent.at(lane);
         }
     }
     if (packet.some_go_on) go_on(rays, arrived, packet);
@@ -121,8 +117,8 @@ bool WhittedTracer::arrive_at(std::size_t lane, const Packet& packet, Arrived& a
         point.distance = ray.reach[lane];
         point.material = material.number;
         point.front_side = front_side;
-        point.uv = {packet.surfaces.uv.x[lane], packet.surfaces.uv.y[lane]};
-        Ray followed{LightTransport::camera_segment(of_lane(ray.origin, lane), of_lane(ray.direction, lane))};
+        point.uv = packet.surfaces.uv.at(lane);
+        Ray followed{LightTransport::camera_segment(ray.origin.at(lane), ray.direction.at(lane))};
         (void)transport_.arrive(followed.segment, true, followed.media, followed.throughput, arrived.radiance, point);
     }
     return front_side || !material.one_sided;
@@ -141,7 +137,7 @@ void WhittedTracer::make_ready(Packet& packet) const {
         textured = textured || material.texture != nullptr;
         if (!material.relief) continue;
         SurfacePoint point;
-        transport_.rays().surface_at(hit_of(packet.met, lane), of_lane(ray.direction, lane), ray.time[lane], point);
+        transport_.rays().surface_at(hit_of(packet.met, lane), ray.direction.at(lane), ray.time[lane], point);
         surfaces.normal.set(lane, transport_.normal_in_relief(point));
     }
     if (textured) texture_surfaces(textures, surfaces);
@@ -157,8 +153,7 @@ void WhittedTracer::make_ready(Packet& packet) const {
         const PacketMaterial& material = *packet.material[lane];
         glm::vec3 sent(0.0F);  // of metals
         if (material.kind != SurfaceKind::metal) {
-            sent =
-                of_lane(surfaces.colour, lane) * from_everywhere(of_lane(surfaces.normal, lane), material.translucency);
+            sent = surfaces.colour.at(lane) * from_everywhere(surfaces.normal.at(lane), material.translucency);
         }
         packet.sent.set(lane, sent);
     }
@@ -171,7 +166,7 @@ void WhittedTracer::light_packet(std::size_t light, std::span<CameraRay> rays, P
         for (std::size_t lane = 0; lane < rays.size(); ++lane) {
             if (packet.lit[lane] == 0) continue;
             const auto draw = [&] { return rays[lane].sampler.next_2d(); };
-            const auto sample = transport_.lights().point(light, of_lane(packet.surfaces.near_start, lane), draw);
+            const auto sample = transport_.lights().point(light, packet.surfaces.near_start.at(lane), draw);
             if (sample) set_lane(lane, *sample, arrives);
         }
     } else if (!transport_.lights().middle(light, packet.surfaces, packet.lit, arrives)) {

@@ -6,14 +6,6 @@
 
 namespace rs::capture {
 
-namespace {
-
-glm::vec3 of_lane(const Lanes3& lanes, std::size_t lane) {
-    return {lanes.x[lane], lanes.y[lane], lanes.z[lane]};
-}
-
-}  // namespace
-
 void set_lane(std::size_t lane, const LightSample& sample, LightLanes& arrives) {
     arrives.lit[lane] = -1;
     arrives.direction.set(lane, sample.direction);
@@ -64,15 +56,18 @@ bool LightSet::middle(std::size_t number, const SurfaceLanes& surfaces, const Ma
                 }
                 if (!reach_of_point(points_[source.index], surfaces, wanted, asked)) return false;
                 break;
-            case SourceKind::area:
-                break;
+            case SourceKind::area: {
+                const Area& area = areas_[source.index];
+                return light_from_area({area.middle, area.normal, area.radiance, area.area, source.power}, places,
+                                       wanted, arrives);
+            }
         }
     }
     arrives.lit = {};
     bool some = false;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         if (asked[lane] == 0) continue;
-        const auto light = middle(number, of_lane(places, lane));
+        const auto light = middle(number, places.at(lane));
         if (!light) continue;
         set_lane(lane, *light, arrives);
         some = true;

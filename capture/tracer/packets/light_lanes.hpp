@@ -32,6 +32,14 @@ struct PointLight {
     bool by_square = false;  // whatever the attenuation
 };
 
+// A rectangle or a disc, taken for its middle.
+struct AreaLight {
+    glm::vec3 middle{0}, normal{0};
+    glm::vec3 radiance{0};
+    float area = 1;
+    float power = 0;  // what LightSet estimates by
+};
+
 // The same light everywhere; `direction` has unit length and goes to it.
 void light_from_afar(const glm::vec3& direction, const glm::vec3& irradiance, const MaskLanes& wanted,
                      LightLanes& arrives);
@@ -42,6 +50,9 @@ bool reach_of_point(const PointLight& light, const SurfaceLanes& surfaces, const
 
 // The light of a point with nothing in between; false where no lane is lit.
 bool light_from_point(const PointLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives);
+
+// That of an area.
+bool light_from_area(const AreaLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives);
 
 // What light makes surfaces of matte, coated and metal materials send to their viewers, and the rays that have to find
 // nothing in the way; false where there are none.

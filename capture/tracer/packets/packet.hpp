@@ -3,12 +3,14 @@
 //
 //     RayLanes -> HitLanes -> TriangleLanes   Embree; gathered lane by lane (rays/ray_scene.hpp)
 //     TriangleLanes -> SurfaceLanes           place_surfaces(), texture_surfaces(), face_viewers()
-//     SurfaceLanes, a light -> LightLanes     light_from_afar(), light_from_point(); or lane by lane (LightSet)
+//     SurfaceLanes, a light -> LightLanes     light_from_afar(), _point(), _area(); or lane by lane (LightSet)
 //     SurfaceLanes, LightLanes -> RayLanes    send_light(): the rays to the light, and what it makes the surfaces send
 //
 // Every function gives the bits of its plain twin, which takes one ray at a time and which it names; so a picture is
 // the same whether its rays go together or alone. Lanes that a mask leaves out may hold anything afterwards. No
 // function refers to what it was given after it returns; all are thread-safe.
+
+#include <glm/glm.hpp>
 
 #include <array>
 #include <cstddef>
@@ -28,20 +30,20 @@ using Lanes = LanesOf<float>;
 using MaskLanes = LanesOf<std::int32_t>;  // -1: the lane counts; 0: it does not
 struct Lanes2 {
     Lanes x, y;
-    template <class Vector>
-    void set(std::size_t lane, const Vector& v) {
+    void set(std::size_t lane, const glm::vec2& v) {
         x[lane] = v.x;
         y[lane] = v.y;
     }
+    [[nodiscard]] glm::vec2 at(std::size_t lane) const { return {x[lane], y[lane]}; }
 };
 struct Lanes3 {
     Lanes x, y, z;
-    template <class Vector>
-    void set(std::size_t lane, const Vector& v) {
+    void set(std::size_t lane, const glm::vec3& v) {
         x[lane] = v.x;
         y[lane] = v.y;
         z[lane] = v.z;
     }
+    [[nodiscard]] glm::vec3 at(std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
 };
 
 // As Embree has them in memory (RTCRayHit16).

@@ -129,9 +129,7 @@ void RayScene::occluded(const MaskLanes& asked, RayLanes& rays) const {
     if (!primitives_) return;
     for (std::size_t i = 0; i < kLanes; ++i) {
         if (asked[i] == 0 || rays.reach[i] < 0.0F) continue;
-        const glm::vec3 origin(rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]);
-        const glm::vec3 direction(rays.direction.x[i], rays.direction.y[i], rays.direction.z[i]);
-        if (primitive_occludes(origin, direction, reach[i], rays.time[i])) rays.reach[i] = -1.0F;
+        if (primitive_occludes(rays.origin.at(i), rays.direction.at(i), reach[i], rays.time[i])) rays.reach[i] = -1.0F;
     }
 }
 
