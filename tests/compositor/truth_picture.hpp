@@ -7,9 +7,9 @@
 // can hold is clipped as there. Geometry is shaded by the formula of VRML97 (ISO/IEC 14772-1, 4.14.4), written here a
 // second time and from the standard, by the lights of the scene. Nothing casts a shadow between the two.
 
-#include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/integrator/surface.hpp"
 #include "capture/tracer/light/light_set.hpp"
+#include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/scene/scene.hpp"
 #include "compositor/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
