@@ -1,5 +1,7 @@
 #include "capture/calibration/silhouettes/outline_tangency.hpp"
 
+#include "capture/calibration/silhouettes/loose_numbers.hpp"
+#include "capture/calibration/silhouettes/silhouette_adjustment.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 
@@ -9,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -17,10 +21,14 @@ constexpr double kHalf_code = 127.5;  // of alpha: there the outline runs
 constexpr double kNearestPair_rad = 0.15;
 constexpr double kFarthestPair_rad = 2.6;
 constexpr std::size_t kFewestResiduals = 60;
-constexpr double kRobustDeviations = 2;
-constexpr int kTangencyRounds = 8;
-// One view takes part in many pairs with nearly the same corner of its hull: so many pairs count as one.
-constexpr double kAlikePerView = 0.25;
+constexpr double kOutlierDeviations = 4;
+constexpr int kTangencyRounds = 4;
+constexpr int kStepsPerRound = 2;
+constexpr double kEnoughOfPlanes = 1e-3;  // of cost
+constexpr double kPlaneWidth = 0.3;       // of differences, in deviations: corners of hulls change little
+constexpr double kFinestPlanes_px = 0.005;
+// One view takes part in many pairs with nearly the same corner of its hull.
+constexpr double kWorthOfHull = 0.13;  // of that of its outline
 // Outlines err together, too, in ways no residual shows, most of all those of a body that looks the same from all
 // sides; by how much more than they say, true errors on photographs with known truth tell.
 constexpr double kUntold = 3;
@@ -116,9 +124,40 @@ std::optional<Tangent> tangent(const std::vector<glm::dvec3>& rays, const Pencil
     return best;
 }
 
-double median_size(std::vector<double> values) {
-    for (double& value : values) value = std::abs(value);
-    return median(std::move(values));
+// Tangent planes of pairs of views.
+class TangentPlanes final : public OutlineComparison {
+public:
+    TangentPlanes(const LooseNumbers& numbers, std::span<const OutlineHull> hulls, std::span<const ViewPair> pairs)
+        : numbers_(numbers), hulls_(hulls), pairs_(pairs) {}
+    std::vector<double> residuals(const Eigen::VectorXd& z) override {
+        return tangency_residuals(numbers_.at(z), hulls_, pairs_);
+    }
+    [[nodiscard]] Eigen::VectorXd widths() const override {
+        return Eigen::VectorXd::Constant(numbers_.count(), kPlaneWidth);
+    }
+
+private:
+    const LooseNumbers& numbers_;
+    std::span<const OutlineHull> hulls_;
+    std::span<const ViewPair> pairs_;
+};
+
+// Robust.
+double deviation_of(std::vector<double> residuals) {
+    for (double& residual : residuals) residual = std::abs(residual);
+    return 1.4826 * median(std::move(residuals));
+}
+
+// How far the hulls reach to either side, px.
+double half_width_px(std::span<const OutlineHull> hulls) {
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    for (const OutlineHull& hull : hulls) {
+        for (const glm::dvec2& p : hull) {
+            low = std::min(low, p.x);
+            high = std::max(high, p.x);
+        }
+    }
+    return 0.5 * (high - low);
 }
 
 // By how much camera numbers that moved by `step` (the axis' position is known from outlines already) went farther than
@@ -192,57 +231,26 @@ std::vector<double> tangency_residuals(const TurntableModel& model, std::span<co
 std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const NumberPlaces& places,
                                         const Eigen::MatrixXd& covariance, std::span<const OutlineHull> hulls,
                                         double worst_px) {
-    const auto n = static_cast<Eigen::Index>(places.count);
-    if (n == 0 || covariance.rows() != n) return std::nullopt;
-    const Eigen::LDLT<Eigen::MatrixXd> known(covariance);
-    if (known.info() != Eigen::Success || !known.isPositive()) return std::nullopt;
-    const Eigen::MatrixXd claimed = known.solve(Eigen::MatrixXd::Identity(n, n));
-    if (!claimed.allFinite()) return std::nullopt;
+    if (places.count == 0 || covariance.rows() != places.count || !covariance.allFinite()) return std::nullopt;
     const std::vector<ViewPair> pairs = comparable_views(model, hulls);
     if (2 * pairs.size() < kFewestResiduals) return std::nullopt;
-    TangencyFit fit{model, covariance, 0};
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
+    const LooseNumbers numbers(model, places, covariance, half_width_px(hulls), places.count);
+    TangentPlanes planes(numbers, hulls, pairs);
+    OutlineErrors errors{kWorthOfHull * kIndependentPerView * static_cast<double>(hulls.size()), 0, kFinestPlanes_px,
+                         true};
+    OutlineAdjustment adjustment(planes, errors);
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(numbers.count());
     double disbelief = 1;
-    const double alike = std::max(1.0, kAlikePerView * static_cast<double>(hulls.size()));
     for (int round = 0; round < kTangencyRounds; ++round) {
-        const std::vector<double> now = tangency_residuals(fit.model, hulls, pairs);
-        const auto count = static_cast<Eigen::Index>(now.size());
-        fit.deviation_px = 1.4826 * median_size(now);
-        if (!(fit.deviation_px > 0)) return std::nullopt;
-        Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(count, n);
-        for (Eigen::Index k = 0; k < n; ++k) {
-            if (!(covariance(k, k) > 0)) continue;
-            // A part of the uncertainty, so that corners of hulls change little.
-            const double width = 0.3 * std::sqrt(std::max(covariance(k, k), 1e-16));
-            Eigen::VectorXd there = step;
-            there(k) += width;
-            const std::vector<double> then = tangency_residuals(stepped(model, places, there), hulls, pairs);
-            for (Eigen::Index q = 0; q < count; ++q) {
-                const auto at = static_cast<std::size_t>(q);
-                slopes(q, k) = (then[at] - now[at]) / width;
-            }
-        }
-        Eigen::VectorXd r(count), weight(count);
-        for (Eigen::Index q = 0; q < count; ++q) {
-            r(q) = now[static_cast<std::size_t>(q)];
-            const double far = r(q) / (kRobustDeviations * fit.deviation_px);
-            weight(q) = 1 / (fit.deviation_px * fit.deviation_px * alike * (1 + far * far));
-        }
-        const Eigen::MatrixXd before = claimed / disbelief;
-        const Eigen::MatrixXd of_outlines = slopes.transpose() * weight.asDiagonal() * slopes;
-        const Eigen::LDLT<Eigen::MatrixXd> solver(before + of_outlines);
-        if (solver.info() != Eigen::Success) return std::nullopt;
-        step += solver.solve(-slopes.transpose() * (weight.asDiagonal() * r) - before * step);
-        if (!step.allFinite()) return std::nullopt;
-        fit.model = stepped(model, places, step);
-        if (!(fit.model.lens.f_px > 0)) return std::nullopt;
-        const Eigen::MatrixXd half = solver.solve(before + kUntold * kUntold * of_outlines);
-        fit.covariance = solver.solve(half.transpose());
-        disbelief = beyond_belief(places, covariance, step);
+        errors.outlier_px = kOutlierDeviations * deviation_of(adjustment.residuals(z));
+        adjustment.expect(errors, disbelief);
+        if (!adjustment.improve(z, kStepsPerRound, kEnoughOfPlanes)) return std::nullopt;
+        disbelief = beyond_belief(places, covariance, numbers.step(z));
     }
+    TangencyFit fit{numbers.at(z), numbers.told(covariance, adjustment.information(z), kUntold, disbelief), 0};
     // Judged at the end: where the model began wrong, outlines that agree well do not seem to.
-    fit.deviation_px = 1.4826 * median_size(tangency_residuals(fit.model, hulls, pairs));
-    if (!(fit.deviation_px <= worst_px)) return std::nullopt;
+    fit.deviation_px = deviation_of(adjustment.residuals(z));
+    if (!(fit.deviation_px <= worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
     return fit;
 }
 

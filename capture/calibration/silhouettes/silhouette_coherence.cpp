@@ -74,6 +74,12 @@ private:
 
 }  // namespace
 
+double rms_px(const std::vector<double>& residuals) {
+    double sum = 0;
+    for (const double r : residuals) sum += r * r;
+    return residuals.empty() ? 0 : std::sqrt(sum / static_cast<double>(residuals.size()));
+}
+
 std::vector<std::size_t> views_of_rays(const SilhouetteTurn& turn, const RaySelection& rays) {
     std::vector<std::size_t> views;
     for (std::size_t i = 0; i < turn.views(); ++i) {

@@ -43,6 +43,9 @@ std::vector<RayVerdict> ray_verdicts(const SilhouetteTurn& turn, const Turntable
 std::vector<double> residuals_by_verdicts(const SilhouetteTurn& turn, const TurntableModel& model,
                                           const RaySelection& rays, const std::vector<RayVerdict>& verdicts);
 
+// Root mean square; 0 of none.
+double rms_px(const std::vector<double>& residuals);
+
 // The views that the residuals belong to, in the same order.
 std::vector<std::size_t> views_of_rays(const SilhouetteTurn& turn, const RaySelection& rays);
 

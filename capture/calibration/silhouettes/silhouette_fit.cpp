@@ -1,104 +1,70 @@
 #include "capture/calibration/silhouettes/silhouette_fit.hpp"
 
+#include "capture/calibration/silhouettes/silhouette_adjustment.hpp"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace rs::capture {
 namespace {
 
-// Neighbouring points of an outline are off alike: a view is worth this many independent ones.
-constexpr double kIndependentPerView = 8;
+// For slopes: wide enough to look past the steps of the distances, narrow enough for what is asked.
+constexpr std::array<double, SilhouetteParameters::kCount> kWidths = {0.3, 0.004, 0.002, 0.02, 0.002};
+// Of cost. The jackknife asks how the numbers move where one view in six is missing, which is worth little.
+constexpr double kEnough = 1e-3;
 
-// For derivatives: wide enough to look past the steps of the distances, narrow enough for what is asked.
-constexpr std::array<double, SilhouetteParameters::kCount> kSteps = {0.3, 0.004, 0.002, 0.02, 0.002};
-
-// Weight of one ray's squared residual.
-double ray_weight(const SilhouetteProblem& problem, const RaySelection& rays, std::size_t count) {
-    std::size_t views = problem.turn->views();
-    for (const char left_out : rays.left_out) views -= left_out != 0 ? 1 : 0;
-    return kIndependentPerView * static_cast<double>(views) /
-           (static_cast<double>(count) * kSilhouetteError_px * kSilhouetteError_px);
-}
-
-double prior_cost(const SilhouetteProblem& problem, const SilhouetteParameters& at) {
-    double cost = 0;
-    for (std::size_t i = 0; i < SilhouetteParameters::kCount; ++i) {
-        const double z = at.value[i] / kSilhouettePriors[i];
-        if (problem.free[i]) cost += z * z;
-    }
-    return cost;
-}
-
-// Geman-McClure.
-double robust_sum(const std::vector<double>& residuals, double outlier_px) {
-    double sum = 0;
-    for (const double s : residuals) sum += s * s / (1 + s * s / (outlier_px * outlier_px));
-    return sum;
-}
-
-double cost_of(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays,
-               const std::vector<double>& residuals) {
-    return ray_weight(problem, rays, residuals.size()) * robust_sum(residuals, problem.outlier_px) +
-           prior_cost(problem, at);
-}
-
-std::vector<double> residuals_at(const SilhouetteProblem& problem, const SilhouetteParameters& at,
-                                 const RaySelection& rays) {
-    return consistency_residuals_px(*problem.turn, changed(problem.start, at), rays);
-}
-
-struct Normals {
-    Eigen::MatrixXd data;      // J^T W J of the residuals
-    Eigen::VectorXd gradient;  // of data and priors, halved
-};
-
-Normals normals_at(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays,
-                   const std::vector<std::size_t>& free, const std::vector<double>& residuals) {
-    const auto rows = static_cast<Eigen::Index>(residuals.size());
-    const auto columns = static_cast<Eigen::Index>(free.size());
-    Eigen::MatrixXd jacobian(rows, columns);
-    for (Eigen::Index c = 0; c < columns; ++c) {
-        const std::size_t name = free[static_cast<std::size_t>(c)];
-        SilhouetteParameters before = at;
-        SilhouetteParameters behind = at;
-        before.value[name] -= kSteps[name];
-        behind.value[name] += kSteps[name];
-        const auto low = residuals_at(problem, before, rays);
-        const auto high = residuals_at(problem, behind, rays);
-        for (Eigen::Index r = 0; r < rows; ++r) {
-            const auto k = static_cast<std::size_t>(r);
-            jacobian(r, c) = (high[k] - low[k]) / (2 * kSteps[name]);
+// Shortfalls of rays by the free numbers.
+class FittedRays final : public OutlineComparison {
+public:
+    FittedRays(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays)
+        : problem_(problem), at_(at), rays_(rays) {
+        for (std::size_t i = 0; i < SilhouetteParameters::kCount; ++i) {
+            if (problem.free[i]) free_.push_back(i);
         }
     }
-    Eigen::VectorXd weight(rows);
-    Eigen::VectorXd residual(rows);
-    const double per_ray = ray_weight(problem, rays, residuals.size());
-    for (Eigen::Index r = 0; r < rows; ++r) {
-        const double s = residuals[static_cast<std::size_t>(r)];
-        const double tail = 1 + s * s / (problem.outlier_px * problem.outlier_px);
-        weight(r) = per_ray / (tail * tail);
-        residual(r) = s;
-    }
-    Normals normals;
-    normals.data = jacobian.transpose() * weight.asDiagonal() * jacobian;
-    normals.gradient = jacobian.transpose() * weight.asDiagonal() * residual;
-    for (Eigen::Index c = 0; c < columns; ++c) {
-        const std::size_t name = free[static_cast<std::size_t>(c)];
-        normals.gradient(c) += at.value[name] / (kSilhouettePriors[name] * kSilhouettePriors[name]);
-    }
-    return normals;
-}
 
-Eigen::MatrixXd with_priors(Eigen::MatrixXd data, const std::vector<std::size_t>& free) {
-    for (std::size_t i = 0; i < free.size(); ++i) {
-        const auto c = static_cast<Eigen::Index>(i);
-        data(c, c) += 1 / (kSilhouettePriors[free[i]] * kSilhouettePriors[free[i]]);
+    [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }
+    [[nodiscard]] SilhouetteParameters parameters(const Eigen::VectorXd& z) const {
+        SilhouetteParameters all = at_;
+        for (std::size_t k = 0; k < free_.size(); ++k) {
+            all.value[free_[k]] = kSilhouettePriors[free_[k]] * z(static_cast<Eigen::Index>(k));
+        }
+        return all;
     }
-    return data;
-}
+    [[nodiscard]] Eigen::VectorXd start() const {
+        return numbers([&](std::size_t name) { return at_.value[name] / kSilhouettePriors[name]; });
+    }
+    [[nodiscard]] OutlineErrors errors() const {
+        const auto left_out =
+            std::count_if(rays_.left_out.begin(), rays_.left_out.end(), [](char is) { return is != 0; });
+        const auto views = static_cast<std::ptrdiff_t>(problem_.turn->views()) - left_out;
+        return {kIndependentPerView * static_cast<double>(views), problem_.outlier_px, kSilhouetteError_px};
+    }
+
+    std::vector<double> residuals(const Eigen::VectorXd& z) override {
+        return consistency_residuals_px(*problem_.turn, changed(problem_.start, parameters(z)), rays_);
+    }
+    [[nodiscard]] Eigen::VectorXd widths() const override {
+        return numbers([](std::size_t name) { return kWidths[name] / kSilhouettePriors[name]; });
+    }
+
+private:
+    template <typename Of>
+    [[nodiscard]] Eigen::VectorXd numbers(const Of& of) const {
+        Eigen::VectorXd z(static_cast<Eigen::Index>(free_.size()));
+        for (std::size_t k = 0; k < free_.size(); ++k) z(static_cast<Eigen::Index>(k)) = of(free_[k]);
+        return z;
+    }
+
+    const SilhouetteProblem& problem_;
+    const SilhouetteParameters& at_;
+    const RaySelection& rays_;
+    std::vector<std::size_t> free_;
+};
 
 }  // namespace
 
@@ -115,58 +81,24 @@ TurntableModel changed(const TurntableModel& start, const SilhouetteParameters& 
 }
 
 double silhouette_cost(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays) {
-    return cost_of(problem, at, rays, residuals_at(problem, at, rays));
+    FittedRays fitted(problem, at, rays);
+    return OutlineAdjustment(fitted, fitted.errors()).cost(fitted.start());
 }
 
 SilhouetteFit fit_silhouettes(const SilhouetteProblem& problem, const SilhouetteParameters& at,
                               const RaySelection& rays, int iterations) {
-    std::vector<std::size_t> free;
-    for (std::size_t i = 0; i < SilhouetteParameters::kCount; ++i) {
-        if (problem.free[i]) free.push_back(i);
-    }
-    SilhouetteFit fit{at, 0, {}};
-    std::vector<double> residuals = residuals_at(problem, at, rays);
-    fit.cost = cost_of(problem, at, rays, residuals);
-    if (free.empty()) return fit;
-
-    double damping = 1e-2;
-    Normals normals = normals_at(problem, fit.at, rays, free, residuals);
-    for (int i = 0; i < iterations; ++i) {
-        const Eigen::MatrixXd full = with_priors(normals.data, free);
-        bool better = false;
-        bool small = false;
-        for (int attempt = 0; attempt < 5 && !better; ++attempt) {
-            Eigen::MatrixXd damped = full;
-            damped.diagonal() *= 1 + damping;
-            const Eigen::VectorXd step = damped.ldlt().solve(-normals.gradient);
-            SilhouetteParameters next = fit.at;
-            small = true;
-            for (std::size_t k = 0; k < free.size(); ++k) {
-                const double change = step(static_cast<Eigen::Index>(k));
-                next.value[free[k]] += change;
-                small = small && std::abs(change) < 0.02 * kSteps[free[k]];
-            }
-            const std::vector<double> tried = residuals_at(problem, next, rays);
-            const double cost = cost_of(problem, next, rays, tried);
-            better = cost < fit.cost;
-            damping = better ? std::max(damping / 5, 1e-6) : damping * 6;
-            if (better) {
-                fit.at = next;
-                fit.cost = cost;
-                residuals = tried;
-            }
-        }
-        if (!better) break;
-        normals = normals_at(problem, fit.at, rays, free, residuals);
-        if (small) break;
-    }
-
-    const Eigen::MatrixXd covariance = with_priors(normals.data, free).inverse();
-    for (std::size_t k = 0; k < free.size(); ++k) {
-        const auto c = static_cast<Eigen::Index>(k);
-        const double deviation = std::sqrt(std::max(0.0, covariance(c, c)));
-        const bool told = deviation < kToldNothing * kSilhouettePriors[free[k]];
-        fit.deviation[free[k]] = told ? deviation : std::numeric_limits<double>::infinity();
+    FittedRays fitted(problem, at, rays);
+    OutlineAdjustment adjustment(fitted, fitted.errors());
+    Eigen::VectorXd z = fitted.start();
+    if (z.size() == 0) return {at, adjustment.cost(z), {}};
+    adjustment.improve(z, iterations, kEnough);
+    SilhouetteFit fit{fitted.parameters(z), adjustment.cost(z), {}};
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(z.size(), z.size());
+    const Eigen::VectorXd left = (unit + adjustment.information(z)).inverse().diagonal().cwiseSqrt();
+    for (Eigen::Index k = 0; k < z.size(); ++k) {
+        const std::size_t name = fitted.free()[static_cast<std::size_t>(k)];
+        const bool told = left(k) < kToldNothing;
+        fit.deviation[name] = told ? left(k) * kSilhouettePriors[name] : std::numeric_limits<double>::infinity();
     }
     return fit;
 }

@@ -186,12 +186,6 @@ ModelDeviations deviations_of(const SilhouetteFit& fit, const std::array<double,
     return deviations;
 }
 
-double rms(const std::vector<double>& values) {
-    double sum = 0;
-    for (const double v : values) sum += v * v;
-    return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
-}
-
 std::vector<ViewFit> fits_by_view(const SilhouetteTurn& turn, const std::vector<double>& residuals, double picture_px) {
     const std::vector<std::size_t> view_of = views_of_rays(turn, {});
     std::vector<ViewFit> views(turn.views());
@@ -255,20 +249,20 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     const bool pose_free = !known.pose;
     problem.free = {pose_free, pose_free, pose_free, !known.f_px, !known.step_rad && !known.angles_rad};
 
-    const auto disagreement = [&](double rms_px) {
-        return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(rms_px * picture_px)) +
+    const auto disagreement = [&](double apart_px) {
+        return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(apart_px * picture_px)) +
                      " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
     };
     const SilhouetteFit best = search(problem);
     const double start_cost = silhouette_cost(problem, {}, {});
-    const double start_rms = rms(consistency_residuals_px(*turn, problem.start, {}));
+    const double start_rms = rms_px(consistency_residuals_px(*turn, problem.start, {}));
     if (start_rms > kGoodEnough_px && !(best.cost < kImprovement * start_cost)) {
         return Error{
             "silhouettes: no axis, tilt, roll or focal length near the assumed ones makes the outlines agree "
             "better; check the steps, the sense of turning and the cut-outs"};
     }
     // What follows finds out how sure this is; it mends no outlines that disagree so much.
-    const double best_rms = rms(consistency_residuals_px(*turn, changed(problem.start, best.at), {}));
+    const double best_rms = rms_px(consistency_residuals_px(*turn, changed(problem.start, best.at), {}));
     if (best_rms > kDisagree_px) return disagreement(best_rms);
     const RaySelection half{2, {}};
     const double best_cost = silhouette_cost(problem, best.at, half);
@@ -283,7 +277,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
     const std::array<double, Parameters::kCount> open = valley(fit, best_cost, along);
     // Outlines that fit worse than good ones should are surer of nothing.
-    const double doubt = std::max(1.0, rms(residuals) / kSilhouetteError_px);
+    const double doubt = std::max(1.0, rms_px(residuals) / kSilhouetteError_px);
     for (std::size_t k = 0; k < Parameters::kCount; ++k) {
         spread[k] = std::max(spread[k], doubt * open[k]);
         fit.deviation[k] *= doubt;
@@ -296,7 +290,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
         of_turn.lens = scaled(of_turn.lens, 1 / picture_px);
         residuals = consistency_residuals_px(*turn, of_turn, {});
     }
-    const double fit_rms = rms(residuals);
+    const double fit_rms = rms_px(residuals);
     if (fit_rms > kDisagree_px) return disagreement(fit_rms);
     calibration.observations = static_cast<int>(residuals.size());
     calibration.rms_px = fit_rms * picture_px;

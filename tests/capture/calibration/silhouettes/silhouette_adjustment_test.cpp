@@ -1,0 +1,107 @@
+// What the adjustment makes of residuals that are linear in their numbers, where the answer can be written down.
+
+#include "capture/calibration/silhouettes/silhouette_adjustment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+// Residuals scale * (z - at) of both numbers, each `times` over, then others that no number changes.
+class Line final : public OutlineComparison {
+public:
+    double scale_px = 1;
+    Eigen::Vector2d at{1, -2};
+    int times = 50;
+    std::vector<double> others;
+    int asked = 0;
+
+    std::vector<double> residuals(const Eigen::VectorXd& z) override {
+        ++asked;
+        std::vector<double> all;
+        for (int i = 0; i < times; ++i) {
+            for (Eigen::Index k = 0; k < 2; ++k) all.push_back(scale_px * (z(k) - at(k)));
+        }
+        all.insert(all.end(), others.begin(), others.end());
+        return all;
+    }
+    [[nodiscard]] Eigen::VectorXd widths() const override { return Eigen::VectorXd::Constant(2, 0.1); }
+};
+
+constexpr double kFar_px = 1e6;  // no residual is an outlier
+
+Eigen::VectorXd adjusted(OutlineComparison& line, const OutlineErrors& errors, double disbelief = 1) {
+    OutlineAdjustment adjustment(line, errors);
+    adjustment.expect(errors, disbelief);
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(2);
+    EXPECT_TRUE(adjustment.improve(z, 50, 1e-9));
+    return z;
+}
+
+TEST(SilhouetteAdjustment, WeighsOutlinesAgainstWhatWasKnown) {
+    Line line;
+    const OutlineErrors errors{4, kFar_px, 0.5};
+    // Each number has half of the four points: an information of 2 / 0.25 beside 1.
+    const double share = 8.0 / 9.0;
+    const Eigen::VectorXd z = adjusted(line, errors);
+    EXPECT_NEAR(z(0), share * 1, 1e-6);
+    EXPECT_NEAR(z(1), share * -2, 1e-6);
+    OutlineAdjustment adjustment(line, errors);
+    const Eigen::MatrixXd information = adjustment.information(z);
+    EXPECT_NEAR(information(0, 0), 8, 1e-6);
+    EXPECT_NEAR(information(0, 1), 0, 1e-6);
+    EXPECT_NEAR(adjustment.cost(z), 8 * std::pow(1 - share, 2) * 5 + share * share * 5, 1e-6);
+    line.times = 500;  // of the same outlines
+    EXPECT_NEAR(adjusted(line, errors)(0), share, 1e-6);
+    EXPECT_NEAR(adjusted(line, errors, 10)(0), 80.0 / 81.0, 1e-6);
+}
+
+TEST(SilhouetteAdjustment, OutliersCountLittle) {
+    Line line;
+    const OutlineErrors errors{1000, 1, 0.1};
+    const double before = adjusted(line, errors)(0);
+    line.others.assign(30, 40);
+    EXPECT_NEAR(adjusted(line, errors)(0), before, 0.001);
+    OutlineAdjustment adjustment(line, errors);
+    // Of 130 residuals 30 are worth a whole outlier_px each, however far they are.
+    EXPECT_NEAR(adjustment.cost(line.at), 1000 * 100 * 30 / 130.0 + 5, 30);
+}
+
+TEST(SilhouetteAdjustment, OutlinesAreBelievedAsFarAsTheyAgree) {
+    Line line;
+    const OutlineErrors errors{40, kFar_px, 0.1, true};
+    OutlineAdjustment fine(line, errors);
+    EXPECT_NEAR(fine.information(line.at)(0, 0), 40 / 0.01 / 2, 1e-3);  // no more than 0.1 px allow
+    line.others.assign(100, 0.5);
+    line.others.insert(line.others.end(), 100, -0.5);
+    OutlineAdjustment coarse(line, errors);
+    EXPECT_NEAR(coarse.information(line.at)(0, 0), 40.0 / (200 * 0.25) * 50, 1e-3);
+    // Where the cost is least its slope is none: n dS / S + 2 z.
+    const Eigen::VectorXd z = adjusted(line, errors);
+    const double off = z(0) - 1, sum = 50 * 5 * off * off + 200 * 0.25;
+    EXPECT_NEAR(40 * 50 * off / sum + z(0), 0, 1e-4);
+}
+
+TEST(SilhouetteAdjustment, AsksNothingTwiceAndRefusesWhatIsNotFinite) {
+    Line line;
+    OutlineAdjustment adjustment(line, {4, kFar_px, 0.5});
+    const Eigen::VectorXd z = Eigen::VectorXd::Zero(2);
+    adjustment.information(z);
+    const int asked = line.asked;
+    EXPECT_EQ(asked, 1 + 2 * 2);
+    adjustment.information(z);
+    adjustment.cost(z);
+    EXPECT_EQ(line.asked, asked);
+    line.others.push_back(std::numeric_limits<double>::quiet_NaN());
+    OutlineAdjustment none(line, {4, kFar_px, 0.5});
+    Eigen::VectorXd there = z;
+    EXPECT_FALSE(none.improve(there, 5, 1e-3));
+    EXPECT_EQ(there, z);
+}
+
+}  // namespace
+}  // namespace rs::capture
