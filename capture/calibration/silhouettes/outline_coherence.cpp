@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 #include <vector>
 
 namespace rs::capture {
@@ -29,48 +29,26 @@ constexpr std::size_t kCoarseRaysPerView = 100;
 // say of the camera is in the small print of their errors: it has been seen to bend lens and tilt.
 constexpr double kTellsOfAngles = 0.5;
 
-// Shortfalls of some rays.
-class CoherentRays final : public OutlineComparison {
-public:
-    CoherentRays(const LooseNumbers& numbers, const SilhouetteTurn& turn, double picture_px, std::size_t every)
-        : numbers_(numbers), turn_(turn), picture_px_(picture_px), rays_{every, {}} {}
-
-    // Px of the turn.
-    std::vector<double> residuals(const Eigen::VectorXd& z) override {
-        return consistency_residuals_px(turn_, in_turn(z), rays_, &depths_);
-    }
-    [[nodiscard]] Eigen::VectorXd widths() const override {
-        return Eigen::VectorXd::Constant(numbers_.count(), kWidth);
-    }
-
-    // Only what contradicts a ray is asked again beside: quick, and near enough to go down by.
-    void look_at(const Eigen::VectorXd& z) override {
-        if (is_quick_) verdicts_ = ray_verdicts(turn_, in_turn(z), rays_, depths_, kVerdictMargin_px, kMostVerdicts);
-    }
-    std::vector<double> beside(const Eigen::VectorXd& z) override {
-        return is_quick_ ? residuals_by_verdicts(turn_, in_turn(z), rays_, verdicts_) : residuals(z);
-    }
-
-    // Beside a body of revolution the few that contradict it would seem to know how it stands.
-    void ask_all_views() { is_quick_ = false; }
-
-private:
-    [[nodiscard]] TurntableModel in_turn(const Eigen::VectorXd& z) const {
-        TurntableModel model = numbers_.at(z);
-        model.lens.f_px /= picture_px_;
-        model.lens.cx /= picture_px_;
-        model.lens.cy /= picture_px_;
+// Shortfalls of some rays, near `depths` once they are known.
+OutlineComparison shortfalls(const LooseNumbers& numbers, const SilhouetteTurn& turn, double picture_px,
+                             const RaySelection& rays, RayDepths& depths) {
+    const auto in_turn = [&numbers, picture_px](const Eigen::VectorXd& z) {
+        TurntableModel model = numbers.at(z);
+        for (double* const px : {&model.lens.f_px, &model.lens.cx, &model.lens.cy}) *px /= picture_px;
         return model;
-    }
-
-    const LooseNumbers& numbers_;
-    const SilhouetteTurn& turn_;
-    double picture_px_;
-    RaySelection rays_;
-    RayDepths depths_;
-    std::vector<RayVerdict> verdicts_;
-    bool is_quick_ = true;
-};
+    };
+    const auto residuals = [&turn, &rays, &depths, in_turn](const Eigen::VectorXd& z) {
+        return consistency_residuals_px(turn, in_turn(z), rays, &depths);
+    };
+    // Only what contradicts a ray is asked again beside: near enough to go down by.
+    const auto beside = [&turn, &rays, &depths, in_turn](const Eigen::VectorXd& z) -> OutlineResiduals {
+        auto verdicts = ray_verdicts(turn, in_turn(z), rays, depths, kVerdictMargin_px, kMostVerdicts);
+        return [&turn, &rays, in_turn, verdicts = std::move(verdicts)](const Eigen::VectorXd& there) {
+            return residuals_by_verdicts(turn, in_turn(there), rays, verdicts);
+        };
+    };
+    return {residuals, Eigen::VectorXd::Constant(numbers.count(), kWidth), beside};
+}
 
 std::size_t most_rays_of_a_view(const SilhouetteTurn& turn) {
     std::size_t most = 0;
@@ -91,13 +69,18 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     int steps = kMostSteps;
     const std::size_t every = options.few_rays_first ? most_rays_of_a_view(turn) / kCoarseRaysPerView : 1;
     if (every > 1) {
-        CoherentRays few(numbers, turn, picture_px, every);
-        if (!OutlineAdjustment(few, errors).improve(z, kMostSteps, kLittle)) return std::nullopt;
+        const RaySelection few{every, {}};
+        RayDepths depths;
+        const OutlineComparison coarse = shortfalls(numbers, turn, picture_px, few, depths);
+        if (!OutlineAdjustment(coarse, errors).improve(z, kMostSteps, kLittle)) return std::nullopt;
         steps = kFineSteps;
     }
-    CoherentRays rays(numbers, turn, picture_px, 1);
+    const RaySelection all{1, {}};
+    RayDepths depths;
+    OutlineComparison rays = shortfalls(numbers, turn, picture_px, all, depths);
     if (!OutlineAdjustment(rays, errors).improve(z, steps, kLittle)) return std::nullopt;
-    rays.ask_all_views();
+    // Beside a body of revolution the few views that contradict it would seem to know how it stands: all are asked.
+    rays.beside = nullptr;
     OutlineAdjustment found(rays, errors);
     const Eigen::MatrixXd information = found.information(z);
     CoherenceFit fit{numbers.at(z), numbers.told(covariance, information, options.untold_together), 0};

@@ -124,24 +124,6 @@ std::optional<Tangent> tangent(const std::vector<glm::dvec3>& rays, const Pencil
     return best;
 }
 
-// Tangent planes of pairs of views.
-class TangentPlanes final : public OutlineComparison {
-public:
-    TangentPlanes(const LooseNumbers& numbers, std::span<const OutlineHull> hulls, std::span<const ViewPair> pairs)
-        : numbers_(numbers), hulls_(hulls), pairs_(pairs) {}
-    std::vector<double> residuals(const Eigen::VectorXd& z) override {
-        return tangency_residuals(numbers_.at(z), hulls_, pairs_);
-    }
-    [[nodiscard]] Eigen::VectorXd widths() const override {
-        return Eigen::VectorXd::Constant(numbers_.count(), kPlaneWidth);
-    }
-
-private:
-    const LooseNumbers& numbers_;
-    std::span<const OutlineHull> hulls_;
-    std::span<const ViewPair> pairs_;
-};
-
 // Robust.
 double deviation_of(std::vector<double> residuals) {
     for (double& residual : residuals) residual = std::abs(residual);
@@ -235,10 +217,12 @@ std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const Numbe
     const std::vector<ViewPair> pairs = comparable_views(model, hulls);
     if (2 * pairs.size() < kFewestResiduals) return std::nullopt;
     const LooseNumbers numbers(model, places, covariance, half_width_px(hulls), places.count);
-    TangentPlanes planes(numbers, hulls, pairs);
     OutlineErrors errors{kWorthOfHull * kIndependentPerView * static_cast<double>(hulls.size()), 0, kFinestPlanes_px,
                          true};
-    OutlineAdjustment adjustment(planes, errors);
+    OutlineAdjustment adjustment(
+        {[&](const Eigen::VectorXd& z) { return tangency_residuals(numbers.at(z), hulls, pairs); },
+         Eigen::VectorXd::Constant(numbers.count(), kPlaneWidth)},
+        errors);
     Eigen::VectorXd z = Eigen::VectorXd::Zero(numbers.count());
     double disbelief = 1;
     for (int round = 0; round < kTangencyRounds; ++round) {

@@ -82,15 +82,15 @@ const std::vector<double>& OutlineAdjustment::residuals(const Eigen::VectorXd& z
 
 const Eigen::MatrixXd& OutlineAdjustment::slopes(const Eigen::VectorXd& z) {
     if (slopes_.size() > 0 && z_of_slopes_ == z) return slopes_;
-    const Eigen::VectorXd widths = comparison_.widths();
+    const Eigen::VectorXd& widths = comparison_.widths;
     const auto count = static_cast<Eigen::Index>(residuals(z).size());
     slopes_.resize(count, z.size());
-    comparison_.look_at(z);
+    const OutlineResiduals beside = comparison_.beside ? comparison_.beside(z) : comparison_.residuals;
     for (Eigen::Index k = 0; k < z.size(); ++k) {
         Eigen::VectorXd before = z, behind = z;
         before(k) -= widths(k);
         behind(k) += widths(k);
-        const std::vector<double> low = comparison_.beside(before), high = comparison_.beside(behind);
+        const std::vector<double> low = beside(before), high = beside(behind);
         slopes_.col(k) = (Eigen::Map<const Eigen::VectorXd>(high.data(), count) -
                           Eigen::Map<const Eigen::VectorXd>(low.data(), count)) /
                          (2 * widths(k));

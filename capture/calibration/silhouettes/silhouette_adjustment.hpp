@@ -12,6 +12,8 @@
 
 #include <Eigen/Core>
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace rs::capture {
@@ -28,32 +30,22 @@ struct OutlineErrors {
     bool is_least = false;  // it is what the residuals turn out to be, but no less than deviation_px
 };
 
-// What is compared, as a function of the numbers z.
-class OutlineComparison {
-public:
-    OutlineComparison() = default;
-    OutlineComparison(const OutlineComparison&) = delete;
-    OutlineComparison& operator=(const OutlineComparison&) = delete;
-    virtual ~OutlineComparison() = default;
+// What is compared, as a function of the numbers z: residuals, px, as many whatever z is.
+using OutlineResiduals = std::function<std::vector<double>(const Eigen::VectorXd& z)>;
 
-    // Px, as many whatever z is.
-    virtual std::vector<double> residuals(const Eigen::VectorXd& z) = 0;
-
+struct OutlineComparison {
+    OutlineResiduals residuals;
     // By how much each number is moved to either side for slopes: far enough to look past the steps of the residuals.
-    [[nodiscard]] virtual Eigen::VectorXd widths() const = 0;
-
-    // Where that is quicker: the residuals at `z`, which is beside what was looked at last, as far as what decides them
-    // there decides them here. Enough to go down by.
-    virtual void look_at(const Eigen::VectorXd&) {}
-    virtual std::vector<double> beside(const Eigen::VectorXd& z) { return residuals(z); }
+    Eigen::VectorXd widths;
+    // Where there is something quicker: the residuals beside z, as far as what decides them at z does so beside it.
+    std::function<OutlineResiduals(const Eigen::VectorXd& z)> beside = nullptr;
 };
 
 // Remembers what it asked last, so that nothing is asked twice. For one thread; the comparison may use several.
 class OutlineAdjustment {
 public:
-    // `comparison` is kept by reference.
-    OutlineAdjustment(OutlineComparison& comparison, const OutlineErrors& errors)
-        : comparison_(comparison), errors_(errors) {}
+    OutlineAdjustment(OutlineComparison comparison, const OutlineErrors& errors)
+        : comparison_(std::move(comparison)), errors_(errors) {}
 
     // From now on. `disbelief`: the variance of what was known before as it turns out, 1 unless said.
     void expect(const OutlineErrors& errors, double disbelief);
@@ -70,7 +62,7 @@ public:
     Eigen::MatrixXd information(const Eigen::VectorXd& z);
 
 private:
-    OutlineComparison& comparison_;
+    OutlineComparison comparison_;
     OutlineErrors errors_;
     double disbelief_ = 1;
     Eigen::VectorXd z_of_residuals_, z_of_slopes_;

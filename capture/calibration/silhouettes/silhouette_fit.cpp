@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -17,54 +18,40 @@ constexpr std::array<double, SilhouetteParameters::kCount> kWidths = {0.3, 0.004
 // Of cost. The jackknife asks how the numbers move where one view in six is missing, which is worth little.
 constexpr double kEnough = 1e-3;
 
-// Shortfalls of rays by the free numbers.
-class FittedRays final : public OutlineComparison {
-public:
-    FittedRays(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays)
-        : problem_(problem), at_(at), rays_(rays) {
-        for (std::size_t i = 0; i < SilhouetteParameters::kCount; ++i) {
-            if (problem.free[i]) free_.push_back(i);
-        }
-    }
+// The free numbers by their priors, and what rays say of them.
+struct FittedNumbers {
+    std::vector<std::size_t> free;
+    std::function<SilhouetteParameters(const Eigen::VectorXd& z)> at;
+    Eigen::VectorXd start;
+    OutlineAdjustment adjustment;
+};
 
-    [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }
-    [[nodiscard]] SilhouetteParameters parameters(const Eigen::VectorXd& z) const {
-        SilhouetteParameters all = at_;
-        for (std::size_t k = 0; k < free_.size(); ++k) {
-            all.value[free_[k]] = kSilhouettePriors[free_[k]] * z(static_cast<Eigen::Index>(k));
+// Keeps all by reference.
+FittedNumbers numbers_of(const SilhouetteProblem& problem, const SilhouetteParameters& from, const RaySelection& rays) {
+    std::vector<std::size_t> free;
+    for (std::size_t i = 0; i < SilhouetteParameters::kCount; ++i) {
+        if (problem.free[i]) free.push_back(i);
+    }
+    Eigen::VectorXd start(static_cast<Eigen::Index>(free.size())), widths = start;
+    for (std::size_t k = 0; k < free.size(); ++k) {
+        start(static_cast<Eigen::Index>(k)) = from.value[free[k]] / kSilhouettePriors[free[k]];
+        widths(static_cast<Eigen::Index>(k)) = kWidths[free[k]] / kSilhouettePriors[free[k]];
+    }
+    const auto at = [&from, free](const Eigen::VectorXd& z) {
+        SilhouetteParameters all = from;
+        for (std::size_t k = 0; k < free.size(); ++k) {
+            all.value[free[k]] = kSilhouettePriors[free[k]] * z(static_cast<Eigen::Index>(k));
         }
         return all;
-    }
-    [[nodiscard]] Eigen::VectorXd start() const {
-        return numbers([&](std::size_t name) { return at_.value[name] / kSilhouettePriors[name]; });
-    }
-    [[nodiscard]] OutlineErrors errors() const {
-        const auto left_out =
-            std::count_if(rays_.left_out.begin(), rays_.left_out.end(), [](char is) { return is != 0; });
-        const auto views = static_cast<std::ptrdiff_t>(problem_.turn->views()) - left_out;
-        return {kIndependentPerView * static_cast<double>(views), problem_.outlier_px, kSilhouetteError_px};
-    }
-
-    std::vector<double> residuals(const Eigen::VectorXd& z) override {
-        return consistency_residuals_px(*problem_.turn, changed(problem_.start, parameters(z)), rays_);
-    }
-    [[nodiscard]] Eigen::VectorXd widths() const override {
-        return numbers([](std::size_t name) { return kWidths[name] / kSilhouettePriors[name]; });
-    }
-
-private:
-    template <typename Of>
-    [[nodiscard]] Eigen::VectorXd numbers(const Of& of) const {
-        Eigen::VectorXd z(static_cast<Eigen::Index>(free_.size()));
-        for (std::size_t k = 0; k < free_.size(); ++k) z(static_cast<Eigen::Index>(k)) = of(free_[k]);
-        return z;
-    }
-
-    const SilhouetteProblem& problem_;
-    const SilhouetteParameters& at_;
-    const RaySelection& rays_;
-    std::vector<std::size_t> free_;
-};
+    };
+    const auto residuals = [&problem, &rays, at](const Eigen::VectorXd& z) {
+        return consistency_residuals_px(*problem.turn, changed(problem.start, at(z)), rays);
+    };
+    const auto left_out = std::count_if(rays.left_out.begin(), rays.left_out.end(), [](char is) { return is != 0; });
+    const double views = static_cast<double>(problem.turn->views()) - static_cast<double>(left_out);
+    const OutlineErrors errors{kIndependentPerView * views, problem.outlier_px, kSilhouetteError_px};
+    return {free, at, start, OutlineAdjustment({residuals, widths}, errors)};
+}
 
 }  // namespace
 
@@ -81,24 +68,22 @@ TurntableModel changed(const TurntableModel& start, const SilhouetteParameters& 
 }
 
 double silhouette_cost(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays) {
-    FittedRays fitted(problem, at, rays);
-    return OutlineAdjustment(fitted, fitted.errors()).cost(fitted.start());
+    FittedNumbers numbers = numbers_of(problem, at, rays);
+    return numbers.adjustment.cost(numbers.start);
 }
 
 SilhouetteFit fit_silhouettes(const SilhouetteProblem& problem, const SilhouetteParameters& at,
                               const RaySelection& rays, int iterations) {
-    FittedRays fitted(problem, at, rays);
-    OutlineAdjustment adjustment(fitted, fitted.errors());
-    Eigen::VectorXd z = fitted.start();
-    if (z.size() == 0) return {at, adjustment.cost(z), {}};
+    auto [free, found_at, z, adjustment] = numbers_of(problem, at, rays);
+    if (free.empty()) return {at, adjustment.cost(z), {}};
     adjustment.improve(z, iterations, kEnough);
-    SilhouetteFit fit{fitted.parameters(z), adjustment.cost(z), {}};
+    SilhouetteFit fit{found_at(z), adjustment.cost(z), {}};
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(z.size(), z.size());
     const Eigen::VectorXd left = (unit + adjustment.information(z)).inverse().diagonal().cwiseSqrt();
-    for (Eigen::Index k = 0; k < z.size(); ++k) {
-        const std::size_t name = fitted.free()[static_cast<std::size_t>(k)];
-        const bool told = left(k) < kToldNothing;
-        fit.deviation[name] = told ? left(k) * kSilhouettePriors[name] : std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < free.size(); ++k) {
+        const double share = left(static_cast<Eigen::Index>(k));
+        fit.deviation[free[k]] =
+            share < kToldNothing ? share * kSilhouettePriors[free[k]] : std::numeric_limits<double>::infinity();
     }
     return fit;
 }

@@ -11,31 +11,29 @@
 namespace rs::capture {
 namespace {
 
-// Residuals scale * (z - at) of both numbers, each `times` over, then others that no number changes.
-class Line final : public OutlineComparison {
-public:
-    double scale_px = 1;
+// Residuals z - at of both numbers, each `times` over, then others that no number changes.
+struct Line {
     Eigen::Vector2d at{1, -2};
     int times = 50;
-    std::vector<double> others;
+    std::vector<double> others = {};
     int asked = 0;
 
-    std::vector<double> residuals(const Eigen::VectorXd& z) override {
-        ++asked;
-        std::vector<double> all;
-        for (int i = 0; i < times; ++i) {
-            for (Eigen::Index k = 0; k < 2; ++k) all.push_back(scale_px * (z(k) - at(k)));
-        }
-        all.insert(all.end(), others.begin(), others.end());
-        return all;
+    OutlineComparison comparison() {
+        const auto residuals = [this](const Eigen::VectorXd& z) {
+            ++asked;
+            std::vector<double> all;
+            for (int i = 0; i < times; ++i) all.insert(all.end(), {z(0) - at(0), z(1) - at(1)});
+            all.insert(all.end(), others.begin(), others.end());
+            return all;
+        };
+        return {residuals, Eigen::VectorXd::Constant(2, 0.1)};
     }
-    [[nodiscard]] Eigen::VectorXd widths() const override { return Eigen::VectorXd::Constant(2, 0.1); }
 };
 
 constexpr double kFar_px = 1e6;  // no residual is an outlier
 
-Eigen::VectorXd adjusted(OutlineComparison& line, const OutlineErrors& errors, double disbelief = 1) {
-    OutlineAdjustment adjustment(line, errors);
+Eigen::VectorXd adjusted(Line& line, const OutlineErrors& errors, double disbelief = 1) {
+    OutlineAdjustment adjustment(line.comparison(), errors);
     adjustment.expect(errors, disbelief);
     Eigen::VectorXd z = Eigen::VectorXd::Zero(2);
     EXPECT_TRUE(adjustment.improve(z, 50, 1e-9));
@@ -50,7 +48,7 @@ TEST(SilhouetteAdjustment, WeighsOutlinesAgainstWhatWasKnown) {
     const Eigen::VectorXd z = adjusted(line, errors);
     EXPECT_NEAR(z(0), share * 1, 1e-6);
     EXPECT_NEAR(z(1), share * -2, 1e-6);
-    OutlineAdjustment adjustment(line, errors);
+    OutlineAdjustment adjustment(line.comparison(), errors);
     const Eigen::MatrixXd information = adjustment.information(z);
     EXPECT_NEAR(information(0, 0), 8, 1e-6);
     EXPECT_NEAR(information(0, 1), 0, 1e-6);
@@ -66,7 +64,7 @@ TEST(SilhouetteAdjustment, OutliersCountLittle) {
     const double before = adjusted(line, errors)(0);
     line.others.assign(30, 40);
     EXPECT_NEAR(adjusted(line, errors)(0), before, 0.001);
-    OutlineAdjustment adjustment(line, errors);
+    OutlineAdjustment adjustment(line.comparison(), errors);
     // Of 130 residuals 30 are worth a whole outlier_px each, however far they are.
     EXPECT_NEAR(adjustment.cost(line.at), 1000 * 100 * 30 / 130.0 + 5, 30);
 }
@@ -74,11 +72,11 @@ TEST(SilhouetteAdjustment, OutliersCountLittle) {
 TEST(SilhouetteAdjustment, OutlinesAreBelievedAsFarAsTheyAgree) {
     Line line;
     const OutlineErrors errors{40, kFar_px, 0.1, true};
-    OutlineAdjustment fine(line, errors);
+    OutlineAdjustment fine(line.comparison(), errors);
     EXPECT_NEAR(fine.information(line.at)(0, 0), 40 / 0.01 / 2, 1e-3);  // no more than 0.1 px allow
     line.others.assign(100, 0.5);
     line.others.insert(line.others.end(), 100, -0.5);
-    OutlineAdjustment coarse(line, errors);
+    OutlineAdjustment coarse(line.comparison(), errors);
     EXPECT_NEAR(coarse.information(line.at)(0, 0), 40.0 / (200 * 0.25) * 50, 1e-3);
     // Where the cost is least its slope is none: n dS / S + 2 z.
     const Eigen::VectorXd z = adjusted(line, errors);
@@ -88,7 +86,7 @@ TEST(SilhouetteAdjustment, OutlinesAreBelievedAsFarAsTheyAgree) {
 
 TEST(SilhouetteAdjustment, AsksNothingTwiceAndRefusesWhatIsNotFinite) {
     Line line;
-    OutlineAdjustment adjustment(line, {4, kFar_px, 0.5});
+    OutlineAdjustment adjustment(line.comparison(), {4, kFar_px, 0.5});
     const Eigen::VectorXd z = Eigen::VectorXd::Zero(2);
     adjustment.information(z);
     const int asked = line.asked;
@@ -97,7 +95,7 @@ TEST(SilhouetteAdjustment, AsksNothingTwiceAndRefusesWhatIsNotFinite) {
     adjustment.cost(z);
     EXPECT_EQ(line.asked, asked);
     line.others.push_back(std::numeric_limits<double>::quiet_NaN());
-    OutlineAdjustment none(line, {4, kFar_px, 0.5});
+    OutlineAdjustment none(line.comparison(), {4, kFar_px, 0.5});
     Eigen::VectorXd there = z;
     EXPECT_FALSE(none.improve(there, 5, 1e-3));
     EXPECT_EQ(there, z);
