@@ -1,6 +1,7 @@
 #include "compositor/viewer/residency/placed_object.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/median.hpp"
 #include "rayspace/format/object_memory.hpp"
 
 #include <algorithm>
@@ -155,9 +156,7 @@ double foot_of(const RaySpaceObject& object, double foot) {
             const double reach = reach_towards(outlines, outline);
             heights.push_back(scale.height_at(outline.rows.end, scale.axis_depth + (beyond_horizon ? reach : -reach)));
         }
-        const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-        std::nth_element(heights.begin(), middle, heights.end());
-        foot = *middle;
+        foot = median(std::move(heights));
     }
     return foot;
 }
@@ -206,11 +205,6 @@ UprightExtent estimated_extent(const RaySpaceObject& object) {
         tops.push_back(height_of_end(rows.begin, {rows.begin, rows.begin + some}, rows.begin > scale.principal_row));
     }
     if (bottoms.empty()) return {};
-    const auto median = [](std::vector<double>& values) {
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        return *middle;
-    };
     const double foot = object.foot_q20 ? std::ldexp(*object.foot_q20, -20) : foot_of(object, median(bottoms));
     return {foot, median(tops)};
 }

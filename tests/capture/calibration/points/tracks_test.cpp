@@ -5,6 +5,7 @@
 #include "capture/calibration/points/bundle.hpp"
 #include "capture/calibration/tracks/track_calibration.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/median.hpp"
 #include "tests/capture/calibration/drawn_drum.hpp"
 #include "tests/capture/calibration/point_turns.hpp"
 
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace rs::capture {
@@ -58,8 +60,7 @@ double median_miss_px(const std::vector<Track>& tracks) {
         const Bundle bundle = make_bundle(truth(), std::vector<Track>{track});
         misses.push_back(bundle.tracks.empty() ? 1e9 : rms_px(bundle));
     }
-    std::nth_element(misses.begin(), misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2), misses.end());
-    return misses[misses.size() / 2];
+    return median(std::move(misses));
 }
 
 void expect_well_formed(const std::vector<Track>& tracks, int views) {

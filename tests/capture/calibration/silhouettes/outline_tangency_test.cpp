@@ -4,6 +4,7 @@
 #include "capture/calibration/silhouettes/outline_tangency.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/median.hpp"
 
 #include <gtest/gtest.h>
 
@@ -126,8 +127,7 @@ TEST(OutlineTangency, OutlinesAreJudgedByHowTheyAgreeInTheEnd) {
     constexpr double kWorst_px = 0.1;
     std::vector<double> before = tangency_residuals(start, hulls, comparable_views(start, hulls));
     for (double& residual : before) residual = std::abs(residual);
-    std::nth_element(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(before.size() / 2), before.end());
-    EXPECT_GT(before[before.size() / 2], 2 * kWorst_px);
+    EXPECT_GT(median(before), 2 * kWorst_px);
     const NumberPlaces places = all_places();
     const auto fit = fit_tangency(start, places, roughly_known(places, start), hulls, kWorst_px);
     ASSERT_TRUE(fit.has_value());
