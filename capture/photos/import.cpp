@@ -117,16 +117,9 @@ Result<CalibrationRequest> calibration_request(const ImportOptions& options, con
     if (options.degrees_per_view) known.step_rad = sense * radians(*options.degrees_per_view);
 
     TurntableModel& nominal = request.nominal;
-    nominal.lens = {report.width, report.height, 0, 0.5 * width, 0.5 * report.height, 0, 0};
-    nominal.lens.f_px = known.f_px.value_or(0.5 * width / std::tan(0.5 * radians(kNominalFieldOfView_deg)));
-    if (known.principal_point) {
-        nominal.lens.cx = known.principal_point->x;
-        nominal.lens.cy = known.principal_point->y;
-    }
-    if (known.distortion) {
-        nominal.lens.k1 = known.distortion->x;
-        nominal.lens.k2 = known.distortion->y;
-    }
+    const double assumed_f_px = 0.5 * width / std::tan(0.5 * radians(kNominalFieldOfView_deg));
+    nominal.lens =
+        with_known(Lens{report.width, report.height, assumed_f_px, 0.5 * width, 0.5 * report.height, 0, 0}, known);
     nominal.pose.pan_rad = std::atan((nominal.lens.cx - report.nominal.axis_x_px) / nominal.lens.f_px);
     for (std::size_t i = 0; i < report.source_names.size(); ++i) {
         nominal.angles_rad.push_back(sense * static_cast<double>(i) * radians(report.nominal.step_deg));

@@ -236,18 +236,11 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
                                               int height, const KnownInputs& known,
                                               std::span<const std::string> names) {
     Task task{views, design, known, names, {}, {}, {}, {}};
-    const glm::dvec2 centre = known.principal_point.value_or(glm::dvec2(0.5 * width, 0.5 * height));
-    const glm::dvec2 distortion = known.distortion.value_or(glm::dvec2(0));
-    task.lens = {width,        height,      known.f_px.value_or(1.3 * std::max(width, height)), centre.x, centre.y,
-                 distortion.x, distortion.y};
+    const double assumed_f_px = 1.3 * std::max(width, height);
+    task.lens = with_known(Lens{width, height, assumed_f_px, 0.5 * width, 0.5 * height, 0, 0}, known);
     BundleFreedom& free = task.options.free;
-    free.f = !known.f_px;
+    free = freedom_beside(known);
     free.k1 = free.k2 = !known.distortion;
-    free.principal_point = known.estimate_principal_point && !known.principal_point;
-    free.pan = free.tilt = free.roll = !known.pose;
-    free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kHeld
-                  : known.equal_steps                ? AngleFreedom::kCommonStep
-                                                     : AngleFreedom::kEach;
     if (Status usable = check(task); !usable) return usable.error();
     collect(task);
     Result<BoardTurn> turn = best_start(task);

@@ -72,4 +72,8 @@ struct KnownInputs {
     bool equal_steps = false;  // one common step for all views
 };
 
+// What was assumed, with the numbers that are known in their place. `model` has an angle for each view.
+Lens with_known(Lens lens, const KnownInputs& known);
+TurntableModel with_known(TurntableModel model, const KnownInputs& known);
+
 }  // namespace rs::capture

@@ -13,6 +13,17 @@
 
 namespace rs::capture {
 
+BundleFreedom freedom_beside(const KnownInputs& known) {
+    BundleFreedom free;
+    free.f = !known.f_px;
+    free.pan = free.tilt = free.roll = !known.pose;
+    free.principal_point = known.estimate_principal_point && !known.principal_point;
+    free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kHeld
+                  : known.equal_steps                ? AngleFreedom::kCommonStep
+                                                     : AngleFreedom::kEach;
+    return free;
+}
+
 std::optional<glm::dvec2> projected(const TurntableModel& model, const glm::dvec3& point, int view) {
     return project(model.lens, model.pose, turned(point, model.angles_rad[static_cast<std::size_t>(view)]));
 }

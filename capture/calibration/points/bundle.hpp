@@ -6,6 +6,7 @@
 // Fitzgibbon, Cross and Zisserman, "Automatic 3D model construction for turn-table sequences" (1998), who first solved
 // this geometry. The gauge is fixed by the model itself (camera at (0, 0, 1)) and by angle 0 of the first view.
 
+#include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/model/turn_projection.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
 #include "capture/calibration/points/tracks.hpp"
@@ -39,6 +40,9 @@ struct BundleFreedom {
     bool roll = true;
     AngleFreedom angles = AngleFreedom::kEach;
 };
+
+// All that is not known is free, but for the lens' distortion, which observations must have earned.
+BundleFreedom freedom_beside(const KnownInputs& known);
 
 struct BundleOptions {
     BundleFreedom free;

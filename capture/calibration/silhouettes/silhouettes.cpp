@@ -53,22 +53,6 @@ Status check_start(std::span<const Image<std::uint8_t>> masks, const TurntableMo
     return {};
 }
 
-void hold(TurntableModel& model, const KnownInputs& known) {
-    if (known.f_px) model.lens.f_px = *known.f_px;
-    if (known.principal_point) {
-        model.lens.cx = known.principal_point->x;
-        model.lens.cy = known.principal_point->y;
-    }
-    if (known.distortion) {
-        model.lens.k1 = known.distortion->x;
-        model.lens.k2 = known.distortion->y;
-    }
-    if (known.pose) model.pose = *known.pose;
-    for (std::size_t i = 0; i < model.angles_rad.size() && known.step_rad; ++i)
-        model.angles_rad[i] = static_cast<double>(i) * *known.step_rad;
-    if (known.angles_rad) model.angles_rad = *known.angles_rad;
-}
-
 // The best of a coarse grid over axis and tilt, each fitted with few rays, then the best of those with all.
 SilhouetteFit search(SilhouetteProblem problem) {
     const double width_px = problem.turn->width_px();
@@ -236,8 +220,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
                                                const KnownInputs& known) {
     auto turn = SilhouetteTurn::of(masks);
     if (!turn) return turn.error();
-    TurntableModel held = start;
-    hold(held, known);
+    const TurntableModel held = with_known(start, known);
     if (Status status = check_start(masks, held); !status) return status.error();
 
     // Photograph px per px of the turn.

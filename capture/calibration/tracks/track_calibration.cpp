@@ -88,27 +88,7 @@ double farthest_radius(const Bundle& bundle) {
 const char* const kNoSolution = "the bundle adjustment fails; are the pictures in order?";
 
 Lens known_lens(const TurnPictures& turn, const KnownInputs& known) {
-    Lens lens{turn.width, turn.height, known.f_px.value_or(0), turn.width / 2.0, turn.height / 2.0, 0, 0};
-    if (known.principal_point) {
-        lens.cx = known.principal_point->x;
-        lens.cy = known.principal_point->y;
-    }
-    if (known.distortion) {
-        lens.k1 = known.distortion->x;
-        lens.k2 = known.distortion->y;
-    }
-    return lens;
-}
-
-BundleFreedom freedom(const KnownInputs& known) {
-    BundleFreedom free;
-    free.f = !known.f_px;
-    free.pan = free.tilt = free.roll = !known.pose;
-    free.principal_point = known.estimate_principal_point && !known.principal_point;
-    free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kHeld
-                  : known.equal_steps                ? AngleFreedom::kCommonStep
-                                                     : AngleFreedom::kEach;
-    return free;
+    return with_known(Lens{turn.width, turn.height, 0, turn.width / 2.0, turn.height / 2.0, 0, 0}, known);
 }
 
 BundleOptions rough(BundleOptions options) {
@@ -241,7 +221,7 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
     if (progress != nullptr) progress->advance();
 
     BundleOptions options;
-    options.free = freedom(known);
+    options.free = freedom_beside(known);
     Bundle bundle = make_agreeing_bundle(start->model, part, 4.0 * turn.reduction);
     if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
     choose_upper_end(bundle);

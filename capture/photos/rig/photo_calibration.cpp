@@ -138,10 +138,7 @@ std::optional<Calibration> given(const CalibrationRequest& request, std::size_t 
     if (!known.f_px || !known.pose || !(known.angles_rad || known.step_rad)) return std::nullopt;
     Calibration calibration;
     calibration.method = CalibrationMethod::kGiven;
-    calibration.model = request.nominal;
-    calibration.model.lens.f_px = *known.f_px;
-    calibration.model.pose = *known.pose;
-    if (known.angles_rad) calibration.model.angles_rad = *known.angles_rad;
+    calibration.model = with_known(request.nominal, known);
     calibration.step_rad = median_step(calibration.model.angles_rad);
     calibration.views.resize(views);
     ModelDeviations& held = calibration.deviations;
