@@ -1,6 +1,6 @@
 #include "capture/photos/import_page.hpp"
 
-#include "capture/photos/intake/opencv_image.hpp"
+#include "capture/opencv/opencv_image.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"

@@ -13,7 +13,7 @@
 // DIR gets the plate, and per view the cut-out over magenta, and beside it the error: red where alpha is too small,
 // blue too large.
 
-#include "capture/photos/intake/opencv_image.hpp"
+#include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/photo_folder.hpp"
 #include "capture/photos/intake/survey.hpp"
 #include "capture/photos/matte/cut_out.hpp"

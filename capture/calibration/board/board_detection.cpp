@@ -2,6 +2,7 @@
 
 #include "capture/calibration/board/aruco_dictionary.hpp"
 #include "capture/calibration/board/corner_window.hpp"
+#include "capture/opencv/opencv_image.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
 
@@ -263,9 +264,7 @@ Result<BoardCorners> detect_board(ConstImageView<std::uint8_t> grey, const Board
     if (Status valid = check_board_design(design); !valid) return valid.error();
     if (grey.width() < 8 || grey.height() < 8) return BoardCorners{};
     try {
-        const cv::Mat1b pixels(grey.height(), grey.width(), const_cast<std::uint8_t*>(grey.data()),
-                               static_cast<std::size_t>(grey.stride()));
-        return corners_in(pixels, design);
+        return corners_in(mat_over(grey), design);
     } catch (const cv::Exception& e) {
         return Error{"the board could not be looked for: " + std::string(e.what()) +
                      "; check that the picture can be shown by other programs"};

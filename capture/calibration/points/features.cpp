@@ -1,5 +1,7 @@
 #include "capture/calibration/points/features.hpp"
 
+#include "capture/opencv/opencv_image.hpp"
+
 #include <tbb/parallel_for.h>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -15,12 +17,6 @@ namespace {
 
 // Finer than SIFT's usual 1.6: fur, leaves and thin glazes have twice the points, and alignment makes them exact.
 constexpr double kFinestBlur_px = 1.2;
-
-cv::Mat wrapped(const Image<std::uint8_t>& picture) {
-    const auto view = picture.view();
-    return {view.height(), view.width(), CV_8U, const_cast<std::uint8_t*>(view.row_span(0).data()),
-            static_cast<std::size_t>(view.stride())};
-}
 
 // RootSIFT (Arandjelovic and Zisserman, 2012).
 Descriptors root_sift(const cv::Mat1f& sift) {
@@ -41,7 +37,7 @@ Descriptors root_sift(const cv::Mat1f& sift) {
 
 ViewFeatures features_of(const CalibrationPicture& picture, const FollowOptions& options) {
     cv::Mat inside;
-    cv::threshold(wrapped(picture.alpha), inside, 250, 255, cv::THRESH_BINARY);
+    cv::threshold(mat_over(picture.alpha), inside, 250, 255, cv::THRESH_BINARY);
     const int side = 2 * options.rim_px + 1;
     cv::erode(inside, inside, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}), {-1, -1}, 1,
               cv::BORDER_REPLICATE);
@@ -49,9 +45,9 @@ ViewFeatures features_of(const CalibrationPicture& picture, const FollowOptions&
     const auto sift = cv::SIFT::create(0, 4, 0.012, 12, kFinestBlur_px);
     std::vector<cv::KeyPoint> points;
     cv::Mat descriptors;
-    sift->detect(wrapped(picture.grey), points, inside);
+    sift->detect(mat_over(picture.grey), points, inside);
     cv::KeyPointsFilter::retainBest(points, options.most_features);
-    sift->compute(wrapped(picture.grey), points, descriptors);
+    sift->compute(mat_over(picture.grey), points, descriptors);
 
     // A place with two directions is two features there; keep the order OpenCV gives, which is deterministic.
     ViewFeatures features;

@@ -2,6 +2,7 @@
 
 #include "capture/calibration/model/projection.hpp"
 #include "capture/calibration/points/bundle.hpp"
+#include "capture/opencv/opencv_image.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <ceres/ceres.h>
@@ -232,9 +233,8 @@ TurnPictures put_back(const TurnPictures& turn, std::span<const PicturePlace> pl
         const cv::Matx23d seen(place.scale, 0, origin.x, 0, place.scale, origin.y);
         const auto warp = [&](Image<std::uint8_t>& plane) {
             const Image<std::uint8_t> from = plane;
-            const cv::Mat1b in(from.height(), from.width(), const_cast<std::uint8_t*>(from.data()));
             cv::Mat1b out(plane.height(), plane.width(), plane.data());
-            cv::warpAffine(in, out, seen, out.size(), cv::INTER_CUBIC | cv::WARP_INVERSE_MAP);
+            cv::warpAffine(mat_over(from), out, seen, out.size(), cv::INTER_CUBIC | cv::WARP_INVERSE_MAP);
         };
         warp(back.pictures[i].grey);
         warp(back.pictures[i].alpha);

@@ -1,9 +1,9 @@
 #include "capture/photos/background/disc_bridging.hpp"
 
+#include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/disc_plane.hpp"
 #include "capture/photos/background/plate.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
-#include "capture/photos/intake/opencv_image.hpp"
 #include "rayspace/base/median.hpp"
 
 #include <opencv2/core.hpp>

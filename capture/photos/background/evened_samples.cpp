@@ -1,6 +1,6 @@
 #include "capture/photos/background/evened_samples.hpp"
 
-#include "capture/photos/intake/opencv_image.hpp"
+#include "capture/opencv/opencv_image.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/image/linear_light.hpp"
 

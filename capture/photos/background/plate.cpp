@@ -1,6 +1,6 @@
 #include "capture/photos/background/plate.hpp"
 
-#include "capture/photos/intake/opencv_image.hpp"
+#include "capture/opencv/opencv_image.hpp"
 
 #include <tbb/parallel_for.h>
 #include <opencv2/imgproc.hpp>

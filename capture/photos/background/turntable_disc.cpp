@@ -1,7 +1,7 @@
 #include "capture/photos/background/turntable_disc.hpp"
 
+#include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/disc_plane.hpp"
-#include "capture/photos/intake/opencv_image.hpp"
 #include "rayspace/base/median.hpp"
 
 #include <tbb/parallel_for.h>

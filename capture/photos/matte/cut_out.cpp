@@ -1,7 +1,7 @@
 #include "capture/photos/matte/cut_out.hpp"
 
+#include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/exposure.hpp"
-#include "capture/photos/intake/opencv_image.hpp"
 #include "capture/photos/matte/soft_edge.hpp"
 
 #include <opencv2/imgproc.hpp>

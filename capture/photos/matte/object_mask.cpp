@@ -1,6 +1,6 @@
 #include "capture/photos/matte/object_mask.hpp"
 
-#include "capture/photos/intake/opencv_image.hpp"
+#include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/matte/contrast_cut.hpp"
 
 #include <opencv2/core.hpp>

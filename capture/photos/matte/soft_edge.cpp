@@ -1,6 +1,6 @@
 #include "capture/photos/matte/soft_edge.hpp"
 
-#include "capture/photos/intake/opencv_image.hpp"
+#include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/matte/band_sides.hpp"
 
 #include <opencv2/imgproc.hpp>

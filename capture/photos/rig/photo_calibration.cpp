@@ -2,8 +2,8 @@
 
 #include "capture/calibration/silhouettes/silhouettes.hpp"
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
+#include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/bounded_work.hpp"
-#include "capture/photos/intake/opencv_image.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>

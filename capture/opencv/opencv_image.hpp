@@ -1,6 +1,6 @@
 #pragma once
-// Between the project's pictures and OpenCV matrices. Only for .cpp files of this folder: no header that others include
-// may need OpenCV.
+// Between the project's pictures and OpenCV matrices. Only for .cpp files: no header that others include may need
+// OpenCV.
 
 #include "rayspace/image/image.hpp"
 #include "rayspace/image/linear_light.hpp"
@@ -20,7 +20,7 @@ inline cv::Mat mat_over(ConstImageView<Rgba8> picture) {
             static_cast<std::size_t>(picture.stride()) * sizeof(Rgba8)};
 }
 
-// A mask's own bytes as CV_8UC1; likewise.
+// A mask's or a grey picture's own bytes as CV_8UC1; likewise.
 inline cv::Mat1b mat_over(ConstImageView<std::uint8_t> mask) {
     return {mask.height(), mask.width(), const_cast<std::uint8_t*>(mask.data()),
             static_cast<std::size_t>(mask.stride())};
