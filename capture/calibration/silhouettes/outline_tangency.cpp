@@ -27,8 +27,8 @@ constexpr int kStepsPerRound = 2;
 constexpr double kEnoughOfPlanes = 1e-3;  // of cost
 constexpr double kPlaneWidth = 0.3;       // of differences, in deviations: corners of hulls change little
 constexpr double kFinestPlanes_px = 0.005;
-// One view takes part in many pairs with nearly the same corner of its hull.
-constexpr double kWorthOfHull = 0.13;  // of that of its outline
+// One view takes part in many pairs with nearly the same corner of its hull: so much of what its outline is worth.
+constexpr double kWorthOfHull = 0.13;
 // Outlines err together, too, in ways no residual shows, most of all those of a body that looks the same from all
 // sides; by how much more than they say, true errors on photographs with known truth tell.
 constexpr double kUntold = 3;

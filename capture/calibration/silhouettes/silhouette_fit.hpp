@@ -20,8 +20,8 @@ struct SilhouetteParameters {
 // Where nothing is known, what is plausible: one standard deviation of each change. Weak, so that only what outlines do
 // not tell is held by it.
 inline constexpr std::array<double, SilhouetteParameters::kCount> kSilhouettePriors = {60, 0.5, 0.15, 0.35, 0.03};
-// Outlines of good cut-outs are off by about this much, in px of the turn; the unit of costs.
-inline constexpr double kSilhouetteError_px = 0.35;
+// Outlines are off by about this much, in px of the turn, while angles are as assumed; the unit of costs.
+inline constexpr double kSilhouetteError_px = 0.6;
 // Where a deviation is above this share of the prior's, the outlines have said nothing.
 inline constexpr double kToldNothing = 0.7;
 
