@@ -47,11 +47,11 @@ LooseNumbers::LooseNumbers(const TurntableModel& model, const NumberPlaces& plac
 }
 
 Eigen::MatrixXd LooseNumbers::told(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& information, double untold,
-                                   double disbelief) const {
+                                   double disbelief, double most) const {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(information);
     const Eigen::ArrayXd tell = disbelief * parts.eigenvalues().array().max(0);
     const Eigen::ArrayXd variance = (1 + untold * untold * tell) / (1 + tell).square();
-    const Eigen::VectorXd change = disbelief * variance.min(1) - 1;
+    const Eigen::VectorXd change = disbelief * variance.min(most) - 1;
     return covariance + columns_ * parts.eigenvectors() * change.asDiagonal() * parts.eigenvectors().transpose() *
                             columns_.transpose();
 }

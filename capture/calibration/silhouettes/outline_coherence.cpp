@@ -83,7 +83,7 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     rays.beside = nullptr;
     OutlineAdjustment found(rays, errors);
     const Eigen::MatrixXd information = found.information(z);
-    CoherenceFit fit{numbers.at(z), numbers.told(covariance, information, options.untold_together), 0};
+    CoherenceFit fit{numbers.at(z), numbers.told(covariance, information, options.untold_together, 1, 1), 0};
     fit.consistency_residual_px = picture_px * rms_px(found.residuals(z));
     if (!(fit.consistency_residual_px <= options.worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
     if (!(numbers.angles_left(information) <= kTellsOfAngles)) return std::nullopt;

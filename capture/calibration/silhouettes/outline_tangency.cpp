@@ -32,6 +32,7 @@ constexpr double kWorthOfHull = 0.13;
 // Outlines err together, too, in ways no residual shows, most of all those of a body that looks the same from all
 // sides; by how much more than they say, true errors on photographs with known truth tell.
 constexpr double kUntold = 3;
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 struct HullPoint {
     glm::dvec2 plane{0.0};  // without distortion
@@ -231,7 +232,8 @@ std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const Numbe
         if (!adjustment.improve(z, kStepsPerRound, kEnoughOfPlanes)) return std::nullopt;
         disbelief = beyond_belief(places, covariance, numbers.step(z));
     }
-    TangencyFit fit{numbers.at(z), numbers.told(covariance, adjustment.information(z), kUntold, disbelief), 0};
+    TangencyFit fit{numbers.at(z), numbers.told(covariance, adjustment.information(z), kUntold, disbelief, kNoLimit),
+                    0};
     // Judged at the end: where the model began wrong, outlines that agree well do not seem to.
     fit.deviation_px = deviation_of(adjustment.residuals(z));
     if (!(fit.deviation_px <= worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
