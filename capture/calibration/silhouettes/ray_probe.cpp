@@ -17,6 +17,7 @@ constexpr int kNearDepths = 2;         // tried on either side of a depth that i
 // By how much more than a point moves its distance to an outline may change: chamfer distances are a little longer than
 // straight ones, and edge pixels add up to half a pixel of their own.
 constexpr float kSteepest = 1.06F;
+constexpr float kSteepestAnywhere = 1.5F;  // beyond the field of distances, too, where columns and rows add up
 constexpr float kEdgeJump_px = 1;
 
 }  // namespace
@@ -82,13 +83,12 @@ double RayProbe::best(const glm::dvec3& direction, double reach, double& known_d
     Top top;
     if (known_depth > 0) {
         top.at = known_depth;
-        // Outwards from where it was, so that a good value comes early and prunes the rest.
         for (int k = 0; k < 2 * kNearDepths + 1 && top.least < 0; ++k) {
             try_depth(known_depth + step * (k % 2 == 0 ? -(k / 2) : k / 2 + 1), top);
         }
     } else {
-        top.at = middle;
-        try_between(middle - half + 0.5 * step, step, kDepths, top);
+        top.at = middle - 0.5 * step;
+        try_outwards(top.at, step, top);
     }
     known_depth = top.at;
     if (top.least >= 0) return top.least;
@@ -104,22 +104,32 @@ RayProbe::Witness RayProbe::try_depth(double depth, Top& top) {
     return witness;
 }
 
-// Of `count` depths from `first` on, the middle one and then both sides, where the view that said least in the middle
-// could say more.
-void RayProbe::try_between(double first, double step, int count, Top& top) {
-    if (count <= 0 || top.least >= 0) return;
-    const int before = count / 2;
-    const double middle = first + step * before;
-    const Witness witness = try_depth(middle, top);
-    const Seen here = seen(witness.sight, middle);
-    const auto may_have_more = [&](double end) {
-        const Seen there = seen(witness.sight, end);
-        if (!here.before_camera || !there.before_camera) return true;
-        return witness.least + kSteepest * apart_px(here, there) + kEdgeJump_px > top.least;
-    };
-    if (may_have_more(first)) try_between(first, step, before, top);
-    const double last = first + step * (count - 1);
-    if (may_have_more(last)) try_between(middle + step, step, count - 1 - before, top);
+// kDepths of them around `from`, the nearest to it first, but for those that the view which contradicted the last one
+// on their side contradicts as much as all that raise nothing.
+void RayProbe::try_outwards(double from, double step, Top& top) {
+    constexpr int kOfSide = kDepths / 2;
+    for (int before = 0, behind = 0; (before < kOfSide || behind < kOfSide) && top.least < 0;) {
+        const bool is_before = before <= behind && before < kOfSide;
+        int& tried = is_before || behind == kOfSide ? before : behind;
+        const double side = &tried == &before ? -step : step;
+        const double depth = &tried == &before ? from - step * before : from + step * (behind + 1);
+        const Witness witness = try_depth(depth, top);
+        tried += 1 + contradicted(witness, depth, side, kOfSide - 1 - tried, top.least);
+    }
+}
+
+// Of the next `count` depths the first so many may have no more than `floor`, by what a view says at `depth`.
+int RayProbe::contradicted(const Witness& by, double depth, double step, int count, float floor) const {
+    if (by.least + kEdgeJump_px > floor) return 0;
+    const Seen here = seen(by.sight, depth);
+    int sure = 0;
+    for (int steps = 1; steps <= count; steps *= 2) {
+        const Seen there = seen(by.sight, depth + step * steps);
+        if (!here.before_camera || !there.before_camera) break;
+        if (by.least + kSteepestAnywhere * apart_px(here, there) + kEdgeJump_px > floor) break;
+        sure = steps;
+    }
+    return sure;
 }
 
 double RayProbe::best_beside(const glm::dvec3& direction, double reach, double known_depth) {

@@ -71,7 +71,8 @@ private:
     [[nodiscard]] float distance(std::size_t j, double depth) const;
     Witness least_over_views(double depth, float floor);
     Witness try_depth(double depth, Top& top);
-    void try_between(double first, double step, int count, Top& top);
+    void try_outwards(double from, double step, Top& top);
+    [[nodiscard]] int contradicted(const Witness& by, double depth, double step, int count, float floor) const;
     void keep_deciding(double low, double high);
     std::pair<float, double> refined(double low, double high, int rounds);
 

@@ -42,6 +42,19 @@ void enlarge_chroma(RaySpaceObject& object, Random& random) {
     }
 }
 
+// Pictures of whose columns some show next to nothing and some a part, as at rims.
+void thin_out(RaySpaceObject& object, Random& random) {
+    for (PlanarPicture& picture : object.pictures) {
+        for (int column = 0; column < object.width; ++column) {
+            const int kind = random.whole(0, 2);
+            for (int row = 0; row < object.height; ++row) {
+                const int alpha = kind == 0 ? random.whole(0, 1) : kind == 1 ? random.whole(40, 200) : 255;
+                picture.a(column, row) = static_cast<std::uint8_t>(alpha);
+            }
+        }
+    }
+}
+
 RaySpaceObject random_ring_object(Random& random, Drawn& drawn) {
     test::RingObjectOptions options;
     options.views = random.whole(1, 14);
@@ -73,6 +86,7 @@ Drawn draw(Random& random, bool with_shape) {
     drawn.object = random.whole(0, 2) == 0 ? random_small_object(random, drawn) : random_ring_object(random, drawn);
     drawn.fov_rad = 2 * std::atan(random.real(0.5, 1.3) / drawn.distance);
     if (random.whole(0, 4) == 0) enlarge_chroma(drawn.object, random);
+    if (random.whole(0, 3) == 0) thin_out(drawn.object, random);
     const double empty_share = random.whole(0, 3) == 0 ? 0.9 : random.real(0, 0.5);
     for (std::size_t r = 0; with_shape && r < drawn.object.rings.size(); ++r) {
         drawn.object.rings[r].shape = test::random_shape(drawn.object, r, random.engine, empty_share);
