@@ -17,8 +17,8 @@ constexpr int kNearDepths = 2;         // tried on either side of a depth that i
 // By how much more than a point moves its distance to an outline may change: chamfer distances are a little longer than
 // straight ones, and edge pixels add up to half a pixel of their own.
 constexpr float kSteepest = 1.06F;
-constexpr float kSteepestAnywhere = 1.5F;  // beyond the field of distances, too, where columns and rows add up
 constexpr float kEdgeJump_px = 1;
+constexpr float kBehind = std::numeric_limits<float>::lowest();
 
 }  // namespace
 
@@ -80,61 +80,32 @@ double RayProbe::best(const glm::dvec3& direction, double reach, double& known_d
     const double miss2 = direction.x * direction.x / flat2;
     const double half = std::sqrt(std::max(1e-6, reach * reach - miss2) / flat2);
     const double step = 2 * half / kDepths;
-    Top top;
-    if (known_depth > 0) {
-        top.at = known_depth;
-        for (int k = 0; k < 2 * kNearDepths + 1 && top.least < 0; ++k) {
-            try_depth(known_depth + step * (k % 2 == 0 ? -(k / 2) : k / 2 + 1), top);
+    float most = kBehind;
+    const bool is_known = known_depth > 0;
+    // Outwards from the middle, or from where it was, so that a good value comes early and prunes the rest.
+    const double from = is_known ? known_depth : middle - 0.5 * step;
+    const int tried = is_known ? 2 * kNearDepths + 1 : kDepths;
+    double at = from;
+    for (int k = 0; k < tried; ++k) {
+        const double depth = from + step * (k % 2 == 0 ? -(k / 2) : k / 2 + 1);
+        const float least = least_over_views(depth, most);
+        if (least > most) {
+            most = least;
+            at = depth;
         }
-    } else {
-        top.at = middle - 0.5 * step;
-        try_outwards(top.at, step, top);
+        if (most >= 0) {
+            known_depth = at;
+            return most;
+        }
     }
-    known_depth = top.at;
-    if (top.least >= 0) return top.least;
-    const auto [found, found_at] = refined(top.at - step, top.at + step, kRefinements);
-    if (found > top.least) known_depth = found_at;
-    return std::max(top.least, found);
-}
-
-// Of the ray's point at `depth`; raises `top`. The view that says so, or says enough not to raise it.
-RayProbe::Witness RayProbe::try_depth(double depth, Top& top) {
-    const Witness witness = least_over_views(depth, top.least);
-    if (witness.least > top.least) top = {witness.least, depth};
-    return witness;
-}
-
-// kDepths of them around `from`, the nearest to it first, but for those that the view which contradicted the last one
-// on their side contradicts as much as all that raise nothing.
-void RayProbe::try_outwards(double from, double step, Top& top) {
-    constexpr int kOfSide = kDepths / 2;
-    for (int before = 0, behind = 0; (before < kOfSide || behind < kOfSide) && top.least < 0;) {
-        const bool is_before = before <= behind && before < kOfSide;
-        int& tried = is_before || behind == kOfSide ? before : behind;
-        const double side = &tried == &before ? -step : step;
-        const double depth = &tried == &before ? from - step * before : from + step * (behind + 1);
-        const Witness witness = try_depth(depth, top);
-        tried += 1 + contradicted(witness, depth, side, kOfSide - 1 - tried, top.least);
-    }
-}
-
-// Of the next `count` depths the first so many may have no more than `floor`, by what a view says at `depth`.
-int RayProbe::contradicted(const Witness& by, double depth, double step, int count, float floor) const {
-    if (by.least + kEdgeJump_px > floor) return 0;
-    const Seen here = seen(by.sight, depth);
-    int sure = 0;
-    for (int steps = 1; steps <= count; steps *= 2) {
-        const Seen there = seen(by.sight, depth + step * steps);
-        if (!here.before_camera || !there.before_camera) break;
-        if (by.least + kSteepestAnywhere * apart_px(here, there) + kEdgeJump_px > floor) break;
-        sure = steps;
-    }
-    return sure;
+    const auto [found, found_at] = refined(at - step, at + step, kRefinements);
+    known_depth = found > most ? found_at : at;
+    return std::max(most, found);
 }
 
 double RayProbe::best_beside(const glm::dvec3& direction, double reach, double known_depth) {
     aim(direction);
-    const float here = least_over_views(known_depth, kBehind).least;
+    const float here = least_over_views(known_depth, kBehind);
     if (here >= 0) return here;
     const double flat2 = direction.x * direction.x + direction.z * direction.z;
     const double half =
@@ -175,19 +146,17 @@ float RayProbe::distance(std::size_t j, double depth) const {
 }
 
 // May stop at the first value below `floor`.
-RayProbe::Witness RayProbe::least_over_views(double depth, float floor) {
-    Witness witness{std::numeric_limits<float>::max(), 0};
+float RayProbe::least_over_views(double depth, float floor) {
+    float least = std::numeric_limits<float>::max();
     for (std::size_t i = 0; i < deciding_; ++i) {
-        const float here = distance(heeded_[i], depth);
-        if (here >= witness.least) continue;
-        witness = {here, heeded_[i]};
-        if (here < floor || here == kBehind) {
+        least = std::min(least, distance(heeded_[i], depth));
+        if (least < floor || least == kBehind) {
             // Who contradicts one point contradicts the next ones, too.
             if (i > 0) std::swap(heeded_[i], heeded_[i / 2]);
-            break;
+            return least;
         }
     }
-    return witness;
+    return least;
 }
 
 float RayProbe::apart_px(const Seen& a, const Seen& b) {
@@ -223,8 +192,8 @@ std::pair<float, double> RayProbe::refined(double low, double high, int rounds) 
     if (deciding_ > kFewViews) keep_deciding(low, high);
     double a = high - kGolden * (high - low);
     double b = low + kGolden * (high - low);
-    float at_a = least_over_views(a, kBehind).least;
-    float at_b = least_over_views(b, at_a).least;
+    float at_a = least_over_views(a, kBehind);
+    float at_b = least_over_views(b, at_a);
     for (int i = 0; i < rounds && at_a < 0 && at_b < 0; ++i) {
         // The smaller of both may be less than it says: it goes.
         if (at_a > at_b) {
@@ -233,14 +202,14 @@ std::pair<float, double> RayProbe::refined(double low, double high, int rounds) 
             at_b = at_a;
             a = high - kGolden * (high - low);
             if (i % kPruneEvery == kPruneEvery - 1 && deciding_ > kFewViews) keep_deciding(low, high);
-            at_a = least_over_views(a, at_b).least;
+            at_a = least_over_views(a, at_b);
         } else {
             low = a;
             a = b;
             at_a = at_b;
             b = low + kGolden * (high - low);
             if (i % kPruneEvery == kPruneEvery - 1 && deciding_ > kFewViews) keep_deciding(low, high);
-            at_b = least_over_views(b, at_a).least;
+            at_b = least_over_views(b, at_a);
         }
     }
     return at_a > at_b ? std::pair{at_a, a} : std::pair{at_b, b};

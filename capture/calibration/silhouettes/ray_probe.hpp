@@ -7,7 +7,6 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -54,25 +53,11 @@ private:
         float x = 0, y = 0;
         bool before_camera = false;
     };
-    static constexpr float kBehind = std::numeric_limits<float>::lowest();
-    // The largest so far of the least over views, px, and at which depth.
-    struct Top {
-        float least = kBehind;
-        double at = 0;
-    };
-    // A view that allows a point no more than this.
-    struct Witness {
-        float least;
-        std::size_t sight;
-    };
     static float apart_px(const Seen& a, const Seen& b);
     void aim(const glm::dvec3& direction);
     [[nodiscard]] Seen seen(std::size_t j, double depth) const;
     [[nodiscard]] float distance(std::size_t j, double depth) const;
-    Witness least_over_views(double depth, float floor);
-    Witness try_depth(double depth, Top& top);
-    void try_outwards(double from, double step, Top& top);
-    [[nodiscard]] int contradicted(const Witness& by, double depth, double step, int count, float floor) const;
+    float least_over_views(double depth, float floor);
     void keep_deciding(double low, double high);
     std::pair<float, double> refined(double low, double high, int rounds);
 
