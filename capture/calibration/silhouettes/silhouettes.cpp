@@ -238,9 +238,8 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
                      " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
     };
     const SilhouetteFit best = search(problem);
-    const double start_cost = silhouette_cost(problem, {}, {});
     const double start_rms = rms_px(consistency_residuals_px(*turn, problem.start, {}));
-    if (start_rms > kGoodEnough_px && !(best.cost < kImprovement * start_cost)) {
+    if (start_rms > kGoodEnough_px && !(best.cost < kImprovement * silhouette_cost(problem, {}, {}))) {
         return Error{
             "silhouettes: no axis, tilt, roll or focal length near the assumed ones makes the outlines agree "
             "better; check the steps, the sense of turning and the cut-outs"};

@@ -16,6 +16,8 @@ void PacketMaterial::fill(std::size_t lane, MaterialLanes& lanes) const {
     lanes.table[lane] = table;
 }
 
+static_assert(AlbedoTable::kSize == kAlbedoNumbers);
+
 PacketMaterials::PacketMaterials(const Scene& scene, const std::vector<SurfaceModel>& models) {
     tables_.assign(AlbedoTable::kSize, 0.0F);  // of materials without one
     std::map<const AlbedoTable*, std::int32_t> places = {{nullptr, 0}};
@@ -38,7 +40,7 @@ PacketMaterials::PacketMaterials(const Scene& scene, const std::vector<SurfaceMo
         material.table = place->second;
         material.shines = max_component(of.emission) > 0.0F;
         material.relief = of.relief >= 0;
-        material.one_sided = !of.two_sided && of.kind != SurfaceKind::glass;
+        material.one_sided = of.is_one_sided();
         materials_.push_back(material);
     }
 }

@@ -129,7 +129,7 @@ void RadiosityTracer::follow_photon(float time, Sampler& sampler, VirtualLights&
         flux *= media.passed(point.distance);
         if (!(max_component(flux) > 0.0F)) return;
         const Material& material = transport_.material_of(point);
-        if (!point.front_side && !material.two_sided && material.kind != SurfaceKind::glass) return;
+        if (!point.front_side && material.is_one_sided()) return;
 
         const Vertex vertex = transport_.vertex_at(point, segment.direction);
         const glm::vec3 in = -segment.direction;

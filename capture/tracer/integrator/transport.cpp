@@ -79,9 +79,7 @@ LightTransport::Met LightTransport::arrive(const Segment& segment, bool hit, con
         return max_component(radiance) > 0.0F ? Met::kLight : Met::kNothing;
     }
     radiance += throughput * emission_of(point, segment);
-    const Material& material = material_of(point);
-    const bool not_there = !point.front_side && !material.two_sided && material.kind != SurfaceKind::glass;
-    return not_there ? Met::kLight : Met::kSurface;
+    return !point.front_side && material_of(point).is_one_sided() ? Met::kLight : Met::kSurface;
 }
 
 glm::vec3 LightTransport::areas_on_the_way(const Segment& segment, float distance) const {

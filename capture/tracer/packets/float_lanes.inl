@@ -109,11 +109,10 @@ HWY_INLINE Floats smith_lambda(Floats cosine, Floats alpha) {
 
 // The twin of AlbedoTable::at().
 HWY_INLINE Floats albedo_at(const float* tables, Ints table, Floats cosine) {
-    constexpr int kSize = 64;
     const IntTag ints;
-    const Floats x = hn::Sqrt(clamped(cosine, 0.0F, 1.0F)) * number(kSize - 1);
+    const Floats x = hn::Sqrt(clamped(cosine, 0.0F, 1.0F)) * number(kAlbedoNumbers - 1);
     // Lanes that do not count may hold no number.
-    const Ints below = hn::Max(hn::Min(hn::ConvertTo(ints, x), hn::Set(ints, kSize - 2)), hn::Zero(ints));
+    const Ints below = hn::Max(hn::Min(hn::ConvertTo(ints, x), hn::Set(ints, kAlbedoNumbers - 2)), hn::Zero(ints));
     const Ints index = table + below;
     const Floats part = x - hn::ConvertTo(FloatTag(), below);
     return hn::GatherIndex(FloatTag(), tables, index) * (number(1.0F) - part) +

@@ -19,6 +19,7 @@
 namespace rs::capture {
 
 inline constexpr std::size_t kLanes = 16;
+inline constexpr int kAlbedoNumbers = 64;  // in the table of a coat's or a metal's albedo
 
 template <class Number>
 struct alignas(64) LanesOf {

@@ -1,5 +1,6 @@
 // What surfaces make of light.
 #include "capture/tracer/packets/light_lanes.hpp"
+#include "rayspace/base/conventions.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "capture/tracer/packets/scattering_lanes.cpp"
@@ -11,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace rs::capture::HWY_NAMESPACE {
 
-constexpr float kPiF = 3.14159265358979323846F;
+constexpr float kPiF = static_cast<float>(kPi);
 
 // The twin of fresnel_dielectric().
 HWY_INLINE Floats fresnel_dielectric(Floats cos_incident, Floats ior) {

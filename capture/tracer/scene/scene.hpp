@@ -38,6 +38,9 @@ struct Material {
     int relief = -1;            // index into Scene::reliefs, -1 = none
     bool two_sided = true;      // thin surfaces (petals, leaves): shaded the same from both sides
     float translucency = 0.0F;  // diffuse only: share of the light that leaves on the other side (petals), 0..1
+
+    // From behind such a surface is not there; glass is, for its rays come from within.
+    [[nodiscard]] bool is_one_sided() const { return !two_sided && kind != SurfaceKind::glass; }
 };
 
 struct Mesh {
