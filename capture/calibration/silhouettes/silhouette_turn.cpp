@@ -169,7 +169,7 @@ Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> m
             return Error{view_name(i) + " has hardly any outline; check its cut-out"};
         }
         try {
-            turn.distances_.push_back(signed_distance(part));
+            turn.distances_.emplace_back(signed_distance(part).view());
         } catch (const cv::Exception& problem) {
             return Error{view_name(i) + ": " + problem.err};
         }

@@ -2,6 +2,7 @@
 // The outlines of a turn, made ready to be compared with each other: of every view the signed distance to its outline
 // and points along it, at a common small scale.
 
+#include "capture/calibration/silhouettes/distance_field.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 
@@ -38,18 +39,10 @@ public:
         float outside = 0;
         x -= origin_.x + 0.5F;
         y -= origin_.y + 0.5F;
-        const Image<float>& field = distances_[view];
+        const DistanceField& field = distances_[view];
         x = held(x, static_cast<float>(field.width() - 1), open_[0], open_[1], outside);
         y = held(y, static_cast<float>(field.height() - 1), open_[2], open_[3], outside);
-        const int left = static_cast<int>(x) < field.width() - 1 ? static_cast<int>(x) : field.width() - 2;
-        const int top = static_cast<int>(y) < field.height() - 1 ? static_cast<int>(y) : field.height() - 2;
-        const float u = x - static_cast<float>(left);
-        const float v = y - static_cast<float>(top);
-        const float* const upper = field.row(top) + left;
-        const float* const lower = field.row(top + 1) + left;
-        const float a = upper[0] + u * (upper[1] - upper[0]);
-        const float b = lower[0] + u * (lower[1] - lower[0]);
-        return a + v * (b - a) - outside;
+        return field.at(x, y) - outside;
     }
 
 private:
@@ -68,7 +61,7 @@ private:
     glm::vec2 origin_{0};  // of the fields within the reduced picture
     glm::dvec2 box_low_{0}, box_high_{0};
     bool open_[4] = {};  // left, right, top, bottom: the object reaches the picture's border there
-    std::vector<Image<float>> distances_;
+    std::vector<DistanceField> distances_;
     std::vector<std::vector<glm::dvec2>> edges_;
 };
 
