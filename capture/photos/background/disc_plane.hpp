@@ -35,7 +35,11 @@ public:
     }
     // The pixel that shows a point of a circle about the axis.
     [[nodiscard]] glm::dvec2 on_circle(double radius, double angle_rad) const {
-        const glm::dvec3 p = centre_ + radius * (std::cos(angle_rad) * across_ + std::sin(angle_rad) * along_);
+        return on_circle(radius, glm::dvec2(std::cos(angle_rad), std::sin(angle_rad)));
+    }
+    // The same for an angle of which cosine and sine are known.
+    [[nodiscard]] glm::dvec2 on_circle(double radius, const glm::dvec2& direction) const {
+        const glm::dvec3 p = centre_ + radius * (direction.x * across_ + direction.y * along_);
         return {cx_ + f_px_ * p.x / p.z, cy_ + f_px_ * p.y / p.z};
     }
     // Whether all of a circle about the axis lies well before the camera.

@@ -7,40 +7,65 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <span>
+#include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace rs::capture {
 namespace {
 
-struct Group {
-    Rgba8 mean;
-    std::size_t size = 0;
-};
+// What all samples show at one pixel, channel by channel, so that many are compared at a time.
+class PixelOverTime {
+public:
+    explicit PixelOverTime(std::size_t samples) : r_(samples), g_(samples), b_(samples), agrees_(samples) {}
+    void set(std::size_t sample, const Rgba8& value) {
+        r_[sample] = value.r;
+        g_[sample] = value.g;
+        b_[sample] = value.b;
+    }
+    [[nodiscard]] std::size_t samples() const { return r_.size(); }
 
-Group largest_group(std::span<const Rgba8> values) {
-    std::size_t best = 0;
-    std::size_t best_size = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    // Of the largest group of samples that agree with one of them, the first such one; its mean and how many it has.
+    struct Group {
+        Rgba8 mean;
         std::size_t size = 0;
-        for (const Rgba8& other : values) size += samples_agree(values[i], other) ? 1 : 0;
-        if (size > best_size) {
-            best_size = size;
-            best = i;
+    };
+    Group largest_group() {
+        std::size_t best = 0;
+        std::size_t best_size = 0;
+        for (std::size_t i = 0; i < samples(); ++i) {
+            const std::size_t size = compare_with(i);
+            if (size > best_size) {
+                best_size = size;
+                best = i;
+            }
+            if (size == samples()) break;  // a still pixel, the usual case
         }
-        if (size == values.size()) break;  // a still pixel, the usual case
+        compare_with(best);
+        const auto mean = [&](const std::vector<std::uint8_t>& codes) {
+            std::size_t sum = 0;
+            for (std::size_t i = 0; i < codes.size(); ++i) sum += agrees_[i] != 0 ? codes[i] : 0U;
+            return static_cast<std::uint8_t>((sum + best_size / 2) / best_size);
+        };
+        return {{mean(r_), mean(g_), mean(b_), 255}, best_size};
     }
-    std::array<std::size_t, 3> sum{};
-    for (const Rgba8& value : values) {
-        if (!samples_agree(values[best], value)) continue;
-        sum[0] += value.r;
-        sum[1] += value.g;
-        sum[2] += value.b;
+
+private:
+    static std::uint8_t apart(std::uint8_t a, std::uint8_t b) {
+        return static_cast<std::uint8_t>(std::max(a, b) - std::min(a, b));
     }
-    const auto mean = [&](std::size_t s) { return static_cast<std::uint8_t>((s + best_size / 2) / best_size); };
-    return {{mean(sum[0]), mean(sum[1]), mean(sum[2]), 255}, best_size};
-}
+    // Which samples agree with sample i, as samples_agree() has it; how many.
+    std::size_t compare_with(std::size_t i) {
+        const std::uint8_t r = r_[i], g = g_[i], b = b_[i];
+        for (std::size_t k = 0; k < samples(); ++k) {
+            const std::uint8_t most = std::max({apart(r, r_[k]), apart(g, g_[k]), apart(b, b_[k])});
+            agrees_[k] = most <= kAgreement_codes ? 1 : 0;
+        }
+        return std::accumulate(agrees_.begin(), agrees_.end(), std::size_t{0});
+    }
+
+    std::vector<std::uint8_t> r_, g_, b_, agrees_;  // [sample]
+};
 
 }  // namespace
 
@@ -49,12 +74,12 @@ StillPicture agree_over_time(const EvenedSamples& samples) {
     const int height = samples.height();
     StillPicture still{Image<Rgba8>(width, height), Image<float>(width, height)};
     tbb::parallel_for(0, height, [&](int y) {
-        std::vector<Rgba8> values(samples.count());
+        PixelOverTime pixel(samples.count());
         for (int x = 0; x < width; ++x) {
-            for (std::size_t i = 0; i < samples.count(); ++i) values[i] = samples.smooth(i, x, y);
-            const Group group = largest_group(values);
+            for (std::size_t i = 0; i < samples.count(); ++i) pixel.set(i, samples.smooth(i, x, y));
+            const auto group = pixel.largest_group();
             still.colour(x, y) = group.mean;
-            still.agreement(x, y) = static_cast<float>(group.size) / static_cast<float>(values.size());
+            still.agreement(x, y) = static_cast<float>(group.size) / static_cast<float>(samples.count());
         }
     });
     return still;

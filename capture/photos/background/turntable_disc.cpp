@@ -33,14 +33,35 @@ struct RimPlace {
     glm::dvec2 normal{};  // of length 1; 0 where the circle is seen from its edge
 };
 
-RimPlace rim_place(const DiscPlane& plane, double radius, double angle_rad) {
-    constexpr double kApart_rad = 0.02;
-    const glm::dvec2 tangent =
-        plane.on_circle(radius, angle_rad + kApart_rad) - plane.on_circle(radius, angle_rad - kApart_rad);
-    const double length = glm::length(tangent);
-    const glm::dvec2 normal = length > 1e-9 ? glm::dvec2(tangent.y, -tangent.x) / length : glm::dvec2(0);
-    return {plane.on_circle(radius, angle_rad), normal};
-}
+// Cosines and sines of angles all around, and of what lies a little before and behind each. Tens of thousands of
+// circles are tried at the same angles.
+class AroundCircle {
+public:
+    explicit AroundCircle(int places) : places_(places) {
+        constexpr double kApart_rad = 0.02;
+        const auto direction = [](double angle_rad) { return glm::dvec2(std::cos(angle_rad), std::sin(angle_rad)); };
+        for (int i = 0; i < places; ++i) {
+            const double angle = angle_rad(i);
+            directions_.push_back({direction(angle), direction(angle - kApart_rad), direction(angle + kApart_rad)});
+        }
+    }
+    [[nodiscard]] int places() const { return places_; }
+    [[nodiscard]] double angle_rad(int i) const { return 2 * std::numbers::pi * i / places_; }
+    [[nodiscard]] RimPlace rim_place(const DiscPlane& plane, double radius, int i) const {
+        const Directions& d = directions_[static_cast<std::size_t>(i)];
+        const glm::dvec2 tangent = plane.on_circle(radius, d.behind) - plane.on_circle(radius, d.before);
+        const double length = glm::length(tangent);
+        const glm::dvec2 normal = length > 1e-9 ? glm::dvec2(tangent.y, -tangent.x) / length : glm::dvec2(0);
+        return {plane.on_circle(radius, d.at), normal};
+    }
+
+private:
+    struct Directions {
+        glm::dvec2 at, before, behind;
+    };
+    int places_;
+    std::vector<Directions> directions_;
+};
 
 class RimSearch {
 public:
@@ -55,14 +76,16 @@ public:
     }
 
     // Of colours so far apart on either side; what differs by `clear_codes` stands out entirely.
-    [[nodiscard]] Rim rim_of(const TurntableDisc& disc, int samples, double apart_px, double clear_codes) const {
+    [[nodiscard]] Rim rim_of(const TurntableDisc& disc, const AroundCircle& around, double apart_px,
+                             double clear_codes) const {
+        const int samples = around.places();
         const DiscPlane plane = this->plane(disc);
         if (!stands_before_camera(disc, plane)) return {};
         double sum = 0;
         int known = 0;
         std::array<double, 8> octant_sum{};
         std::array<int, 8> octant_known{};
-        visit_known(disc, plane, samples, apart_px, [&](int i, double codes) {
+        visit_known(disc, plane, around, apart_px, [&](int i, double codes) {
             const double contrast = std::min(1.0, codes / clear_codes);
             const auto octant = static_cast<std::size_t>(i * 8 / samples);
             ++known;
@@ -82,9 +105,9 @@ public:
 
     // Of what is known of a circle, the share that stands out by at least a third of what the median of it does. A
     // disc has one colour against one table; a circle through the foot of the object and something else has not.
-    [[nodiscard]] double evenness(const TurntableDisc& disc, int samples, double apart_px) const {
+    [[nodiscard]] double evenness(const TurntableDisc& disc, const AroundCircle& around, double apart_px) const {
         std::vector<double> known_codes;
-        visit_known(disc, plane(disc), samples, apart_px, [&](int, double codes) { known_codes.push_back(codes); });
+        visit_known(disc, plane(disc), around, apart_px, [&](int, double codes) { known_codes.push_back(codes); });
         if (known_codes.empty()) return 0;
         const double third = median(known_codes) / 3;
         const auto even = std::count_if(known_codes.begin(), known_codes.end(), [&](double c) { return c >= third; });
@@ -118,10 +141,10 @@ public:
 private:
     // Calls visit(i, contrast in codes) for those of a circle's samples that are known.
     template <class Visit>
-    void visit_known(const TurntableDisc& disc, const DiscPlane& plane, int samples, double apart_px,
+    void visit_known(const TurntableDisc& disc, const DiscPlane& plane, const AroundCircle& around, double apart_px,
                      Visit visit) const {
-        for (int i = 0; i < samples; ++i) {
-            const RimPlace place = rim_place(plane, disc.radius, 2 * std::numbers::pi * i / samples);
+        for (int i = 0; i < around.places(); ++i) {
+            const RimPlace place = around.rim_place(plane, disc.radius, i);
             const std::optional<double> codes = contrast_at(place.px, place.normal * apart_px);
             if (codes) visit(i, *codes);
         }
@@ -157,7 +180,7 @@ private:
 TurntableDisc drawn_to_edges(const RimSearch& search, const TurntableDisc& start, double reach_px) {
     const DiscPlane plane = search.plane(start);
     if (!RimSearch::stands_before_camera(start, plane)) return start;
-    constexpr int kSamples = 240;
+    const AroundCircle around(240);
     constexpr double kHuber_px = 1;
     constexpr double kDamping = 1e-3;
     const auto disc_of = [&](const std::array<double, 5>& x) {
@@ -173,16 +196,16 @@ TurntableDisc drawn_to_edges(const RimSearch& search, const TurntableDisc& start
     }
     cv::Matx<double, 5, 5> information = cv::Matx<double, 5, 5>::zeros();
     cv::Vec<double, 5> pull;
-    for (int i = 0; i < kSamples; ++i) {
-        const double angle = 2 * std::numbers::pi * i / kSamples;
-        const RimPlace place = rim_place(plane, start.radius, angle);
+    for (int i = 0; i < around.places(); ++i) {
+        const RimPlace place = around.rim_place(plane, start.radius, i);
         const std::optional<double> offset_px = search.edge_beside(place, reach_px);
         if (!offset_px) continue;
         const double weight = 1 / std::max(1.0, std::abs(*offset_px) / kHuber_px);
         cv::Vec<double, 5> slope;  // px along the normal per nudge
         for (std::size_t k = 0; k < from.size(); ++k) {
             const double radius = k == 4 ? start.radius + nudge[k] : start.radius;
-            slope[static_cast<int>(k)] = glm::dot(nudged[k].on_circle(radius, angle) - place.px, place.normal);
+            slope[static_cast<int>(k)] =
+                glm::dot(nudged[k].on_circle(radius, around.angle_rad(i)) - place.px, place.normal);
         }
         information += weight * (slope * slope.t());
         pull += weight * *offset_px * slope;
@@ -197,7 +220,7 @@ TurntableDisc drawn_to_edges(const RimSearch& search, const TurntableDisc& start
 
 // The best circle of a finer grid around one of the coarse grid.
 TurntableDisc best_beside(const RimSearch& search, const TurntableDisc& start, double step_px) {
-    constexpr int kSamples = 96;
+    const AroundCircle around(96);
     constexpr double kApart_px = 2;
     constexpr double kNeverEnough_codes = 120;
     TurntableDisc best = start;
@@ -214,7 +237,7 @@ TurntableDisc best_beside(const RimSearch& search, const TurntableDisc& start, d
                 disc.centre_x = start.centre_x + column * step_px;
                 for (int a = -4; a <= 4; ++a) {
                     disc.radius = (start_px + a * step_px) * unit;
-                    const double score = search.rim_of(disc, kSamples, kApart_px, kNeverEnough_codes).score();
+                    const double score = search.rim_of(disc, around, kApart_px, kNeverEnough_codes).score();
                     if (score > best_score) {
                         best_score = score;
                         best = disc;
@@ -230,7 +253,7 @@ TurntableDisc best_beside(const RimSearch& search, const TurntableDisc& start, d
 
 std::optional<TurntableDisc> find_turntable_disc(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> known,
                                                  ConstImageView<std::uint8_t> object) {
-    constexpr int kCoarseSamples = 48;
+    const AroundCircle coarsely(48), finely(360);
     constexpr double kCoarseApart_px = 4;  // wide, for the steps are
     constexpr double kClear_codes = 24;
     constexpr double kLeastDepth = 0.05;  // of the picture's width is the circle's smaller radius: no mere line
@@ -263,7 +286,7 @@ std::optional<TurntableDisc> find_turntable_disc(ConstImageView<Rgba8> plate, Co
                 for (double a = 0.3 * box.width; a <= 1.3 * box.width; a += 2 * step_px) {
                     if (a * std::sin(disc.tilt_rad) < kLeastDepth * plate.width()) continue;
                     disc.radius = a * unit;
-                    const double score = search.rim_of(disc, kCoarseSamples, kCoarseApart_px, kClear_codes).score();
+                    const double score = search.rim_of(disc, coarsely, kCoarseApart_px, kClear_codes).score();
                     if (score > best[i].score) best[i] = {disc, score};
                 }
             }
@@ -275,9 +298,9 @@ std::optional<TurntableDisc> find_turntable_disc(ConstImageView<Rgba8> plate, Co
 
     TurntableDisc disc = best_beside(search, start.disc, step_px);
     for (const double reach_px : {6.0, 6.0, 4.0, 4.0, 3.0, 3.0, 3.0}) disc = drawn_to_edges(search, disc, reach_px);
-    const Rim rim = search.rim_of(disc, 360, 2, kClear_codes);
+    const Rim rim = search.rim_of(disc, finely, 2, kClear_codes);
     if (rim.contrast < kLeastContrast || rim.known < kLeastKnown || rim.clear_octants < kLeastOctants ||
-        search.evenness(disc, 360, 2) < kLeastEven) {
+        search.evenness(disc, finely, 2) < kLeastEven) {
         return std::nullopt;
     }
     return disc;
