@@ -2,9 +2,11 @@
 
 #include "compositor/gl/draw.hpp"
 #include "compositor/viewer/drawing/background_shaders.hpp"
+#include "compositor/viewer/drawing/shaders.hpp"
 
 #include <algorithm>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace rs::compositor {
@@ -24,36 +26,41 @@ int append_stops(const std::vector<glm::vec3>& colours, const std::vector<double
 
 Result<BackgroundRenderer> BackgroundRenderer::create(const Background& background) {
     RS_CHECK(!background.sky.empty());
-    auto program = gl::Program::create("background", shaders::kWholeFrameVertex, shaders::kBackgroundFragment);
+    std::vector<glm::vec4> stops;
+    const int sky_stops = append_stops(background.sky, background.sky_angles_rad, stops);
+    const int ground_stops = append_stops(background.ground, background.ground_angles_rad, stops);
+    int shown_pictures = 0;
+    for (std::size_t i = 0; i < background.pictures.size(); ++i) {
+        if (background.pictures[i]) shown_pictures |= 1 << i;
+    }
+    const std::string constants = "#version 450 core\n" + shaders::shader_constant("kSkyStops", sky_stops) +
+                                  shaders::shader_constant("kGroundStops", ground_stops) +
+                                  shaders::shader_constant("kShownPictures", shown_pictures);
+    auto program =
+        gl::Program::create("background", shaders::kWholeFrameVertex, constants + shaders::kBackgroundFragment);
     if (!program) return program.error();
     BackgroundRenderer renderer(std::move(*program));
-    std::vector<glm::vec4> stops;
-    renderer.stop_counts_.x = append_stops(background.sky, background.sky_angles_rad, stops);
-    renderer.stop_counts_.y = append_stops(background.ground, background.ground_angles_rad, stops);
     renderer.stops_.emplace(std::as_bytes(std::span(stops)));
     for (std::size_t i = 0; i < background.pictures.size(); ++i) {
         if (!background.pictures[i]) continue;
         renderer.pictures_[i].emplace(background.pictures[i]->picture.view(), gl::TextureWrap{false, false});
-        renderer.shown_pictures_ |= 1 << i;
     }
     renderer.background_from_world_ = glm::transpose(background.world_from_background);
     renderer.zenith_ = background.sky.front();
-    renderer.plain_ = renderer.stop_counts_.x == 1 && renderer.stop_counts_.y <= 1 && renderer.shown_pictures_ == 0;
+    renderer.plain_ = sky_stops == 1 && ground_stops <= 1 && shown_pictures == 0;
     return renderer;
 }
 
-void BackgroundRenderer::draw(const Camera& camera) const {
+void BackgroundRenderer::draw(const Camera& camera, BackgroundArea area) const {
     const glm::dvec3 along_x = camera.right() / camera.fl_x;
     const glm::dvec3 along_y = -camera.up() / camera.fl_y;
     const glm::dmat3 world_from_pixel(along_x, along_y, camera.ray(0, 0));
-    program_.set("direction_from_pixel", glm::mat3(background_from_world_ * world_from_pixel));
-    program_.set("stop_counts", stop_counts_);
-    program_.set("shown_pictures", shown_pictures_);
+    if (!plain_) program_.set("direction_from_pixel", glm::mat3(background_from_world_ * world_from_pixel));
     stops_->bind_table(3);
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
         if (pictures_[i]) pictures_[i]->bind(static_cast<unsigned>(i) + 1);
     }
-    gl::draw(program_, rectangle_, {.depth_test = false, .depth_write = false});
+    gl::draw(program_, rectangle_, {.depth_test = area == BackgroundArea::kBehindGeometry, .depth_write = false});
 }
 
 }  // namespace rs::compositor

@@ -1,5 +1,5 @@
 #pragma once
-// Draws a scene's background over the whole frame (background_shaders.hpp).
+// Draws a scene's background (background_shaders.hpp).
 
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/texture.hpp"
@@ -13,6 +13,11 @@
 
 namespace rs::compositor {
 
+enum class BackgroundArea {
+    kWholeFrame,
+    kBehindGeometry,  // where nothing has left its depth yet: indoors that is next to nothing
+};
+
 // Needs a gl::Context that is current, and outlives it; one thread. Move-only.
 class BackgroundRenderer {
 public:
@@ -22,8 +27,8 @@ public:
     [[nodiscard]] bool plain() const { return plain_; }
     [[nodiscard]] const glm::vec3& zenith() const { return zenith_; }
 
-    // To be drawn before everything else; leaves depth alone.
-    void draw(const Camera& camera) const;
+    // Leaves depth alone.
+    void draw(const Camera& camera, BackgroundArea area) const;
 
 private:
     explicit BackgroundRenderer(gl::Program program) : program_(std::move(program)), rectangle_(4) {}
@@ -31,9 +36,7 @@ private:
     gl::Program program_;
     gl::VertexArray rectangle_;
     std::optional<gl::Buffer> stops_;
-    glm::ivec2 stop_counts_{0};
     std::array<std::optional<gl::Texture>, 6> pictures_;
-    int shown_pictures_ = 0;
     glm::dmat3 background_from_world_{1.0};
     glm::vec3 zenith_{0};
     bool plain_ = true;

@@ -17,12 +17,12 @@ void main() {
     result = vec4(texel.rgb * texel.a, texel.a);
 })";
 
-inline constexpr const char* kBackgroundFragment = R"(#version 450 core
+// Behind "#version" and the constants kSkyStops, kGroundStops and kShownPictures (bit i: pictures[i]): a shader that
+// asks for no picture takes a fraction of the time of one that might.
+inline constexpr const char* kBackgroundFragment = R"(
 layout(std430, binding = 3) readonly buffer Gradients { vec4 stops[]; };  // colour; w: angle; the sky's, then the ground's
 layout(binding = 1) uniform sampler2D pictures[6];
 uniform mat3 direction_from_pixel;  // (x, y, 1) -> direction in the background's coordinates
-uniform ivec2 stop_counts;          // sky, ground
-uniform int shown_pictures;         // bit i: pictures[i]
 out vec4 result;
 
 vec3 gradient(int first, int count, float angle) {
@@ -50,7 +50,7 @@ vec4 texel(vec3 d) {
         face = d.y > 0.0 ? 4 : 5;
         p = vec2(d.x, d.y > 0.0 ? d.z : -d.z) / a.y;
     }
-    if ((shown_pictures & (1 << face)) == 0) return vec4(0.0);
+    if ((kShownPictures & (1 << face)) == 0) return vec4(0.0);
     vec2 uv = vec2(0.5 + 0.5 * p.x, 0.5 - 0.5 * p.y);
     switch (face) {
         case 0: return textureLod(pictures[0], uv, 0.0);
@@ -66,11 +66,11 @@ void main() {
     vec3 d = normalize(direction_from_pixel * vec3(gl_FragCoord.xy, 1.0));
     float from_zenith = acos(clamp(d.y, -1.0, 1.0));
     float from_nadir = 3.14159265 - from_zenith;
-    vec3 colour = gradient(0, stop_counts.x, from_zenith);
-    if (stop_counts.y > 1 && from_nadir <= stops[stop_counts.x + stop_counts.y - 1].w) {
-        colour = gradient(stop_counts.x, stop_counts.y, from_nadir);
+    vec3 colour = gradient(0, kSkyStops, from_zenith);
+    if (kGroundStops > 1 && from_nadir <= stops[kSkyStops + kGroundStops - 1].w) {
+        colour = gradient(kSkyStops, kGroundStops, from_nadir);
     }
-    vec4 over = shown_pictures != 0 ? texel(d) : vec4(0.0);
+    vec4 over = kShownPictures != 0 ? texel(d) : vec4(0.0);
     result = vec4(mix(colour, over.rgb, over.a), 1.0);
 })";
 

@@ -155,7 +155,6 @@ Status FrameCompositor::draw(const Camera& camera) {
     if (shadows() && lights_something) statistics_.shadow_maps_drawn = renderers_.lit.draw_shadows(throwing_objects());
     statistics_.shadows_s = clock.lap();
     renderers_.frame.drawn.begin(renderers_.background.zenith());
-    if (!traced_ && !renderers_.background.plain()) renderers_.background.draw(camera);
     const auto transparent =
         renderers_.lit.surfaces().draw_opaque(view, wire_frame_, traced_ ? OpaquePass::kDepthOnly : OpaquePass::kLit);
     statistics_.geometry_in_view = renderers_.lit.surfaces().nodes_in_view();
@@ -163,6 +162,8 @@ Status FrameCompositor::draw(const Camera& camera) {
     if (traced_) {
         draw_traced(camera);
         renderers_.lit.surfaces().draw_veil(view);
+    } else if (!renderers_.background.plain()) {
+        renderers_.background.draw(camera, BackgroundArea::kBehindGeometry);
     }
     gl::flush();
     statistics_.geometry_s = clock.lap();
@@ -291,7 +292,7 @@ std::optional<std::size_t> FrameCompositor::object_at(int x, int y) const {
 
 void FrameCompositor::draw_traced(const Camera& camera) {
     RS_CHECK(traced_->width() == width() && traced_->height() == height());
-    renderers_.background.draw(camera);
+    renderers_.background.draw(camera, BackgroundArea::kWholeFrame);
     const gl::Texture texture(width(), height());
     texture.upload(traced_->view());
     texture.bind(1);

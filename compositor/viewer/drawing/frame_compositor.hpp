@@ -4,7 +4,7 @@
 //
 // A frame:  views of the nodes that can be seen: camera into the node's coordinates (equation 3), only the pixels that
 //           the node can cover -> engine, which draws them while
-//           (shadow maps in which something has changed ->) background -> opaque geometry -> floor  are drawn
+//           (shadow maps in which something has changed ->) opaque geometry -> floor -> background  are drawn
 //           -> transparent geometry and the engine's pictures, the farthest first: texture -> rectangle at the depth of
 //           its planes (object_view.hpp), tested against the geometry, blended over.
 //
