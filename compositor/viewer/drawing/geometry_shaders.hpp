@@ -97,10 +97,10 @@ vec3 in_relief(vec3 n) {
 }
 
 // Of the light's map, the numbers of which begin at row `shadow`.
-float open_to_light(int first, int shadow, int shape, vec3 n) {
+float open_to_light(int first, bool is_spot, int shadow, int shape, vec3 n) {
     if (shape == 1) return parallel_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
     if (shape == 2) return cone_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
-    if (shape == 3) return cube_shadow(4 * shadow, place_in_world, n, lights[first + 2].xyz);
+    if (shape == 3) return cube_shadow(4 * shadow, is_spot, place_in_world, n, lights[first + 2].xyz);
     return 1.0;
 }
 
@@ -125,7 +125,7 @@ vec3 from_light(int first, bool has_place, bool is_spot, int shadow, int shape, 
     }
     vec3 ambient = has_place && !kPhong ? lights[first + 1].rgb * diffuse * material[2].w : vec3(0.0);
     vec3 direct = reflected(diffuse, n, to_eye, eye_facing, to_light, lights[first].rgb);
-    if (shape != 0) direct *= open_to_light(first, shadow, shape, even);
+    if (shape != 0) direct *= open_to_light(first, is_spot, shadow, shape, even);
     return strength * (ambient + direct);
 }
 

@@ -58,18 +58,22 @@ float cone_shadow(int first, vec3 place, vec3 n, vec3 towards) {
     vec4 at = shadows[first + 3];
     float axial = max(dot(shadows[first + 2], vec4(place, 1.0)), 0.0);
     vec4 p = vec4(place + n * (axial * at.y * off_surface(dot(n, towards))), 1.0);
-    axial = max(dot(shadows[first + 2], p), 1e-6);
-    vec2 uv = vec2(dot(shadows[first], p), dot(shadows[first + 1], p)) / axial;
-    float depth = clamp(kNear / axial, 0.0, 1.0);
+    float nearness = 1.0 / max(dot(shadows[first + 2], p), 1e-6);
+    vec2 uv = vec2(dot(shadows[first], p), dot(shadows[first + 1], p)) * nearness;
+    float depth = min(kNear * nearness, 1.0);
     return texture(plane_maps, vec4(uv, at.x, depth));
 }
 
-// Of the faces of a cube: +Z, +X, -X, +Y, -Y, -Z of its axes.
-float cube_shadow(int first, vec3 place, vec3 n, vec3 location) {
+// Of the faces of a cube: +Z, +X, -X, +Y, -Y, -Z of its axes, which are the scene's unless it is `turned`.
+float cube_shadow(int first, bool turned, vec3 place, vec3 n, vec3 location) {
     vec4 at = shadows[first + 3];  // layer, texel at depth 1, half over the width of a face at depth 1
-    mat3 axes = mat3(shadows[first].xyz, shadows[first + 1].xyz, shadows[first + 2].xyz);
-    vec3 l = (place - location) * axes;
-    vec3 m = n * axes;
+    vec3 l = place - location;
+    vec3 m = n;
+    if (turned) {
+        mat3 axes = mat3(shadows[first].xyz, shadows[first + 1].xyz, shadows[first + 2].xyz);
+        l *= axes;
+        m *= axes;
+    }
     vec3 a = abs(l);
     bool z_most = a.z >= max(a.x, a.y);
     bool x_most = a.x >= a.y;
@@ -79,9 +83,9 @@ float cube_shadow(int first, vec3 place, vec3 n, vec3 location) {
     float side = most < 0.0 ? -1.0 : 1.0;
     vec2 uv = z_most ? vec2(-side * l.x, l.y) : x_most ? vec2(side * l.z, l.y) : vec2(l.x, side * l.z);
     float face = z_most ? (side < 0.0 ? 5.0 : 0.0) : (x_most ? 1.0 : 3.0) + (side < 0.0 ? 1.0 : 0.0);
-    float axial = max(abs(most), 1e-6);
-    uv = 0.5 + vec2(at.z, -at.z) * uv / axial;
-    float depth = clamp(kNear / axial, 0.0, 1.0);
+    float nearness = 1.0 / max(abs(most), 1e-6);
+    uv = 0.5 + vec2(at.z, -at.z) * nearness * uv;
+    float depth = min(kNear * nearness, 1.0);
     return texture(cube_maps, vec4(uv, at.x + face, depth));
 }
 )";
