@@ -5,7 +5,9 @@
 //
 // The reference is traced first, with random numbers of its own. Then each renderer gets S seconds, and if asked N
 // passes. "mean" is over that of the reference, "error" the root of the mean squared difference of luminance over the
-// reference's mean, "dB" the PSNR of the 8-bit pictures. Nothing else should run beside it.
+// reference's mean, "dB" the PSNR of the 8-bit pictures, "cpu" the processor
+// time of all threads: on a machine that does other things, too, seconds should be chosen so that it is what they stand
+// for.
 
 #include "capture/tracer/light/directions.hpp"
 #include "compositor/traced/traced_renderer.hpp"
@@ -37,7 +39,12 @@ double luminance_of(const RgbaF& p) {
     return p.a > 0 ? static_cast<double>(capture::luminance({p.r, p.g, p.b})) : 0;
 }
 
-void print_row(const char* name, const TracedRenderer& renderer, double seconds, const Picture& reference) {
+struct Taken {
+    double wall_s = 0;
+    double cpu_s = 0;
+};
+
+void print_row(const char* name, const TracedRenderer& renderer, const Taken& taken, const Picture& reference) {
     const Image<RgbaF> radiance = renderer.radiance();
     double sum = 0, reference_sum = 0, squares = 0;
     for (int y = 0; y < radiance.height(); ++y) {
@@ -57,8 +64,9 @@ void print_row(const char* name, const TracedRenderer& renderer, double seconds,
             for (const int d : {a.r - b.r, a.g - b.g, a.b - b.b}) difference += static_cast<double>(d) * d;
         }
     }
-    std::printf("%-10s %7.2f s %6d passes  mean %6.4f  error %6.2f %%  %5.2f dB\n", name, seconds, renderer.passes(),
-                sum / reference_sum, 100 * std::sqrt(squares / pixels) / (reference_sum / pixels),
+    std::printf("%-10s %7.2f s %8.2f s cpu %6d passes  mean %6.4f  error %6.2f %%  %5.2f dB\n", name, taken.wall_s,
+                taken.cpu_s, renderer.passes(), sum / reference_sum,
+                100 * std::sqrt(squares / pixels) / (reference_sum / pixels),
                 10 * std::log10(255.0 * 255.0 * 3 * pixels / std::max(difference, 1e-9)));
 }
 
@@ -85,12 +93,13 @@ Status run(const Arguments& arguments) {
         renderer->set_method(named.method);
         renderer->look(camera);
         const bench::Stopwatch watch;
-        double gone = 0;
+        Taken taken;
         do {
             renderer->add_pass();
-            gone = watch.wall_s();
-        } while (passes > 0 ? renderer->passes() < passes : gone < seconds);
-        print_row(named.name, *renderer, gone, reference);
+            taken = {watch.wall_s(), watch.cpu_s()};
+        } while (passes > 0 ? renderer->passes() < passes : taken.wall_s < seconds);
+        print_row(named.name, *renderer, taken, reference);
+        std::fflush(stdout);
     };
     for (const NamedMethod& named : kTracedMethods) trace(named, arguments.seconds, 0);
     if (arguments.passes > 0) {
