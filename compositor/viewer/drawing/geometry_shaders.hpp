@@ -96,11 +96,16 @@ vec3 in_relief(vec3 n) {
     return flat_there || dot(sum, sum) < 1e-12 ? n : normalize(sum);
 }
 
+// Of lights. Where they are counted the constant tells only whether there may be any.
+int number_of(int constant, int told) {
+    return kCounted && constant > 0 ? told : constant;
+}
+
 // Of the light's map, the numbers of which begin at row `shadow`.
 float open_to_light(int first, bool is_spot, int shadow, int shape, vec3 n) {
-    if (shape == 1) return parallel_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
-    if (shape == 2) return cone_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
-    if (shape == 3) return cube_shadow(4 * shadow, is_spot, place_in_world, n, lights[first + 2].xyz);
+    if (kShadowedDirectional > 0 && shape == 1) return parallel_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
+    if (kNarrowSpots > 0 && shape == 2) return cone_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
+    if (kShadowedPoints + kWideSpots > 0 && shape == 3) return cube_shadow(4 * shadow, is_spot, place_in_world, n, lights[first + 2].xyz);
     return 1.0;
 }
 
@@ -134,13 +139,12 @@ vec3 lit(vec3 diffuse, vec3 ambient, vec3 n, vec3 even, vec3 to_eye) {
     vec3 sum = material[2].rgb + ambient;
     float eye_facing = dot(n, to_eye);
     if (kHeadlight) sum += reflected(diffuse, n, to_eye, eye_facing, -headlight, vec3(1.0));
-    int directional = kCounted ? light_counts.x : kDirectional;
-    int points = kCounted ? light_counts.y : kPoints;
-    int spots = kCounted ? light_counts.z : kSpots;
+    int directional = number_of(kDirectional, light_counts.x);
+    int points = number_of(kPoints, light_counts.y);
+    int spots = number_of(kSpots, light_counts.z);
     // Directional ones with a map, points, spots with a single map, spots with a cube of them.
-    ivec4 mapped = kShadows == 0 ? ivec4(0)
-                 : kCounted      ? shadow_counts
-                                 : ivec4(kShadowedDirectional, kShadowedPoints, kNarrowSpots, kWideSpots);
+    ivec4 mapped = ivec4(number_of(kShadowedDirectional, shadow_counts.x), number_of(kShadowedPoints, shadow_counts.y),
+                         number_of(kNarrowSpots, shadow_counts.z), number_of(kWideSpots, shadow_counts.w));
     for (int i = 0; i < directional; ++i) {
         sum += from_light(5 * i, false, false, i, i < mapped.x ? 1 : 0, diffuse, n, even, to_eye, eye_facing);
     }

@@ -5,31 +5,34 @@
 
 namespace rs::compositor {
 
+void add_lights(const Scene& scene, const ShadowPlan& shadows, const std::vector<std::uint32_t>& lights,
+                SurfaceKind& kind) {
+    for (const std::uint32_t i : lights) {
+        const LightKind light = scene.lights[i].kind;
+        ++(light == LightKind::kDirectional ? kind.directional : light == LightKind::kPoint ? kind.points : kind.spots);
+        switch (shadows.shape_of(i)) {
+            case ShadowShape::kNone:
+                break;
+            case ShadowShape::kParallel:
+                ++kind.shadowed_directional;
+                break;
+            case ShadowShape::kCone:
+                ++kind.narrow_spots;
+                break;
+            case ShadowShape::kCube:
+                ++(light == LightKind::kPoint ? kind.shadowed_points : kind.wide_spots);
+                break;
+        }
+        kind.fading |= light != LightKind::kDirectional && scene.lights[i].attenuation != glm::vec3(1, 0, 0);
+    }
+}
+
 SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const GeometryNode& node, AlphaUse alpha,
                     const std::vector<std::uint32_t>& lights) {
     SurfaceKind kind;
     kind.lit = node.material.lit;
     if (kind.lit) {
-        for (const std::uint32_t i : lights) {
-            const LightKind light = scene.lights[i].kind;
-            ++(light == LightKind::kDirectional ? kind.directional
-               : light == LightKind::kPoint     ? kind.points
-                                                : kind.spots);
-            switch (shadows.shape_of(i)) {
-                case ShadowShape::kNone:
-                    break;
-                case ShadowShape::kParallel:
-                    ++kind.shadowed_directional;
-                    break;
-                case ShadowShape::kCone:
-                    ++kind.narrow_spots;
-                    break;
-                case ShadowShape::kCube:
-                    ++(light == LightKind::kPoint ? kind.shadowed_points : kind.wide_spots);
-                    break;
-            }
-            kind.fading |= light != LightKind::kDirectional && scene.lights[i].attenuation != glm::vec3(1, 0, 0);
-        }
+        add_lights(scene, shadows, lights, kind);
         kind.headlight = scene.navigation.headlight;
         kind.shiny = node.material.specular != glm::vec3(0);
     }
@@ -45,16 +48,14 @@ SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const Geometr
 }
 
 std::string constants_of(const SurfaceKind& kind) {
+    const int shadows = kind.shadowed_directional + kind.shadowed_points + kind.narrow_spots + kind.wide_spots;
     return "#version 450 core\n" + shaders::shader_constant("kDirectional", kind.directional) +
            shaders::shader_constant("kPoints", kind.points) + shaders::shader_constant("kSpots", kind.spots) +
            shaders::shader_constant("kShadowedDirectional", kind.shadowed_directional) +
            shaders::shader_constant("kShadowedPoints", kind.shadowed_points) +
            shaders::shader_constant("kNarrowSpots", kind.narrow_spots) +
            shaders::shader_constant("kWideSpots", kind.wide_spots) +
-           shaders::shader_constant("kShadows", kind.counted_shadows
-                                                    ? kMostCountedLights
-                                                    : kind.shadowed_directional + kind.shadowed_points +
-                                                          kind.narrow_spots + kind.wide_spots) +
+           shaders::shader_constant("kShadows", kind.counted && shadows > 0 ? kMostCountedLights : shadows) +
            "const float kNear = " + std::to_string(kNear) + ";\n" + shaders::shader_constant("kFading", kind.fading) +
            shaders::shader_constant("kHeadlight", kind.headlight) + shaders::shader_constant("kLit", kind.lit) +
            shaders::shader_constant("kShiny", kind.shiny) + shaders::shader_constant("kPicture", kind.picture) +

@@ -31,13 +31,17 @@ struct SurfaceKind {
     int fog = 0;           // 0 none, 1 linear, 2 exponential
     bool phong = false;    // by Phong's formula
     Cover cover = Cover::kNone;
-    // How many lights there are is a number that it is told, not a constant: slower to draw, but a street at night
-    // would have dozens of kinds else, and making a shader takes as long as many frames.
+    // How many lights there are are numbers that it is told, not constants: slower to draw, but a street at night would
+    // have dozens of kinds else, and making a shader takes as long as many frames. The numbers above say only whether
+    // there may be any (1) or not (0): what cannot be is not asked for.
     bool counted = false;
-    bool counted_shadows = false;  // some of them have maps
-    bool veil = false;             // nothing but the fog before it
+    bool veil = false;  // nothing but the fog before it
     auto operator<=>(const SurfaceKind&) const = default;
 };
+
+// The numbers of `lights`, in any order, and whether they fade.
+void add_lights(const Scene& scene, const ShadowPlan& shadows, const std::vector<std::uint32_t>& lights,
+                SurfaceKind& kind);
 
 // `lights`: those that reach it, in any order.
 SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const GeometryNode& node, AlphaUse alpha,

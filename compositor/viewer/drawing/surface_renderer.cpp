@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -89,7 +90,7 @@ Result<std::shared_ptr<const gl::Program>> SurfaceRenderer::program(const Surfac
 }
 
 // Of lights with a place, which are others from piece to piece and from frame to frame.
-void SurfaceRenderer::count_lights(SurfaceKind& kind, Item& item) {
+void SurfaceRenderer::count_lights(SurfaceKind& kind, Item& item) const {
     const auto room = static_cast<std::size_t>(kMostCountedLights);
     glm::ivec4& counts = item.light_counts;
     glm::ivec4& mapped = item.shadow_counts;
@@ -104,10 +105,15 @@ void SurfaceRenderer::count_lights(SurfaceKind& kind, Item& item) {
     mapped.z = std::min(mapped.z, counts.z);
     mapped.w = std::min(mapped.w, counts.z - mapped.z);
     item.shadows.resize(static_cast<std::size_t>(mapped.x + mapped.y + mapped.z + mapped.w));
-    kind.directional = kind.points = kind.spots = 0;
-    kind.shadowed_directional = kind.shadowed_points = kind.narrow_spots = kind.wide_spots = 0;
+    const bool shadowed = !item.shadows.empty();
+    kind.directional = some_lights_.directional;
+    kind.points = some_lights_.points;
+    kind.spots = some_lights_.spots;
+    kind.shadowed_directional = shadowed ? some_lights_.shadowed_directional : 0;
+    kind.shadowed_points = shadowed ? some_lights_.shadowed_points : 0;
+    kind.narrow_spots = shadowed ? some_lights_.narrow_spots : 0;
+    kind.wide_spots = shadowed ? some_lights_.wide_spots : 0;
     kind.fading = kind.counted = true;
-    kind.counted_shadows = !item.shadows.empty();
 }
 
 // Bounds, lights and the shader for where the node is now.
@@ -138,7 +144,16 @@ Status SurfaceRenderer::put(Item& item) {
     return {};
 }
 
-void SurfaceRenderer::gather_ambient_light() {
+void SurfaceRenderer::survey_lights() {
+    some_lights_ = {};
+    std::vector<std::uint32_t> all(scene_.lights.size());
+    std::iota(all.begin(), all.end(), 0U);
+    add_lights(scene_, shadows_, all, some_lights_);
+    for (int* number :
+         {&some_lights_.directional, &some_lights_.points, &some_lights_.spots, &some_lights_.shadowed_directional,
+          &some_lights_.shadowed_points, &some_lights_.narrow_spots, &some_lights_.wide_spots}) {
+        *number = std::min(*number, 1);
+    }
     ambient_light_ = glm::vec3(0);
     for (const Light& light : scene_.lights) {
         if (light.kind == LightKind::kDirectional && light.everywhere) ambient_light_ += light.ambient;
@@ -159,7 +174,7 @@ Status SurfaceRenderer::make_casters() {
 Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const ShadowPlan& shadows) {
     SurfaceRenderer renderer(scene, shadows);
     if (const Status status = renderer.make_casters(); !status) return status.error();
-    renderer.gather_ambient_light();
+    renderer.survey_lights();
     Uploads uploads;
     renderer.item_of_node_.resize(scene.geometry.size());
     for (std::size_t i = 0; i < scene.geometry.size(); ++i) {
@@ -202,7 +217,7 @@ Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows
     take_lights(scene, scene_);
     shadows_ = shadows;
     if (Status status = make_casters(); !status) return status;
-    gather_ambient_light();
+    survey_lights();
     for (Item& item : items_) {
         if (Status status = put(item); !status) return status;
     }

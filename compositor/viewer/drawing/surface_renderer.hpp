@@ -99,9 +99,9 @@ private:
     SurfaceRenderer(const Scene& scene, const ShadowPlan& shadows) : scene_(scene), shadows_(shadows) {}
     Status make_casters();
     Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind);
-    static void count_lights(SurfaceKind& kind, Item& item);
+    void count_lights(SurfaceKind& kind, Item& item) const;
     Status put(Item& item);
-    void gather_ambient_light();
+    void survey_lights();
     void set_frame(const FrameView& view) const;
     struct InView {
         std::vector<std::size_t> opaque;  // of items_, what hides others first
@@ -117,6 +117,7 @@ private:
     std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;  // one for each kind of surface that there is
     std::vector<Item> items_;
     std::vector<std::optional<std::size_t>> item_of_node_;
+    SurfaceKind some_lights_;     // of all the scene's: 1 where there are any, 0 where there are none
     glm::vec3 ambient_light_{0};  // of all directional lights that shine everywhere
     int uploads_ = 0;
     int nodes_in_view_ = 0;
