@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -54,6 +55,28 @@ HWY_INLINE void match_run(const ColumnMatch& match, int begin, int count, std::u
 void match_all(const ColumnMatch& match, std::uint8_t* costs) {
     for (int begin = 0; begin < match.rows; begin += kRun) {
         match_run(match, begin, std::min(kRun, match.rows - begin), costs + begin);
+    }
+}
+
+HWY_INLINE void approach_run(const ColumnDepths& found, int begin, int count, std::uint8_t* least) {
+    float there[kRun];
+    std::int32_t row[kRun];
+    for (int n = 0; n < count; ++n) row[n] = (found.position_q16 + (begin + n) * found.step_q16) >> 16;
+    for (int n = 0; n < count; ++n) there[n] = found.depths[std::clamp(row[n], 0, found.height - 1)];
+    const int height = found.height;
+    const float depth = found.depth;
+    const float cost_per_unit = found.cost_per_unit;
+    for (int n = 0; n < count; ++n) {
+        const float away = std::abs(there[n] - depth) * cost_per_unit;
+        const int cost = away < static_cast<float>(kMostCost) ? static_cast<int>(away) : kMostCost;
+        const bool none = std::isnan(there[n]) || row[n] < 0 || row[n] >= height;
+        least[n] = static_cast<std::uint8_t>(std::min(none ? kUnknownMatch : cost, static_cast<int>(least[n])));
+    }
+}
+
+void approach_all(const ColumnDepths& found, std::uint8_t* least) {
+    for (int begin = 0; begin < found.rows; begin += kRun) {
+        approach_run(found, begin, std::min(kRun, found.rows - begin), least + begin);
     }
 }
 
@@ -115,10 +138,15 @@ HWY_AFTER_NAMESPACE();
 namespace rs::encode {
 
 HWY_EXPORT(match_all);
+HWY_EXPORT(approach_all);
 HWY_EXPORT(merge_all);
 
 void match_column(const ColumnMatch& match, std::uint8_t* costs) {
     HWY_DYNAMIC_DISPATCH(match_all)(match, costs);
+}
+
+void approach_depths(const ColumnDepths& found, std::uint8_t* least) {
+    HWY_DYNAMIC_DISPATCH(approach_all)(found, least);
 }
 
 void merge_matches(const std::uint8_t* costs, int rows, int beside, int across, std::uint8_t* merged) {

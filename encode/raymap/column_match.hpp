@@ -1,5 +1,5 @@
 #pragma once
-// The two loops along a column that the search for depth spends its time in, compiled for every SIMD target that
+// The loops along a column that the search for depth spends its time in, compiled for every SIMD target that
 // Highway knows and chosen at run time; all give the same integers. Thread-safe.
 
 #include "rayspace/image/image.hpp"
@@ -28,8 +28,23 @@ struct ColumnMatch {
     std::int32_t step_q16 = 0;
 };
 
+// What a neighbour was found to show along one of its columns, and a depth of the points whose rows these are.
+struct ColumnDepths {
+    const float* depths = nullptr;  // `height`, NaN where nothing was found
+    float depth = 0;                // along the neighbour's rays
+    float cost_per_unit = 1;
+    int rows = 0;
+    int height = 0;
+    std::int32_t position_q16 = 0;  // as above
+    std::int32_t step_q16 = 0;
+};
+
 // The mean absolute difference of R, G and B, at most kMostCost, or one of the two above, for each row.
 void match_column(const ColumnMatch& match, std::uint8_t* costs);
+
+// least[row] becomes what the depth is away from the one found there, times cost_per_unit, rounded down, at most
+// kMostCost, where that is less than it was.
+void approach_depths(const ColumnDepths& found, std::uint8_t* least);
 
 // costs[n * rows + row] of `beside` neighbours of the one kind and then `across` of the other -> merged[row].
 // Of a kind the best counts three quarters and the worst, at most 20 more, a quarter; of both kinds the mean. Where a

@@ -2,40 +2,196 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
 
 namespace rs::encode {
 namespace {
 
 constexpr double kFarthestRow = 32000;  // that 32 bits hold in 1/65536
+constexpr double kNearest = 0.05;       // axial depth, object radii
+constexpr float kCostPerLevel = 5;
 
-// Rows [top, bottom) of one column at one depth against one neighbour.
-void compare_column(const WorkView& view, const WorkView& neighbour, const HorizontalRay& ray, double depth, int column,
-                    const ObjectBox& box, std::uint8_t* costs) {
-    const int rows = box.height();
-    std::fill(costs, costs + rows, kUnknownMatch);
+struct Rows {
+    int begin = 0, end = 0;
+
+    [[nodiscard]] int count() const { return end - begin; }
+};
+
+// The rows of one column of a volume that have a level, or lie between such rows.
+class ColumnLevels {
+public:
+    ColumnLevels(CostVolume& volume, int column)
+        : pixels_(&volume.of(column, volume.box.top), static_cast<std::size_t>(volume.box.height())),
+          costs_(volume.costs),
+          rows_(static_cast<std::size_t>(volume.levels), {volume.box.height(), 0}) {
+        for (int row = 0; row < volume.box.height(); ++row) {
+            const PixelLevels& pixel = pixels_[static_cast<std::size_t>(row)];
+            for (int n = 0; n < pixel.count; ++n) {
+                Rows& rows = rows_[static_cast<std::size_t>(pixel.first + n)];
+                rows.begin = std::min(rows.begin, row);
+                rows.end = row + 1;
+            }
+        }
+    }
+
+    // Counted from the top of the box.
+    [[nodiscard]] const Rows& rows(int level) const { return rows_[static_cast<std::size_t>(level)]; }
+
+    // change(row, cost) of each that has it and does not lie outside of the hull.
+    template <class Change>
+    void for_each(int level, const Change& change) {
+        for (int row = rows(level).begin; row < rows(level).end; ++row) {
+            const PixelLevels& pixel = pixels_[static_cast<std::size_t>(row)];
+            const int n = level - pixel.first;
+            if (n < 0 || n >= pixel.count) continue;
+            std::uint8_t& cost = costs_[pixel.begin + static_cast<std::uint32_t>(n)];
+            if (cost != kOutsideCost) change(row, cost);
+        }
+    }
+
+private:
+    std::span<const PixelLevels> pixels_;
+    std::vector<std::uint8_t>& costs_;
+    std::vector<Rows> rows_;
+};
+
+// Where the points of a column's rows at one depth lie in a neighbour: one column, rows that are linear in rows.
+struct SeenRows {
+    SeenColumn column;
+    std::int32_t position_q16 = 0;
+    std::int32_t step_q16 = 0;
+};
+
+std::optional<SeenRows> see_rows(const WorkView& view, const WorkView& neighbour, const HorizontalRay& ray,
+                                 double depth, int top, int rows) {
     const double axial = ray.axial_at(depth);
-    if (axial <= 0.05) return;
+    if (axial <= kNearest) return std::nullopt;
     const SeenColumn seen = neighbour.see(ray.place_at(depth));
-    if (seen.axial <= 0.05) return;
+    if (seen.axial <= kNearest) return std::nullopt;
+    const double step = (neighbour.fl_y / seen.axial) * (axial / view.fl_y);
+    const double at_top = neighbour.row_of(view.height_of(top + 0.5, axial), seen.axial);
+    const double at_bottom = at_top + step * rows;
+    if (!(std::abs(at_top) < kFarthestRow && std::abs(at_bottom) < kFarthestRow)) return std::nullopt;
+    return SeenRows{seen, static_cast<std::int32_t>(std::lround(std::ldexp(at_top, 16))),
+                    static_cast<std::int32_t>(std::lround(std::ldexp(step, 16)))};
+}
+
+// Rows from `top` on of one column at one depth against one neighbour.
+void compare_column(const WorkView& view, const WorkView& neighbour, const HorizontalRay& ray, double depth, int column,
+                    int top, int rows, std::uint8_t* costs) {
+    std::fill(costs, costs + rows, kUnknownMatch);
+    const std::optional<SeenRows> seen = see_rows(view, neighbour, ray, depth, top, rows);
+    if (!seen) return;
     // Between two columns of the neighbour, in 1/32 px.
-    const double left = seen.column - 0.5;
+    const double left = seen->column.column - 0.5;
     const auto c0 = static_cast<int>(std::floor(left));
     if (c0 < -1 || c0 >= neighbour.width) return;
-    // Rows are linear in rows.
-    const double scale = (neighbour.fl_y / seen.axial) * (axial / view.fl_y);
-    const double at_top = neighbour.row_of(view.height_of(box.top + 0.5, axial), seen.axial);
-    const double at_bottom = at_top + scale * rows;
-    if (!(std::abs(at_top) < kFarthestRow && std::abs(at_bottom) < kFarthestRow)) return;
-    match_column({.own = view.columns.row(column) + box.top,
+    match_column({.own = view.columns.row(column) + top,
                   .first = neighbour.columns.row(std::max(c0, 0)),
                   .second = neighbour.columns.row(std::min(c0 + 1, neighbour.width - 1)),
                   .part = static_cast<int>((left - c0) * 32),
                   .rows = rows,
                   .height = neighbour.height,
-                  .position_q16 = static_cast<std::int32_t>(std::lround(std::ldexp(at_top, 16))),
-                  .step_q16 = static_cast<std::int32_t>(std::lround(std::ldexp(scale, 16)))},
+                  .position_q16 = seen->position_q16,
+                  .step_q16 = seen->step_q16},
                  costs);
 }
+
+// What one neighbour was found to show, with the rays of its columns.
+struct FoundSurface {
+    explicit FoundSurface(const DepthView& found) : view(found.view), depth(found.depth) {
+        for (int column = 0; column < view.width; ++column) rays.push_back(view.ray_of(column + 0.5));
+    }
+
+    const WorkView& view;
+    const Image<float>& depth;
+    std::vector<HorizontalRay> rays;
+};
+
+void compare_depths(const WorkView& view, const FoundSurface& found, const HorizontalRay& ray, double depth,
+                    float cost_per_unit, int top, int rows, std::uint8_t* least) {
+    const std::optional<SeenRows> seen = see_rows(view, found.view, ray, depth, top, rows);
+    if (!seen || !(seen->column.column >= 0 && seen->column.column < found.view.width)) return;
+    const auto column = static_cast<int>(seen->column.column);
+    const HorizontalRay& their_ray = found.rays[static_cast<std::size_t>(column)];
+    approach_depths({.depths = found.depth.row(column),
+                     .depth = static_cast<float>(glm::dot(ray.place_at(depth) - their_ray.foot, their_ray.along)),
+                     .cost_per_unit = cost_per_unit,
+                     .rows = rows,
+                     .height = found.view.height,
+                     .position_q16 = seen->position_q16,
+                     .step_q16 = seen->step_q16},
+                    least);
+}
+
+CostVolume empty_volume(const WorkView& view, const DepthRange& range) {
+    CostVolume volume;
+    volume.box = object_box(view);
+    volume.levels = range.count;
+    if (!volume.box.empty()) {
+        volume.pixels.resize(static_cast<std::size_t>(volume.box.width()) *
+                             static_cast<std::size_t>(volume.box.height()));
+    }
+    return volume;
+}
+
+// `pixel` gets its place behind all that have theirs.
+void append(PixelLevels& pixel, int first, int count, std::uint8_t cost, std::vector<std::uint8_t>& costs) {
+    pixel = {static_cast<std::uint32_t>(costs.size()), static_cast<std::uint16_t>(first),
+             static_cast<std::uint16_t>(count)};
+    costs.resize(costs.size() + static_cast<std::size_t>(count), cost);
+}
+
+// Which levels of a column's pixels the hull allows.
+class AllowedColumn {
+public:
+    AllowedColumn(const SampledHull& hull, const WorkView& view, const ObjectBox& box, int column,
+                  const DepthRange& range)
+        : first_(static_cast<std::size_t>(box.height()), range.count),
+          last_(static_cast<std::size_t>(box.height()), -1) {
+        const HorizontalRay ray = view.ray_of(column + 0.5);
+        for (int level = 0; level < range.count; ++level) {
+            const double depth = range.at(level);
+            const double axial = ray.axial_at(depth);
+            for (const Interval& heights : hull.heights_above(ray.place_at(depth))) {
+                const auto row_of = [&](double y) {
+                    const double row = std::clamp(view.row_of(y, axial), double(box.top), double(box.bottom));
+                    return static_cast<int>(std::ceil(row - 0.5)) - box.top;
+                };
+                const Run run{level, {row_of(heights.high), row_of(heights.low)}};
+                if (run.rows.count() <= 0) continue;
+                runs_.push_back(run);
+                for (int row = run.rows.begin; row < run.rows.end; ++row) {
+                    first_[static_cast<std::size_t>(row)] = std::min(first_[static_cast<std::size_t>(row)], level);
+                    last_[static_cast<std::size_t>(row)] = level;
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] int first(int row) const { return first_[static_cast<std::size_t>(row)]; }
+    [[nodiscard]] int count(int row) const { return last_[static_cast<std::size_t>(row)] - first(row) + 1; }
+
+    // Of the pixels that have any.
+    void clear(std::span<const PixelLevels> pixels, std::vector<std::uint8_t>& costs) const {
+        for (const Run& run : runs_) {
+            for (int row = run.rows.begin; row < run.rows.end; ++row) {
+                const PixelLevels& pixel = pixels[static_cast<std::size_t>(row)];
+                if (pixel.count != 0) costs[pixel.begin + static_cast<std::uint32_t>(run.level - pixel.first)] = 0;
+            }
+        }
+    }
+
+private:
+    struct Run {
+        int level = 0;
+        Rows rows;
+    };
+    std::vector<Run> runs_;
+    std::vector<int> first_, last_;
+};
 
 }  // namespace
 
@@ -51,58 +207,86 @@ ObjectBox object_box(const WorkView& view) {
     return box;
 }
 
-CostVolume matching_costs(const WorkView& view, const Neighbours& neighbours, const DepthRange& range) {
-    CostVolume volume;
-    volume.box = object_box(view);
-    volume.levels = range.count;
-    if (volume.box.empty()) return volume;
-    const auto rows = static_cast<std::size_t>(volume.box.height());
-    const auto levels = static_cast<std::size_t>(range.count);
-    volume.costs.resize(static_cast<std::size_t>(volume.box.width()) * rows * levels);
-    std::vector<const WorkView*> all = neighbours.beside;
-    all.insert(all.end(), neighbours.across.begin(), neighbours.across.end());
-    std::vector<std::uint8_t> costs(rows * all.size());
-    std::vector<std::uint8_t> merged(rows);
+CostVolume every_level(const WorkView& view, const DepthRange& range) {
+    CostVolume volume = empty_volume(view, range);
+    std::size_t n = 0;
     for (int column = volume.box.left; column < volume.box.right; ++column) {
-        const HorizontalRay ray = view.ray_of(column + 0.5);
-        std::uint8_t* const to = volume.at(column, volume.box.top);
-        for (int level = 0; level < range.count; ++level) {
-            for (std::size_t n = 0; n < all.size(); ++n) {
-                compare_column(view, *all[n], ray, range.at(level), column, volume.box, costs.data() + n * rows);
-            }
-            merge_matches(costs.data(), static_cast<int>(rows), static_cast<int>(neighbours.beside.size()),
-                          static_cast<int>(neighbours.across.size()), merged.data());
-            for (std::size_t row = 0; row < rows; ++row) {
-                to[row * levels + static_cast<std::size_t>(level)] = merged[row];
-            }
+        for (int row = volume.box.top; row < volume.box.bottom; ++row, ++n) {
+            if (view.at(column, row).a > 0) append(volume.pixels[n], 0, range.count, 0, volume.costs);
         }
     }
     return volume;
 }
 
-void forbid_outside(CostVolume& volume, const WorkView& view, const SampledHull& hull, const DepthRange& range) {
+CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range) {
+    CostVolume volume = empty_volume(view, range);
     const ObjectBox& box = volume.box;
     for (int column = box.left; column < box.right; ++column) {
+        const AllowedColumn allowed(hull, view, box, column, range);
+        const std::span<PixelLevels> pixels(
+            &volume.pixels[static_cast<std::size_t>(column - box.left) * static_cast<std::size_t>(box.height())],
+            static_cast<std::size_t>(box.height()));
+        for (int row = 0; row < box.height(); ++row) {
+            if (view.at(column, box.top + row).a == 0) continue;
+            const bool meets = allowed.count(row) > 0;
+            append(pixels[static_cast<std::size_t>(row)], meets ? allowed.first(row) : 0,
+                   meets ? allowed.count(row) : range.count, kOutsideCost, volume.costs);
+        }
+        allowed.clear(pixels, volume.costs);
+    }
+    return volume;
+}
+
+void match_colours(CostVolume& volume, const WorkView& view, const Neighbours& neighbours, const DepthRange& range) {
+    const ObjectBox& box = volume.box;
+    if (box.empty()) return;
+    std::vector<const DepthView*> all = neighbours.beside;
+    all.insert(all.end(), neighbours.across.begin(), neighbours.across.end());
+    std::vector<std::uint8_t> costs(static_cast<std::size_t>(box.height()) * all.size());
+    std::vector<std::uint8_t> merged(static_cast<std::size_t>(box.height()));
+    for (int column = box.left; column < box.right; ++column) {
         const HorizontalRay ray = view.ray_of(column + 0.5);
-        std::uint8_t* const costs = volume.at(column, box.top);
+        ColumnLevels of_column(volume, column);
         for (int level = 0; level < range.count; ++level) {
-            const double depth = range.at(level);
-            const double axial = ray.axial_at(depth);
-            const std::span<const Interval> heights = hull.heights_above(ray.place_at(depth));
-            int row = box.top;
-            const auto forbid_until = [&](int end) {
-                for (; row < end; ++row) {
-                    costs[static_cast<std::size_t>(row - box.top) * static_cast<std::size_t>(volume.levels) +
-                          static_cast<std::size_t>(level)] = kOutsideCost;
-                }
-            };
-            for (auto n = heights.rbegin(); n != heights.rend(); ++n) {
-                const double top = std::clamp(view.row_of(n->high, axial), double(box.top), double(box.bottom));
-                const double bottom = std::clamp(view.row_of(n->low, axial), double(box.top), double(box.bottom));
-                forbid_until(static_cast<int>(std::ceil(top - 0.5)));
-                row = std::max(row, static_cast<int>(std::ceil(bottom - 0.5)));
+            const Rows rows = of_column.rows(level);
+            if (rows.count() <= 0) continue;
+            for (std::size_t n = 0; n < all.size(); ++n) {
+                compare_column(view, all[n]->view, ray, range.at(level), column, box.top + rows.begin, rows.count(),
+                               costs.data() + n * static_cast<std::size_t>(rows.count()));
             }
-            forbid_until(box.bottom);
+            merge_matches(costs.data(), rows.count(), static_cast<int>(neighbours.beside.size()),
+                          static_cast<int>(neighbours.across.size()), merged.data());
+            of_column.for_each(
+                level, [&](int row, std::uint8_t& cost) { cost = merged[static_cast<std::size_t>(row - rows.begin)]; });
+        }
+    }
+}
+
+void add_inconsistency(CostVolume& volume, const WorkView& view, const Neighbours& neighbours,
+                       const DepthRange& range) {
+    const ObjectBox& box = volume.box;
+    if (box.empty()) return;
+    std::vector<FoundSurface> surfaces;
+    for (const auto* const kind : {&neighbours.beside, &neighbours.across}) {
+        for (const DepthView* const neighbour : *kind) surfaces.emplace_back(*neighbour);
+    }
+    const auto cost_per_unit = static_cast<float>(kCostPerLevel / range.step);
+    std::vector<std::uint8_t> least(static_cast<std::size_t>(box.height()));
+    for (int column = box.left; column < box.right; ++column) {
+        const HorizontalRay ray = view.ray_of(column + 0.5);
+        ColumnLevels of_column(volume, column);
+        for (int level = 0; level < range.count; ++level) {
+            const Rows rows = of_column.rows(level);
+            if (rows.count() <= 0) continue;
+            std::fill(least.begin(), least.end(), kUnknownMatch);
+            for (const FoundSurface& surface : surfaces) {
+                compare_depths(view, surface, ray, range.at(level), cost_per_unit, box.top + rows.begin, rows.count(),
+                               least.data());
+            }
+            of_column.for_each(level, [&](int row, std::uint8_t& cost) {
+                const int more = least[static_cast<std::size_t>(row - rows.begin)];
+                if (more != kUnknownMatch) cost = static_cast<std::uint8_t>(std::min(cost + more, kOutsideCost - 1));
+            });
         }
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
-// How badly the colours of neighbouring pictures disagree, for every pixel of a picture and every depth.
+// How unlikely each depth of each pixel of a picture is: by the colours of neighbouring pictures, and by the surfaces
+// that these were found to show.
 
 #include "encode/raymap/column_match.hpp"
 #include "encode/raymap/depth_range.hpp"
@@ -14,6 +15,7 @@ namespace rs::encode {
 // A rectangle of pixels, [left, right) x [top, bottom).
 struct ObjectBox {
     int left = 0, top = 0, right = 0, bottom = 0;
+
     [[nodiscard]] int width() const { return right - left; }
     [[nodiscard]] int height() const { return bottom - top; }
     [[nodiscard]] bool empty() const { return right <= left || bottom <= top; }
@@ -22,35 +24,48 @@ struct ObjectBox {
 // The smallest box of all pixels with alpha above 0.
 ObjectBox object_box(const WorkView& view);
 
-// cost of pixel (column, row) at a level: costs[((column - left) * height + row - top) * levels + level]
+// The levels first .. first + count - 1 that one pixel may have; the cost of level first + n is costs[begin + n].
+struct PixelLevels {
+    std::uint32_t begin = 0;
+    std::uint16_t first = 0;
+    std::uint16_t count = 0;  // 0: the pixel is not of the object
+};
+
+// Photographed objects fill a tenth to a fifth of the depths that are searched, and half of their box.
 struct CostVolume {
     ObjectBox box;
-    int levels = 0;
+    int levels = 0;                   // of the range
+    std::vector<PixelLevels> pixels;  // [(column - box.left) * box.height() + row - box.top]
     std::vector<std::uint8_t> costs;
-    [[nodiscard]] const std::uint8_t* at(int column, int row) const { return costs.data() + index(column, row); }
-    [[nodiscard]] std::uint8_t* at(int column, int row) { return costs.data() + index(column, row); }
 
-    // Of level 0.
-    [[nodiscard]] std::size_t index(int column, int row) const {
-        return (static_cast<std::size_t>(column - box.left) * static_cast<std::size_t>(box.height()) +
-                static_cast<std::size_t>(row - box.top)) *
-               static_cast<std::size_t>(levels);
+    [[nodiscard]] const PixelLevels& of(int column, int row) const {
+        return pixels[static_cast<std::size_t>((column - box.left) * box.height() + row - box.top)];
     }
 };
 
-// The pictures that one is compared with, at most two of a kind.
+// Every pixel of the object with all levels of `range` (at most 65535), which cost nothing yet.
+CostVolume every_level(const WorkView& view, const DepthRange& range);
+
+// The same with those that the hull allows, from the first to the last: what lies between but outside costs
+// kOutsideCost. A pixel whose ray misses the hull has all levels, at that cost.
+CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range);
+
+// The pictures that one is compared with, at most two of a kind, each with what it was found to show, if anything.
 struct Neighbours {
-    std::vector<const WorkView*> beside;  // of its ring
-    std::vector<const WorkView*> across;  // of the rings below and above
+    std::vector<const DepthView*> beside;  // of its ring
+    std::vector<const DepthView*> across;  // of the rings below and above
 };
 
-// Each neighbour gives a cost, the mean absolute difference of R, G and B, at most kMostCost, which is also that of a
-// point that falls on a transparent pixel; a neighbour that does not have the point in its frame gives none. Surfaces
-// are seen by the pictures to one side at least, so the better side counts for most. Where there are neighbours of both
-// kinds the mean of the two is taken: edges that lie level tell only those across something.
-CostVolume matching_costs(const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
+// The colours. Each neighbour gives a cost, the mean absolute difference of R, G and B, at most kMostCost, which is
+// also that of a point that falls on a transparent pixel; a neighbour that does not have the point in its frame gives
+// none. Surfaces are seen by the pictures to one side at least, so the better side counts for most. Where there are
+// neighbours of both kinds the mean of the two is taken: edges that lie level tell only those across something.
+// What costs kOutsideCost stays as it is.
+void match_colours(CostVolume& volume, const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
 
-// Points outside of the hull cost kOutsideCost.
-void forbid_outside(CostVolume& volume, const WorkView& view, const SampledHull& hull, const DepthRange& range);
+// Adds how far a point is from the nearest of the surfaces that neighbours show where they see it: kCostPerLevel for a
+// level, kMostCost at most; nothing where none shows a surface there. So what two pictures agree about outweighs
+// the colours of a few pixels.
+void add_inconsistency(CostVolume& volume, const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
 
 }  // namespace rs::encode

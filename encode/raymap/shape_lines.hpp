@@ -11,13 +11,6 @@
 
 namespace rs::encode {
 
-// A picture and what was found: along a pixel's ray, distance from the foot in object radii, transposed as
-// WorkView::columns is; NaN where there is none.
-struct DepthView {
-    WorkView view;
-    Image<float> depth;
-};
-
 struct ShapeLinesOptions {
     double cell_px = 3.2;  // side of a cell in pixels of the working pictures
     double raster_px =

@@ -72,33 +72,56 @@ public:
                                     });
     }
 
-    // The hull and the depths; the first kSampleViews evenly spread ones are kept for people. `rings` are those next
-    // below and above, where there are such.
-    Status search(const std::vector<const RingSearch*>& rings, Progress* progress, std::vector<FoundDepth>& samples) {
+    // The hull, and the depths that the colours say. `rings` are those next below and above, where there are such.
+    Status match(const std::vector<const RingSearch*>& rings, Progress* progress) {
         choose_hull({});
-        const std::vector<const RingSearch*> beside = agreeing(rings);
-        if (!beside.empty()) choose_hull(beside);
+        beside_ = agreeing(rings);
+        if (!beside_.empty()) choose_hull(beside_);
         const WorkView& any = views_.front().view;
         sampled_hull_ = std::make_unique<SampledHull>(*hull_, kHullSpacing_px * glm::length(any.centre) / any.fl_x);
-        const int count = static_cast<int>(views_.size());
-        const int every = std::max(1, (count + kSampleViews - 1) / kSampleViews);
-        const std::size_t first_sample = samples.size();
-        samples.resize(first_sample + static_cast<std::size_t>((count + every - 1) / every));
-        return for_each_in_parallel(count, "depth", progress, [&](int n) -> Status {
+        return for_each_in_parallel(count(), "depth", progress, [&](int n) -> Status {
             DepthView& view = views_[static_cast<std::size_t>(n)];
-            const Neighbours neighbours{neighbours_of(n), nearest_of(beside, view.view)};
             const DepthRange range = range_of(n);
-            CostVolume costs = matching_costs(view.view, neighbours, range);
-            forbid_outside(costs, view.view, *sampled_hull_, range);
-            view.depth = semi_global_levels(view.view, costs, options_.smoothness);
-            for (float& depth : view.depth.pixels()) depth = static_cast<float>(range.at(static_cast<double>(depth)));
-            if (n % every == 0) {
-                FoundDepth& sample = samples[first_sample + static_cast<std::size_t>(n / every)];
-                sample = {ring_.views[static_cast<std::size_t>(n)], first_allowed(view.view, costs, range), view.depth};
-            }
-            keep_layer(view.depth, soft_[static_cast<std::size_t>(n)]);
+            CostVolume costs = levels_within(*sampled_hull_, view.view, range);
+            match_colours(costs, view.view, neighbours_of(n), range);
+            view.depth = depths_at(semi_global_levels(view.view, costs, options_.smoothness), range);
             return {};
         });
+    }
+
+    // The same again, now that there are depths that pictures can agree about: every second picture with what the
+    // colours say of its neighbours, then the others with what those have found. If all went at once, neighbours would
+    // take over one another's faults. A few evenly spread depths are kept for people.
+    Status agree(Progress* progress, std::vector<FoundDepth>& samples) {
+        const int every = std::max(1, (count() + kSampleViews - 1) / kSampleViews);
+        const std::size_t first_sample = samples.size();
+        samples.resize(first_sample + static_cast<std::size_t>((count() + every - 1) / every));
+        std::vector<Image<float>> agreed(views_.size());
+        for (const int first : {0, 1}) {
+            const int of_these = (count() + 1 - first) / 2;
+            Status status = for_each_in_parallel(of_these, "depth that agrees", progress, [&](int m) -> Status {
+                const int n = first + 2 * m;
+                const WorkView& view = views_[static_cast<std::size_t>(n)].view;
+                const DepthRange range = range_of(n);
+                CostVolume costs = levels_within(*sampled_hull_, view, range);
+                Image<float> hull = n % every == 0 ? first_allowed(view, costs, range) : Image<float>();
+                match_colours(costs, view, neighbours_of(n), range);
+                add_inconsistency(costs, view, neighbours_of(n), range);
+                Image<float>& depth = agreed[static_cast<std::size_t>(n)];
+                depth = depths_at(semi_global_levels(view, costs, options_.smoothness), range);
+                if (n % every == 0) {
+                    samples[first_sample + static_cast<std::size_t>(n / every)] = {
+                        ring_.views[static_cast<std::size_t>(n)], std::move(hull), depth};
+                }
+                return {};
+            });
+            if (!status) return status;
+            for (std::size_t n = static_cast<std::size_t>(first); n < views_.size(); n += 2) {
+                views_[n].depth = std::move(agreed[n]);
+            }
+        }
+        for (std::size_t n = 0; n < views_.size(); ++n) keep_layer(views_[n].depth, soft_[n]);
+        return {};
     }
 
     [[nodiscard]] bool shows_soft() const {
@@ -142,6 +165,13 @@ public:
     }
 
 private:
+    [[nodiscard]] int count() const { return static_cast<int>(views_.size()); }
+
+    static Image<float> depths_at(Image<float> levels, const DepthRange& range) {
+        for (float& depth : levels.pixels()) depth = static_cast<float>(range.at(static_cast<double>(depth)));
+        return levels;
+    }
+
     void keep_layer(Image<float>& depth, const Image<std::uint8_t>& soft) const {
         std::ranges::transform(depth.pixels(), soft.pixels(), depth.pixels().begin(), [&](float value, int pixel) {
             return (pixel != 0) == (layer_ == Layer::kSoft) ? value : kNoDepth;
@@ -158,7 +188,7 @@ private:
         return all;
     }
 
-    [[nodiscard]] bool agree(const std::vector<const WorkView*>& views, const VisualHull& hull) const {
+    [[nodiscard]] bool silhouettes_agree(const std::vector<const WorkView*>& views, const VisualHull& hull) const {
         const DepthRange range{-kDeepest, 2 * kDeepest / (options_.depths - 1), options_.depths};
         return contradicted_share(views, hull, range) <= kMostContradicted;
     }
@@ -171,14 +201,14 @@ private:
         overruled_share_ = 0;
         for (margin_px_ = 1; margin_px_ <= options_.widest_hull_margin_px; margin_px_ *= 2) {
             hull_ = std::make_unique<VisualHull>(all, margin_px_);
-            silhouettes_agree_ = agree(all, *hull_);
+            silhouettes_agree_ = silhouettes_agree(all, *hull_);
             if (silhouettes_agree_) return;
         }
         margin_px_ = kOverruledMargin_px;
         for (const double share : kOverruledShares) {
             overruled_share_ = share;
             hull_ = std::make_unique<VisualHull>(all, margin_px_, overruled(all));
-            if (agree(all, *hull_)) return;
+            if (silhouettes_agree(all, *hull_)) return;
         }
     }
 
@@ -192,48 +222,42 @@ private:
         std::vector<const RingSearch*> found;
         for (const RingSearch* const ring : rings) {
             const std::vector<const WorkView*> both = work_views({ring});
-            if (agree(both, VisualHull(both, margin_px_, overruled(both)))) found.push_back(ring);
+            if (silhouettes_agree(both, VisualHull(both, margin_px_, overruled(both)))) found.push_back(ring);
         }
         return found;
     }
 
     [[nodiscard]] double gap_deg(int n) const { return degrees(gap_width(views_, static_cast<std::size_t>(n))); }
 
-    // The pictures to either side, unless they are too far away to compare.
-    [[nodiscard]] std::vector<const WorkView*> neighbours_of(int n) const {
-        const int count = static_cast<int>(views_.size());
-        const int before = (n + count - 1) % count;
-        const int after = (n + 1) % count;
-        std::vector<const WorkView*> found;
+    // The pictures to either side and the nearest one of each ring beside this one, unless they are too far away to
+    // compare.
+    [[nodiscard]] Neighbours neighbours_of(int n) const {
+        const int before = (n + count() - 1) % count();
+        const int after = (n + 1) % count();
+        Neighbours found;
         if (before != n && gap_deg(before) <= options_.lines.widest_gap_deg) {
-            found.push_back(&views_[static_cast<std::size_t>(before)].view);
+            found.beside.push_back(&views_[static_cast<std::size_t>(before)]);
         }
         if (after != n && after != before && gap_deg(n) <= options_.lines.widest_gap_deg) {
-            found.push_back(&views_[static_cast<std::size_t>(after)].view);
+            found.beside.push_back(&views_[static_cast<std::size_t>(after)]);
         }
-        return found;
-    }
-
-    // The picture of each ring that stands nearest to this one, unless it is too far away to compare.
-    static std::vector<const WorkView*> nearest_of(const std::vector<const RingSearch*>& rings, const WorkView& view) {
-        std::vector<const WorkView*> found;
+        const WorkView& view = views_[static_cast<std::size_t>(n)].view;
         const auto cosine_to = [&](const DepthView& other) {
             return glm::dot(glm::normalize(glm::dvec3(view.centre, view.centre_y)),
                             glm::normalize(glm::dvec3(other.view.centre, other.view.centre_y)));
         };
-        for (const RingSearch* const ring : rings) {
+        for (const RingSearch* const ring : beside_) {
             const auto nearest =
                 std::max_element(ring->views_.begin(), ring->views_.end(),
                                  [&](const DepthView& a, const DepthView& b) { return cosine_to(a) < cosine_to(b); });
-            if (cosine_to(*nearest) > std::cos(radians(kWidestBetweenRings_deg))) found.push_back(&nearest->view);
+            if (cosine_to(*nearest) > std::cos(radians(kWidestBetweenRings_deg))) found.across.push_back(&*nearest);
         }
         return found;
     }
 
     [[nodiscard]] DepthRange range_of(int n) const {
-        const int count = static_cast<int>(views_.size());
         double widest_deg = 0;
-        for (const int gap : {n, (n + count - 1) % count}) {
+        for (const int gap : {n, (n + count() - 1) % count()}) {
             if (gap_deg(gap) <= options_.lines.widest_gap_deg) widest_deg = std::max(widest_deg, gap_deg(gap));
         }
         const int levels =
@@ -245,12 +269,9 @@ private:
         Image<float> depth(view.height, view.width, kNoDepth);
         for (int column = costs.box.left; column < costs.box.right; ++column) {
             for (int row = costs.box.top; row < costs.box.bottom; ++row) {
-                if (view.at(column, row).a == 0) continue;
-                const std::uint8_t* const begin = costs.at(column, row);
-                const auto* const first =
-                    std::find_if(begin, begin + costs.levels, [](int cost) { return cost < kOutsideCost; });
-                if (first != begin + costs.levels)
-                    depth(row, column) = static_cast<float>(range.at(static_cast<double>(first - begin)));
+                const PixelLevels& pixel = costs.of(column, row);
+                if (pixel.count == 0 || costs.costs[pixel.begin] == kOutsideCost) continue;
+                depth(row, column) = static_cast<float>(range.at(pixel.first));
             }
         }
         return depth;
@@ -263,6 +284,7 @@ private:
     Layer layer_;
     std::vector<DepthView> views_;
     std::vector<Image<std::uint8_t>> soft_;  // of each view
+    std::vector<const RingSearch*> beside_;
     std::unique_ptr<VisualHull> hull_;
     std::unique_ptr<SampledHull> sampled_hull_;  // kHullSpacing_px apart
     int margin_px_ = 1;
@@ -285,14 +307,18 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
         std::vector<const RingSearch*> beside;
         if (r > 0) beside.push_back(&searches[r - 1]);
         if (r + 1 < rings.size()) beside.push_back(&searches[r + 1]);
-        if (const Status status = searches[r].search(beside, progress, found.samples); !status) return status.error();
+        if (const Status status = searches[r].match(beside, progress); !status) return status.error();
+    }
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+        if (const Status status = searches[r].agree(progress, found.samples); !status) return status.error();
         Ring& ring = object.rings[r];
         std::vector<SurfaceLayer> layers = {searches[r].surfaces()};
         RingSearch soft(set, rig, rings[r], options, Layer::kSoft);
         if (searches[r].shows_soft()) {
             std::vector<FoundDepth> unused;
             if (const Status status = soft.read(progress); !status) return status.error();
-            if (const Status status = soft.search({}, progress, unused); !status) return status.error();
+            if (const Status status = soft.match({}, progress); !status) return status.error();
+            if (const Status status = soft.agree(progress, unused); !status) return status.error();
             layers.push_back(soft.surfaces());
         }
         ring.shape = searches[r].lines(layers, ring.planes);

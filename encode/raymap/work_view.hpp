@@ -7,7 +7,11 @@
 
 #include <glm/glm.hpp>
 
+#include <limits>
+
 namespace rs::encode {
+
+inline constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
 
 // Where a ray of vertical planes runs, seen from above: through its foot (nearest to the axis) in direction `along`
 // (unit, x and z). A point at depth `depth` is at foot + depth * along.
@@ -44,6 +48,13 @@ struct WorkView {
     // Row of height y at an axial depth, and back.
     [[nodiscard]] double row_of(double y, double axial) const { return cy - fl_y * (y - centre_y) / axial; }
     [[nodiscard]] double height_of(double row, double axial) const { return centre_y + axial * (cy - row) / fl_y; }
+};
+
+// A picture and what was found: along a pixel's ray, distance from the foot in object radii, transposed as
+// WorkView::columns is; kNoDepth where there is none.
+struct DepthView {
+    WorkView view;
+    Image<float> depth;
 };
 
 // `camera` is upright and in object radii. `picture` is averaged over blocks of `reduction` x `reduction` pixels

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -55,6 +57,41 @@ TEST(ColumnMatch, CostsAreMeansOfDifferences) {
             ASSERT_EQ(costs[static_cast<std::size_t>(n)], wanted) << round << ", " << n;
         }
     }
+}
+
+TEST(ColumnMatch, DepthsCostWhatTheyAreAway) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> deep(-1, 1);
+    int nearer = 0;
+    for (int round = 0; round < 300; ++round) {
+        const int rows = 1 + static_cast<int>(random() % 150);
+        const int height = 1 + static_cast<int>(random() % 150);
+        std::vector<float> depths(static_cast<std::size_t>(height));
+        for (float& depth : depths) depth = random() % 5 == 0 ? std::numeric_limits<float>::quiet_NaN() : deep(random);
+        const ColumnDepths found{.depths = depths.data(),
+                                 .depth = deep(random),
+                                 .cost_per_unit = 100,
+                                 .rows = rows,
+                                 .height = height,
+                                 .position_q16 = static_cast<std::int32_t>(random() % (40 << 16)) - (20 << 16),
+                                 .step_q16 = static_cast<std::int32_t>(random() % (3 << 16))};
+        std::vector<std::uint8_t> before(static_cast<std::size_t>(rows));
+        for (std::uint8_t& cost : before) cost = static_cast<std::uint8_t>(random() % 256);
+        std::vector<std::uint8_t> after = before;
+        approach_depths(found, after.data());
+        for (int n = 0; n < rows; ++n) {
+            const auto at = static_cast<std::size_t>(n);
+            const int row = (found.position_q16 + n * found.step_q16) >> 16;
+            int wanted = before[at];
+            if (row >= 0 && row < height && !std::isnan(depths[static_cast<std::size_t>(row)])) {
+                const float away = std::abs(depths[static_cast<std::size_t>(row)] - found.depth) * found.cost_per_unit;
+                wanted = std::min(wanted, std::min(static_cast<int>(away), kMostCost));
+            }
+            nearer += wanted < before[at] ? 1 : 0;
+            ASSERT_EQ(after[at], wanted) << round << ", " << n;
+        }
+    }
+    EXPECT_GT(nearer, 1000);
 }
 
 // What one kind of neighbours says; nothing: -1, outside: -2.

@@ -21,24 +21,37 @@ struct Pixels {
     CostVolume volume;
 };
 
-// An object with holes in it, edges of colour, and random costs.
+// An object with holes in it, edges of colour, and random costs of the levels that each pixel happens to have: all, one
+// or some.
 Pixels random_pixels(int width, int height, int levels, std::mt19937_64& random) {
     Pixels made;
     made.view.width = width;
     made.view.height = height;
     made.view.columns = Image<Rgba8>(height, width);
+    made.volume.box = {1, 1, width, height - 1};
+    made.volume.levels = levels;
     for (int x = 0; x < width; ++x) {
         for (int y = 0; y < height; ++y) {
             const auto code = [&] { return static_cast<std::uint8_t>(random() % 3 * 40); };
-            made.view.columns(y, x) = {code(), code(), code(), static_cast<std::uint8_t>(random() % 6 == 0 ? 0 : 255)};
+            const bool object = random() % 6 != 0;
+            made.view.columns(y, x) = {code(), code(), code(), object ? std::uint8_t{255} : std::uint8_t{0}};
+            if (x < 1 || y < 1 || y >= height - 1) continue;
+            PixelLevels& pixel = made.volume.pixels.emplace_back();
+            if (!object) continue;
+            const bool all = random() % 3 == 0;
+            const int first = all ? 0 : static_cast<int>(random() % static_cast<unsigned>(levels));
+            const int count = all ? levels : 1 + static_cast<int>(random() % static_cast<unsigned>(levels - first));
+            pixel = {static_cast<std::uint32_t>(made.volume.costs.size()), static_cast<std::uint16_t>(first),
+                     static_cast<std::uint16_t>(count)};
+            for (int n = 0; n < count; ++n) {
+                made.volume.costs.push_back(static_cast<std::uint8_t>(random() % kMostCost));
+            }
         }
     }
-    made.volume.box = {1, 1, width, height - 1};
-    made.volume.levels = levels;
-    made.volume.costs.resize(static_cast<std::size_t>(made.volume.box.width() * made.volume.box.height() * levels));
-    for (std::uint8_t& cost : made.volume.costs) cost = static_cast<std::uint8_t>(random() % kMostCost);
     return made;
 }
+
+constexpr int kNever = 1'000'000;  // what a level costs that the pixel does not have
 
 // L(p, n) = C(p, n) + min(L(q, n), L(q, n +- 1) + P1, min L(q) + P2) - min L(q), q the pixel before p on the path; the
 // path begins where q is not of the object. (Hirschmüller 2008, equation 13.)
@@ -51,7 +64,9 @@ public:
         const auto known = costs_.find({x, y});
         if (known != costs_.end()) return known->second;
         const auto& [view, volume] = pixels_;
-        std::vector<int> costs(volume.at(x, y), volume.at(x, y) + volume.levels);
+        const PixelLevels& pixel = volume.of(x, y);
+        std::vector<int> costs(static_cast<std::size_t>(volume.levels), kNever);
+        for (std::uint32_t n = 0; n < pixel.count; ++n) costs[pixel.first + n] = volume.costs[pixel.begin + n];
         const int u = x - dx_;
         const int v = y - dy_;
         const ObjectBox& box = volume.box;
@@ -67,7 +82,7 @@ public:
                     if (std::abs(m - n) > 1) continue;
                     best = std::min(best, before[static_cast<std::size_t>(m)] + (m == n ? 0 : options_.small_step));
                 }
-                costs[static_cast<std::size_t>(n)] += best - least;
+                if (costs[static_cast<std::size_t>(n)] != kNever) costs[static_cast<std::size_t>(n)] += best - least;
             }
         }
         return costs_.emplace(std::pair(x, y), std::move(costs)).first->second;
@@ -85,7 +100,8 @@ TEST(SemiGlobal, IsTheSumOfEightPaths) {
     constexpr std::uint64_t kSeed = 8;
     SCOPED_TRACE(kSeed);
     std::mt19937_64 random(kSeed);
-    for (const auto& [width, height, levels] : std::vector<std::array<int, 3>>{{7, 9, 5}, {12, 6, 17}, {3, 4, 2}}) {
+    for (const auto& [width, height, levels] :
+         std::vector<std::array<int, 3>>{{7, 9, 5}, {12, 6, 17}, {3, 4, 2}, {40, 30, 9}}) {
         const Pixels pixels = random_pixels(width, height, levels, random);
         for (const SmoothnessOptions options : {SmoothnessOptions{}, SmoothnessOptions{7, 30}}) {
             const Image<float> found = semi_global_levels(pixels.view, pixels.volume, options);
@@ -110,7 +126,7 @@ TEST(SemiGlobal, IsTheSumOfEightPaths) {
                     }
                     const auto best = static_cast<std::size_t>(std::min_element(sum.begin(), sum.end()) - sum.begin());
                     double level = static_cast<double>(best);
-                    if (best > 0 && best + 1 < sum.size()) {
+                    if (best > 0 && best + 1 < sum.size() && sum[best - 1] < kNever && sum[best + 1] < kNever) {
                         const double before = sum[best - 1] - sum[best];
                         const double after = sum[best + 1] - sum[best];
                         if (before + after > 0) level += (before - after) / (2 * (before + after));

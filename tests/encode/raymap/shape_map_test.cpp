@@ -1,15 +1,14 @@
-// Shape maps found from pictures: the hull, the matching, the lines, and whole objects of ordinary and odd sets.
+// Shape maps found from pictures: whole objects of ordinary and odd sets.
 
 #include "encode/raymap/shape_map.hpp"
 
 #include "encode/build.hpp"
-#include "encode/raymap/cost_volume.hpp"
-#include "encode/raymap/visual_hull.hpp"
 #include "engine/core/fast/renderer.hpp"
 #include "engine/core/views/compare.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/encode/raymap/drawn_views.hpp"
+#include "tests/encode/raymap/striped_ball.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -46,39 +45,6 @@ double psnr_of(const BuiltObject& built, const std::filesystem::path& truth) {
     return comparison->mean_psnr_db;
 }
 
-TEST(SemiGlobal, FindsTheDepthOfTheBalls) {
-    const Rig rig = drawn_ring(60);
-    const std::vector<WorkView> views = drawn_views(rig);
-    const Neighbours neighbours{{&views[1], &views[59]}, {}};
-    const DepthRange range{-1.03, 2.06 / 127, 128};
-    CostVolume costs = matching_costs(views[0], neighbours, range);
-    forbid_outside(costs, views[0], SampledHull(VisualHull(pointers(views), 1), 0.005), range);
-    const Image<float> levels = semi_global_levels(views[0], costs, {});
-    // The balls' shading turns with the viewer, so colours agree where the big ball's middle is: on the axis.
-    EXPECT_NEAR(range.at(static_cast<double>(levels(50, 64))), 0, 0.08);
-    EXPECT_TRUE(std::isnan(levels(0, 0)));
-}
-
-// A ball about the origin whose colour depends on height alone.
-constexpr double kBallRadius = 0.8;
-
-Image<Rgba8> striped_ball(const Camera& camera) {
-    Image<Rgba8> picture(camera.width, camera.height);
-    const glm::dvec3 eye = camera.centre();
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            const glm::dvec3 ray = glm::normalize(camera.ray(x + 0.5, y + 0.5));
-            const double along = -glm::dot(ray, eye);
-            const double inside = kBallRadius * kBallRadius + along * along - glm::dot(eye, eye);
-            if (inside < 0) continue;
-            const double height = eye.y + (along - std::sqrt(inside)) * ray.y;
-            const auto code = [](double wave) { return static_cast<std::uint8_t>(128 + std::lround(100 * wave)); };
-            picture(x, y) = {code(std::sin(35 * height)), code(std::cos(35 * height)), 128, 255};
-        }
-    }
-    return picture;
-}
-
 // `count` cameras that look at it from above, the first at an azimuth.
 Rig ring_above(int count, double first_deg, double elevation_deg) {
     return make_ring({.count = count,
@@ -88,46 +54,6 @@ Rig ring_above(int count, double first_deg, double elevation_deg) {
                       .width = 128,
                       .height = 112,
                       .first_rad = radians(first_deg)});
-}
-
-// One of them, level.
-WorkView striped_view(double azimuth_deg, double elevation_deg) {
-    Camera camera = drawn_ring(1, azimuth_deg, 3.5 * std::cos(radians(elevation_deg))).views[0].camera;
-    camera.world_from_camera[3].y = 3.5 * std::sin(radians(elevation_deg));
-    return make_work_view(camera, striped_ball(camera), 1);
-}
-
-TEST(CostVolume, LevelStripesHaveADepthOnlyAcrossRings) {
-    const WorkView view = striped_view(0, 10);
-    const WorkView left = striped_view(-6, 10);
-    const WorkView right = striped_view(6, 10);
-    const WorkView below = striped_view(1, 4);
-    const WorkView above = striped_view(-2, 16);
-    const DepthRange range{-1.03, 2.06 / 127, 128};
-    constexpr int kColumn = 64;
-    const HorizontalRay ray = view.ray_of(kColumn + 0.5);
-    // How far from the ball's surface the farthest depth lies whose colour agrees nearly as well as any does.
-    const auto doubt = [&](const Neighbours& neighbours, int row) {
-        const double rise = (view.height_of(row + 0.5, 1) - view.centre_y) / ray.horizontal_per_axial;
-        const double foot_y = view.centre_y + ray.to_foot * rise;
-        const double a = 1 + rise * rise;
-        const double half_b = rise * foot_y;
-        const double c = foot_y * foot_y + glm::dot(ray.foot, ray.foot) - kBallRadius * kBallRadius;
-        const double surface = (-half_b - std::sqrt(half_b * half_b - a * c)) / a;
-        const CostVolume costs = matching_costs(view, neighbours, range);
-        const std::uint8_t* const of = costs.at(kColumn, row);
-        const int least = *std::min_element(of, of + range.count);
-        double farthest = 0;
-        for (int level = 0; level < range.count; ++level) {
-            if (of[level] <= least + 2) farthest = std::max(farthest, std::abs(range.at(level) - surface));
-        }
-        return farthest;
-    };
-    for (const int row : {50, 57, 64}) {
-        EXPECT_GT(doubt({{&left, &right}, {}}, row), 0.3) << row;
-        EXPECT_LT(doubt({{&left, &right}, {&below, &above}}, row), 0.15) << row;
-        EXPECT_LT(doubt({{}, {&below}}, row), 0.15) << row;
-    }
 }
 
 TEST(ShapeMap, BeatsThePlaneHalfwayAndKeepsCapturedPictures) {
