@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 
@@ -126,17 +125,6 @@ void compare_depths(const WorkView& view, const FoundSurface& found, const Horiz
                     least);
 }
 
-CostVolume empty_volume(const WorkView& view, const DepthRange& range) {
-    CostVolume volume;
-    volume.box = object_box(view);
-    volume.levels = range.count;
-    if (!volume.box.empty()) {
-        volume.pixels.resize(static_cast<std::size_t>(volume.box.width()) *
-                             static_cast<std::size_t>(volume.box.height()));
-    }
-    return volume;
-}
-
 // `pixel` gets its place behind all that have theirs.
 void append(PixelLevels& pixel, int first, int count, std::uint8_t cost, std::vector<std::uint8_t>& costs) {
     pixel = {static_cast<std::uint32_t>(costs.size()), static_cast<std::uint16_t>(first),
@@ -207,20 +195,13 @@ ObjectBox object_box(const WorkView& view) {
     return box;
 }
 
-CostVolume every_level(const WorkView& view, const DepthRange& range) {
-    CostVolume volume = empty_volume(view, range);
-    std::size_t n = 0;
-    for (int column = volume.box.left; column < volume.box.right; ++column) {
-        for (int row = volume.box.top; row < volume.box.bottom; ++row, ++n) {
-            if (view.at(column, row).a > 0) append(volume.pixels[n], 0, range.count, 0, volume.costs);
-        }
-    }
-    return volume;
-}
-
 CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range) {
-    CostVolume volume = empty_volume(view, range);
+    CostVolume volume;
+    volume.box = object_box(view);
+    volume.levels = range.count;
     const ObjectBox& box = volume.box;
+    if (box.empty()) return volume;
+    volume.pixels.resize(static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()));
     for (int column = box.left; column < box.right; ++column) {
         const AllowedColumn allowed(hull, view, box, column, range);
         const std::span<PixelLevels> pixels(

@@ -43,11 +43,9 @@ struct CostVolume {
     }
 };
 
-// Every pixel of the object with all levels of `range` (at most 65535), which cost nothing yet.
-CostVolume every_level(const WorkView& view, const DepthRange& range);
-
-// The same with those that the hull allows, from the first to the last: what lies between but outside costs
-// kOutsideCost. A pixel whose ray misses the hull has all levels, at that cost.
+// Every pixel of the object with the levels of `range` (at most 65535) that the hull allows, from the first to the
+// last. They cost nothing yet; what lies between but outside of the hull costs kOutsideCost. A pixel whose ray misses
+// the hull has all levels, at that cost.
 CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range);
 
 // The pictures that one is compared with, at most two of a kind, each with what it was found to show, if anything.

@@ -16,6 +16,11 @@ namespace {
 
 const DepthRange kRange{-1.03, 2.06 / 127, 128};
 
+// Of all levels, since nothing rules any out.
+CostVolume every_level(const WorkView& view) {
+    return levels_within(SampledHull(VisualHull({}, 1), 0.05), view, kRange);
+}
+
 std::vector<DepthView> without_depths(const std::vector<WorkView>& views) {
     std::vector<DepthView> found;
     for (const WorkView& view : views) found.push_back({view, {}});
@@ -97,7 +102,7 @@ TEST(CostVolume, LevelStripesHaveADepthOnlyAcrossRings) {
     constexpr int kColumn = 64;
     // How far from the ball's surface the farthest depth lies whose colour agrees nearly as well as any does.
     const auto doubt = [&](const Neighbours& neighbours, int row) {
-        CostVolume volume = every_level(view, kRange);
+        CostVolume volume = every_level(view);
         match_colours(volume, view, neighbours, kRange);
         const std::uint8_t* const of = volume.costs.data() + volume.of(kColumn, row).begin;
         const int least = *std::min_element(of, of + kRange.count);
@@ -127,7 +132,7 @@ TEST(CostVolume, WhatNeighboursShowTellsTheDepth) {
     constexpr int kColumn = 60;
     for (const int row : {50, 57, 70}) {
         const auto costs = [&](const Neighbours& neighbours) {
-            CostVolume volume = every_level(view, kRange);
+            CostVolume volume = every_level(view);
             add_inconsistency(volume, view, neighbours, kRange);
             const auto begin = volume.costs.begin() + volume.of(kColumn, row).begin;
             return std::vector<int>(begin, begin + kRange.count);
