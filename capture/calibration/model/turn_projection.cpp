@@ -1,11 +1,6 @@
 #include "capture/calibration/model/turn_projection.hpp"
 
 namespace rs::capture {
-namespace {
-
-constexpr double kNearest = -1e-6;  // of Z: points farther forward than this are before the camera
-
-}  // namespace
 
 TurnProjection::TurnProjection(const TurntableModel& model) : lens_(model.lens) {
     const glm::dmat3 camera_from_table = camera_rotation(model.pose);

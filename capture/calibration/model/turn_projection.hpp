@@ -32,10 +32,16 @@ public:
     [[nodiscard]] glm::dvec3 centre(std::size_t view) const;
     [[nodiscard]] std::optional<glm::dvec3> ray(const glm::dvec2& px, std::size_t view) const;
 
+    // p_in_camera = camera_from_object(view) * p_in_object + offset(). What lies at a Z of kNearest and below is before
+    // the camera.
+    static constexpr double kNearest = -1e-6;
+    [[nodiscard]] const glm::dmat3& camera_from_object(std::size_t view) const { return camera_from_object_[view]; }
+    [[nodiscard]] const glm::dvec3& offset() const { return offset_; }
+
 private:
     Lens lens_;
     glm::dvec3 offset_;                           // of the camera's axes
-    std::vector<glm::dmat3> camera_from_object_;  // [view], rotation: p_in_camera = it * p + offset_
+    std::vector<glm::dmat3> camera_from_object_;  // [view], rotation
 };
 
 }  // namespace rs::capture

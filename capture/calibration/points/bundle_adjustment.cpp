@@ -4,8 +4,12 @@
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace rs::capture {
@@ -20,90 +24,212 @@ void silence_ceres() {
 
 namespace {
 
-struct LensPrior {
-    glm::dvec2 middle;
-    double width;
-    double noise_px;
+constexpr double kShortestFocalLength = 0.1;  // of the picture's width
 
-    template <class T>
-    bool operator()(const T* lens, T* residuals) const {
-        residuals[0] = (lens[1] - T(middle.x)) * T(noise_px / (kPriorPrincipalPoint * width));
-        residuals[1] = (lens[2] - T(middle.y)) * T(noise_px / (kPriorPrincipalPoint * width));
-        residuals[2] = lens[3] * T(noise_px / kPriorK1);
-        residuals[3] = lens[4] * T(noise_px / kPriorK2);
-        return true;
+// What Ceres adjusts: of the camera's numbers the free ones as one block, so that none is held within a block; angles
+// are those of the model itself.
+class FreeNumbers {
+public:
+    FreeNumbers(TurntableModel& model, const BundleFreedom& free)
+        : model_(model), angles_(free.angles), camera_{&model.lens.f_px,     &model.lens.cx,      &model.lens.cy,
+                                                       &model.lens.k1,       &model.lens.k2,      &model.pose.pan_rad,
+                                                       &model.pose.tilt_rad, &model.pose.roll_rad} {
+        const std::array<bool, kCameraNumbers> is_free{
+            free.f, free.principal_point, free.principal_point, free.k1, free.k2, free.pan, free.tilt, free.roll};
+        for (std::size_t k = 0; k < kCameraNumbers; ++k) {
+            if (!is_free[k]) continue;
+            places_.push_back(k);
+            values_.push_back(*camera_[k]);
+        }
+        const std::size_t views = model.angles_rad.size();
+        if (views > 1) step_rad_ = model.angles_rad.back() / static_cast<double>(views - 1);
     }
+
+    // Which of the camera's numbers are free, in the order in which they stand in their block.
+    [[nodiscard]] const std::vector<std::size_t>& camera_places() const { return places_; }
+    [[nodiscard]] double* camera() { return values_.data(); }
+
+    // Nothing where the view's angle is held.
+    [[nodiscard]] double* angle(int view) {
+        if (angles_ == AngleFreedom::kCommonStep) return &step_rad_;
+        if (angles_ == AngleFreedom::kHeld || view == 0) return nullptr;
+        return &model_.angles_rad[static_cast<std::size_t>(view)];
+    }
+    // By how much a view turns per unit of angle(view).
+    [[nodiscard]] double turns(int view) const { return angles_ == AngleFreedom::kCommonStep ? view : 1; }
+
+    void write_to_model() {
+        for (std::size_t i = 0; i < places_.size(); ++i) *camera_[places_[i]] = values_[i];
+        if (angles_ != AngleFreedom::kCommonStep) return;
+        for (std::size_t i = 0; i < model_.angles_rad.size(); ++i) {
+            model_.angles_rad[i] = static_cast<double>(i) * step_rad_;
+        }
+    }
+
+private:
+    TurntableModel& model_;
+    AngleFreedom angles_;
+    std::array<double*, kCameraNumbers> camera_;  // of the model
+    std::vector<std::size_t> places_;
+    std::vector<double> values_;
+    double step_rad_ = 0;
 };
 
-// Holds those of a block's numbers whose flag is false.
-void hold(ceres::Problem& problem, double* block, const std::vector<bool>& free) {
-    std::vector<int> held;
-    for (std::size_t i = 0; i < free.size(); ++i) {
-        if (!free[i]) held.push_back(static_cast<int>(i));
+// What all observations share, made ready before each evaluation.
+class ModelNow final : public ceres::EvaluationCallback {
+public:
+    ModelNow(const TurntableModel& model, FreeNumbers& numbers, bool f_is_free)
+        : model_(model), numbers_(numbers), f_is_free_(f_is_free) {}
+
+    void PrepareForEvaluation(bool /*evaluate_jacobians*/, bool new_evaluation_point) override {
+        if (!new_evaluation_point) return;
+        numbers_.write_to_model();
+        reprojections_.emplace(model_);
+        is_lens_ = !f_is_free_ || model_.lens.f_px >= kShortestFocalLength * model_.lens.width;
     }
-    if (held.empty()) return;
-    if (held.size() == free.size()) {
-        problem.SetParameterBlockConstant(block);
-    } else {
-        problem.SetManifold(block, new ceres::SubsetManifold(static_cast<int>(free.size()), held));
+
+    // False where a step has led to no lens: instead of a bound, with which Ceres would search along each step.
+    [[nodiscard]] bool is_lens() const { return is_lens_; }
+    [[nodiscard]] const Lens& lens() const { return model_.lens; }
+    [[nodiscard]] const Reprojections& reprojections() const { return *reprojections_; }
+
+private:
+    const TurntableModel& model_;
+    FreeNumbers& numbers_;
+    bool f_is_free_;
+    std::optional<Reprojections> reprojections_;
+    bool is_lens_ = true;
+};
+
+// Parameter blocks are the camera's free numbers, the view's angle and the point; of the first two those that there
+// are.
+class ReprojectionCost final : public ceres::CostFunction {
+public:
+    ReprojectionCost(const ModelNow& now, FreeNumbers& numbers, const Observation& seen)
+        : now_(now), places_(numbers.camera_places()), seen_(seen), turns_(numbers.turns(seen.view)) {
+        if (!places_.empty()) mutable_parameter_block_sizes()->push_back(static_cast<int>(places_.size()));
+        has_angle_ = numbers.angle(seen.view) != nullptr;
+        if (has_angle_) mutable_parameter_block_sizes()->push_back(1);
+        mutable_parameter_block_sizes()->push_back(3);
+        set_num_residuals(2);
     }
-}
+
+    bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+        if (!now_.is_lens()) return false;
+        const double* at = parameters[parameter_block_sizes().size() - 1];
+        const glm::dvec3 point(at[0], at[1], at[2]);
+        if (jacobians == nullptr) {
+            const auto off = residual(now_.reprojections().turn(), point, seen_);
+            if (off) write(seen_.weight * *off, residuals);
+            return off.has_value();
+        }
+        const auto reprojection = now_.reprojections().of(point, seen_);
+        if (!reprojection) return false;
+        write(reprojection->residual, residuals);
+        if (!places_.empty()) {
+            if (double* by_camera = *jacobians++) {
+                for (std::size_t i = 0; i < places_.size(); ++i) {
+                    write(reprojection->by_camera[places_[i]], by_camera + i, places_.size());
+                }
+            }
+        }
+        if (has_angle_) {
+            if (double* by_angle = *jacobians++) write(turns_ * reprojection->by_angle, by_angle);
+        }
+        if (double* by_point = *jacobians) {
+            for (std::size_t k = 0; k < 3; ++k) write(reprojection->by_point[k], by_point + k, 3);
+        }
+        return true;
+    }
+
+private:
+    // As a column of two rows.
+    static void write(const glm::dvec2& v, double* column, std::size_t row = 1) {
+        column[0] = v.x;
+        column[row] = v.y;
+    }
+
+    const ModelNow& now_;
+    const std::vector<std::size_t>& places_;
+    const Observation& seen_;
+    double turns_;
+    bool has_angle_;
+};
+
+// What lenses are like. Parameter block is the camera's free numbers; those held are told too, so that costs compare.
+class LensPrior final : public ceres::CostFunction {
+public:
+    LensPrior(const ModelNow& now, const Lens& lens, const std::vector<std::size_t>& places, double noise_px)
+        : now_(now), places_(places), middle_(lens.width / 2.0, lens.height / 2.0) {
+        const double per_middle = noise_px / (kPriorPrincipalPoint * lens.width);
+        per_deviation_ = {per_middle, per_middle, noise_px / kPriorK1, noise_px / kPriorK2};
+        mutable_parameter_block_sizes()->push_back(static_cast<int>(places.size()));
+        set_num_residuals(static_cast<int>(per_deviation_.size()));
+    }
+
+    bool Evaluate(const double* const* /*parameters*/, double* residuals, double** jacobians) const override {
+        const Lens& lens = now_.lens();
+        const std::array<double, 4> off{lens.cx - middle_.x, lens.cy - middle_.y, lens.k1, lens.k2};
+        for (std::size_t i = 0; i < off.size(); ++i) residuals[i] = off[i] * per_deviation_[i];
+        if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+        std::fill_n(jacobians[0], off.size() * places_.size(), 0.0);
+        for (std::size_t column = 0; column < places_.size(); ++column) {
+            const std::size_t place = places_[column];
+            if (place < CameraNumber::kCx || place > CameraNumber::kK2) continue;
+            const std::size_t row = place - CameraNumber::kCx;
+            jacobians[0][row * places_.size() + column] = per_deviation_[row];
+        }
+        return true;
+    }
+
+private:
+    const ModelNow& now_;
+    const std::vector<std::size_t>& places_;
+    glm::dvec2 middle_;
+    std::array<double, 4> per_deviation_{};
+};
 
 }  // namespace
 
 std::optional<double> adjust(Bundle& bundle, const BundleOptions& options) {
-    TurntableModel& model = bundle.model;
-    const BundleFreedom& free = options.free;
-    std::array<double, 5> lens{model.lens.f_px, model.lens.cx, model.lens.cy, model.lens.k1, model.lens.k2};
-    std::array<double, 3> pose{model.pose.pan_rad, model.pose.tilt_rad, model.pose.roll_rad};
-    const bool common = free.angles == AngleFreedom::kCommonStep;
-    double step =
-        model.angles_rad.size() > 1 ? model.angles_rad.back() / static_cast<double>(model.angles_rad.size() - 1) : 0;
+    const int observations = observation_count(bundle);
+    if (observations == 0) return std::nullopt;
+    FreeNumbers numbers(bundle.model, options.free);
+    ModelNow now(bundle.model, numbers, options.free.f);
+    ceres::CauchyLoss loss(options.loss_px);
+    LensPrior prior(now, bundle.model.lens, numbers.camera_places(), options.loss_px);
+    std::deque<ReprojectionCost> costs;
 
     ceres::Problem::Options ownership;
+    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::CauchyLoss loss(options.loss_px);
-    PosedTurn directions(pose, common ? &step : nullptr, model.angles_rad);
-    ownership.evaluation_callback = &directions;
+    ownership.disable_all_safety_checks = true;
+    ownership.evaluation_callback = &now;
     ceres::Problem problem(ownership);
-    auto* ordering = new ceres::ParameterBlockOrdering;
-    int observations = 0;
+    auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    std::vector<double*> blocks;
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
         for (const Observation& seen : bundle.tracks[i].seen) {
-            double* angle = common ? &step : &model.angles_rad[static_cast<std::size_t>(seen.view)];
-            problem.AddResidualBlock(new Reprojection(seen, common ? static_cast<double>(seen.view) : 1.0, &directions),
-                                     &loss, lens.data(), pose.data(), angle, &bundle.points[i].x);
-            ordering->AddElementToGroup(angle, 1);
-            ++observations;
+            blocks.clear();
+            if (!numbers.camera_places().empty()) blocks.push_back(numbers.camera());
+            if (double* angle = numbers.angle(seen.view)) {
+                blocks.push_back(angle);
+                ordering->AddElementToGroup(angle, 1);
+            }
+            blocks.push_back(&bundle.points[i].x);
+            problem.AddResidualBlock(&costs.emplace_back(now, numbers, seen), &loss, blocks);
         }
         if (!bundle.tracks[i].seen.empty()) ordering->AddElementToGroup(&bundle.points[i].x, 0);
     }
-    if (observations == 0) {
-        delete ordering;
-        return std::nullopt;
-    }
-    ordering->AddElementToGroup(lens.data(), 1);
-    ordering->AddElementToGroup(pose.data(), 1);
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<LensPrior, 4, 5>(new LensPrior{
-            {model.lens.width / 2.0, model.lens.height / 2.0}, static_cast<double>(model.lens.width), options.loss_px}),
-        nullptr, lens.data());
-    hold(problem, lens.data(), {free.f, free.principal_point, free.principal_point, free.k1, free.k2});
-    hold(problem, pose.data(), {free.pan, free.tilt, free.roll});
-    if (free.f) problem.SetParameterLowerBound(lens.data(), 0, 0.1 * model.lens.width);
-    if (common) {
-        // nothing to hold
-    } else if (free.angles == AngleFreedom::kHeld) {
-        for (double& angle : model.angles_rad) {
-            if (problem.HasParameterBlock(&angle)) problem.SetParameterBlockConstant(&angle);
-        }
-    } else if (problem.HasParameterBlock(model.angles_rad.data())) {
-        problem.SetParameterBlockConstant(model.angles_rad.data());
+    if (!numbers.camera_places().empty()) {
+        // In a group of its own: Ceres orders the blocks of a group by where they lie in memory.
+        ordering->AddElementToGroup(numbers.camera(), 2);
+        problem.AddResidualBlock(&prior, nullptr, numbers.camera());
     }
 
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::DENSE_SCHUR;
-    solver.linear_solver_ordering.reset(ordering);
+    solver.linear_solver_ordering = ordering;
     solver.max_num_iterations = options.most_iterations;
     solver.function_tolerance = options.enough;
     solver.num_threads = 1;
@@ -112,15 +238,7 @@ std::optional<double> adjust(Bundle& bundle, const BundleOptions& options) {
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);
     if (!summary.IsSolutionUsable()) return std::nullopt;
-    model.lens.f_px = lens[0];
-    model.lens.cx = lens[1];
-    model.lens.cy = lens[2];
-    model.lens.k1 = lens[3];
-    model.lens.k2 = lens[4];
-    model.pose = {pose[0], pose[1], pose[2]};
-    if (common) {
-        for (std::size_t i = 0; i < model.angles_rad.size(); ++i) model.angles_rad[i] = static_cast<double>(i) * step;
-    }
+    numbers.write_to_model();
     return 2 * summary.final_cost / observations;
 }
 

@@ -1,6 +1,5 @@
 #include "capture/calibration/points/model_covariance.hpp"
 
-#include "capture/calibration/points/reprojection.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <Eigen/Dense>
@@ -151,6 +150,10 @@ struct Evidence {
     }
 };
 
+Eigen::Vector2d vector(const glm::dvec2& v) {
+    return {v.x, v.y};
+}
+
 // One observation's residual and its derivatives, with those by the free numbers only.
 struct Slopes {
     Eigen::Vector2d r;
@@ -159,42 +162,33 @@ struct Slopes {
     std::size_t count = 0;                                                      // of by_number
 };
 
-std::optional<Slopes> slopes_of(const TurntableModel& model, const NumberPlaces& places, bool common_step,
-                                const glm::dvec3& point, const Observation& seen) {
-    const std::array<double, 5> lens{model.lens.f_px, model.lens.cx, model.lens.cy, model.lens.k1, model.lens.k2};
-    const std::array<double, 3> pose{model.pose.pan_rad, model.pose.tilt_rad, model.pose.roll_rad};
-    const auto view = static_cast<std::size_t>(seen.view);
-    const double turns = common_step ? static_cast<double>(seen.view) : 1.0;
-    const double angle = common_step && seen.view == 0 ? 0.0 : model.angles_rad[view] / turns;
-    const Reprojection cost(seen, turns);
-    const std::array<const double*, 4> blocks{lens.data(), pose.data(), &angle, &point.x};
+std::optional<Slopes> slopes_of(const Reprojections& turn, const NumberPlaces& places, const glm::dvec3& point,
+                                const Observation& seen) {
+    const auto reprojection = turn.of(point, seen);
+    if (!reprojection) return std::nullopt;
     Slopes slopes;
-    Eigen::Matrix<double, 2, 5, Eigen::RowMajor> by_lens;
-    Eigen::Matrix<double, 2, 3, Eigen::RowMajor> by_pose;
-    Eigen::Vector2d by_angle;
-    std::array<double*, 4> jacobians{by_lens.data(), by_pose.data(), by_angle.data(), slopes.by_point.data()};
-    if (!cost.Evaluate(blocks.data(), slopes.r.data(), jacobians.data())) return std::nullopt;
-    const auto add = [&](int place, const Eigen::Vector2d& slope) {
-        if (place >= 0) slopes.by_number[slopes.count++] = {place, slope};
+    slopes.r = vector(reprojection->residual);
+    for (int k = 0; k < 3; ++k) slopes.by_point.col(k) = vector(reprojection->by_point[static_cast<std::size_t>(k)]);
+    const auto add = [&](int place, const glm::dvec2& slope) {
+        if (place >= 0) slopes.by_number[slopes.count++] = {place, vector(slope)};
     };
-    for (int k = 0; k < 5; ++k) add(places.camera[static_cast<std::size_t>(k)], by_lens.col(k));
-    for (int k = 0; k < 3; ++k) add(places.camera[static_cast<std::size_t>(5 + k)], by_pose.col(k));
-    add(common_step ? places.step : places.angles[view], by_angle);
+    for (std::size_t k = 0; k < kCameraNumbers; ++k) add(places.camera[k], reprojection->by_camera[k]);
+    add(places.angles[static_cast<std::size_t>(seen.view)], reprojection->by_angle);
+    add(places.step, static_cast<double>(seen.view) * reprojection->by_angle);
     return slopes;
 }
 
 // Nothing where the track does not determine its point.
-std::optional<Evidence> evidence_of(const Bundle& bundle, std::size_t track, const NumberPlaces& places,
-                                    const BundleOptions& options, double middle_rad) {
+std::optional<Evidence> evidence_of(const Bundle& bundle, const Reprojections& turn, std::size_t track,
+                                    const NumberPlaces& places, const BundleOptions& options, double middle_rad) {
     const TurntableModel& model = bundle.model;
-    const bool common_step = options.free.angles == AngleFreedom::kCommonStep;
     Evidence evidence(places.count);
     Eigen::MatrixXd across = Eigen::MatrixXd::Zero(places.count, 3);  // numbers by point
     Eigen::Matrix3d point_information = Eigen::Matrix3d::Zero();
     Eigen::Vector3d point_score = Eigen::Vector3d::Zero();
     Eigen::Matrix<double, 3, kSharedErrors> point_shared = Eigen::Matrix<double, 3, kSharedErrors>::Zero();
     for (const Observation& seen : bundle.tracks[track].seen) {
-        const auto slopes = slopes_of(model, places, common_step, bundle.points[track], seen);
+        const auto slopes = slopes_of(turn, places, bundle.points[track], seen);
         if (!slopes) continue;
         // Cauchy's loss pulls at a residual with this weight, but gives way with its square (the mean over directions
         // of its second derivative): what is far off hardly holds the numbers where they are.
@@ -249,6 +243,7 @@ std::size_t sector_at(double angle_rad) {
 
 Eigen::MatrixXd bundle_covariance(const Bundle& bundle, const BundleOptions& options, double shared_error_px) {
     const NumberPlaces places(options.free, std::vector<bool>(bundle.model.angles_rad.size(), true));
+    const Reprojections turn(bundle.model);
     const int n = places.count;
     Evidence all(n);
     std::vector<Evidence> sectors(kSectors, all);
@@ -256,7 +251,7 @@ Eigen::MatrixXd bundle_covariance(const Bundle& bundle, const BundleOptions& opt
     int counted = 0;
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
         const double middle_rad = middle_angle(bundle.model, bundle.tracks[i]);
-        const auto evidence = evidence_of(bundle, i, places, options, middle_rad);
+        const auto evidence = evidence_of(bundle, turn, i, places, options, middle_rad);
         if (!evidence) continue;
         all.add(*evidence);
         sectors[sector_at(middle_rad)].add(*evidence);

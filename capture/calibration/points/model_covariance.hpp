@@ -3,6 +3,7 @@
 
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/points/bundle.hpp"
+#include "capture/calibration/points/reprojection.hpp"
 
 #include <Eigen/Core>
 
@@ -11,12 +12,6 @@
 #include <vector>
 
 namespace rs::capture {
-
-// The order of the camera's numbers.
-struct CameraNumber {
-    enum Place : std::size_t { kF, kCx, kCy, kK1, kK2, kPan, kTilt, kRoll, kCount };
-};
-inline constexpr std::size_t kCameraNumbers = CameraNumber::kCount;
 
 // Where the numbers of a model stand among the unknowns, camera first, then angles or the step; -1: held.
 struct NumberPlaces {

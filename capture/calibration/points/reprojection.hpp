@@ -1,57 +1,50 @@
 #pragma once
-// The residual of one observation, with its derivatives written out: they are what a bundle adjustment spends its time
-// in, and automatic ones took a fifth of a calibration.
+// The residual of one observation and how it changes with all numbers that it depends on: what a bundle adjustment
+// spends its time in, and so written out.
+//
+// A camera number that is an angle turns the point about an axis through the camera, an angle of the table turns it
+// about the table's: each derivative of a point's place is one cross product.
 
+#include "capture/calibration/model/turn_projection.hpp"
+#include "capture/calibration/model/turntable_model.hpp"
 #include "capture/calibration/points/tracks.hpp"
 
-#include <ceres/evaluation_callback.h>
-#include <ceres/sized_cost_function.h>
+#include <glm/glm.hpp>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <vector>
+#include <optional>
 
 namespace rs::capture {
 
-// Sines and cosines that all observations of a turn share, taken once before each evaluation.
-class PosedTurn final : public ceres::EvaluationCallback {
-public:
-    // Kept by reference: what is adjusted. View i stands at angles_rad[i], or at i times `step_rad` where one is given.
-    PosedTurn(const std::array<double, 3>& pose, const double* step_rad, const std::vector<double>& angles_rad);
+// The order of the camera's numbers.
+struct CameraNumber {
+    enum Place : std::size_t { kF, kCx, kCy, kK1, kK2, kPan, kTilt, kRoll, kCount };
+};
+inline constexpr std::size_t kCameraNumbers = CameraNumber::kCount;
 
-    void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override;
-
-    struct Direction {
-        double cosine = 1, sine = 0;
-        explicit Direction(double angle_rad) : cosine(std::cos(angle_rad)), sine(std::sin(angle_rad)) {}
-    };
-    [[nodiscard]] const std::array<Direction, 3>& pose() const { return pose_; }  // pan, tilt, roll
-    [[nodiscard]] const Direction& view(int view) const { return views_[static_cast<std::size_t>(view)]; }
-
-private:
-    const std::array<double, 3>& numbers_;
-    const double* step_rad_;
-    const std::vector<double>& angles_rad_;
-    std::array<Direction, 3> pose_;
-    std::vector<Direction> views_;
+// All of them weighted by the observation's weight; px, and px per unit of what changes.
+struct Reprojection {
+    glm::dvec2 residual{0.0};
+    std::array<glm::dvec2, kCameraNumbers> by_camera{};
+    glm::dvec2 by_angle{0.0};  // of the observation's view
+    std::array<glm::dvec2, 3> by_point{};
 };
 
-// Parameter blocks lens (5), pose (3), angle (1), point (3) as in projection.hpp; residuals are weighted. Fails where
-// the point is not before the camera.
-class Reprojection final : public ceres::SizedCostFunction<2, 5, 3, 1, 3> {
+// For many points and views of one model: sines and cosines are taken once.
+class Reprojections {
 public:
-    // The view's angle is `turns` times its parameter: the view's number where all share one step. `turn`, where given,
-    // is of the same parameters and prepared for each evaluation.
-    Reprojection(const Observation& seen, double turns, const PosedTurn* turn = nullptr)
-        : seen_(seen), turns_(turns), turn_(turn) {}
+    explicit Reprojections(const TurntableModel& model);
 
-    bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override;
+    // Nothing where the point (of the object as it stands at angle 0) is not before the camera.
+    [[nodiscard]] std::optional<Reprojection> of(const glm::dvec3& p_in_object, const Observation& seen) const;
+
+    [[nodiscard]] const TurnProjection& turn() const { return turn_; }
 
 private:
-    Observation seen_;
-    double turns_;
-    const PosedTurn* turn_;
+    Lens lens_;
+    TurnProjection turn_;
+    glm::dvec3 table_axis_, tilt_axis_;  // in the camera; the camera pans about a parallel of the table's axis
 };
 
 }  // namespace rs::capture
