@@ -100,6 +100,48 @@ TEST(Bundle, FindsOneCommonStep) {
     }
 }
 
+TEST(Bundle, ItsCostIsThatOfWeightedResiduals) {
+    const TurntableModel truth = test::turn_model(12, radians(30));
+    auto tracks = test::tracks_of(truth, test::surface_points(120, 5), 0.3, 5);
+    for (Track& track : tracks) {
+        for (Observation& seen : track.seen) seen.weight = {{0.5, 0.1}, {0.1, 2}};
+    }
+    TurntableModel start = truth;
+    start.pose.pan_rad += 0.002;
+    start.lens.k1 = 0;  // held, and as expected
+    Bundle bundle = make_bundle(start, tracks);
+    const BundleOptions options;
+    const auto by_hand = [&] {
+        double sum = 0;
+        for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
+            for (const Observation& seen : bundle.tracks[i].seen) {
+                const glm::dvec2 r = seen.weight * residual(bundle.model, bundle.points[i], seen).value();
+                sum += options.loss_px * options.loss_px * std::log1p(glm::dot(r, r) / std::pow(options.loss_px, 2));
+            }
+        }
+        return sum / observation_count(bundle);
+    };
+    const double before = by_hand();
+    const auto after = adjust(bundle, options);
+    ASSERT_TRUE(after.has_value());
+    EXPECT_LT(*after, 0.9 * before);
+    EXPECT_NEAR(*after, by_hand(), 1e-9);
+}
+
+TEST(Bundle, NoLensIsTooShortToBeSoughtButOneMayBeKnown) {
+    const TurntableModel truth = test::turn_model(12, radians(30));
+    TurntableModel start = truth;
+    start.lens.f_px = 99;  // of a picture 1000 px wide
+    Bundle bundle = make_bundle(truth, test::tracks_of(truth, test::surface_points(60, 6), 0.3, 6));
+    bundle.model = start;
+    Bundle known = bundle;
+    EXPECT_FALSE(adjust(bundle, {}).has_value());
+    BundleOptions options;
+    options.free.f = false;
+    EXPECT_TRUE(adjust(known, options).has_value());
+    EXPECT_EQ(known.model.lens.f_px, 99);
+}
+
 TEST(Bundle, NothingToAdjustIsNoSolution) {
     Bundle empty{test::turn_model(12, radians(30)), {}, {}};
     EXPECT_FALSE(adjust(empty, {}).has_value());
