@@ -56,6 +56,24 @@ private:
     std::vector<Rows> rows_;
 };
 
+// For every column and level that some of its rows have: measure(column, ray, depth, rows), and then
+// change(row - rows.begin, cost) of each that may cost something.
+template <class Measure, class Change>
+void for_each_level(CostVolume& volume, const WorkView& view, const DepthRange& range, const Measure& measure,
+                    const Change& change) {
+    for (int column = volume.box.left; column < volume.box.right; ++column) {
+        const HorizontalRay ray = view.ray_of(column + 0.5);
+        ColumnLevels of_column(volume, column);
+        for (int level = 0; level < range.count; ++level) {
+            const Rows rows = of_column.rows(level);
+            if (rows.count() <= 0) continue;
+            measure(column, ray, range.at(level), rows);
+            of_column.for_each(
+                level, [&](int row, std::uint8_t& cost) { change(static_cast<std::size_t>(row - rows.begin), cost); });
+        }
+    }
+}
+
 // Where the points of a column's rows at one depth lie in a neighbour: one column, rows that are linear in rows.
 struct SeenRows {
     SeenColumn column;
@@ -225,22 +243,15 @@ void match_colours(CostVolume& volume, const WorkView& view, const Neighbours& n
     all.insert(all.end(), neighbours.across.begin(), neighbours.across.end());
     std::vector<std::uint8_t> costs(static_cast<std::size_t>(box.height()) * all.size());
     std::vector<std::uint8_t> merged(static_cast<std::size_t>(box.height()));
-    for (int column = box.left; column < box.right; ++column) {
-        const HorizontalRay ray = view.ray_of(column + 0.5);
-        ColumnLevels of_column(volume, column);
-        for (int level = 0; level < range.count; ++level) {
-            const Rows rows = of_column.rows(level);
-            if (rows.count() <= 0) continue;
-            for (std::size_t n = 0; n < all.size(); ++n) {
-                compare_column(view, all[n]->view, ray, range.at(level), column, box.top + rows.begin, rows.count(),
-                               costs.data() + n * static_cast<std::size_t>(rows.count()));
-            }
-            merge_matches(costs.data(), rows.count(), static_cast<int>(neighbours.beside.size()),
-                          static_cast<int>(neighbours.across.size()), merged.data());
-            of_column.for_each(
-                level, [&](int row, std::uint8_t& cost) { cost = merged[static_cast<std::size_t>(row - rows.begin)]; });
+    const auto compare = [&](int column, const HorizontalRay& ray, double depth, const Rows& rows) {
+        for (std::size_t n = 0; n < all.size(); ++n) {
+            compare_column(view, all[n]->view, ray, depth, column, box.top + rows.begin, rows.count(),
+                           costs.data() + n * static_cast<std::size_t>(rows.count()));
         }
-    }
+        merge_matches(costs.data(), rows.count(), static_cast<int>(neighbours.beside.size()),
+                      static_cast<int>(neighbours.across.size()), merged.data());
+    };
+    for_each_level(volume, view, range, compare, [&](std::size_t row, std::uint8_t& cost) { cost = merged[row]; });
 }
 
 void add_inconsistency(CostVolume& volume, const WorkView& view, const Neighbours& neighbours,
@@ -253,23 +264,16 @@ void add_inconsistency(CostVolume& volume, const WorkView& view, const Neighbour
     }
     const auto cost_per_unit = static_cast<float>(kCostPerLevel / range.step);
     std::vector<std::uint8_t> least(static_cast<std::size_t>(box.height()));
-    for (int column = box.left; column < box.right; ++column) {
-        const HorizontalRay ray = view.ray_of(column + 0.5);
-        ColumnLevels of_column(volume, column);
-        for (int level = 0; level < range.count; ++level) {
-            const Rows rows = of_column.rows(level);
-            if (rows.count() <= 0) continue;
-            std::fill(least.begin(), least.end(), kUnknownMatch);
-            for (const FoundSurface& surface : surfaces) {
-                compare_depths(view, surface, ray, range.at(level), cost_per_unit, box.top + rows.begin, rows.count(),
-                               least.data());
-            }
-            of_column.for_each(level, [&](int row, std::uint8_t& cost) {
-                const int more = least[static_cast<std::size_t>(row - rows.begin)];
-                if (more != kUnknownMatch) cost = static_cast<std::uint8_t>(std::min(cost + more, kOutsideCost - 1));
-            });
+    const auto approach = [&](int, const HorizontalRay& ray, double depth, const Rows& rows) {
+        std::fill(least.begin(), least.end(), kUnknownMatch);
+        for (const FoundSurface& surface : surfaces) {
+            compare_depths(view, surface, ray, depth, cost_per_unit, box.top + rows.begin, rows.count(), least.data());
         }
-    }
+    };
+    for_each_level(volume, view, range, approach, [&](std::size_t row, std::uint8_t& cost) {
+        if (least[row] == kUnknownMatch) return;
+        cost = static_cast<std::uint8_t>(std::min(cost + least[row], kOutsideCost - 1));
+    });
 }
 
 }  // namespace rs::encode

@@ -15,7 +15,6 @@ namespace rs::encode {
 // A rectangle of pixels, [left, right) x [top, bottom).
 struct ObjectBox {
     int left = 0, top = 0, right = 0, bottom = 0;
-
     [[nodiscard]] int width() const { return right - left; }
     [[nodiscard]] int height() const { return bottom - top; }
     [[nodiscard]] bool empty() const { return right <= left || bottom <= top; }
@@ -54,15 +53,15 @@ struct Neighbours {
     std::vector<const DepthView*> across;  // of the rings below and above
 };
 
-// The colours. Each neighbour gives a cost, the mean absolute difference of R, G and B, at most kMostCost, which is
-// also that of a point that falls on a transparent pixel; a neighbour that does not have the point in its frame gives
-// none. Surfaces are seen by the pictures to one side at least, so the better side counts for most. Where there are
-// neighbours of both kinds the mean of the two is taken: edges that lie level tell only those across something.
+// The colours. Each neighbour gives a cost, the mean absolute difference of R, G and B, at most kMostCost; one that
+// does not have the point in its frame gives none, one that shows it transparent makes it cost kOutsideCost. Surfaces
+// are seen by the pictures to one side at least, so the better side counts for most. Where there are neighbours of both
+// kinds the mean of the two is taken: edges that lie level tell only those across something.
 // What costs kOutsideCost stays as it is.
 void match_colours(CostVolume& volume, const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
 
-// Adds how far a point is from the nearest of the surfaces that neighbours show where they see it: kCostPerLevel for a
-// level, kMostCost at most; nothing where none shows a surface there. So what two pictures agree about outweighs
+// Adds how far a point is from the nearest of the surfaces that neighbours show where they see it: 5 for a level,
+// kMostCost at most; nothing where none shows a surface there. So what two pictures agree about outweighs
 // the colours of a few pixels.
 void add_inconsistency(CostVolume& volume, const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
 

@@ -105,8 +105,9 @@ public:
                 const DepthRange range = range_of(n);
                 CostVolume costs = levels_within(*sampled_hull_, view, range);
                 Image<float> hull = n % every == 0 ? first_allowed(view, costs, range) : Image<float>();
-                match_colours(costs, view, neighbours_of(n), range);
-                add_inconsistency(costs, view, neighbours_of(n), range);
+                const Neighbours neighbours = neighbours_of(n);
+                match_colours(costs, view, neighbours, range);
+                add_inconsistency(costs, view, neighbours, range);
                 Image<float>& depth = agreed[static_cast<std::size_t>(n)];
                 depth = depths_at(semi_global_levels(view, costs, options_.smoothness), range);
                 if (n % every == 0) {
