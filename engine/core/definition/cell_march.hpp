@@ -16,7 +16,7 @@ namespace rs::engine {
 // A ray with the slope of the reference viewpoint's stays in one band. Any other passes from band to band, linearly in
 // depth: band = zero + d * per_depth. It is followed away from the viewer in steps of half a band, and gives the
 // surfaces whose object, between surface and back, it meets, one after the other; at the end the one that a ray of
-// reference slope would meet, and the one behind it where the cells there lie on two.
+// reference slope would meet, and what may lie behind it.
 class CellMarch {
 public:
     static constexpr int kMostSteps = 64;
@@ -38,7 +38,7 @@ public:
         if (steps == 1) begin_ = 256;
     }
 
-    // The next surface; none at the end. Behind the last one comes what lies behind it, where there is something.
+    // The next surface; none behind the last.
     SurfaceCell next() {
         while (begin_ < 256) {
             const int begin = begin_;
@@ -48,22 +48,23 @@ public:
             cell.depth_q3 = std::max(cell.depth_q3, 8 * begin);
             return cell;
         }
-        if (ended_) return std::exchange(behind_, {});
+        if (ended_) return std::exchange(behind_.exists() ? behind_ : farthest_, {});
         ended_ = true;
-        const SurfacePair at_foot = surfaces_at(foot_q12_);
+        const SurfaceStack at_foot = surfaces_at(foot_q12_);
         if (!at_foot.first.exists()) return {};
-        const SurfacePair there = surfaces_at(band_q12(at_foot.first.depth_q3 >> 3));
-        const SurfacePair& last = there.first.exists() ? there : at_foot;
+        const SurfaceStack there = surfaces_at(band_q12(at_foot.first.depth_q3 >> 3));
+        const SurfaceStack& last = there.first.exists() ? there : at_foot;
         behind_ = last.behind;
+        farthest_ = last.farthest;
         return last.first;
     }
 
-    // What lies behind the last surface, once next() has given that one and not yet the one behind it.
-    [[nodiscard]] const SurfaceCell& behind() const { return behind_; }
+    // Whether next() has given a surface of the end of the march.
+    [[nodiscard]] bool at_end() const { return ended_; }
 
 private:
     // Cells are samples at the middles of their bands.
-    [[nodiscard]] SurfacePair surfaces_at(std::int32_t at_q12) const {
+    [[nodiscard]] SurfaceStack surfaces_at(std::int32_t at_q12) const {
         const std::int32_t from_middle_q12 = at_q12 - (1 << 11);
         const std::int32_t band = from_middle_q12 >> 12;
         SurfaceCell around[2][2];
@@ -87,7 +88,7 @@ private:
     int step_ = 256;
     int begin_ = 0;
     bool ended_ = false;
-    SurfaceCell behind_;  // the last surface
+    SurfaceCell behind_, farthest_;  // still to come
 };
 
 }  // namespace rs::engine

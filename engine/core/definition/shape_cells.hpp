@@ -14,15 +14,18 @@ namespace rs::engine {
 struct SurfaceCell {
     std::int32_t depth_q3 = 0;  // eighths of a depth step
     std::int32_t back = 0;
+    std::int32_t farthest = -1;  // of both lines' cells, whole steps; -1 where one of them has no surface
 
     [[nodiscard]] bool exists() const { return back != 0; }
     bool operator==(const SurfaceCell&) const = default;
 };
 
-// What lies between cells and, where they lie on two surfaces and it is the nearer one, what lies behind it.
-struct SurfacePair {
+// What a ray may meet between cells, one after the other: their surface; where they lie on two and that is the nearer
+// one, the farther one; and, where all eight cells have a surface, one at the depth of the farthest.
+struct SurfaceStack {
     SurfaceCell first;
     SurfaceCell behind;
+    SurfaceCell farthest;
 };
 
 // The columns of cells around a ray and its place between them.
@@ -36,22 +39,28 @@ struct CellColumns {
 inline SurfaceCell between_lines(ShapeCell first, ShapeCell second, int part, int jump) {
     const bool has_second = second.has_surface() && part > 0;
     if (!first.has_surface() && !has_second) return {};
-    if (!has_second) return {8 * first.depth, first.back};
+    const bool both = first.has_surface() && second.has_surface();
+    const int farthest = both ? std::max(first.depth, second.depth) : -1;
+    if (!has_second) return {8 * first.depth, first.back, farthest};
     if (!first.has_surface()) return {8 * second.depth, second.back};
     const int back = std::max(first.back, second.back);
     const int apart = second.depth - first.depth;
-    if (apart > jump || -apart > jump) return {8 * (part < 4 ? first.depth : second.depth), back};
-    return {8 * first.depth + part * apart, back};
+    if (apart > jump || -apart > jump) return {8 * (part < 4 ? first.depth : second.depth), back, farthest};
+    return {8 * first.depth + part * apart, back, farthest};
 }
 
 // cells[p][h] around a point at p_part and h_part eighths between them. Where they lie on one surface, its mean;
 // elsewhere that of the nearer ones or of the farther ones, whichever have more weight.
-inline SurfacePair surfaces_between(const SurfaceCell (&cells)[2][2], int p_part, int h_part, int jump) {
+inline SurfaceStack surfaces_between(const SurfaceCell (&cells)[2][2], int p_part, int h_part, int jump) {
     int nearest = 1 << 12;
     int farthest = -1;
     int back = 0;
+    bool all_have_one = true;
+    int last = 0;
     for (const auto& column : cells) {
         for (const SurfaceCell& cell : column) {
+            all_have_one = all_have_one && cell.farthest >= 0;
+            last = std::max(last, cell.farthest);
             if (!cell.exists()) continue;
             nearest = std::min(nearest, cell.depth_q3);
             farthest = std::max(farthest, cell.depth_q3);
@@ -75,8 +84,9 @@ inline SurfacePair surfaces_between(const SurfaceCell (&cells)[2][2], int p_part
         if (weight[group] == 0) return SurfaceCell{};
         return SurfaceCell{(sum[group] + weight[group] / 2) / weight[group], back};
     };
-    if (weight[0] < weight[1]) return {mean(1), {}};
-    return {mean(0), mean(1)};
+    const SurfaceCell behind_all = all_have_one ? SurfaceCell{8 * last, back} : SurfaceCell{};
+    if (weight[0] < weight[1]) return {mean(1), {}, behind_all};
+    return {mean(0), mean(1), behind_all};
 }
 
 }  // namespace rs::engine

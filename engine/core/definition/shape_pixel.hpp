@@ -18,7 +18,7 @@ struct ShapePixel {
     std::int32_t lambda_q20 = 0;  // axial depth in the view, object radii; only where colour.a > 0
 };
 
-// A surface of less alpha does not cover its pixel: where one lies behind the last surface, it is asked for, too.
+// A surface of less alpha does not cover its pixel: at the end of a march those behind it are asked for, too.
 inline constexpr int kCoveringAlpha = 230;
 inline constexpr std::int32_t kNearest_q20 = 1 << 17;  // axial depth in a captured picture
 
@@ -101,7 +101,7 @@ ShownSurface shown_surface(const RaySpaceObject& object, const ViewRegisters& re
     return shown;
 }
 
-// Section 8: the last surface, which does not cover its pixel, over the one behind it, if that does.
+// Section 8: a surface that does not cover its pixel over one behind it, if that does.
 inline ShapePixel laid_over(const ShapePixel& nearer, const ShapePixel& farther) {
     const Rgba8& n = nearer.colour;
     const Rgba8& f = farther.colour;
@@ -131,14 +131,15 @@ ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& regist
         // On a captured line that picture answers alone, whatever the depth.
         return pixel(shown_at(cell.exists() ? cell.depth_q3 : setup.foot_depth_q3));
     }
+    ShapePixel nearer;  // the first that shows something, but does not cover the pixel
     for (; cell.exists(); cell = march.next()) {
         const ShownSurface shown = shown_at(cell.depth_q3);
         if (shown.sum.a == 0) continue;
-        const ShapePixel nearer = pixel(shown);
-        if (nearer.colour.a >= kCoveringAlpha || !march.behind().exists()) return nearer;
-        return laid_over(nearer, pixel(shown_at(march.behind().depth_q3)));
+        const ShapePixel here = pixel(shown);
+        nearer = laid_over(nearer, here);
+        if (!march.at_end() || here.colour.a >= kCoveringAlpha) break;
     }
-    return {};
+    return nearer;
 }
 
 }  // namespace rs::engine

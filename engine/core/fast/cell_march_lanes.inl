@@ -20,11 +20,11 @@ HWY_INLINE LaneMask is_surface(Vector depth_q3) {
     return at_least(depth_q3, hn::Zero(Lanes()));
 }
 
-enum class OfPair { first, behind };  // of SurfacePair
+enum class OfStack { first, behind };  // of SurfaceStack
 
 // surfaces_between() of four depths [p][band], -1 where there is nothing; -1 where the answer is nothing. Their backs
 // are known beforehand.
-template <OfPair kWhich>
+template <OfStack kWhich>
 HWY_INLINE Vector between_steps(const Vector (&depth)[2][2], Vector p_part, Vector h_part, int jump) {
     const Vector zero = hn::Zero(Lanes());
     Vector nearest = number(1 << 12);
@@ -58,7 +58,7 @@ HWY_INLINE Vector between_steps(const Vector (&depth)[2][2], Vector p_part, Vect
     }
     const LaneMask nearer = at_least(weight[0], weight[1]);
     const auto of_group = [&](const Vector(&of)[2]) {
-        return kWhich == OfPair::first ? hn::IfThenElse(nearer, of[0], of[1]) : hn::IfThenElseZero(nearer, of[1]);
+        return kWhich == OfStack::first ? hn::IfThenElse(nearer, of[0], of[1]) : hn::IfThenElseZero(nearer, of[1]);
     };
     const Vector divisor = of_group(weight);
     const Vector dividend = hn::Add(of_group(sum), hn::ShiftRight<1>(divisor));
@@ -114,7 +114,7 @@ public:
             const LaneMask reached = hn::And(is_surface(depth), at_least(hn::ShiftLeft<3>(end), depth));
             const LaneMask in_reach = hn::And(reached, marching);
             if (!hn::AllFalse(Lanes(), in_reach)) {
-                const Vector back = hn::GatherIndex(Lanes(), entries_.backs.data(), entry_at(at));
+                const Vector back = hn::And(backs_at(entry_at(at)), number((1 << 16) - 1));
                 const LaneMask hit = hn::And(in_reach, at_least(back, begin));
                 found = hn::IfThenElse(hit, hn::Max(depth, hn::ShiftLeft<3>(begin)), found);
                 begin_ = hn::IfThenElse(marching, end, begin);
@@ -131,33 +131,32 @@ public:
         const Vector there_at = band(hn::ShiftRight<3>(depth));
         const LaneMask elsewhere =
             hn::AndNot(hn::Eq(hn::ShiftRight<9>(there_at), hn::ShiftRight<9>(foot_)), hn::And(last, is_surface(depth)));
-        LaneMask steps = steps_at(foot_);
         if (!hn::AllFalse(Lanes(), elsewhere)) {
             const Vector there = surface_at(there_at, elsewhere);
-            const LaneMask moves = hn::And(elsewhere, is_surface(there));
-            depth = hn::IfThenElse(moves, there, depth);
-            steps = hn::Or(hn::AndNot(moves, steps), hn::And(moves, steps_at(there_at)));
+            depth = hn::IfThenElse(hn::And(elsewhere, is_surface(there)), there, depth);
         }
-        ended_at_step_ = hn::Or(ended_at_step_, hn::And(last, steps));
         return hn::IfThenElse(last, depth, found);
     }
 
-    // Lanes that have no surface left, but perhaps one behind the last.
+    // Lanes that have no surface left but those still_to_come().
     [[nodiscard]] HWY_INLINE LaneMask ended() const { return ended_; }
 
-    // Those of them whose last surface is one of two perhaps.
-    [[nodiscard]] HWY_INLINE LaneMask ended_at_step() const { return ended_at_step_; }
-
-    // What lies behind the last surface of the lanes `looking`, all of which have ended with one; -1 where there is
-    // nothing. Few rays ask, so the last surface's place is found again rather than kept.
-    [[nodiscard]] HWY_INLINE Vector behind(LaneMask looking) const {
+    // What is still to come of the lanes `looking`, all of which have ended with a surface: -1 where there is nothing.
+    // Few rays ask, so the last surface's place is found again rather than kept.
+    struct StillToCome {
+        Vector behind;
+        Vector farthest;
+    };
+    [[nodiscard]] HWY_INLINE StillToCome still_to_come(LaneMask looking) const {
         const Vector there_at = band(hn::ShiftRight<3>(surface_at(foot_, looking)));
         const Vector at = hn::IfThenElse(is_surface(surface_at(there_at, looking)), there_at, foot_);
         const Vector entry = entry_at(at);
         const Vector smooth = hn::GatherIndex(Lanes(), entries_.smooth.data(), entry);
         const LaneMask steps = hn::And(looking, says(smooth, kSurfaceSteps));
-        if (hn::AllFalse(Lanes(), steps)) return number(-1);
-        return hn::IfThenElse(steps, at_step<OfPair::behind>(at, entry, steps), number(-1));
+        StillToCome surfaces{number(-1), hn::ShiftRight<16>(backs_at(entry))};
+        if (hn::AllFalse(Lanes(), steps)) return surfaces;
+        surfaces.behind = hn::IfThenElse(steps, at_step<OfStack::behind>(at, entry, steps), surfaces.behind);
+        return surfaces;
     }
 
 private:
@@ -195,9 +194,7 @@ private:
         return hn::Ne(hn::And(smooth, number(bit)), hn::Zero(Lanes()));
     }
 
-    HWY_INLINE LaneMask steps_at(Vector at_q12) const {
-        return says(hn::GatherIndex(Lanes(), entries_.smooth.data(), entry_at(at_q12)), kSurfaceSteps);
-    }
+    HWY_INLINE Vector backs_at(Vector entry) const { return hn::GatherIndex(Lanes(), entries_.backs.data(), entry); }
 
     HWY_INLINE Vector surface_at(Vector at_q12, LaneMask wanted) const {
         const Vector entry = entry_at(at_q12);
@@ -209,11 +206,11 @@ private:
         const Vector known = hn::IfThenElse(says(smooth, kSurfaceNothing), number(-1), depth);
         const LaneMask steps = says(smooth, kSurfaceSteps);
         if (hn::AllFalse(Lanes(), hn::And(steps, wanted))) return known;
-        return hn::IfThenElse(steps, at_step<OfPair::first>(at_q12, entry, steps), known);
+        return hn::IfThenElse(steps, at_step<OfStack::first>(at_q12, entry, steps), known);
     }
 
     // A surface where `entry`, that of the place, says that cells differ; others get any.
-    template <OfPair kWhich>
+    template <OfStack kWhich>
     HWY_INLINE Vector at_step(Vector at_q12, Vector entry, LaneMask steps) const {
         const auto pair_at = [&](Vector index) { return hn::GatherIndex(Lanes(), entries_.pairs.data(), index); };
         const Vector lower = pair_at(entry);
@@ -237,7 +234,6 @@ private:
     Vector zero_;
     Vector per_depth_;
     LaneMask ended_ = none();
-    LaneMask ended_at_step_ = none();
 };
 
 }  // namespace rs::engine::HWY_NAMESPACE

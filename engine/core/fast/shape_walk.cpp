@@ -151,22 +151,26 @@ HWY_INLINE Vector laid_over(Vector nearer, Vector farther) {
 // laid over it. A function of its own, since few vectors come here: what it needs would take registers from all others.
 HWY_NOINLINE void walk_behind(const ShapeWalk& walk, const ShapeStrip& strip, int lane, std::int32_t rise_q24,
                               const std::int32_t* asking, std::int32_t* colour, std::int32_t* lambda) {
+    const Vector zero = hn::Zero(Lanes());
     const Vector rise = number(rise_q24);
-    const LaneMask wanted = hn::MaskFromVec(hn::Load(Lanes(), asking));
-    const Vector depth = MarchLanes(walk, strip, lane, rise).behind(wanted);
-    const LaneMask looking = hn::And(wanted, is_surface(depth));
-    if (hn::AllFalse(Lanes(), looking)) return;
-    const ShownLanes surface = shown_lanes(walk, strip, lane, rise, depth, looking);
-    const Vector nearer = hn::LoadU(Lanes(), colour);
-    const Vector farther = hn::IfThenElseZero(surface.shown, surface.colour);
-    const LaneMask alone = hn::And(looking, hn::Eq(nearer, hn::Zero(Lanes())));
-    const LaneMask covers = hn::And(looking, at_least(alpha_of(farther), number(kCoveringAlpha)));
-    const Vector over = hn::IfThenElse(covers, laid_over(nearer, farther), nearer);
-    hn::StoreU(hn::IfThenElse(alone, farther, over), Lanes(), colour);
-    if (lambda == nullptr) return;
-    const LaneMask seen = hn::Or(alone, hn::And(covers, hn::Lt(alpha_of(nearer), number(128))));
-    const Vector depth_there = hn::IfThenZeroElse(hn::Eq(farther, hn::Zero(Lanes())), surface.lambda_q20);
-    hn::StoreU(hn::IfThenElse(seen, depth_there, hn::LoadU(Lanes(), lambda)), Lanes(), lambda);
+    LaneMask wanted = hn::MaskFromVec(hn::Load(Lanes(), asking));
+    const auto surfaces = MarchLanes(walk, strip, lane, rise).still_to_come(wanted);
+    for (const Vector depth : {surfaces.behind, surfaces.farthest}) {
+        const LaneMask looking = hn::And(wanted, is_surface(depth));
+        if (hn::AllFalse(Lanes(), looking)) continue;
+        const ShownLanes surface = shown_lanes(walk, strip, lane, rise, depth, looking);
+        const Vector nearer = hn::LoadU(Lanes(), colour);
+        const Vector farther = hn::IfThenElseZero(surface.shown, surface.colour);
+        const LaneMask alone = hn::And(looking, hn::Eq(nearer, zero));
+        const LaneMask covers = hn::And(looking, at_least(alpha_of(farther), number(kCoveringAlpha)));
+        const Vector over = hn::IfThenElse(covers, laid_over(nearer, farther), nearer);
+        hn::StoreU(hn::IfThenElse(alone, farther, over), Lanes(), colour);
+        wanted = hn::AndNot(covers, wanted);
+        if (lambda == nullptr) continue;
+        const LaneMask seen = hn::Or(alone, hn::And(covers, hn::Lt(alpha_of(nearer), number(128))));
+        const Vector depth_there = hn::IfThenZeroElse(hn::Eq(farther, zero), surface.lambda_q20);
+        hn::StoreU(hn::IfThenElse(seen, depth_there, hn::LoadU(Lanes(), lambda)), Lanes(), lambda);
+    }
 }
 
 // shape_pixel() of as many lanes as a vector has, from `lane` on.
@@ -192,7 +196,7 @@ HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, int l
         shown_lambda = hn::IfThenElse(surface.shown, surface.lambda_q20, shown_lambda);
         const LaneMask asking = hn::AndNot(hn::Or(surface.shown, alone), looking);
         const LaneMask covers = hn::And(surface.shown, at_least(alpha_of(surface.colour), number(kCoveringAlpha)));
-        uncovered = hn::Or(uncovered, hn::And(hn::AndNot(hn::Or(covers, alone), looking), march.ended_at_step()));
+        uncovered = hn::Or(uncovered, hn::And(hn::AndNot(hn::Or(covers, alone), looking), march.ended()));
         looking = hn::AndNot(march.ended(), asking);
     }
     hn::StoreU(shown_colour, Lanes(), colour);

@@ -21,6 +21,7 @@ HWY_INLINE Half half(int value) {
 struct SurfaceHalves {
     Half depth_q3;  // -1: nothing
     Half back;
+    Half farthest_q3;  // of both lines; -1: one of them has nothing
 };
 
 // between_lines() of as many bands as a vector has.
@@ -42,13 +43,16 @@ HWY_INLINE SurfaceHalves between_lines(const ShapeCell* first_cells, const Shape
     const Half both = hn::IfThenElse(hn::Gt(hn::Abs(apart), half(jump)), part < 4 ? first_q3 : second_q3, smooth);
     const Half of_first = hn::IfThenElse(has_second, both, first_q3);
     const Half of_second = hn::IfThenElse(has_second, second_q3, half(-1));
-    return {hn::IfThenElse(has_first, of_first, of_second), hn::Max(first_back, second_back)};
+    const auto has_both = hn::Gt(hn::Min(first_back, back_of(second)), zero);
+    return {hn::IfThenElse(has_first, of_first, of_second), hn::Max(first_back, second_back),
+            hn::IfThenElse(has_both, hn::Max(first_q3, second_q3), half(-1))};
 }
 
 // The bands of one of the two p, with nothing at either end.
 struct BandHalves {
     std::vector<std::int16_t> depth_q3;
     std::vector<std::int16_t> back;
+    std::vector<std::int16_t> farthest_q3;
 };
 
 void lay_bands(const ShapeCell* first, const ShapeCell* second, int bands, int part, int jump, int margin,
@@ -57,12 +61,14 @@ void lay_bands(const ShapeCell* first, const ShapeCell* second, int bands, int p
     const auto length = static_cast<std::size_t>(bands + 2 * margin + lanes);
     out.depth_q3.assign(length, -1);
     out.back.assign(length, 0);
+    out.farthest_q3.assign(length, -1);
     const int rest_count = bands % lanes;
     int band = 0;
     const auto lay = [&](const ShapeCell* f, const ShapeCell* s) {
         const SurfaceHalves surfaces = between_lines(f, s, part, jump);
         hn::StoreU(surfaces.depth_q3, Halves(), out.depth_q3.data() + margin + band);
         hn::StoreU(surfaces.back, Halves(), out.back.data() + margin + band);
+        hn::StoreU(surfaces.farthest_q3, Halves(), out.farthest_q3.data() + margin + band);
     };
     for (; band < bands - rest_count; band += lanes) lay(first + band, second + band);
     if (rest_count == 0) return;
@@ -102,10 +108,15 @@ SurfaceColumn lay_column(const CellColumns& columns, int bands, int jump, std::s
         Half depth[2][2];                                     // [p][band]
         Half low_sum[2];
         Half back = zero;
+        Half farthest = zero;
+        Half lacking = zero;  // -1 where one of the eight cells has no surface
         for (std::size_t b = 0; b < 2; ++b) {
             for (std::size_t p = 0; p < 2; ++p) {
                 depth[p][b] = hn::LoadU(halves, of_p[p].depth_q3.data() + from + b);
                 back = hn::Max(back, hn::LoadU(halves, of_p[p].back.data() + from + b));
+                const Half of_lines = hn::LoadU(halves, of_p[p].farthest_q3.data() + from + b);
+                farthest = hn::Max(farthest, of_lines);
+                lacking = hn::Min(lacking, of_lines);
             }
             low_sum[b] =
                 hn::Add(hn::Mul(depth[0][b], half(8 - columns.p_part)), hn::Mul(depth[1][b], half(columns.p_part)));
@@ -121,7 +132,8 @@ SurfaceColumn lay_column(const CellColumns& columns, int bands, int jump, std::s
         hn::StoreInterleaved2(lower, upper, halves, reinterpret_cast<std::int16_t*>(entries.smooth.data() + to));
         hn::StoreInterleaved2(depth[0][0], depth[1][0], halves,
                               reinterpret_cast<std::int16_t*>(entries.pairs.data() + to));
-        hn::StoreInterleaved2(back, zero, halves, reinterpret_cast<std::int16_t*>(entries.backs.data() + to));
+        hn::StoreInterleaved2(back, hn::Or(farthest, lacking), halves,
+                              reinterpret_cast<std::int16_t*>(entries.backs.data() + to));
         for (const auto& both_bands : depth) {
             for (const Half d : both_bands) nearest = hn::Min(nearest, hn::IfThenElse(hn::Lt(d, zero), nearest, d));
         }

@@ -31,7 +31,7 @@ struct SurfaceColumn {
 struct SurfaceEntries {
     std::vector<std::int32_t> smooth;
     std::vector<std::int32_t> pairs;  // of band first_band + n: depth_q3 of the two p, 16 bits each, -1: nothing
-    std::vector<std::int32_t> backs;  // the greatest of the four
+    std::vector<std::int32_t> backs;  // the greatest of the four; upper 16: depth_q3 of SurfaceStack::farthest, or -1
 
     void hold(std::size_t count) {
         for (auto* const numbers : {&smooth, &pairs, &backs}) numbers->resize(std::max(numbers->size(), count));

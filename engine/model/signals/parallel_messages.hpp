@@ -131,9 +131,10 @@ struct RisenPixel {
 // Where the march along a ray goes on.
 struct MarchState {
     static constexpr int kBits = 9;
-    static constexpr int kFoot = 256;    // at the foot, for the last surface
-    static constexpr int kBehind = 257;  // likewise, for the one behind it
-    int begin = 0;                       // depth, or one of these
+    static constexpr int kFoot = 256;      // at the foot, for the last surface
+    static constexpr int kBehind = 257;    // likewise, for the one behind it
+    static constexpr int kFarthest = 258;  // and for the farthest of the cells
+    int begin = 0;                         // depth, or one of these
 };
 
 // Cell march: a surface that the pixel's ray meets.

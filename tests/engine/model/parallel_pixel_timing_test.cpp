@@ -231,6 +231,15 @@ TEST(ParallelPixelTiming, SurfaceBlendKeepsAPixelAtARim) {
     }
     put(in, sample(7, 40, 30, true, MarchState::kBehind));  // a new pixel in its place
     expect(0x2800001EU);
+    // It goes back twice, and what does not cover it in between is not kept.
+    for (const auto& [alpha, next] : {std::pair{64, MarchState::kBehind}, {229, MarchState::kFarthest}}) {
+        put(in, sample(7, alpha, 10, false, next));
+        EXPECT_EQ(bench.until(block, again), 17);
+        again.pop();
+        again.commit();
+    }
+    put(in, sample(7, 255, 20, true, MarchState::kFarthest));
+    expect(0xFF000012U);
 }
 
 TEST(ParallelPixelTiming, PatchStoreWritesAPatchWhenItsLastPixelIsThere) {

@@ -14,10 +14,11 @@ struct Surface {
 };
 using Found = std::optional<Surface>;
 
-// "surface(v)" and "behind(v)"
+// "surface(v)", "behind(v)" and "farthest(v)"
 struct Surfaces {
     Found surface;
     Found behind;
+    Found farthest;
 };
 
 struct Bands {
@@ -111,11 +112,25 @@ public:
                        : !takes_nearer                     ? Branch::farther_group
                        : nearer.weights == farther.weights ? Branch::nearer_group_of_equals
                                                            : Branch::nearer_group);
-        if (!takes_nearer) return {surface_of(farther), {}};
-        return {surface_of(nearer), surface_of(farther)};
+        if (!takes_nearer) return {surface_of(farther), {}, farthest(hi)};
+        return {surface_of(nearer), surface_of(farther), farthest(hi)};
     }
 
 private:
+    // "farthest(v)" of the bands hi and hi + 1. Nothing asks for its back.
+    [[nodiscard]] Found farthest(Whole hi) const {
+        Whole greatest = 0;
+        for (const std::size_t c : {std::size_t{0}, std::size_t{1}}) {
+            for (const std::size_t line : {std::size_t{0}, std::size_t{1}}) {
+                for (const Whole band : {hi, hi + 1}) {
+                    if (band < 0 || band >= shape_.bands || cell(c, line, band).back == 0) return {};
+                    greatest = std::max<Whole>(greatest, cell(c, line, band).depth);
+                }
+            }
+        }
+        return Surface{within(8 * greatest, 0, 2040, "farthest depth"), 0};
+    }
+
     [[nodiscard]] ShapeCell cell(std::size_t c, std::size_t n, Whole hi) const {
         const Whole index = (ray_.line[n] * shape_.p_cells + ray_.cell_p[c]) * shape_.bands + hi;
         require(index >= 0, "a cell's index", index);
@@ -157,7 +172,7 @@ private:
 }  // namespace
 
 void march(const ShapeMap& shape, const engine::ViewRegisters& view, const ShapeRay& ray, Whole rise,
-           const std::function<bool(Whole d, bool has_behind)>& meets, Branches& branches) {
+           const std::function<bool(Whole d, bool at_end)>& meets, Branches& branches) {
     const Bands bands = bands_of(shape, view, ray, rise, branches);
     CellsAround cells(shape, ray, branches);
     const Whole swept = bands.per_d < 0 ? -bands.per_d : bands.per_d;
@@ -190,9 +205,11 @@ void march(const ShapeMap& shape, const engine::ViewRegisters& view, const Shape
     const Surfaces at_v2 = cells.at(bands.band_at(at_foot.surface->depth >> 3));
     branches.take(at_v2.surface ? Branch::second_look : Branch::second_look_is_nothing);
     const Surfaces& last = at_v2.surface ? at_v2 : at_foot;
-    if (meets(last.surface->depth, last.behind.has_value())) return;
+    if (meets(last.surface->depth, true)) return;
     branches.take(last.behind ? Branch::met_behind : Branch::nothing_behind);
-    if (last.behind) meets(last.behind->depth, false);
+    if (last.behind && meets(last.behind->depth, true)) return;
+    branches.take(last.farthest ? Branch::met_farthest : Branch::one_of_eight_lacks);
+    if (last.farthest) meets(last.farthest->depth, true);
 }
 
 }  // namespace rs::reference

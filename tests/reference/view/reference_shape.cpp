@@ -130,14 +130,6 @@ ReferencePixel output(const std::optional<Shown>& shown, Branches& branches) {
 
 // "Over"
 ReferencePixel over(const ReferencePixel& n, const ReferencePixel& f, Branches& branches) {
-    if (n.A == 0) {
-        branches.take(Branch::over_nothing);
-        return f;
-    }
-    if (f.A < 230) {
-        branches.take(Branch::over_what_does_not_cover);
-        return n;
-    }
     const Whole w = within(n.A + (n.A >> 7), 1, 256, "w");
     const auto mixed = [&](Whole of_n, Whole of_f) {
         const Whole sum = below(of_n * w + of_f * (256 - w) + 128, 16, "n * w + f * (256 - w) + 128");
@@ -178,18 +170,25 @@ ReferencePixel pixel_with_shape(const RaySpaceObject& object, const engine::View
         return output(shown, branches);
     }
     branches.take(Branch::blended);
-    std::optional<ReferencePixel> nearer;  // of two, where it does not cover the pixel
-    const auto first_that_shows = [&](Whole d, bool has_behind) {
+    std::optional<ReferencePixel> pixel;
+    const auto will_do = [&](Whole d, bool at_end) {
         if (++met == 2) branches.take(Branch::met_after_another);
-        shown = shows(d);
-        if (!shown || !has_behind || alpha(*shown) >= 230) return shown.has_value();
-        nearer = output(shown, branches);
-        return false;
+        const std::optional<Shown> of_this = shows(d);
+        if (!of_this) return false;
+        const ReferencePixel here = output(of_this, branches);
+        const bool covers = here.A >= 230;
+        if (!at_end || (!pixel && here.A > 0)) {
+            pixel = here;
+        } else if (pixel && covers) {
+            pixel = over(*pixel, here, branches);
+        } else {
+            branches.take(pixel ? Branch::over_what_does_not_cover : Branch::over_nothing);
+        }
+        return !at_end || covers;
     };
-    march(shape, view, *ray, rise, first_that_shows, branches);
-    if (!shown && !nearer) branches.take(Branch::none_shows_something);
-    const ReferencePixel last = output(shown, branches);
-    return nearer ? over(*nearer, last, branches) : last;
+    march(shape, view, *ray, rise, will_do, branches);
+    if (!pixel) branches.take(Branch::none_shows_something);
+    return pixel.value_or(ReferencePixel{});
 }
 
 }  // namespace rs::reference

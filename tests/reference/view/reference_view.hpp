@@ -62,6 +62,8 @@ enum class Branch {
     second_look_is_nothing,
     met_behind,
     nothing_behind,
+    met_farthest,
+    one_of_eight_lacks,
     met_after_another,
     too_near,  // 7
     beside_the_picture,

@@ -77,7 +77,7 @@ void CellMarch::keep_cells(std::uint64_t first_line, std::uint64_t second_line) 
     }
 }
 
-SurfacePair CellMarch::surfaces_at(const ColumnSetup& column, std::int32_t at_q12) {
+SurfaceStack CellMarch::surfaces_at(const ColumnSetup& column, std::int32_t at_q12) {
     ++looks_;
     const ShapeRegisters& shape = registers_.object_of(column.view).shape;
     const Cells& cells = cells_[ColumnTable::place(column.stripe, column.column)];
@@ -119,26 +119,33 @@ void CellMarch::look(Turn& turn, const ColumnSetup& column) {
     turn.met = {turn.ray.pixel, std::max(cell.depth_q3, 8 * begin), is_alone(column), turn.state};
 }
 
-// The surface in the foot's band, and then that of the band where it lies, or the one behind that.
+// The surface in the foot's band, and then that of the band where it lies, or what lies behind that.
 void CellMarch::look_at_foot(Turn& turn, const ColumnSetup& column) {
     const SurfaceCell& of_foot = turn.foot.first;
     const bool at_its_depth = of_foot.exists();
-    SurfacePair last =
+    SurfaceStack last =
         surfaces_at(column, at_its_depth ? band_q12(turn.ray, of_foot.depth_q3 >> 3) : turn.ray.foot_q12);
     if (!at_its_depth && last.first.exists()) {
         turn.foot = last;
         return;
     }
     if (!last.first.exists()) last = turn.foot;
-    const bool is_again = turn.state.begin == MarchState::kBehind;
-    const SurfaceCell& cell = is_again ? last.behind : last.first;
+    const int state = turn.state.begin;
+    const SurfaceCell& cell = state == MarchState::kFoot     ? last.first
+                              : state == MarchState::kBehind ? last.behind
+                                                             : last.farthest;
     if (!cell.exists() && !is_alone(column)) {
         turn.outcome = Turn::Outcome::empty;
         return;
     }
     const int depth_q3 = cell.exists() ? cell.depth_q3 : registers_.object_of(column.view).shape.foot_d_q3;
+    const bool has_behind = state == MarchState::kFoot && last.behind.exists();
+    const bool has_farthest = state < MarchState::kFarthest && last.farthest.exists();
     turn.outcome = Turn::Outcome::met;
-    turn.met = {turn.ray.pixel, depth_q3, is_again || is_alone(column) || !last.behind.exists(), {MarchState::kBehind}};
+    turn.met = {turn.ray.pixel,
+                depth_q3,
+                is_alone(column) || (!has_behind && !has_farthest),
+                {has_behind ? MarchState::kBehind : MarchState::kFarthest}};
 }
 
 void CellMarch::take_turn(Turn& turn, int looks) {

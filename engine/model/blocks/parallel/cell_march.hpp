@@ -2,16 +2,16 @@
 // Cell march: follows a pixel's ray through the surface between the cells beside it (RECONSTRUCTION.md, section 6), two
 // looks in a cycle, and hands on the first place where it meets one. Where that shows nothing, surface_blend sends the
 // pixel back, and the march goes on behind it; such pixels come before new ones. So a ray never marches farther than it
-// must, and others pass it. Behind the last surface comes the farther one of two, where there is one: the ray takes the
-// turns of the foot once more.
+// must, and others pass it. Behind the last surface come the farther one of two and the farthest of eight cells, where
+// there are such: the ray takes the turns of the foot once more for each.
 //
 // A pipe whose end is joined to its beginning: what a *turn* of two looks gives is known kStages cycles later, and only
 // then the ray takes its next turn, before any other; up to kStages rays are marching. Stages of a look: bands from
 // zero and per_d (a product, kProductCycles), read, nearest and farthest, groups and weights, products and sums, mean
 // (a table of reciprocals and a product, divide_by_weight()), meet or not.
 //
-// It keeps the cells of two stripes, between their lines already (SurfaceCell, 19 bits), in four memories: even and odd
-// bands of both places in p, four bands to two words of 38 bits. A look reads each of the four at one place; they have
+// It keeps the cells of two stripes, between their lines already (SurfaceCell, 28 bits), in four memories: even and odd
+// bands of both places in p, four bands to two words of 56 bits. A look reads each of the four at one place; they have
 // two ports, and cells that come in take one. It also keeps of each pixel under way where its ray passes the bands.
 
 #include "engine/core/definition/shape_cells.hpp"
@@ -37,7 +37,7 @@ MarchSteps march_steps(std::int32_t per_d_q20);
 class CellMarch final : public Block {
 public:
     static constexpr int kStages = kProductCycles + 6;
-    static constexpr int kSurfaceBits = 11 + 8;
+    static constexpr int kSurfaceBits = 11 + 8 + 9;
     static constexpr std::size_t kCellBits =
         std::size_t{kStripeSlots} * kStripeColumns * 2 * kMostBands * static_cast<std::size_t>(kSurfaceBits);
     static constexpr std::size_t kHeldBits = std::size_t{4} * kMostBands / kCellsPerWord * 64;
@@ -55,7 +55,7 @@ private:
         enum class Outcome { goes_on, met, empty };
         RisenPixel ray;
         MarchState state;
-        SurfacePair foot;  // those of the foot, behind the last look but one
+        SurfaceStack foot;  // those of the foot, behind the last look but one
         Outcome outcome = Outcome::goes_on;
         MetSurface met;
     };
@@ -65,7 +65,7 @@ private:
     void take_turn(Turn& turn, int looks);
     void look(Turn& turn, const ColumnSetup& column);
     void look_at_foot(Turn& turn, const ColumnSetup& column);
-    [[nodiscard]] SurfacePair surfaces_at(const ColumnSetup& column, std::int32_t at_q12);
+    [[nodiscard]] SurfaceStack surfaces_at(const ColumnSetup& column, std::int32_t at_q12);
 
     const RegisterFile& registers_;
     Fifo<ColumnSetup>& columns_;

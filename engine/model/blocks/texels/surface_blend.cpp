@@ -31,12 +31,13 @@ SurfaceBlend::Outcome SurfaceBlend::decided(const SampleHead& last) {
     const SampleSum sum = blended(samples_, last.weight);
     const Rgba8 colour = resolve(sum);
     Rgba8& kept = kept_[static_cast<std::size_t>(last.id)];
+    const Rgba8 so_far = laid_over({kept}, {colour}).colour;
+    const bool asks_behind = last.next.begin > MarchState::kFoot && colour.a < kCoveringAlpha;
     Outcome out;
     out.again = {last.id, last.next};
-    const bool asks_behind = last.next.begin == MarchState::kBehind && colour.a < kCoveringAlpha;
     out.sends_back = !last.final && (sum.a == 0 || asks_behind);
-    if (!out.sends_back) out.pixel = {last.id, packed(laid_over({kept}, {colour}).colour)};
-    kept = out.sends_back ? colour : Rgba8{};
+    if (!out.sends_back) out.pixel = {last.id, packed(so_far)};
+    kept = out.sends_back ? so_far : Rgba8{};
     return out;
 }
 

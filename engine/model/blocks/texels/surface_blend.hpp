@@ -1,9 +1,10 @@
 #pragma once
 // Surface blend (RECONSTRUCTION.md, section 8): collects the one or two samples of a met surface, blends them, and
 // makes of the sums R, G, B and alpha. Where the surface shows nothing the pixel goes back to cell_march, or, behind
-// its last surface, is empty. A pixel that the nearer of two last surfaces does not cover goes back as well, and what
-// it shows is kept here until the farther one comes, over which it is laid. A sample per cycle. Four products, then
-// three pipelined dividers of 8 quotient bits (a 31-bit subtract and a choice each), then eight products of 8 x 9 bits.
+// its last surface, is empty. A pixel that the last surface does not cover goes back as well, where others lie behind
+// it, and what it shows is kept here until one comes that covers the pixel, over which it is laid. A sample per cycle.
+// Four products, then three pipelined dividers of 8 quotient bits (a 31-bit subtract and a choice each), then eight
+// products of 8 x 9 bits.
 
 #include "engine/core/definition/shape_pixel.hpp"
 #include "engine/model/blocks/shared/stages.hpp"

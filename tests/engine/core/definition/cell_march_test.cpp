@@ -1,6 +1,7 @@
 // Which surfaces a ray meets (engine/RECONSTRUCTION.md, section 6), on rays made by hand: the viewpoint stands over the
 // axis at height b, so that the foot is at height b too and the reference slope is 0 where b is the reference height.
-// The ray passes right through the middle of one column of cells; shape_cells_test.cpp looks between columns.
+// The ray passes right through the middle of one column of cells; shape_cells_test.cpp looks between columns. Where all
+// cells beside it have a surface, the last one met is the farthest of them.
 #include "engine/core/definition/cell_march.hpp"
 
 #include <gtest/gtest.h>
@@ -52,10 +53,10 @@ TEST(CellMarch, ARayOfReferenceSlopeMeetsTheSurfaceOfItsFootAlone) {
         return column.met(0, b_q20);
     };
     // On the border of bands 3 and 4, and an eighth of a band below and above it.
-    EXPECT_EQ(at(0), (std::vector<SurfaceCell>{{35 * 8, 255}}));
-    EXPECT_EQ(at(-kOne_q20 / 8), (std::vector<SurfaceCell>{{35 * 8 - 10, 255}}));
-    EXPECT_EQ(at(kOne_q20 / 8), (std::vector<SurfaceCell>{{35 * 8 + 10, 255}}));
-    EXPECT_EQ(at(kOne_q20 / 8 - 256), (std::vector<SurfaceCell>{{35 * 8, 255}}));
+    EXPECT_EQ(at(0), (std::vector<SurfaceCell>{{35 * 8, 255}, {40 * 8, 255}}));
+    EXPECT_EQ(at(-kOne_q20 / 8), (std::vector<SurfaceCell>{{35 * 8 - 10, 255}, {40 * 8, 255}}));
+    EXPECT_EQ(at(kOne_q20 / 8), (std::vector<SurfaceCell>{{35 * 8 + 10, 255}, {40 * 8, 255}}));
+    EXPECT_EQ(at(kOne_q20 / 8 - 256), (std::vector<SurfaceCell>{{35 * 8, 255}, {40 * 8, 255}}));
     // The first and the last cell reach half a band beyond their middles and half a band more: as far as they are
     // given weight.
     EXPECT_EQ(at(-9 * kOne_q20 / 2 + kOne_q20 / 8), (std::vector<SurfaceCell>{{0, 255}}));
@@ -68,21 +69,22 @@ TEST(CellMarch, ARayOfReferenceSlopeMeetsTheSurfaceOfItsFootAlone) {
 TEST(CellMarch, TheReferenceViewpointSeesEveryBandAlongItself) {
     Column column(8, {100, 110});
     column.setup.lambda_foot_q20 = 3 * kOne_q20;
-    EXPECT_EQ(column.met(kOne_q20 / 2).size(), 1U);
+    EXPECT_EQ(column.met(kOne_q20 / 2).size(), 2U);
     column.setup.lambda_foot_q20 = kOne_q20;
-    EXPECT_GT(column.met(kOne_q20 / 2).size(), 1U);
+    EXPECT_GT(column.met(kOne_q20 / 2).size(), 2U);
 }
 
-// Surfaces that are met wherever they are looked at: their number is that of the steps, and one at the end.
+// Surfaces that are met wherever they are looked at: their number is that of the steps, and two at the end.
 TEST(CellMarch, CountsItsSteps) {
     const Column column(4096, {0, 255});
     const auto steps = [&](std::int32_t per_depth_q20) {
         const std::vector<SurfaceCell> met = column.met(per_depth_q20 * 64);
-        if (met.size() < 2) return static_cast<int>(met.size()) - 1;
-        const int size_q3 = met[1].depth_q3;
-        for (std::size_t i = 0; i + 1 < met.size(); ++i) EXPECT_EQ(met[i].depth_q3, static_cast<int>(i) * size_q3);
-        EXPECT_EQ(met.back().depth_q3, 0);
-        return static_cast<int>(met.size()) - 1;
+        const int taken = static_cast<int>(met.size()) - 2;
+        for (int i = 0; i < taken; ++i) {
+            EXPECT_EQ(met[static_cast<std::size_t>(i)].depth_q3, i * met[1].depth_q3);
+        }
+        for (std::size_t i = met.size() - 2; i < met.size(); ++i) EXPECT_EQ(met[i].depth_q3, 0);
+        return taken;
     };
     for (const int sign : {1, -1}) {
         EXPECT_EQ(steps(0), 0);
@@ -103,10 +105,10 @@ TEST(CellMarch, NeverTakesMoreThanItsMostSteps) {
     column.shape.bands_per_unit_q12 = 1 << 26;
     column.shape.h_low_q20 = -kOne_q20 / 8;
     for (const std::int32_t slope_q20 : {kOne_q20, -kOne_q20, 127 * kOne_q20, -127 * kOne_q20}) {
-        EXPECT_LE(column.met(slope_q20 >> 4).size(), CellMarch::kMostSteps + 1U);
+        EXPECT_LE(column.met(slope_q20 >> 4).size(), CellMarch::kMostSteps + 2U);
     }
     // 4 bands per depth at most: from 1024 bands below the foot up to it, all of them in the map.
-    EXPECT_EQ(column.met(7 * kOne_q20).size(), CellMarch::kMostSteps + 1U);
+    EXPECT_EQ(column.met(7 * kOne_q20).size(), CellMarch::kMostSteps + 2U);
 }
 
 // Half a band per step, bands -4 .. 4 of the foot, of which the map has the upper or lower half; its last cell reaches
@@ -124,7 +126,10 @@ TEST(CellMarch, LeavesTheBandsAndEntersThem) {
     for (int begin = 0; begin < 256; begin += 16) all.push_back(begin);
     std::vector<int> nearer(all.begin(), all.begin() + 9);
     std::vector<int> farther(all.begin() + 7, all.end());
-    nearer.push_back(0);  // the foot itself is met last, wherever
+    // Wherever the march is, the surface of the foot's depth, 0, is met last. Of the nearer ones the map surrounds that
+    // place, so that the farthest of the cells follows; of the farther ones it has nothing there, and the foot, which
+    // lies at its border, answers.
+    nearer.insert(nearer.end(), {0, 0});
     farther.push_back(0);
     // Behind the foot (depth 128) the rising ray is above 0, a sinking one below.
     EXPECT_EQ(begins(-slope_q20, -8 * kOne_q20), farther);
@@ -140,8 +145,10 @@ TEST(CellMarch, MeetsASurfaceBetweenItsDepthAndItsBack) {
     const auto met = [&](int depth, int back) {
         auto found =
             Column(64, {static_cast<std::uint8_t>(depth), static_cast<std::uint8_t>(back)}).met(four_steps_q20);
-        EXPECT_EQ(found.back(), (SurfaceCell{8 * depth, back}));  // the one at the end is as the map has it
-        found.pop_back();
+        for (int end = 0; end < 2; ++end) {  // those at the end are as the map has them
+            EXPECT_EQ(found.back(), (SurfaceCell{8 * depth, back}));
+            found.pop_back();
+        }
         return found;
     };
     EXPECT_EQ(met(200, 210), (std::vector<SurfaceCell>{{8 * 200, 210}}));
@@ -162,10 +169,10 @@ TEST(CellMarch, EndsWithTheSurfaceThatAReferenceRayWouldMeet) {
         return column.met(one_step_q20);
     };
     // Depth 0 lies 2 eighths below the middle, and a quarter of the weight says there is band 3.
-    EXPECT_EQ(end({16, 16}, {0, 1}), (std::vector<SurfaceCell>{{2 * 16, 16}}));
-    // Beyond a jump: the one with more weight, and what lies behind it.
-    EXPECT_EQ(end({77, 77}, {0, 1}), (std::vector<SurfaceCell>{{0, 77}, {8 * 77, 77}}));
-    EXPECT_EQ(end({0, 77}, {77, 77}), (std::vector<SurfaceCell>{{8 * 77, 77}}));
+    EXPECT_EQ(end({16, 16}, {0, 1}), (std::vector<SurfaceCell>{{2 * 16, 16}, {8 * 16, 16}}));
+    // Beyond a jump: the one with more weight, what lies behind it, and the farthest, which is the same here.
+    EXPECT_EQ(end({77, 77}, {0, 1}), (std::vector<SurfaceCell>{{0, 77}, {8 * 77, 77}, {8 * 77, 77}}));
+    EXPECT_EQ(end({0, 77}, {77, 77}), (std::vector<SurfaceCell>{{8 * 77, 77}, {8 * 77, 77}}));
     EXPECT_EQ(end({}, {0, 1}), (std::vector<SurfaceCell>{{0, 1}}));
     EXPECT_TRUE(end({77, 77}, {}).empty());
     column.setup.cells.p_part = 0;

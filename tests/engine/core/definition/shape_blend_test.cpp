@@ -1,5 +1,5 @@
 // What a pixel between two captured views shows (engine/RECONSTRUCTION.md, section 8): both pictures blended, and the
-// nearer of two surfaces over the farther one.
+// nearer of two surfaces over the farther one, or over the farthest cell's.
 #include "rayspace/object/ray_space_object.hpp"
 #include "tests/engine/core/definition/shape_pixels.hpp"
 #include "tests/support/sphere_object.hpp"
@@ -137,6 +137,39 @@ TEST_F(AtAStep, WhatDoesNotCoverItsPixelIsLaidOverWhatDoes) {
     expect(127, 255, 65, 255, far_);
     expect(100, 0, 50, 100, near_);
     expect(0, 100, 80, 100, far_);
+}
+
+// Cells along p are less than a jump apart, and the pixel's surface lies between them.
+TEST_F(Midway, WhereAMeanDoesNotCoverThePixelTheFarthestCellMay) {
+    constexpr ShapeCell kNearer{60, 250}, kFarthest{160, 250};
+    object_.rings[0].shape.jump = 100;
+    std::set<std::tuple<int, int, int>> of_farthest;
+    const std::int32_t farthest = shown(kFarthest, [&](int view, int column, int row) {
+                                      of_farthest.emplace(view, column, row);
+                                      return by_view(view);
+                                  }).lambda_q20;
+    std::vector<ShapeCell>& cells = object_.rings[0].shape.cells;
+    const auto bands = static_cast<std::size_t>(object_.rings[0].shape.bands);
+    for (std::size_t n = 0; n < cells.size(); ++n) cells[n] = n / bands % 2 == 0 ? kNearer : kFarthest;
+    const auto pixel = [&](int mean_alpha, int farthest_alpha) {
+        return pixel_at(object_, camera_, kPixel, kPixel, [&](int view, int column, int row) {
+            return of_farthest.contains({view, column, row})
+                       ? Rgba8{80, 80, 80, static_cast<std::uint8_t>(farthest_alpha)}
+                       : Rgba8{50, 50, 50, static_cast<std::uint8_t>(mean_alpha)};
+        });
+    };
+    EXPECT_LT(pixel(255, 255).lambda_q20, farthest);
+    EXPECT_EQ(pixel(230, 255).colour, (Rgba8{50, 50, 50, 230}));
+    EXPECT_EQ(pixel(229, 255).colour, (Rgba8{53, 53, 53, 255}));
+    EXPECT_EQ(pixel(229, 229).colour, (Rgba8{50, 50, 50, 229}));
+    EXPECT_EQ(pixel(0, 255).colour, (Rgba8{80, 80, 80, 255}));
+    EXPECT_EQ(pixel(0, 255).lambda_q20, farthest);
+    EXPECT_EQ(pixel(0, 100).colour, (Rgba8{80, 80, 80, 100}));
+    // Where one of the cells around has no surface the ray may pass beside the object.
+    for (ShapeCell& cell : cells) {
+        if (cell == kFarthest) cell = {};
+    }
+    EXPECT_EQ(pixel(0, 255).colour, Rgba8{});
 }
 
 TEST_F(Midway, AGapWithoutLinesShowsTheNearestPicture) {

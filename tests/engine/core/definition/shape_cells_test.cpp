@@ -21,17 +21,17 @@ SurfaceCell between_cells(const SurfaceCell (&cells)[2][2], int p_part, int h_pa
 TEST(BetweenLines, InterpolatesInEighthsUpToTheJump) {
     for (int part = 0; part < 8; ++part) {
         EXPECT_EQ(between_lines({100, 110}, {120, 115}, part, 20),
-                  (SurfaceCell{800 + 20 * part, part > 0 ? 115 : 110}));
-        EXPECT_EQ(between_lines({120, 130}, {100, 125}, part, 20), (SurfaceCell{960 - 20 * part, 130}));
+                  (SurfaceCell{800 + 20 * part, part > 0 ? 115 : 110, 120}));
+        EXPECT_EQ(between_lines({120, 130}, {100, 125}, part, 20), (SurfaceCell{960 - 20 * part, 130, 120}));
     }
 }
 
 TEST(BetweenLines, TakesTheNearerLineAcrossAJump) {
     for (int part = 1; part < 8; ++part) {
-        const SurfaceCell expected{part < 4 ? 800 : 968, 121};
+        const SurfaceCell expected{part < 4 ? 800 : 968, 121, 121};
         EXPECT_EQ(between_lines({100, 110}, {121, 121}, part, 20), expected) << part;
     }
-    EXPECT_EQ(between_lines({100, 110}, {121, 121}, 0, 20), (SurfaceCell{800, 110}));
+    EXPECT_EQ(between_lines({100, 110}, {121, 121}, 0, 20), (SurfaceCell{800, 110, 121}));
 }
 
 TEST(BetweenLines, OneAloneAnswersAndTheSecondOnlyWhereItHasWeight) {
@@ -74,6 +74,21 @@ TEST(BetweenCells, BehindTheNearerGroupIsTheFartherOne) {
     EXPECT_FALSE(surfaces_between(cells, 0, 4, 20).behind.exists());  // without weight
     const SurfaceCell nothing[2][2] = {};
     EXPECT_FALSE(surfaces_between(nothing, 3, 4, 20).behind.exists());
+}
+
+TEST(BetweenCells, TheFarthestIsOneOfAllCellsWhateverTheirWeights) {
+    const SurfaceCell cells[2][2] = {{{80, 20, 11}, {88, 20, 12}}, {{248, 40, 31}, {256, 41, 32}}};
+    for (int p = 0; p < 8; ++p) {
+        for (const int jump : {20, 22}) EXPECT_EQ(surfaces_between(cells, p, 0, jump).farthest, (SurfaceCell{256, 41}));
+    }
+    SurfaceCell at_depth_0[2][2];
+    for (auto& column : at_depth_0) column[0] = column[1] = {0, 1, 0};
+    EXPECT_EQ(surfaces_between(at_depth_0, 3, 4, 20).farthest, (SurfaceCell{0, 1}));
+    for (int n = 0; n < 4; ++n) {
+        SurfaceCell lacks_one[2][2] = {{cells[0][0], cells[0][1]}, {cells[1][0], cells[1][1]}};
+        lacks_one[n / 2][n % 2].farthest = -1;
+        EXPECT_FALSE(surfaces_between(lacks_one, 3, 4, 20).farthest.exists()) << n;
+    }
 }
 
 TEST(BetweenCells, IsNothingWhereAllWeightIsOnNothing) {
@@ -127,7 +142,7 @@ Columns random_columns(test::Random& random) {
     return columns;
 }
 
-SurfaceCell defined(const Columns& columns, int band, int h_part) {
+SurfaceStack defined(const Columns& columns, int band, int h_part) {
     SurfaceCell around[2][2];
     for (int p = 0; p < 2; ++p) {
         for (int h = 0; h < 2; ++h) {
@@ -137,7 +152,7 @@ SurfaceCell defined(const Columns& columns, int band, int h_part) {
                 between_lines(columns.cells[p][0][at], columns.cells[p][1][at], columns.around.line_part, columns.jump);
         }
     }
-    return between_cells(around, columns.around.p_part, h_part, columns.jump);
+    return surfaces_between(around, columns.around.p_part, h_part, columns.jump);
 }
 
 // What an entry says where it does not send its reader to `pairs`.
@@ -165,7 +180,8 @@ void expect_column(const Columns& columns) {
     int beyond = 0;
     for (int band = -1; band < columns.bands; ++band) {
         for (int h_part = 0; h_part < 8; ++h_part) {
-            const SurfaceCell expected = defined(columns, band, h_part);
+            const SurfaceStack defined_here = defined(columns, band, h_part);
+            const SurfaceCell& expected = defined_here.first;
             const int n = std::clamp(band - column.first_band, 0, column.last);
             const std::size_t at = kStart + static_cast<std::size_t>(n);
             const std::int32_t smooth = entries.smooth[at];
@@ -173,8 +189,11 @@ void expect_column(const Columns& columns) {
                 ASSERT_FALSE(expected.exists()) << band << " " << h_part;
                 continue;
             }
+            const SurfaceCell& farthest = defined_here.farthest;
+            ASSERT_EQ(entries.backs[at] >> 16, farthest.exists() ? farthest.depth_q3 : -1) << band << " " << h_part;
+            const std::int32_t back = entries.backs[at] & 0xFFFF;
             if (expected.exists()) {
-                ASSERT_EQ(entries.backs[at], expected.back) << band << " " << h_part;
+                ASSERT_EQ(back, expected.back) << band << " " << h_part;
                 nearest = std::min(nearest, expected.depth_q3);
                 beyond = std::max(beyond, expected.back + 1);
             }
@@ -188,7 +207,7 @@ void expect_column(const Columns& columns) {
                 const std::int16_t depths[] = {static_cast<std::int16_t>(pair & 0xFFFF),
                                                static_cast<std::int16_t>(pair >> 16)};
                 for (int p = 0; p < 2; ++p) {
-                    if (depths[p] >= 0) around[p][h] = {depths[p], entries.backs[at]};
+                    if (depths[p] >= 0) around[p][h] = {depths[p], back};
                 }
             }
             ASSERT_EQ(between_cells(around, columns.around.p_part, h_part, columns.jump), expected) << band;
