@@ -1,9 +1,9 @@
 #include "encode/raymap/shape_lines.hpp"
 
 #include "encode/raymap/captured_view.hpp"
-#include "encode/raymap/depth_range.hpp"
+#include "encode/raymap/hidden_cells.hpp"
+#include "encode/raymap/line_grid.hpp"
 #include "encode/raymap/semi_global.hpp"
-#include "encode/set/soft_coverage.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 
@@ -16,41 +16,8 @@
 namespace rs::encode {
 namespace {
 
-constexpr double kHalfWidth = kDeepest;  // of p and of depth
-constexpr int kDepths = 256;
-
 double azimuth(const WorkView& view) {
     return std::atan2(view.centre.x, view.centre.y);
-}
-
-// The grid of cells of one line, and of the finer raster that surfaces are drawn on.
-struct LineGrid {
-    int p_cells = 0, bands = 0;
-    double p_low = 0, h_low = 0;
-    double cells_per_unit = 0;
-    double bands_per_unit = 0;
-    double distance = 0, height = 0;  // of the reference viewpoint
-    int fine = 1;                     // raster points along a cell's side
-
-    // From the reference viewpoint to the foot of a ray at distance p from the axis.
-    [[nodiscard]] double rho(double p) const {
-        return std::sqrt(std::max(distance * distance - p * p, distance * distance / 4));
-    }
-};
-
-struct LinePoint {
-    double p = 0, h = 0, depth = 0;
-};
-
-// A point as a line's viewpoint sees it.
-LinePoint on_line(const LineGrid& grid, const glm::dvec2& viewpoint, const glm::dvec2& place, double y) {
-    const glm::dvec2 along = glm::normalize(place - viewpoint);
-    LinePoint point;
-    point.p = -place.x * along.y + place.y * along.x;
-    point.depth = glm::dot(place, along);
-    const double rho = grid.rho(point.p);
-    point.h = grid.height + (y - grid.height) * rho / (rho + point.depth);
-    return point;
 }
 
 // The surfaces of one picture seen from a line's viewpoint: nearest depths on the fine raster.
@@ -90,50 +57,27 @@ private:
     Image<float> depth_;  // (h, p)
 };
 
-// One surface, which both pictures show: the median of the depths that they found.
-ShapeCell make_cell(const std::vector<float>& found, double low, double step) {
+// One surface: the median of the depths that the pictures found.
+ShapeCell make_cell(const std::vector<float>& found) {
     ShapeCell cell;
     if (found.empty()) return cell;
     const auto depth = static_cast<double>(median(found));
-    cell.depth = static_cast<std::uint8_t>(std::clamp(std::lround((depth - low) / step), 0L, 255L));
+    cell.depth = static_cast<std::uint8_t>(std::clamp(std::lround((depth + kHalfWidth) / kDepthStep), 0L, 255L));
     cell.back = std::max<std::uint8_t>(cell.depth, 1);
     return cell;
 }
 
-// The ray of a line's viewpoint that passes the axis at distance p, seen from above.
-HorizontalRay line_ray(const glm::dvec2& viewpoint, double p) {
-    const double distance = glm::length(viewpoint);
-    const glm::dvec2 inwards = -viewpoint / distance;
-    const glm::dvec2 sideways(-inwards.y, inwards.x);
-    const double sine = p / distance;
-    HorizontalRay ray;
-    ray.along = inwards * std::sqrt(std::max(1 - sine * sine, 0.0)) + sideways * sine;
-    ray.foot = p * glm::dvec2(-ray.along.y, ray.along.x);
-    return ray;
-}
-
-// The depth nearest to `depth` for which `holds`, the farther one of two; nothing where there is none.
-template <class Holds>
-std::optional<std::uint8_t> nearest_depth(int depth, const Holds& holds) {
-    for (int away = 0; away < kDepths; ++away) {
-        for (const int d : {depth + away, depth - away}) {
-            if (d >= 0 && d < kDepths && holds(d)) return static_cast<std::uint8_t>(d);
-        }
-    }
-    return std::nullopt;
-}
-
 // Moves surfaces that lie outside of the hull to the nearest place in it, and finds where the object ends behind them:
 // the last depth within the hull. Says of each cell with a surface whether its ray meets the hull at all.
-void heed_hull(const LineGrid& grid, const SampledHull& hull, const glm::dvec2& viewpoint, int p_cell, double step,
-               ShapeCell* cells, std::uint8_t* meets_hull) {
+void heed_hull(const LineGrid& grid, const SampledHull& hull, const glm::dvec2& viewpoint, int p_cell, ShapeCell* cells,
+               std::uint8_t* meets_hull) {
     if (std::all_of(cells, cells + grid.bands, [](const ShapeCell& cell) { return !cell.has_surface(); })) return;
     const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
     const HorizontalRay ray = line_ray(viewpoint, p);
     const double rho = grid.rho(p);
     std::vector<std::uint8_t> within(static_cast<std::size_t>(grid.bands * kDepths));
     for (int d = 0; d < kDepths; ++d) {
-        const double depth = -kHalfWidth + d * step;
+        const double depth = -kHalfWidth + d * kDepthStep;
         const std::span<const Interval> heights = hull.heights_above(ray.place_at(depth));
         const double per_y = rho / (rho + depth);
         for (const Interval& i : heights) {
@@ -176,80 +120,35 @@ void drop_floating(const LineGrid& grid, const std::vector<std::uint8_t>& meets_
     }
 }
 
-// Whether a picture shows something else where the point is, or a pixel away from there: what hides it.
-bool is_hidden(const DepthView& picture, const glm::dvec2& place, double y) {
-    const SeenColumn seen = picture.view.see(place);
-    if (seen.axial <= 0) return false;
-    const double row = picture.view.row_of(y, seen.axial);
-    if (!(seen.column >= 0 && seen.column < picture.view.width && row >= 0 && row < picture.view.height)) return false;
-    const auto column = static_cast<int>(seen.column);
-    const auto row_number = static_cast<int>(row);
-    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, picture.view.width - 1); ++c) {
-        for (int r = std::max(row_number - 1, 0); r <= std::min(row_number + 1, picture.view.height - 1); ++r) {
-            if (std::isnan(picture.depth(r, c)) && picture.view.at(c, r).a >= kFaintest) return true;
-        }
-    }
-    return false;
-}
-
-// Both pictures' rays are blended. So a surface that one of them hides is moved along the line's ray to the nearest
-// depth at which none does, which is beside the rim of what hides it; where there is none it is removed.
-void avoid_hidden(const LineGrid& grid, const DepthView& first, const DepthView& second, const glm::dvec2& viewpoint,
-                  int p_cell, double step, ShapeCell* cells) {
-    const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
-    const HorizontalRay ray = line_ray(viewpoint, p);
-    const double rho = grid.rho(p);
-    for (int h = 0; h < grid.bands; ++h) {
-        ShapeCell& cell = cells[h];
-        if (!cell.has_surface()) continue;
-        const double from_camera_height = grid.h_low + (h + 0.5) / grid.bands_per_unit - grid.height;
-        const auto both_show = [&](int d) {
-            const double depth = -kHalfWidth + d * step;
-            const glm::dvec2 place = ray.place_at(depth);
-            const double y = grid.height + from_camera_height * (rho + depth) / rho;
-            return !is_hidden(first, place, y) && !is_hidden(second, place, y);
-        };
-        const std::optional<std::uint8_t> depth = nearest_depth(cell.depth, both_show);
-        if (!depth) {
-            cell = {};
-            continue;
-        }
-        cell.depth = *depth;
-        cell.back = std::max(cell.back, cell.depth);
-    }
-}
-
 // What a line sees of a layer's two pictures beside it.
 class LineSurfaces {
 public:
-    LineSurfaces(const LineGrid& grid, double step)
+    explicit LineSurfaces(const LineGrid& grid)
         : grid_(grid),
-          step_(step),
           from_first_(grid),
           from_second_(grid),
           cells_(static_cast<std::size_t>(grid.p_cells) * static_cast<std::size_t>(grid.bands)) {}
 
     // Cells of the line of `viewpoint`, until the next call.
-    const std::vector<ShapeCell>& see(const SurfaceLayer& layer, const DepthView& first, const DepthView& second,
-                                      const glm::dvec2& viewpoint) {
-        from_first_.draw(first, viewpoint);
-        from_second_.draw(second, viewpoint);
+    const std::vector<ShapeCell>& see(const SurfaceLayer& layer, const LinePictures& pictures) {
+        from_first_.draw(pictures.first, pictures.viewpoint);
+        from_second_.draw(pictures.second, pictures.viewpoint);
         for (int p = 0; p < grid_.p_cells; ++p) {
             for (int h = 0; h < grid_.bands; ++h) {
                 find(p, h);
-                cells_[static_cast<std::size_t>(p * grid_.bands + h)] = make_cell(found_, -kHalfWidth, step_);
+                cells_[static_cast<std::size_t>(p * grid_.bands + h)] = make_cell(found_);
             }
         }
         std::vector<std::uint8_t> meets_hull(cells_.size(), 0);
         for (int p = 0; p < grid_.p_cells; ++p) {
             const auto column = static_cast<std::size_t>(p * grid_.bands);
-            heed_hull(grid_, layer.hull, viewpoint, p, step_, cells_.data() + column, meets_hull.data() + column);
+            heed_hull(grid_, layer.hull, pictures.viewpoint, p, cells_.data() + column, meets_hull.data() + column);
         }
         if (layer.silhouettes_agree) drop_floating(grid_, meets_hull, cells_.data());
-        if (!layer.in_front) {
-            for (int p = 0; p < grid_.p_cells; ++p) {
-                avoid_hidden(grid_, first, second, viewpoint, p, step_, cells_.data() + p * grid_.bands);
-            }
+        for (int p = 0; p < grid_.p_cells; ++p) {
+            ShapeCell* const column = cells_.data() + p * grid_.bands;
+            if (!layer.in_front) avoid_hidden(grid_, pictures, p, column);
+            say_who_shows(grid_, pictures, layer.silhouettes_agree, p, column);
         }
         return cells_;
     }
@@ -268,7 +167,6 @@ private:
     }
 
     const LineGrid& grid_;
-    double step_;
     LineRaster from_first_, from_second_;
     std::vector<float> found_;
     std::vector<ShapeCell> cells_;
@@ -330,9 +228,8 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
     map.bands_per_unit_q12 = fixed_point(1 / cell, 12);
     map.reference_distance_q20 = fixed_point(grid.distance, 20);
     map.reference_height_q20 = fixed_point(grid.height, 20);
-    const double step = 2 * kHalfWidth / (kDepths - 1);
     map.depth_low_q20 = fixed_point(-kHalfWidth, 20);
-    map.depth_step_q24 = fixed_point(step, 24);
+    map.depth_step_q24 = fixed_point(kDepthStep, 24);
     map.jump = options.jump;
     grid.p_cells = map.p_cells;
     grid.bands = map.bands;
@@ -356,14 +253,14 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
 
     tbb::parallel_for(std::size_t{0}, ring.size(), [&](std::size_t n) {
         const ShapeGap& gap = map.gaps[n];
-        LineSurfaces surfaces(grid, step);
+        LineSurfaces surfaces(grid);
         for (int s = 0; s < gap.lines; ++s) {
             const double part = (s + 0.5) / gap.lines;
             const std::size_t next = (n + 1) % ring.size();
             const glm::dvec2 viewpoint = glm::mix(ring[n].view.centre, ring[next].view.centre, part);
             ShapeCell* const cells = map.cells.data() + (gap.first_line + static_cast<std::size_t>(s)) * line_cells;
             for (const SurfaceLayer& layer : layers) {
-                const std::vector<ShapeCell>& found = surfaces.see(layer, layer.ring[n], layer.ring[next], viewpoint);
+                const std::vector<ShapeCell>& found = surfaces.see(layer, {layer.ring[n], layer.ring[next], viewpoint});
                 for (std::size_t i = 0; i < line_cells; ++i) {
                     if (!cells[i].has_surface()) cells[i] = found[i];
                 }

@@ -155,7 +155,8 @@ namespace {
 
 using Plane = std::vector<std::uint8_t>;
 
-constexpr std::uint8_t kZstdCoding = 0;
+constexpr std::uint8_t kBothShowCoding = 0;  // of files up to 2.1, whose backs say nothing about the pictures
+constexpr std::uint8_t kZstdCoding = 1;
 constexpr std::size_t kReserved_bytes = 2;
 constexpr std::size_t kFixed_bytes = 56;
 constexpr std::size_t kNormalLine_bytes = 16;
@@ -251,13 +252,14 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
     ByteReader in(payload);
     const auto coding = in.get<std::uint8_t>();
     if (!in.ok()) return Error{"is empty"};
-    if (coding != kZstdCoding) {
+    if (coding != kZstdCoding && coding != kBothShowCoding) {
         return Error{"has shape coding " + std::to_string(coding) + ", which is not known here; update these tools"};
     }
     shape.jump = in.get<std::uint8_t>();
     const bool is_reserved_zero = in.take_zeros(kReserved_bytes);
     get_numbers(in, shape);
     CodedShapeCells coded;
+    coded.says_who_shows = coding == kZstdCoding;
     coded.surfaces = in.get<std::uint32_t>();
     const auto surface_bytes = in.get<std::uint32_t>();
     std::array<std::uint32_t, kDepths.size()> depths_bytes{};
@@ -322,6 +324,10 @@ Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
         put_residuals(plane, kDepths[i], shape);
     }
     if (surfaces_of(shape) != coded.surfaces) return Error{"has a cell with a surface whose back is 0"};
+    if (coded.says_who_shows) return {};
+    for (ShapeCell& cell : shape.cells) {
+        if (cell.has_surface()) cell.back |= ShapeCell::kByFirst | ShapeCell::kBySecond;
+    }
     return {};
 }
 

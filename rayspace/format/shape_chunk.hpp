@@ -46,6 +46,7 @@ Payload shape_payload(const Ring& ring);
 // What parse_shape_head() leaves for parse_shape_cells(): the sizes were compared with each other and with the payload,
 // which must live on.
 struct CodedShapeCells {
+    bool says_who_shows = true;               // else both pictures show all surfaces
     std::uint64_t cells = 0;                  // at most kMaxShapeCells
     std::uint64_t surfaces = 0;               // cells that have one
     std::span<const std::byte> surface_bits;  // compressed planes

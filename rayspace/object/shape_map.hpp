@@ -17,9 +17,9 @@
 // h is that of a ray from the ring's own distance and height (`reference`); for a ray of another slope the engine
 // follows the surface to the reference ray that sees the same point (engine/RECONSTRUCTION.md).
 //
-// A cell holds one surface, which both pictures show: depth d means depth_low + d * depth_step along the ray from the
-// foot, away from the viewer. Cells are samples at their middles: between neighbouring cells, in p, in height and from
-// line to line, the engine interpolates where their depths differ by at most `jump`.
+// A cell holds one surface, which both pictures show or one of them: depth d means depth_low + d * depth_step along the
+// ray from the foot, away from the viewer. Cells are samples at their middles: between neighbouring cells, in p, in
+// height and from line to line, the engine interpolates where their depths differ by at most `jump`.
 //
 // Lengths are in object radii; everything is integer. Stored as in encode/FORMAT.md, chunk `shap`.
 
@@ -30,10 +30,17 @@ namespace rs {
 
 struct ShapeCell {
     std::uint8_t depth = 0;
-    std::uint8_t back = 0;  // where the object ends behind the surface, as far as silhouettes tell: at least depth
+    // Where the object ends behind the surface, as far as silhouettes tell: at least depth. Its two lowest bits say
+    // which of the gap's pictures show the surface, kByFirst and kBySecond, where not both do: another surface hides
+    // it.
+    std::uint8_t back = 0;
+
+    static constexpr std::uint8_t kByFirst = 1, kBySecond = 2;
 
     // An empty cell is all 0; of one with a surface `back` is not.
     [[nodiscard]] bool has_surface() const { return back != 0; }
+    [[nodiscard]] bool first_alone() const { return (back & 3) == kByFirst; }
+    [[nodiscard]] bool second_alone() const { return (back & 3) == kBySecond; }
 
     bool operator==(const ShapeCell&) const = default;
 };

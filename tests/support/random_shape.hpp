@@ -45,6 +45,7 @@ inline ShapeMap random_shape(const RaySpaceObject& object, std::size_t ring, std
     }
     shape.jump = whole(0, 2) == 0 ? whole(1, 255) : whole(1, 20);
     const bool smooth = whole(0, 1) == 0;
+    const bool leans = whole(0, 1) == 0;
     const int middle = whole(0, 255);
     for (ShapeCell& cell : shape.cells) {
         cell = {};
@@ -52,6 +53,7 @@ inline ShapeMap random_shape(const RaySpaceObject& object, std::size_t ring, std
         const auto depth = [&] { return smooth ? std::clamp(middle + whole(-9, 9), 0, 255) : whole(0, 255); };
         cell.depth = static_cast<std::uint8_t>(depth());
         cell.back = static_cast<std::uint8_t>(std::clamp(cell.depth + whole(0, 60), 1, 255));
+        if (!leans || whole(0, 2) == 0) cell.back |= ShapeCell::kByFirst | ShapeCell::kBySecond;
     }
     return shape;
 }

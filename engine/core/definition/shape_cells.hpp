@@ -10,10 +10,14 @@
 
 namespace rs::engine {
 
+// How far the blend of two pictures leans: 0, the first alone; 16, the second alone.
+inline constexpr std::int32_t kBothShow = 8;
+
 // A surface beside or between cells. `back` 0: there is none.
 struct SurfaceCell {
     std::int32_t depth_q3 = 0;  // eighths of a depth step
     std::int32_t back = 0;
+    std::int32_t lean = kBothShow;
     std::int32_t farthest = -1;  // of both lines' cells, whole steps; -1 where one of them has no surface
 
     [[nodiscard]] bool exists() const { return back != 0; }
@@ -35,18 +39,26 @@ struct CellColumns {
     std::int32_t line_part = 0;      // of the second line, likewise
 };
 
+// Of a cell: 0, 1 where both pictures show it, 2.
+inline int lean_of(ShapeCell cell) {
+    return cell.first_alone() ? 0 : cell.second_alone() ? 2 : 1;
+}
+
 // `part` of the second line, in eighths.
 inline SurfaceCell between_lines(ShapeCell first, ShapeCell second, int part, int jump) {
     const bool has_second = second.has_surface() && part > 0;
     if (!first.has_surface() && !has_second) return {};
     const bool both = first.has_surface() && second.has_surface();
     const int farthest = both ? std::max(first.depth, second.depth) : -1;
-    if (!has_second) return {8 * first.depth, first.back, farthest};
-    if (!first.has_surface()) return {8 * second.depth, second.back};
+    if (!has_second) return {8 * first.depth, first.back, 8 * lean_of(first), farthest};
+    if (!first.has_surface()) return {8 * second.depth, second.back, 8 * lean_of(second)};
     const int back = std::max(first.back, second.back);
     const int apart = second.depth - first.depth;
-    if (apart > jump || -apart > jump) return {8 * (part < 4 ? first.depth : second.depth), back, farthest};
-    return {8 * first.depth + part * apart, back, farthest};
+    if (apart > jump || -apart > jump) {
+        const ShapeCell& nearest = part < 4 ? first : second;
+        return {8 * nearest.depth, back, 8 * lean_of(nearest), farthest};
+    }
+    return {8 * first.depth + part * apart, back, (8 - part) * lean_of(first) + part * lean_of(second), farthest};
 }
 
 // cells[p][h] around a point at p_part and h_part eighths between them. Where they lie on one surface, its mean;
@@ -70,6 +82,7 @@ inline SurfaceStack surfaces_between(const SurfaceCell (&cells)[2][2], int p_par
     const bool steps = farthest - nearest > 8 * jump;
     int weight[2] = {};  // of the nearer group, of the farther one
     int sum[2] = {};
+    int lean[2] = {};
     for (int p = 0; p < 2; ++p) {
         for (int h = 0; h < 2; ++h) {
             const SurfaceCell& cell = cells[p][h];
@@ -78,11 +91,13 @@ inline SurfaceStack surfaces_between(const SurfaceCell (&cells)[2][2], int p_par
             const int part = (p == 0 ? 8 - p_part : p_part) * (h == 0 ? 8 - h_part : h_part);
             weight[group] += part;
             sum[group] += part * cell.depth_q3;
+            lean[group] += part * cell.lean;
         }
     }
     const auto mean = [&](int group) {
         if (weight[group] == 0) return SurfaceCell{};
-        return SurfaceCell{(sum[group] + weight[group] / 2) / weight[group], back};
+        const auto of_group = [&](int total) { return (total + weight[group] / 2) / weight[group]; };
+        return SurfaceCell{of_group(sum[group]), back, of_group(lean[group])};
     };
     const SurfaceCell behind_all = all_have_one ? SurfaceCell{8 * last, back} : SurfaceCell{};
     if (weight[0] < weight[1]) return {mean(1), {}, behind_all};

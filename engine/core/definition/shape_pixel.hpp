@@ -78,6 +78,12 @@ SampleSum sample_picture(const RaySpaceObject& object, const ShapePicture& pictu
     return sum;
 }
 
+// Section 8: how much the second picture has of 256, where a surface leans.
+inline int leaning_weight(int weight, int lean) {
+    if (lean <= kBothShow) return (weight * lean + 4) >> 3;
+    return weight + (((256 - weight) * (lean - kBothShow) + 4) >> 3);
+}
+
 // Section 8: what both pictures show of a surface at depth d_q3. `rise_q24`: the view's rise form at the pixel, q32,
 // shifted right by 8.
 struct ShownSurface {
@@ -87,7 +93,7 @@ struct ShownSurface {
 
 template <class Texel>
 ShownSurface shown_surface(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
-                           std::int32_t d_q3, std::int32_t rise_q24, const Texel& texel) {
+                           std::int32_t d_q3, int lean, std::int32_t rise_q24, const Texel& texel) {
     ShownSurface shown;
     shown.lambda_q20 = setup.lambda0_q20 + ((d_q3 * setup.lambda1_q21) >> 4);
     if (shown.lambda_q20 <= 0) return {};
@@ -96,7 +102,7 @@ ShownSurface shown_surface(const RaySpaceObject& object, const ViewRegisters& re
     const SampleSum second = setup.weight > 0 ? sample_picture(object, setup.second, d_q3, y_q16, texel) : SampleSum{};
     // Every point of the object lies within every silhouette.
     if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) return {};
-    if (first.exists && second.exists) shown.sum = mix(first, second, setup.weight);
+    if (first.exists && second.exists) shown.sum = mix(first, second, leaning_weight(setup.weight, lean));
     if (first.exists != second.exists) shown.sum = first.exists ? mix(first, first, 0) : mix(second, second, 0);
     return shown;
 }
@@ -118,8 +124,8 @@ inline ShapePixel laid_over(const ShapePixel& nearer, const ShapePixel& farther)
 template <class Texel>
 ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
                        std::int32_t rise_q24, const Texel& texel) {
-    const auto shown_at = [&](std::int32_t d_q3) {
-        return shown_surface(object, registers, setup, d_q3, rise_q24, texel);
+    const auto shown_at = [&](std::int32_t d_q3, int lean = kBothShow) {
+        return shown_surface(object, registers, setup, d_q3, lean, rise_q24, texel);
     };
     const auto pixel = [](const ShownSurface& shown) { return ShapePixel{resolve(shown.sum), shown.lambda_q20}; };
     if (!setup.has_shape()) return pixel(shown_at(0));
@@ -133,7 +139,7 @@ ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& regist
     }
     ShapePixel nearer;  // the first that shows something, but does not cover the pixel
     for (; cell.exists(); cell = march.next()) {
-        const ShownSurface shown = shown_at(cell.depth_q3);
+        const ShownSurface shown = shown_at(cell.depth_q3, cell.lean);
         if (shown.sum.a == 0) continue;
         const ShapePixel here = pixel(shown);
         nearer = laid_over(nearer, here);

@@ -11,21 +11,18 @@ namespace {
 
 // Texels that the pictures are apart.
 std::size_t texels_per_picture(const codec::CodedPictures& coded) {
-    const std::size_t texels =
-        (static_cast<std::size_t>(coded.width) + 2) * (static_cast<std::size_t>(coded.height) + 2);
-    return ReservedMemory::whole_pages(texels * sizeof(Rgba8)) / sizeof(Rgba8);
+    const std::int64_t texels = TexelLayout{coded.width, coded.height, {}}.picture_texels();
+    return ReservedMemory::whole_pages(static_cast<std::size_t>(texels) * sizeof(Rgba8)) / sizeof(Rgba8);
 }
 
 }  // namespace
 
 Result<std::unique_ptr<CodedTexels>> CodedTexels::create(std::shared_ptr<const codec::CodedPictures> coded,
                                                          const std::string& name, std::int64_t budget_bytes) {
-    // Lanes without a ray read texel 0 and the ones to the right of it and below, which must be nobody's.
+    // Lanes without a ray read texel 0, which must be nobody's.
     TexelLayout layout{coded->width, coded->height, {}};
     const std::size_t per_picture = texels_per_picture(*coded);
-    std::size_t size =
-        ReservedMemory::whole_pages((static_cast<std::size_t>(layout.column_stride()) + 2) * sizeof(Rgba8)) /
-        sizeof(Rgba8);
+    std::size_t size = ReservedMemory::whole_pages(sizeof(Rgba8)) / sizeof(Rgba8);
     for (const codec::CodedPicture& picture : coded->pictures) {
         layout.picture_start.push_back(static_cast<std::int32_t>(size));
         if (picture.loaded()) size += per_picture;

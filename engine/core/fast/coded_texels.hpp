@@ -8,6 +8,7 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -27,11 +28,16 @@ struct RowSpan {
 };
 
 struct TexelLayout {
+    // shape_walk.hpp reads as many texels of a column at once, whatever its height.
+    static constexpr std::int32_t kLeastColumn = 17;
+
     int width = 0;
     int height = 0;
     std::vector<std::int32_t> picture_start;  // index of texel (-1, -1)
 
-    [[nodiscard]] std::int32_t column_stride() const { return height + 2; }
+    // Of columns with both rims.
+    [[nodiscard]] std::int32_t column_stride() const { return std::max(height + 2, kLeastColumn); }
+    [[nodiscard]] std::int64_t picture_texels() const { return (std::int64_t{width} + 2) * column_stride(); }
     [[nodiscard]] std::int32_t column_start(int picture, int column) const {
         return picture_start[static_cast<std::size_t>(picture)] + (column + 1) * column_stride() + 1;
     }

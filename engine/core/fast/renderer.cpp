@@ -7,6 +7,7 @@
 #include "rayspace/format/object_memory.hpp"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -211,8 +212,10 @@ void Renderer::render_shape_upright(const ViewRegisters& registers, ImageView<Rg
     for (int j = 0; j < registers.height; ++j) {
         rise_q24.push_back(registers.rise_q24(0, j));
     }
+    rise_q24.resize(rise_q24.size() + kBlockRows);
+    tbb::enumerable_thread_specific<ShapeStrip> strip_of_thread;
     tbb::parallel_for(tbb::blocked_range<int>(0, strips_of(registers)), [&](const tbb::blocked_range<int>& range) {
-        ShapeStrip strip;
+        ShapeStrip& strip = strip_of_thread.local();
         for (int s = range.begin(); s < range.end(); ++s) {
             const int first = s * kStripColumns;
             set_up_shape_strip(object_, texels_, registers, walk, first, strip);
@@ -221,8 +224,7 @@ void Renderer::render_shape_upright(const ViewRegisters& registers, ImageView<Rg
                 to.lambda_q20 = lambda.row(0) + first;
                 to.lambda_stride = lambda.stride();
             }
-            walk_shape(walk, strip, rise_q24.data(), registers.height, std::min(kStripColumns, registers.width - first),
-                       to);
+            walk_shape(walk, strip, rise_q24.data(), std::min(kStripColumns, registers.width - first), to);
         }
     });
 }

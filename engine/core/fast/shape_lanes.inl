@@ -1,27 +1,28 @@
-// The arithmetic of shape_walk.cpp on vectors, once for every SIMD target. Vectors hold a pixel per 32-bit lane
-// ("lanes"), or, in four of them, the four channels of a pixel side by side: block b (16 bytes) of channel vector k
-// belongs to lane 4 b + k ("channels"). No operation crosses a block.
+// The arithmetic of shape_walk.cpp on vectors, once for every SIMD target. Vectors hold a pixel per 32-bit lane: rows
+// of one view column, one below the other.
 //
-// No include guard: cell_march_lanes.inl, which shape_walk.cpp includes, includes it once for each target.
+// No include guard: cell_march_lanes.inl includes it once for each target.
 
 #include "engine/core/definition/fixed_point.hpp"
-#include "engine/core/fast/column_walk.hpp"
+#include "engine/core/fast/shape_walk.hpp"
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Lanes = hn::CappedTag<std::int32_t, kStripColumns>;
+using Lanes = hn::CappedTag<std::int32_t, kBlockRows>;
 using Vector = hn::Vec<Lanes>;
 using LaneMask = hn::Mask<Lanes>;
 using Wide = hn::Repartition<std::int64_t, Lanes>;
 using WideBits = hn::Repartition<std::uint64_t, Lanes>;
 using Halves = hn::Repartition<std::int16_t, Lanes>;
-using Bytes = hn::Repartition<std::uint8_t, Lanes>;
+using HalfBits = hn::Repartition<std::uint16_t, Lanes>;
 using Floats = hn::Repartition<float, Lanes>;
 using WideVector = hn::Vec<Wide>;
 
@@ -96,59 +97,86 @@ HWY_INLINE Vector multiply_halves(Vector a, Vector b) {
     return hn::BitCast(Lanes(), hn::Mul(hn::BitCast(Halves(), a), hn::BitCast(Halves(), b)));
 }
 
-// Rearranges the bytes of every block; 0x80 gives 0.
-HWY_INLINE Vector rearranged(Vector v, const std::uint8_t (&order)[16]) {
-    const Bytes bytes;
-    return hn::BitCast(Lanes(), hn::TableLookupBytesOr0(hn::BitCast(bytes, v), hn::LoadDup128(bytes, order)));
+inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(Lanes()));
+
+// Lanes whose number is one of a vector's lanes.
+HWY_INLINE LaneMask is_lane(Vector v) {
+    return hn::Eq(hn::And(v, number(-kLanes)), hn::Zero(Lanes()));
 }
 
-struct Channels {
-    Vector of[4];
-};
-
-// f(n, vector to be broadcast) over the four channel vectors.
-template <class F>
-HWY_INLINE Channels for_channels(Vector lanes, const F& f) {
-    return {{f(0, hn::Broadcast<0>(lanes)), f(1, hn::Broadcast<1>(lanes)), f(2, hn::Broadcast<2>(lanes)),
-             f(3, hn::Broadcast<3>(lanes))}};
-}
-
-// Four texels of each lane, RGBA: upper left, lower left, upper right, lower right. Block b of vector k has those of
-// lane 4 b + k.
-struct TexelQuads {
-    Vector of[4];
-};
-
-// 64 bits each from left and right + index[0], index[4], ... Plain loads: faster than a gather instruction, several of
-// which would be busy with the same few cache lines.
-template <std::size_t kBlocks>
-HWY_INLINE hn::Vec<hn::FixedTag<std::int64_t, 2 * kBlocks>> every_fourth(const std::int32_t* left,
-                                                                         const std::int32_t* right,
-                                                                         const std::int32_t* index) {
-    const hn::FixedTag<std::int64_t, 2 * kBlocks> all;
-    if constexpr (kBlocks == 1) {
-        const auto at = [&](const std::int32_t* base) {
-            return hn::LoadU(hn::FixedTag<std::int64_t, 1>(), reinterpret_cast<const std::int64_t*>(base + *index));
-        };
-        return hn::Combine(all, at(right), at(left));
-    } else {
-        return hn::Combine(all, every_fourth<kBlocks / 2>(left, right, index + 2 * kBlocks),
-                           every_fourth<kBlocks / 2>(left, right, index));
+// table[index], 0 <= index. The rows of a column mostly look at neighbouring entries: one load has them all then. Up to
+// kLanes numbers behind the last index must exist.
+HWY_INLINE Vector look_up(const std::int32_t* table, Vector index) {
+    // Further down the view are mostly lower bands.
+    const std::int32_t begin = std::max(hn::GetLane(index) - (kLanes - kLanes / 4 - 1), 0);
+    const Vector place = hn::Sub(index, number(begin));
+    if (HWY_LIKELY(hn::AllTrue(Lanes(), is_lane(place)))) {
+        return hn::TableLookupLanes(hn::LoadU(Lanes(), table + begin), hn::IndicesFromVec(Lanes(), place));
     }
+    return hn::GatherIndex(Lanes(), table, index);
 }
 
-// The upper left texel of each lane at base + index.
-HWY_INLINE TexelQuads fetch(const std::int32_t* base, std::int32_t column_stride, const std::int32_t* index) {
-    constexpr std::size_t kBlocks = hn::MaxLanes(Lanes()) / 4;
-    TexelQuads quads;
-    for (int k = 0; k < 4; ++k) {
-        quads.of[k] = hn::BitCast(Lanes(), every_fourth<kBlocks>(base, base + column_stride, index + k));
+// Texels of each lane, RGBA.
+struct TexelQuads {
+    Vector upper_left;
+    Vector lower_left;
+    Vector upper_right;
+    Vector lower_right;
+};
+
+// Where the pictures' texels stand (texel_store.hpp).
+struct TexelGrid {
+    const std::int32_t* texels;
+    std::int32_t column_stride;
+    std::int32_t height;
+};
+
+// Those at places x, y from texel (0, 0) of a picture, whose index is `start`, in eighths of a texel; zero where not
+// `wanted`. The rows of a view column go down the pictures: of few windows on a column, kLanes + 1 texels each, all of
+// them are taken.
+HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_q3, Vector y_q3, LaneMask wanted) {
+    alignas(64) std::int32_t columns[kBlockRows];
+    alignas(64) std::int32_t rows[kBlockRows];
+    const Vector in_columns = hn::IfThenElseZero(wanted, hn::Mul(hn::ShiftRight<3>(x_q3), number(grid.column_stride)));
+    const Vector in_rows = hn::IfThenElseZero(wanted, hn::ShiftRight<3>(y_q3));
+    hn::Store(in_columns, Lanes(), columns);
+    hn::Store(in_rows, Lanes(), rows);
+    const Vector index = hn::Add(in_columns, in_rows);
+    const Vector zero = hn::Zero(Lanes());
+    TexelQuads quads{zero, zero, zero, zero};
+    // The rows below these will look as far below, once all other columns have been walked. (In a lambda the compiler
+    // leaves prefetches out.)
+    constexpr int kBefore = 14;  // of 16 in a cache line
+    const std::int32_t below = std::clamp(2 * rows[kLanes - 1] - rows[0], kBefore, std::max(grid.height - 1, kBefore));
+    const std::int32_t* const next = grid.texels + start + columns[kLanes - 1] + below;
+    for (const std::int32_t* const texel : {next, next + grid.column_stride}) {
+        hwy::Prefetch(texel);
+        hwy::Prefetch(texel - kBefore);
+    }
+    while (!hn::AllFalse(Lanes(), wanted)) {
+        const auto lane = hn::FindFirstTrue(Lanes(), wanted);
+        // A row further down the view may lie a little higher in the picture.
+        const std::int32_t top = std::max(std::min(rows[lane] - kLanes / 8, grid.height - kLanes), -1);
+        const std::int32_t begin = columns[lane] + top;
+        const std::int32_t* const left = grid.texels + start + begin;
+        const std::int32_t* const right = left + grid.column_stride;
+        const Vector place = hn::Sub(index, number(begin));
+        const LaneMask inside = hn::And(wanted, is_lane(place));
+        const auto order = hn::IndicesFromVec(Lanes(), hn::And(place, number(kLanes - 1)));
+        const auto take = [&](const std::int32_t* from, Vector& to) {
+            to = hn::IfThenElse(inside, hn::TableLookupLanes(hn::LoadU(Lanes(), from), order), to);
+        };
+        take(left, quads.upper_left);
+        take(left + 1, quads.lower_left);
+        take(right, quads.upper_right);
+        take(right + 1, quads.lower_right);
+        wanted = hn::AndNot(inside, wanted);
     }
     return quads;
 }
 
 HWY_INLINE Vector all_bits(const TexelQuads& quads) {
-    return hn::And(hn::And(quads.of[0], quads.of[1]), hn::And(quads.of[2], quads.of[3]));
+    return hn::And(hn::And(quads.upper_left, quads.lower_left), hn::And(quads.upper_right, quads.lower_right));
 }
 
 // The weights of a lane's upper two texels and of its lower two, left and right in 16 bits each.
@@ -164,80 +192,77 @@ HWY_INLINE TexelWeights texel_weights(Vector x, Vector y) {
     return {hn::Sub(hn::ShiftLeft<3>(across), lower), lower};
 }
 
-alignas(16) static constexpr std::uint8_t kUpperTexels[16] = {0, 0x80, 8,  0x80, 1, 0x80, 9,  0x80,
-                                                              2, 0x80, 10, 0x80, 3, 0x80, 11, 0x80};
-alignas(16) static constexpr std::uint8_t kLowerTexels[16] = {4, 0x80, 12, 0x80, 5, 0x80, 13, 0x80,
-                                                              6, 0x80, 14, 0x80, 7, 0x80, 15, 0x80};
+// The channels of two texels, left and right in 16 bits each.
+struct TexelPair {
+    Vector r, g, b, a;
+};
 
-// Adds weight * (R, G, B, A).
+HWY_INLINE TexelPair texel_pair(Vector left, Vector right) {
+    const auto halves = [](Vector odd, Vector even) {
+        return hn::BitCast(Lanes(), hn::OddEven(hn::BitCast(HalfBits(), odd), hn::BitCast(HalfBits(), even)));
+    };
+    const auto first = [](Vector v) { return hn::And(v, number(0x00FF00FF)); };
+    const auto second = [](Vector v) { return hn::BitCast(Lanes(), hn::ShiftRight<8>(hn::BitCast(HalfBits(), v))); };
+    const Vector red_green = halves(hn::ShiftLeft<16>(right), left);
+    const Vector blue_alpha =
+        halves(right, hn::BitCast(Lanes(), hn::ShiftRight<16>(hn::BitCast(hn::RebindToUnsigned<Lanes>(), left))));
+    return {first(red_green), second(red_green), first(blue_alpha), second(blue_alpha)};
+}
+
+struct Channels {
+    Vector r, g, b, a;
+};
+
+// Adds weight * (R, G, B).
 HWY_INLINE void add_texels(const TexelQuads& quads, const TexelWeights& weights, Channels& sum) {
-    const Channels upper = for_channels(weights.upper, [&](int n, Vector weight) {
-        return multiply_pairs(rearranged(quads.of[n], kUpperTexels), weight);
-    });
-    const Channels lower = for_channels(weights.lower, [&](int n, Vector weight) {
-        return multiply_pairs(rearranged(quads.of[n], kLowerTexels), weight);
-    });
-    for (int n = 0; n < 4; ++n) sum.of[n] = hn::Add(sum.of[n], hn::Add(upper.of[n], lower.of[n]));
+    const auto add = [&](Vector left, Vector right, Vector weight) {
+        const TexelPair texels = texel_pair(left, right);
+        sum.r = hn::Add(sum.r, multiply_pairs(texels.r, weight));
+        sum.g = hn::Add(sum.g, multiply_pairs(texels.g, weight));
+        sum.b = hn::Add(sum.b, multiply_pairs(texels.b, weight));
+    };
+    add(quads.upper_left, quads.upper_right, weights.upper);
+    add(quads.lower_left, quads.lower_right, weights.lower);
 }
 
 // Sums of weight * alpha * (R, G, B, 1).
 HWY_INLINE Channels premultiplied(const TexelQuads& quads, const TexelWeights& weights) {
-    constexpr int o = 0x80;
-    alignas(16) static constexpr std::uint8_t kUpperAlpha[16] = {3, o, 11, o, 3, o, 11, o, 3, o, 11, o, 3, o, 11, o};
-    alignas(16) static constexpr std::uint8_t kLowerAlpha[16] = {7, o, 15, o, 7, o, 15, o, 7, o, 15, o, 7, o, 15, o};
-    const auto sum = [&](const std::uint8_t(&texels)[16], const std::uint8_t(&alpha)[16], Vector of_weights) {
-        return for_channels(of_weights, [&](int n, Vector weight) {
-            const Vector one_for_alpha = hn::Or(hn::And(quads.of[n], number(0x00FFFFFF)), number(0x01000000));
-            return multiply_pairs(rearranged(one_for_alpha, texels),
-                                  multiply_halves(rearranged(quads.of[n], alpha), weight));
-        });
+    const Vector zero = hn::Zero(Lanes());
+    Channels sum{zero, zero, zero, zero};
+    const auto add = [&](Vector left, Vector right, Vector weight) {
+        const TexelPair texels = texel_pair(left, right);
+        const Vector part = multiply_halves(texels.a, weight);
+        sum.r = hn::Add(sum.r, multiply_pairs(texels.r, part));
+        sum.g = hn::Add(sum.g, multiply_pairs(texels.g, part));
+        sum.b = hn::Add(sum.b, multiply_pairs(texels.b, part));
+        sum.a = hn::Add(sum.a, multiply_pairs(texels.a, weight));
     };
-    Channels both = sum(kUpperTexels, kUpperAlpha, weights.upper);
-    const Channels lower = sum(kLowerTexels, kLowerAlpha, weights.lower);
-    for (int n = 0; n < 4; ++n) both.of[n] = hn::Add(both.of[n], lower.of[n]);
-    return both;
+    add(quads.upper_left, quads.upper_right, weights.upper);
+    add(quads.lower_left, quads.lower_right, weights.lower);
+    return sum;
 }
 
-// The fourth channel of each lane.
-HWY_INLINE Vector fourth(const Channels& channels) {
-    constexpr int o = 0x80;
-    alignas(16) static constexpr std::uint8_t kTo0[16] = {12, 13, 14, 15, o, o, o, o, o, o, o, o, o, o, o, o};
-    alignas(16) static constexpr std::uint8_t kTo1[16] = {o, o, o, o, 12, 13, 14, 15, o, o, o, o, o, o, o, o};
-    alignas(16) static constexpr std::uint8_t kTo2[16] = {o, o, o, o, o, o, o, o, 12, 13, 14, 15, o, o, o, o};
-    alignas(16) static constexpr std::uint8_t kTo3[16] = {o, o, o, o, o, o, o, o, o, o, o, o, 12, 13, 14, 15};
-    return hn::Or(hn::Or(rearranged(channels.of[0], kTo0), rearranged(channels.of[1], kTo1)),
-                  hn::Or(rearranged(channels.of[2], kTo2), rearranged(channels.of[3], kTo3)));
-}
-
-// The lowest byte of each channel, in memory order.
-HWY_INLINE Vector packed(const Channels& channels) {
-    constexpr int o = 0x80;
-    alignas(16) static constexpr std::uint8_t kTo0[16] = {0, 4, 8, 12, o, o, o, o, o, o, o, o, o, o, o, o};
-    alignas(16) static constexpr std::uint8_t kTo1[16] = {o, o, o, o, 0, 4, 8, 12, o, o, o, o, o, o, o, o};
-    alignas(16) static constexpr std::uint8_t kTo2[16] = {o, o, o, o, o, o, o, o, 0, 4, 8, 12, o, o, o, o};
-    alignas(16) static constexpr std::uint8_t kTo3[16] = {o, o, o, o, o, o, o, o, o, o, o, o, 0, 4, 8, 12};
-    return hn::Or(hn::Or(rearranged(channels.of[0], kTo0), rearranged(channels.of[1], kTo1)),
-                  hn::Or(rearranged(channels.of[2], kTo2), rearranged(channels.of[3], kTo3)));
+// RGBA in memory order of channels 0 .. 255.
+HWY_INLINE Vector packed(Vector r, Vector g, Vector b, Vector a) {
+    return hn::Or(hn::Or(r, hn::ShiftLeft<8>(g)), hn::Or(hn::ShiftLeft<16>(b), hn::ShiftLeft<24>(a)));
 }
 
 // resolve() of shape_pixel.hpp, as RGBA in memory order. The float quotient is at most one too small.
-HWY_INLINE Vector resolve_lanes(const Channels& sum, Vector a) {
+HWY_INLINE Vector resolve_lanes(const Channels& sum) {
     const Floats floats;
-    const Vector divisor = hn::Max(a, number(1));
-    const Vector alpha = hn::ShiftRight<14>(hn::Add(a, number(1 << 13)));
-    const auto reciprocal = hn::BitCast(Lanes(), hn::Div(hn::Set(floats, 1.0F), hn::ConvertTo(floats, divisor)));
-    const Channels divisors = for_channels(divisor, [](int, Vector v) { return v; });
-    const Channels quotients = for_channels(reciprocal, [&](int n, Vector inverse_divisor) {
-        const Vector by = divisors.of[n];
-        const Vector dividend = hn::Add(sum.of[n], hn::ShiftRight<1>(by));
-        const auto quotient =
-            hn::MulSub(hn::ConvertTo(floats, dividend), hn::BitCast(floats, inverse_divisor), hn::Set(floats, 0x1p-9F));
+    const Vector divisor = hn::Max(sum.a, number(1));
+    const Vector half = hn::ShiftRight<1>(divisor);
+    const Vector alpha = hn::ShiftRight<14>(hn::Add(sum.a, number(1 << 13)));
+    const auto reciprocal = hn::Div(hn::Set(floats, 1.0F), hn::ConvertTo(floats, divisor));
+    const auto channel = [&](Vector c) {
+        const Vector dividend = hn::Add(c, half);
+        const auto quotient = hn::MulSub(hn::ConvertTo(floats, dividend), reciprocal, hn::Set(floats, 0x1p-9F));
         const Vector guess = hn::ConvertTo(Lanes(), quotient);
-        const Vector rest = hn::Sub(dividend, hn::Mul(guess, by));
-        return hn::Sub(guess, hn::VecFromMask(Lanes(), at_least(rest, by)));
-    });
-    const Vector colour = hn::And(packed(quotients), number(0x00FFFFFF));
-    return hn::IfThenElseZero(hn::Gt(alpha, hn::Zero(Lanes())), hn::Or(colour, hn::ShiftLeft<24>(alpha)));
+        const Vector rest = hn::Sub(dividend, hn::Mul(guess, divisor));
+        return hn::Sub(guess, hn::VecFromMask(Lanes(), at_least(rest, divisor)));
+    };
+    return hn::IfThenElseZero(hn::Gt(alpha, hn::Zero(Lanes())),
+                              packed(channel(sum.r), channel(sum.g), channel(sum.b), alpha));
 }
 
 }  // namespace rs::engine::HWY_NAMESPACE

@@ -1,4 +1,4 @@
-// What shape_walk.cpp walks down: set-ups of neighbouring columns, side by side.
+// What shape_walk.cpp walks down: set-ups of neighbouring columns.
 
 #include "engine/core/fast/shape_columns.hpp"
 #include "engine/core/fast/shape_walk.hpp"
@@ -10,53 +10,123 @@
 namespace rs::engine {
 namespace {
 
-void set_picture(const RaySpaceObject& object, const TexelStore& texels, const ShapePicture& picture, int lane,
-                 ShapePictureLanes& lanes) {
+ShapePictureColumn picture_column(const RaySpaceObject& object, const TexelStore& texels, const ShapePicture& picture) {
     if (texels.is_coded()) {
         const ColumnRange columns = columns_read(object, picture);
         if (columns.first <= columns.last) texels.ensure(picture.view, columns.first, columns.last);
     }
     const CapturedView& view = object.views[static_cast<std::size_t>(picture.view)];
-    lanes.used[lane] = -1;
-    lanes.start[lane] = texels.column_start(picture.view, 0);
-    lanes.l0_q20[lane] = picture.l0_q20;
-    lanes.l1_q24[lane] = picture.l1_q24;
-    lanes.n0_q12[lane] = picture.n0_q12;
-    lanes.n1_q12[lane] = picture.n1_q12;
-    lanes.cx_q8[lane] = view.cx_q16 >> 8;
-    lanes.cy_q8[lane] = view.cy_q16 >> 8;
-    lanes.fl_y_q8[lane] = view.fl_y_q16 >> 8;
-    lanes.height_q16[lane] = view.height_q20 >> 4;
+    ShapePictureColumn column;
+    column.used = true;
+    column.start = texels.column_start(picture.view, 0);
+    column.l0_q20 = picture.l0_q20;
+    column.l1_q24 = picture.l1_q24;
+    column.n0_q12 = picture.n0_q12;
+    column.n1_q12 = picture.n1_q12;
+    column.cx_q8 = view.cx_q16 >> 8;
+    column.cy_q8 = view.cy_q16 >> 8;
+    column.fl_y_q8 = view.fl_y_q16 >> 8;
+    column.height_q16 = view.height_q20 >> 4;
+    return column;
 }
 
-void set_surfaces(const ShapeMap& shape, const ShapeSetup& setup, int lane, ShapeStrip& strip) {
-    const std::size_t start = static_cast<std::size_t>(lane) * surface_entries(shape.bands);
-    const SurfaceColumn column = setup.has_shape()
-                                     ? lay_surfaces(setup.cells, shape.bands, shape.jump, start, strip.entries)
-                                     : lay_nothing(start, strip.entries);
-    strip.entry_start[lane] = static_cast<std::int32_t>(start);
-    strip.last_entry[lane] = column.last;
-    strip.first_middle_q12[lane] = (column.first_band << 12) + (1 << 11);
-    strip.nearest[lane] = column.nearest;
-    strip.beyond[lane] = column.beyond;
-    strip.p_part[lane] = setup.cells.p_part;
+void set_surfaces(const ShapeMap& shape, const ShapeSetup& setup, std::size_t start, SurfaceEntries& entries,
+                  ShapeColumn& column) {
+    const SurfaceColumn surfaces = setup.has_shape()
+                                       ? lay_surfaces(setup.cells, shape.bands, shape.jump, start, entries)
+                                       : lay_nothing(start, entries);
+    column.smooth = entries.smooth.data() + start;
+    column.backs = entries.backs.data() + start;
+    column.steps = entries.steps.data() + kSurfaceParts * start;
+    column.last_entry = surfaces.last;
+    column.first_middle_q12 = (surfaces.first_band << 12) + (1 << 11);
+    column.nearest = surfaces.nearest;
+    column.beyond = surfaces.beyond;
 }
 
-// Everything of section 6 is linear in the rise but for roundings of a few units, so that the view's ends bound it.
-bool is_level(const ShapeWalk& walk, const ShapeSetup& setup) {
-    constexpr double kMostPerDepth = 2000;  // 2048 would march
-    constexpr double kMost = 1 << 28;       // 2^29 would saturate
-    for (const std::int32_t rise_q24 : {walk.first_rise_q24, walk.last_rise_q24}) {
-        const double h = walk.b_q16 + std::ldexp(double(setup.lambda_foot_q20) * rise_q24, -28);
-        const double slope = std::ldexp(double(rise_q24) * setup.inverse_r_q20, -24);
-        const double reference = std::ldexp((h - walk.reference_height_q16) * setup.inverse_rho_q20, -16);
-        const double per_radius = std::ldexp((slope - reference) * walk.bands_per_unit_q12, -12);
-        const double foot = std::ldexp((h - walk.h_low_q16) * walk.bands_per_unit_q12, -16);
-        const double per_depth = std::ldexp(per_radius * walk.depth_step_q24, -24);
-        if (std::abs(per_depth) > kMostPerDepth) return false;
-        if (std::max({std::abs(reference), std::abs(per_radius), std::abs(foot)}) > kMost) return false;
+constexpr double kFarthestLook = 256 + 256 / 2;  // no march looks at a greater depth
+
+// Section 6 at one end of the view, without its roundings. Everything is linear in the rise but for these, so that the
+// view's ends say what lies between.
+struct BandsAtEnd {
+    double foot_q12 = 0;
+    double zero_q12 = 0;
+    double per_depth_q20 = 0;
+    double most = 0;  // the greatest number that may saturate
+
+    [[nodiscard]] double band_q12(double d) const { return zero_q12 + d * per_depth_q20 * 0x1p-8; }
+};
+
+BandsAtEnd bands_at_end(const ShapeWalk& walk, const ShapeSetup& setup, double rise_q24) {
+    const double h = walk.b_q16 + setup.lambda_foot_q20 * rise_q24 * 0x1p-28;
+    const double slope = rise_q24 * setup.inverse_r_q20 * 0x1p-24;
+    const double reference = (h - walk.reference_height_q16) * setup.inverse_rho_q20 * 0x1p-16;
+    const double per_radius = (slope - reference) * walk.bands_per_unit_q12 * 0x1p-12;
+    BandsAtEnd bands;
+    bands.foot_q12 = (h - walk.h_low_q16) * walk.bands_per_unit_q12 * 0x1p-16;
+    bands.zero_q12 = bands.foot_q12 + per_radius * walk.depth_low_q20 * 0x1p-28;
+    bands.per_depth_q20 = per_radius * walk.depth_step_q24 * 0x1p-24;
+    bands.most = std::max({std::abs(reference), std::abs(per_radius), std::abs(bands.foot_q12)});
+    return bands;
+}
+
+// What the roundings change at most.
+struct BandRoundings {
+    double band_q12 = 0;
+    double per_depth_q20 = 0;
+};
+
+BandRoundings band_roundings(const ShapeWalk& walk, const ShapeSetup& setup) {
+    const double h = 2 + std::abs(setup.lambda_foot_q20) * 0x1p-28;
+    const double slope = 2 + setup.inverse_r_q20 * 0x1p-24;
+    const double reference = 1 + h * setup.inverse_rho_q20 * 0x1p-16;
+    const double per_radius = 1 + (slope + reference) * walk.bands_per_unit_q12 * 0x1p-12;
+    const double foot = 1 + h * walk.bands_per_unit_q12 * 0x1p-16;
+    const double zero = 1 + foot + per_radius * std::abs(walk.depth_low_q20) * 0x1p-28;
+    const double per_depth = 1 + per_radius * walk.depth_step_q24 * 0x1p-24;
+    return {1 + zero + per_depth * kFarthestLook * 0x1p-8, per_depth};
+}
+
+// Which rows of the column look at entries that say something, and whether any of its rays marches.
+void set_rows(const ShapeWalk& walk, const ShapeSetup& setup, ShapeColumn& column) {
+    constexpr double kMarches = 2048;          // per depth
+    constexpr double kMostPerDepth = 1 << 21;  // 2^22 would be clamped
+    constexpr double kMost = 1 << 28;          // 2^29 would saturate
+    const BandsAtEnd first = bands_at_end(walk, setup, walk.first_rise_q24);
+    const BandsAtEnd last = bands_at_end(walk, setup, walk.last_rise_q24);
+    const bool honest = std::max(first.most, last.most) <= kMost;
+    const double per_depth = std::max(std::abs(first.per_depth_q20), std::abs(last.per_depth_q20));
+    const BandRoundings roundings = band_roundings(walk, setup);
+    column.level = honest && per_depth + roundings.per_depth_q20 < kMarches;
+    column.first_row = 0;
+    column.end_row = walk.rows;
+    if (column.alone || !honest || per_depth > kMostPerDepth) return;
+    if (column.beyond == 0) {
+        column.end_row = 0;
+        return;
     }
-    return true;
+    const double low_q12 = column.first_middle_q12 - roundings.band_q12;
+    const double high_q12 = column.first_middle_q12 + (column.last_entry << 12) + roundings.band_q12;
+    double begin = walk.rows;
+    double end = 0;
+    const auto include = [&](double at_first, double at_last) {
+        const double per_row = (at_last - at_first) / (walk.rows - 1);
+        const double one = (low_q12 - at_first) / per_row;
+        const double other = (high_q12 - at_first) / per_row;
+        begin = std::min({begin, one, other});
+        end = std::max({end, one, other});
+        return per_row;
+    };
+    const double foot_per_row = include(first.foot_q12, last.foot_q12);
+    bool same_way = std::abs(foot_per_row) > 0;
+    for (const double d : {0.0, kFarthestLook}) {
+        if (column.level) break;
+        const double per_row = include(first.band_q12(d), last.band_q12(d));
+        same_way = same_way && foot_per_row * per_row > 0;
+    }
+    if (!same_way) return;
+    column.first_row = static_cast<std::int32_t>(std::clamp<double>(std::floor(begin) - 1, 0, walk.rows));
+    column.end_row = static_cast<std::int32_t>(std::clamp<double>(std::ceil(end) + 2, column.first_row, walk.rows));
 }
 
 }  // namespace
@@ -65,10 +135,10 @@ ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, co
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
     ShapeWalk walk;
     walk.texels = texels.texels();
-    walk.jump = shape.jump;
     walk.column_stride = texels.column_stride();
-    walk.width_q8 = object.width << 8;
-    walk.height_q8 = object.height << 8;
+    walk.width = object.width;
+    walk.height = object.height;
+    walk.rows = registers.height;
     walk.first_rise_q24 = registers.rise_q24(0, 0);
     walk.last_rise_q24 = registers.rise_q24(0, registers.height - 1);
     walk.b_q16 = registers.b_q20 >> 4;
@@ -83,31 +153,28 @@ ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, co
 void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
                         const ShapeWalk& walk, int first_column, ShapeStrip& strip) {
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
-    SurfaceEntries entries = std::move(strip.entries);
-    strip = {};
-    strip.entries = std::move(entries);
-    strip.entries.hold(kStripColumns * surface_entries(shape.bands));
-    strip.level = true;
+    const std::size_t entries = surface_entries(shape.bands);
+    strip.entries.hold(kStripColumns * entries);
     const int columns = std::min(kStripColumns, registers.width - first_column);
-    for (int lane = 0; lane < columns; ++lane) {
-        const ShapeSetup setup = set_up_shape(object, registers, first_column + lane, 0);
+    for (int n = 0; n < kStripColumns; ++n) {
+        ShapeColumn& column = strip.columns[n];
+        column = {};
+        if (n >= columns) continue;
+        const ShapeSetup setup = set_up_shape(object, registers, first_column + n, 0);
         if (!setup.has_ray) continue;
-        strip.empty = false;
-        strip.level = strip.level && is_level(walk, setup);
-        if (setup.weight < 256) set_picture(object, texels, setup.first, lane, strip.first);
-        if (setup.weight > 0) set_picture(object, texels, setup.second, lane, strip.second);
-        strip.weight[lane] = setup.weight;
-        strip.first.share[lane] = (256 - setup.weight) * 0x10001;
-        strip.second.share[lane] = setup.weight * 0x10001;
-        strip.alone[lane] = setup.weight == 0 || setup.weight == 256 ? -1 : 0;
-        // Without a shape a ray shows the foot's depth 0: what a lane without surfaces does, since its weight is 0.
-        set_surfaces(shape, setup, lane, strip);
-        strip.foot_depth_q3[lane] = setup.foot_depth_q3;
-        strip.lambda_foot_q20[lane] = setup.lambda_foot_q20;
-        strip.lambda0_q20[lane] = setup.lambda0_q20;
-        strip.lambda1_q21[lane] = setup.lambda1_q21;
-        strip.inverse_r_q20[lane] = setup.inverse_r_q20;
-        strip.inverse_rho_q20[lane] = setup.inverse_rho_q20;
+        if (setup.weight < 256) column.first = picture_column(object, texels, setup.first);
+        if (setup.weight > 0) column.second = picture_column(object, texels, setup.second);
+        column.weight = setup.weight;
+        // Without a shape a ray shows the foot's depth 0: what one without surfaces does, since its weight is 0.
+        column.alone = setup.weight == 0 || setup.weight == 256;
+        set_surfaces(shape, setup, static_cast<std::size_t>(n) * entries, strip.entries, column);
+        column.foot_depth_q3 = setup.foot_depth_q3;
+        column.lambda_foot_q20 = setup.lambda_foot_q20;
+        column.lambda0_q20 = setup.lambda0_q20;
+        column.lambda1_q21 = setup.lambda1_q21;
+        column.inverse_r_q20 = setup.inverse_r_q20;
+        column.inverse_rho_q20 = setup.inverse_rho_q20;
+        set_rows(walk, setup, column);
     }
 }
 

@@ -6,6 +6,8 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
@@ -21,6 +23,7 @@ HWY_INLINE Half half(int value) {
 struct SurfaceHalves {
     Half depth_q3;  // -1: nothing
     Half back;
+    Half lean;
     Half farthest_q3;  // of both lines; -1: one of them has nothing
 };
 
@@ -43,15 +46,30 @@ HWY_INLINE SurfaceHalves between_lines(const ShapeCell* first_cells, const Shape
     const Half both = hn::IfThenElse(hn::Gt(hn::Abs(apart), half(jump)), part < 4 ? first_q3 : second_q3, smooth);
     const Half of_first = hn::IfThenElse(has_second, both, first_q3);
     const Half of_second = hn::IfThenElse(has_second, second_q3, half(-1));
-    const auto has_both = hn::Gt(hn::Min(first_back, back_of(second)), zero);
+    const auto lean_of = [&](Half cell) {  // as of one cell
+        const Half shown = hn::And(back_of(cell), half(3));
+        const Half leans = hn::Sub(hn::IfThenElseZero(hn::Eq(shown, half(ShapeCell::kBySecond)), half(1)),
+                                   hn::IfThenElseZero(hn::Eq(shown, half(ShapeCell::kByFirst)), half(1)));
+        return hn::Add(half(1), leans);
+    };
+    const Half first_lean = hn::ShiftLeft<3>(lean_of(first));
+    const Half second_lean = hn::ShiftLeft<3>(lean_of(second));
+    const Half mean_lean = hn::Add(first_lean, hn::Mul(hn::Sub(lean_of(second), lean_of(first)), half(part)));
+    const Half both_lean =
+        hn::IfThenElse(hn::Gt(hn::Abs(apart), half(jump)), part < 4 ? first_lean : second_lean, mean_lean);
+    const Half lean_of_first = hn::IfThenElse(has_second, both_lean, first_lean);
+    const Half lean_of_second = hn::IfThenElse(has_second, second_lean, half(kBothShow));
+    const auto have_both = hn::Gt(hn::Min(first_back, back_of(second)), zero);
     return {hn::IfThenElse(has_first, of_first, of_second), hn::Max(first_back, second_back),
-            hn::IfThenElse(has_both, hn::Max(first_q3, second_q3), half(-1))};
+            hn::IfThenElse(has_first, lean_of_first, lean_of_second),
+            hn::IfThenElse(have_both, hn::Max(first_q3, second_q3), half(-1))};
 }
 
 // The bands of one of the two p, with nothing at either end.
 struct BandHalves {
     std::vector<std::int16_t> depth_q3;
     std::vector<std::int16_t> back;
+    std::vector<std::int16_t> lean;
     std::vector<std::int16_t> farthest_q3;
 };
 
@@ -61,6 +79,7 @@ void lay_bands(const ShapeCell* first, const ShapeCell* second, int bands, int p
     const auto length = static_cast<std::size_t>(bands + 2 * margin + lanes);
     out.depth_q3.assign(length, -1);
     out.back.assign(length, 0);
+    out.lean.assign(length, kBothShow);
     out.farthest_q3.assign(length, -1);
     const int rest_count = bands % lanes;
     int band = 0;
@@ -68,6 +87,7 @@ void lay_bands(const ShapeCell* first, const ShapeCell* second, int bands, int p
         const SurfaceHalves surfaces = between_lines(f, s, part, jump);
         hn::StoreU(surfaces.depth_q3, Halves(), out.depth_q3.data() + margin + band);
         hn::StoreU(surfaces.back, Halves(), out.back.data() + margin + band);
+        hn::StoreU(surfaces.lean, Halves(), out.lean.data() + margin + band);
         hn::StoreU(surfaces.farthest_q3, Halves(), out.farthest_q3.data() + margin + band);
     };
     for (; band < bands - rest_count; band += lanes) lay(first + band, second + band);
@@ -79,21 +99,84 @@ void lay_bands(const ShapeCell* first, const ShapeCell* second, int bands, int p
     lay(rest[0], rest[1]);
 }
 
+// surfaces_between() of cells that do not lie on one surface or lean, for all places between the two bands.
+void lay_step(const int (&depth)[2][2], const int (&lean)[2][2], int p_part, int jump, std::int32_t* out) {
+    int nearest = 1 << 12;
+    int farthest = -1;
+    for (const auto& column : depth) {
+        for (const int d : column) {
+            if (d >= 0) nearest = std::min(nearest, d);
+            farthest = std::max(farthest, d);
+        }
+    }
+    int weight[2][2] = {};  // [nearer or farther group][band]
+    int sum[2][2] = {};
+    int leans[2][2] = {};
+    for (int p = 0; p < 2; ++p) {
+        for (int h = 0; h < 2; ++h) {
+            const int d = depth[p][h];
+            if (d < 0) continue;
+            const int group = farthest - nearest > 8 * jump && 2 * d > nearest + farthest ? 1 : 0;
+            const int part = p == 0 ? 8 - p_part : p_part;
+            weight[group][h] += part;
+            sum[group][h] += part * d;
+            leans[group][h] += part * lean[p][h];
+        }
+    }
+    using Parts = hn::CappedTag<std::int32_t, kSurfaceParts>;
+    const Parts parts;
+    const hn::Repartition<float, Parts> floats;
+    for (int from = 0; from < static_cast<int>(kSurfaceParts); from += static_cast<int>(hn::Lanes(parts))) {
+        const auto upper = hn::Iota(parts, from);
+        const auto lower = hn::Sub(hn::Set(parts, 8), upper);
+        const auto between = [&](const int(&bands)[2]) {
+            return hn::Add(hn::Mul(lower, hn::Set(parts, bands[0])), hn::Mul(upper, hn::Set(parts, bands[1])));
+        };
+        // Below 2^18 by at most 64: a float quotient that is no whole number keeps clear of them.
+        const auto mean = [&](auto weights, auto sums) {
+            const auto dividend = hn::ConvertTo(floats, hn::Add(sums, hn::ShiftRight<1>(weights)));
+            const auto divisor = hn::ConvertTo(floats, hn::Max(weights, hn::Set(parts, 1)));
+            return hn::ConvertTo(parts, hn::Div(dividend, divisor));
+        };
+        const auto nothing = hn::Set(parts, kNoSurface);
+        const auto surface = [&](auto weights, int group) {
+            const auto depths = mean(weights, between(sum[group]));
+            const auto of_leans = mean(weights, between(leans[group]));
+            return hn::IfThenElse(hn::Gt(weights, hn::Zero(parts)), hn::Or(depths, hn::ShiftLeft<kDepthBits>(of_leans)),
+                                  nothing);
+        };
+        const auto near_weight = between(weight[0]);
+        const auto far_weight = between(weight[1]);
+        const auto far = surface(far_weight, 1);
+        const auto far_first = hn::Lt(near_weight, far_weight);
+        const auto first = hn::IfThenElse(far_first, far, surface(near_weight, 0));
+        const auto behind = hn::IfThenElse(far_first, nothing, far);
+        hn::StoreU(hn::Or(first, hn::ShiftLeft<16>(behind)), parts, out + from);
+    }
+}
+
 SurfaceColumn lay_column(const CellColumns& columns, int bands, int jump, std::size_t start, SurfaceEntries& entries) {
     constexpr int kMargin = 2;
     static thread_local BandHalves of_p[2];
     for (int p = 0; p < 2; ++p) {
         lay_bands(columns.at[p][0], columns.at[p][1], bands, columns.line_part, jump, kMargin, of_p[p]);
     }
-    const auto is_empty = [&](int band) {
-        const auto n = static_cast<std::size_t>(band + kMargin);
-        return (of_p[0].back[n] | of_p[1].back[n]) == 0;
+    const auto are_empty = [&](int band, auto backs) {  // as many bands as `backs` has halves
+        decltype(backs) both[2];
+        for (std::size_t p = 0; p < 2; ++p) {
+            std::memcpy(&both[p], of_p[p].back.data() + band + kMargin, sizeof backs);
+        }
+        return (both[0] | both[1]) == 0;
     };
+    using One = std::uint16_t;
+    using Four = std::uint64_t;
     int low = 0;
     int high = bands;
-    while (low < bands && is_empty(low)) ++low;
+    while (low + 4 <= bands && are_empty(low, Four{})) low += 4;
+    while (low < bands && are_empty(low, One{})) ++low;
     if (low == bands) return lay_nothing(start, entries);
-    while (is_empty(high - 1)) --high;
+    while (high >= low + 4 && are_empty(high - 4, Four{})) high -= 4;
+    while (are_empty(high - 1, One{})) --high;
 
     SurfaceColumn column;
     column.first_band = low - 2;
@@ -101,6 +184,7 @@ SurfaceColumn lay_column(const CellColumns& columns, int bands, int jump, std::s
     const int lanes = static_cast<int>(hn::Lanes(Halves()));
     const Halves halves;
     const Half zero = hn::Zero(halves);
+    std::size_t step = 0;
     Half nearest = half(8 * 256);
     Half farthest_back = zero;
     for (int n = 0; n <= column.last; n += lanes) {
@@ -110,6 +194,7 @@ SurfaceColumn lay_column(const CellColumns& columns, int bands, int jump, std::s
         Half back = zero;
         Half farthest = zero;
         Half lacking = zero;  // -1 where one of the eight cells has no surface
+        Half leans = zero;    // not 0 where a surface does
         for (std::size_t b = 0; b < 2; ++b) {
             for (std::size_t p = 0; p < 2; ++p) {
                 depth[p][b] = hn::LoadU(halves, of_p[p].depth_q3.data() + from + b);
@@ -117,23 +202,37 @@ SurfaceColumn lay_column(const CellColumns& columns, int bands, int jump, std::s
                 const Half of_lines = hn::LoadU(halves, of_p[p].farthest_q3.data() + from + b);
                 farthest = hn::Max(farthest, of_lines);
                 lacking = hn::Min(lacking, of_lines);
+                leans = hn::Or(leans, hn::Xor(hn::LoadU(halves, of_p[p].lean.data() + from + b), half(kBothShow)));
             }
             low_sum[b] =
                 hn::Add(hn::Mul(depth[0][b], half(8 - columns.p_part)), hn::Mul(depth[1][b], half(columns.p_part)));
         }
         const Half least = hn::Min(hn::Min(depth[0][0], depth[0][1]), hn::Min(depth[1][0], depth[1][1]));
         const Half most = hn::Max(hn::Max(depth[0][0], depth[0][1]), hn::Max(depth[1][0], depth[1][1]));
-        const auto is_smooth = hn::AndNot(hn::Lt(least, zero), hn::Not(hn::Gt(hn::Sub(most, least), half(8 * jump))));
+        const auto are_one = hn::AndNot(hn::Lt(least, zero), hn::Not(hn::Gt(hn::Sub(most, least), half(8 * jump))));
+        const auto is_smooth = hn::And(are_one, hn::Eq(leans, zero));
         const Half otherwise = hn::IfThenElse(
             hn::Lt(most, zero), half(static_cast<std::int16_t>(kSurfaceNothing - (1 << 16))), half(kSurfaceSteps));
         const Half lower = hn::IfThenElse(is_smooth, low_sum[0], otherwise);
         const Half upper = hn::IfThenElseZero(is_smooth, hn::Sub(low_sum[1], low_sum[0]));
         const std::size_t to = start + static_cast<std::size_t>(n);
         hn::StoreInterleaved2(lower, upper, halves, reinterpret_cast<std::int16_t*>(entries.smooth.data() + to));
-        hn::StoreInterleaved2(depth[0][0], depth[1][0], halves,
-                              reinterpret_cast<std::int16_t*>(entries.pairs.data() + to));
         hn::StoreInterleaved2(back, hn::Or(farthest, lacking), halves,
                               reinterpret_cast<std::int16_t*>(entries.backs.data() + to));
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(halves, hn::Eq(lower, half(kSurfaceSteps)), bits);
+        std::uint64_t stepping = 0;
+        std::memcpy(&stepping, bits, sizeof stepping);
+        for (; stepping != 0; stepping &= stepping - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(stepping));
+            const std::size_t at = from + lane;
+            const int around[2][2] = {{of_p[0].depth_q3[at], of_p[0].depth_q3[at + 1]},
+                                      {of_p[1].depth_q3[at], of_p[1].depth_q3[at + 1]}};
+            const int lean[2][2] = {{of_p[0].lean[at], of_p[0].lean[at + 1]}, {of_p[1].lean[at], of_p[1].lean[at + 1]}};
+            lay_step(around, lean, columns.p_part, jump,
+                     entries.steps.data() + kSurfaceParts * start + kSurfaceParts * step);
+            entries.smooth[to + lane] = (1 << 16) + kSurfaceSteps + static_cast<std::int32_t>(step++);
+        }
         for (const auto& both_bands : depth) {
             for (const Half d : both_bands) nearest = hn::Min(nearest, hn::IfThenElse(hn::Lt(d, zero), nearest, d));
         }

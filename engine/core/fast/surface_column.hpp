@@ -14,10 +14,18 @@ namespace rs::engine {
 // Entry n stands for the surface between bands first_band + n and first_band + n + 1.
 //
 // Where all four cells around it lie on one surface, `smooth` alone says how deep that is at h_part eighths of the way:
-// (8 * low + h_part * difference + 32) >> 6, with low = its lower kLowBits bits and difference = its upper 16, signed.
+// (8 * low + h_part * difference + 32) >> 6, with low = its lower kLowBits bits and difference = its upper 16, signed;
+// both pictures show it.
 inline constexpr int kLowBits = 14;
-inline constexpr std::int32_t kSurfaceSteps = 1 << 14;    // ... or the cells differ: see `pairs` of bands n and n + 1
+inline constexpr std::int32_t kSurfaceSteps = 1 << 14;    // ... or the cells differ, and 8 * low + h_part * difference
+                                                          // is a place in `steps`
 inline constexpr std::int32_t kSurfaceNothing = 1 << 15;  // ... or none of the four has a surface
+
+inline constexpr std::size_t kSurfaceParts = 8;  // of the way from band to band
+
+// A surface in 16 bits: depth_q3 below its lean.
+inline constexpr int kDepthBits = 11;
+inline constexpr std::int32_t kNoSurface = 0xFFFF;
 
 // The first and the last entry say nothing; so does every place beyond them.
 struct SurfaceColumn {
@@ -27,14 +35,18 @@ struct SurfaceColumn {
     std::int32_t beyond = 0;     // one more than the greatest back, 0 where there are none
 };
 
-// Three numbers for each entry, in memory that columns share.
+// What each entry says, in memory that columns share.
 struct SurfaceEntries {
     std::vector<std::int32_t> smooth;
-    std::vector<std::int32_t> pairs;  // of band first_band + n: depth_q3 of the two p, 16 bits each, -1: nothing
-    std::vector<std::int32_t> backs;  // the greatest of the four; upper 16: depth_q3 of SurfaceStack::farthest, or -1
+    std::vector<std::int32_t> backs;  // the greatest of the four; upper 16 bits: depth_q3 of the farthest cell, or -1
+    // kSurfaceParts numbers for each entry at most, those of a column from kSurfaceParts * its first entry on: the
+    // first surface of a SurfaceStack and the one behind it, 16 bits each.
+    std::vector<std::int32_t> steps;
 
     void hold(std::size_t count) {
-        for (auto* const numbers : {&smooth, &pairs, &backs}) numbers->resize(std::max(numbers->size(), count));
+        smooth.resize(std::max(smooth.size(), count));
+        backs.resize(smooth.size());
+        steps.resize(kSurfaceParts * smooth.size());
     }
 };
 
@@ -44,7 +56,7 @@ constexpr std::size_t surface_entries(int bands) {
     return static_cast<std::size_t>(bands) + 4 + kSurfaceLanes;
 }
 
-// `columns` has a shape. Writes up to surface_entries(bands) numbers each to smooth, pairs and backs + start.
+// `columns` has a shape. Writes up to surface_entries(bands) numbers each to smooth and backs + start.
 SurfaceColumn lay_surfaces(const CellColumns& columns, int bands, int jump, std::size_t start, SurfaceEntries& entries);
 
 // The column of a ray without a shape: one entry, which says nothing.

@@ -26,7 +26,7 @@ Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t
         return store;
     }
     store.layout_ = {object.width, object.height, {}};
-    const std::int64_t picture_size = (std::int64_t{object.width} + 2) * (std::int64_t{object.height} + 2);
+    const std::int64_t picture_size = store.layout_.picture_texels();
     std::int64_t size = 1;
     for (const PlanarPicture& picture : object.pictures) {
         store.layout_.picture_start.push_back(static_cast<std::int32_t>(size));
@@ -64,7 +64,7 @@ Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t
 }
 
 std::int64_t TexelStore::bytes_of_pictures(int width, int height, std::int64_t count) {
-    const std::int64_t texels = (std::int64_t{width} + 2) * (std::int64_t{height} + 2);
+    const std::int64_t texels = TexelLayout{width, height, {}}.picture_texels();
     const std::int64_t per_picture = texels * std::int64_t{sizeof(Rgba8)} + width * std::int64_t{sizeof(RowSpan)} +
                                      std::int64_t{sizeof(std::int32_t)};
     return count * per_picture;

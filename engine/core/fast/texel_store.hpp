@@ -4,11 +4,10 @@
 // Converting YUV to RGB is done once per stored pixel instead of once per rendered one. Fetching is nearest, so the two
 // commute and the bits stay the same. Columns are contiguous because the engine walks pictures downwards.
 //
-// Layout: texel (column, row) of picture p stands at texels()[column_start(p, column) + row], and column_start(p,
-// column
-// + 1) = column_start(p, column) + column_stride(). Every picture has a border one texel wide that repeats its rim
-// (column -1 and `width`, row -1 and `height`), so that bilinear reads need no clamps. texels()[0] is transparent and
-// belongs to no picture: the place that lanes without a ray read; the texels a bilinear read from there takes exist.
+// Layout: texel (column, row) of picture p stands at texels()[column_start(p, column) + row], and
+// column_start(p, column + 1) = column_start(p, column) + column_stride(). Every picture has a border one texel wide
+// that repeats its rim (column -1 and `width`, row -1 and `height`), so that bilinear reads need no clamps. texels()[0]
+// is transparent and belongs to no picture: the place that lanes without a ray read.
 //
 // Pictures that the object holds only coded are decoded as far as they are asked for, and given back when there are too
 // many (coded_texels.hpp).

@@ -6,6 +6,7 @@
 // the four patches under way. A *stripe* is 16 columns over the whole height; `stripe` counts a pipe's stripes,
 // modulo 4.
 
+#include "engine/core/definition/shape_cells.hpp"
 #include "engine/model/signals/messages.hpp"
 #include "engine/model/signals/stripes.hpp"
 
@@ -139,11 +140,12 @@ struct MarchState {
 
 // Cell march: a surface that the pixel's ray meets.
 struct MetSurface {
-    static constexpr int kBits = ScannedPixel::kBits + 11 + 1 + MarchState::kBits;
+    static constexpr int kBits = ScannedPixel::kBits + 11 + 1 + MarchState::kBits + 5;
     ScannedPixel pixel;
     int depth_q3 = 0;
     bool final = false;  // no other surface is asked for when this one does not answer
     MarchState next;
+    int lean = kBothShow;
 };
 
 // A pixel of which nothing is seen, or whose colour is known.

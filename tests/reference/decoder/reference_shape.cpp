@@ -125,7 +125,7 @@ std::string read_shape(Bytes payload, int views, int planes, Shape& shape) {
     const std::size_t n = static_cast<std::size_t>(views);
     const std::size_t frames_at = 56 + 2 * n + 16 * n * static_cast<std::size_t>(planes);
     if (payload.size() < frames_at) return "shorter than its fields";
-    if (payload[0] != 0) return "a coding that is not known";
+    if (payload[0] > 1) return "a coding that is not known";
     shape.jump = payload[1];
     if (payload[2] != 0 || payload[3] != 0) return "reserved bytes that are not 0";
     shape.p_cells = u16_at(payload, 4);
@@ -151,7 +151,12 @@ std::string read_shape(Bytes payload, int views, int planes, Shape& shape) {
         all_lines * static_cast<std::size_t>(shape.p_cells) * static_cast<std::size_t>(shape.bands);
     if (cells > std::size_t{1} << 27) return "more than 2^27 cells";
     if (surfaces > cells) return "surfaces out of range";
-    return read_cells(payload.subspan(frames_at), frame_bytes, cells, surfaces, shape);
+    std::string error = read_cells(payload.subspan(frames_at), frame_bytes, cells, surfaces, shape);
+    if (payload[0] == 1) return error;
+    for (auto& surface : shape.surfaces) {
+        if (surface) surface->back |= 3;
+    }
+    return error;
 }
 
 }  // namespace rs::reference

@@ -82,7 +82,7 @@ Damage first_byte_damage(const std::string& name, std::size_t frame, int depth, 
 std::vector<Damage> numbers() {
     constexpr std::int64_t kTop = std::int64_t{1} << 30, kFar = std::int64_t{1} << 28;
     return {
-        number("coding-1", 0, 1, 1, "chunk shap 1 | shape coding 1"),
+        number("coding-2", 0, 1, 2, "chunk shap 1 | shape coding 2"),
         number("jump-0", 1, 1, 0, "ring 1 | jump"),
         number("reserved", 2, 1, 1, "chunk shap 1 | reserved"),
         number("reserved-last", 3, 1, 1, "chunk shap 1 | reserved"),

@@ -7,10 +7,11 @@
 namespace rs::reference {
 namespace {
 
-// Nothing, or a depth in eighths of a step and a back in steps.
+// Nothing, or a depth in eighths of a step, a back in steps and a lean.
 struct Surface {
     Whole depth = 0;
     Whole back = 0;
+    Whole lean = 0;
 };
 using Found = std::optional<Surface>;
 
@@ -87,7 +88,7 @@ public:
             back = std::max(back, one.surface.back);
         }
         struct Group {
-            Whole weights = 0, depths = 0;
+            Whole weights = 0, depths = 0, leans = 0;
         };
         Group nearer, farther;
         const bool are_two = far - near > 8 * shape_.jump;
@@ -95,13 +96,16 @@ public:
             Group& group = !are_two || 2 * surface.depth <= near + far ? nearer : farther;
             group.weights += weight;
             group.depths += weight * surface.depth;
+            group.leans += weight * surface.lean;
         }
         const auto surface_of = [&](const Group& group) -> Found {
             within(group.weights, 0, 64, "weights");
             within(group.depths, 0, 64 * 2040, "depths");
             if (group.weights == 0) return {};
             const Whole sum = below(group.depths + floor_div(group.weights, 2), 17, "depths + floor(weights / 2)");
-            return Surface{within(floor_div(sum, group.weights), 0, 2040, "depth"), back};
+            within(group.leans, 0, 64 * 16, "leans");
+            const Whole lean = floor_div(group.leans + floor_div(group.weights, 2), group.weights);
+            return Surface{within(floor_div(sum, group.weights), 0, 2040, "depth"), back, within(lean, 0, 16, "lean")};
         };
         const bool takes_nearer = nearer.weights >= farther.weights;
         if (nearer.weights == 0 && farther.weights == 0) {
@@ -128,13 +132,27 @@ private:
                 }
             }
         }
-        return Surface{within(8 * greatest, 0, 2040, "farthest depth"), 0};
+        return Surface{within(8 * greatest, 0, 2040, "farthest depth"), 0, 8};
     }
 
     [[nodiscard]] ShapeCell cell(std::size_t c, std::size_t n, Whole hi) const {
         const Whole index = (ray_.line[n] * shape_.p_cells + ray_.cell_p[c]) * shape_.bands + hi;
         require(index >= 0, "a cell's index", index);
         return shape_.cells.at(static_cast<std::size_t>(below(index, 27, "a cell's index")));
+    }
+
+    // "leans": of one cell
+    [[nodiscard]] Whole lean_of(const ShapeCell& e) const {
+        const Whole shown = e.back % 4;
+        if (shown == 1) {
+            branches_.take(Branch::first_shows_alone);
+            return 0;
+        }
+        if (shown == 2) {
+            branches_.take(Branch::second_shows_alone);
+            return 2;
+        }
+        return 1;
     }
 
     // "Between the two lines"
@@ -147,21 +165,22 @@ private:
         }
         if (e2.back == 0) {
             branches_.take(Branch::first_cell_alone);
-            return Surface{8 * Whole{e.depth}, e.back};
+            return Surface{8 * Whole{e.depth}, e.back, 8 * lean_of(e)};
         }
         if (e.back == 0) {
             branches_.take(Branch::second_cell_alone);
-            return Surface{8 * Whole{e2.depth}, e2.back};
+            return Surface{8 * Whole{e2.depth}, e2.back, 8 * lean_of(e2)};
         }
         const Whole back = std::max(e.back, e2.back);
         const Whole change = Whole{e2.depth} - e.depth;
         if (change > shape_.jump || -change > shape_.jump) {
             const bool takes_first = ray_.line_part < 4;
             branches_.take(takes_first ? Branch::lines_jump_to_first : Branch::lines_jump_to_second);
-            return Surface{8 * Whole{takes_first ? e.depth : e2.depth}, back};
+            return Surface{8 * Whole{takes_first ? e.depth : e2.depth}, back, 8 * lean_of(takes_first ? e : e2)};
         }
         branches_.take(Branch::lines_interpolated);
-        return Surface{8 * Whole{e.depth} + ray_.line_part * change, back};
+        const Whole lean = (8 - ray_.line_part) * lean_of(e) + ray_.line_part * lean_of(e2);
+        return Surface{8 * Whole{e.depth} + ray_.line_part * change, back, lean};
     }
 
     const ShapeMap& shape_;
@@ -172,7 +191,7 @@ private:
 }  // namespace
 
 void march(const ShapeMap& shape, const engine::ViewRegisters& view, const ShapeRay& ray, Whole rise,
-           const std::function<bool(Whole d, bool at_end)>& meets, Branches& branches) {
+           const std::function<bool(Whole d, Whole lean, bool at_end)>& meets, Branches& branches) {
     const Bands bands = bands_of(shape, view, ray, rise, branches);
     CellsAround cells(shape, ray, branches);
     const Whole swept = bands.per_d < 0 ? -bands.per_d : bands.per_d;
@@ -193,7 +212,7 @@ void march(const ShapeMap& shape, const engine::ViewRegisters& view, const Shape
                 branches.take(Branch::not_met_ends_before);
             } else {
                 branches.take(e->depth > 8 * begin ? Branch::met_within_the_step : Branch::met_at_the_step);
-                if (meets(std::max(e->depth, 8 * begin), false)) return;
+                if (meets(std::max(e->depth, 8 * begin), e->lean, false)) return;
             }
         }
     }
@@ -205,11 +224,11 @@ void march(const ShapeMap& shape, const engine::ViewRegisters& view, const Shape
     const Surfaces at_v2 = cells.at(bands.band_at(at_foot.surface->depth >> 3));
     branches.take(at_v2.surface ? Branch::second_look : Branch::second_look_is_nothing);
     const Surfaces& last = at_v2.surface ? at_v2 : at_foot;
-    if (meets(last.surface->depth, true)) return;
+    if (meets(last.surface->depth, last.surface->lean, true)) return;
     branches.take(last.behind ? Branch::met_behind : Branch::nothing_behind);
-    if (last.behind && meets(last.behind->depth, true)) return;
+    if (last.behind && meets(last.behind->depth, last.behind->lean, true)) return;
     branches.take(last.farthest ? Branch::met_farthest : Branch::one_of_eight_lacks);
-    if (last.farthest) meets(last.farthest->depth, true);
+    if (last.farthest) meets(last.farthest->depth, last.farthest->lean, true);
 }
 
 }  // namespace rs::reference

@@ -73,7 +73,7 @@ struct Shown {
 
 // "What a surface at depth d shows"
 std::optional<Shown> shown_at(const RaySpaceObject& object, const engine::ViewRegisters& view, const ShapeRay& ray,
-                              Whole rise, Whole d, Branches& branches) {
+                              Whole rise, Whole d, Whole lean, Branches& branches) {
     Shown shown;
     shown.lambda = below(ray.lambda0 + (below(d * ray.lambda1, 30, "d * lambda1") >> 4), 29.3, "lambda");
     if (shown.lambda <= 0) {
@@ -91,9 +91,12 @@ std::optional<Shown> shown_at(const RaySpaceObject& object, const engine::ViewRe
         return {};
     }
     if (s1 && s2) {
+        if (lean > 8) branches.take(Branch::leans_to_second);
+        const Whole w = within(lean <= 8 ? (weight * lean + 4) >> 3 : weight + (((256 - weight) * (lean - 8) + 4) >> 3),
+                               0, 256, "w");
         branches.take(Branch::both_pictures);
-        shown.sum.add(*s1, 256 - weight);
-        shown.sum.add(*s2, weight);
+        shown.sum.add(*s1, 256 - w);
+        shown.sum.add(*s2, w);
     } else if (s1 || s2) {
         branches.take(s1 ? Branch::first_picture_alone : Branch::second_picture_alone);
         shown.sum.add(s1 ? *s1 : *s2, 256);
@@ -148,32 +151,32 @@ ReferencePixel pixel_with_shape(const RaySpaceObject& object, const engine::View
     if (!ray) return {};
     const engine::LinearForm& s = view.rise;
     const Whole rise = below((Whole{s.at_origin} + Whole{i} * s.per_column + Whole{j} * s.per_row) >> 8, 27, "rise");
-    const auto shows = [&](Whole d) { return shown_at(object, view, *ray, rise, d, branches); };
+    const auto shows = [&](Whole d, Whole lean) { return shown_at(object, view, *ray, rise, d, lean, branches); };
     if (!ray->has_shape) {
         branches.take(Branch::no_shape);
-        return output(shows(0), branches);
+        return output(shows(0, 8), branches);
     }
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(view.ring)].shape;
     std::optional<Shown> shown;
     int met = 0;
     if (ray->weight == 0 || ray->weight == 256) {
         branches.take(ray->weight == 0 ? Branch::weight_is_0 : Branch::weight_is_256);
-        const auto first_met = [&](Whole d, bool) {
-            shown = shows(d);
+        const auto first_met = [&](Whole d, Whole lean, bool) {
+            shown = shows(d, lean);
             return ++met > 0;
         };
         march(shape, view, *ray, rise, first_met, branches);
         if (met == 0) {
             branches.take(Branch::on_line_without_surface);
-            shown = shows(ray->foot_d);
+            shown = shows(ray->foot_d, 8);
         }
         return output(shown, branches);
     }
     branches.take(Branch::blended);
     std::optional<ReferencePixel> pixel;
-    const auto will_do = [&](Whole d, bool at_end) {
+    const auto will_do = [&](Whole d, Whole lean, bool at_end) {
         if (++met == 2) branches.take(Branch::met_after_another);
-        const std::optional<Shown> of_this = shows(d);
+        const std::optional<Shown> of_this = shows(d, lean);
         if (!of_this) return false;
         const ReferencePixel here = output(of_this, branches);
         const bool covers = here.A >= 230;

@@ -27,10 +27,10 @@ struct ShapeRay {
 std::optional<ShapeRay> shape_ray(const RaySpaceObject& object, const engine::ViewRegisters& view,
                                   const PlaneRay& plane_ray, Branches& branches);
 
-// Section 6: calls `meets` with the depth (q3) of one surface after the other, until it says that this will do;
-// `at_end`: it is met at the end of the march.
+// Section 6: calls `meets` with the depth (q3) and the lean of one surface after the other, until it says that this
+// will do; `at_end`: it is met at the end of the march.
 void march(const ShapeMap& shape, const engine::ViewRegisters& view, const ShapeRay& ray, Whole rise,
-           const std::function<bool(Whole d, bool at_end)>& meets, Branches& branches);
+           const std::function<bool(Whole d, Whole lean, bool at_end)>& meets, Branches& branches);
 
 // Sections 5 to 8.
 ReferencePixel pixel_with_shape(const RaySpaceObject& object, const engine::ViewRegisters& view, int i, int j,

@@ -116,7 +116,7 @@ void CellMarch::look(Turn& turn, const ColumnSetup& column) {
     turn.state.begin = std::min(end, MarchState::kFoot);
     if (!cell.exists() || cell.depth_q3 > 8 * end || cell.back < begin) return;
     turn.outcome = Turn::Outcome::met;
-    turn.met = {turn.ray.pixel, std::max(cell.depth_q3, 8 * begin), is_alone(column), turn.state};
+    turn.met = {turn.ray.pixel, std::max(cell.depth_q3, 8 * begin), is_alone(column), turn.state, cell.lean};
 }
 
 // The surface in the foot's band, and then that of the band where it lies, or what lies behind that.
@@ -145,7 +145,8 @@ void CellMarch::look_at_foot(Turn& turn, const ColumnSetup& column) {
     turn.met = {turn.ray.pixel,
                 depth_q3,
                 is_alone(column) || (!has_behind && !has_farthest),
-                {has_behind ? MarchState::kBehind : MarchState::kFarthest}};
+                {has_behind ? MarchState::kBehind : MarchState::kFarthest},
+                cell.lean};
 }
 
 void CellMarch::take_turn(Turn& turn, int looks) {

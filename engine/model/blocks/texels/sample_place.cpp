@@ -1,6 +1,7 @@
 #include "engine/model/blocks/texels/sample_place.hpp"
 
 #include "engine/core/definition/fixed_point.hpp"
+#include "engine/core/definition/shape_pixel.hpp"
 
 #include <algorithm>
 
@@ -57,7 +58,7 @@ SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, 
         out.left = column.picture_column;
         out.top = static_cast<int>(out.inside ? row : 0);
     } else {
-        blank.head.weight = column.weight;
+        blank.head.weight = leaning_weight(column.weight, met.lean);
         const std::int64_t lambda_q20 = column.lambda0_q20 + ((met.depth_q3 * column.lambda1_q21) >> 4);
         const std::int32_t y_q16 = (b_q20 >> 4) + multiply_shift(narrow(lambda_q20), met.pixel.rise_q24, 28);
         for (int second = 0; second < 2; ++second) {

@@ -151,8 +151,8 @@ TEST(CellMarch, MeetsASurfaceBetweenItsDepthAndItsBack) {
         }
         return found;
     };
-    EXPECT_EQ(met(200, 210), (std::vector<SurfaceCell>{{8 * 200, 210}}));
-    EXPECT_EQ(met(193, 193).size(), 1U);
+    EXPECT_EQ(met(200, 211), (std::vector<SurfaceCell>{{8 * 200, 211}}));
+    EXPECT_EQ(met(193, 195).size(), 1U);
     EXPECT_EQ(met(192, 192).size(), 2U);  // on the border of two steps
     EXPECT_EQ(met(20, 63).size(), 1U);
     EXPECT_EQ(met(20, 64), (std::vector<SurfaceCell>{{8 * 20, 64}, {8 * 64, 64}}));
@@ -169,12 +169,12 @@ TEST(CellMarch, EndsWithTheSurfaceThatAReferenceRayWouldMeet) {
         return column.met(one_step_q20);
     };
     // Depth 0 lies 2 eighths below the middle, and a quarter of the weight says there is band 3.
-    EXPECT_EQ(end({16, 16}, {0, 1}), (std::vector<SurfaceCell>{{2 * 16, 16}, {8 * 16, 16}}));
+    EXPECT_EQ(end({16, 16}, {0, 4}), (std::vector<SurfaceCell>{{2 * 16, 16}, {8 * 16, 16}}));
     // Beyond a jump: the one with more weight, what lies behind it, and the farthest, which is the same here.
-    EXPECT_EQ(end({77, 77}, {0, 1}), (std::vector<SurfaceCell>{{0, 77}, {8 * 77, 77}, {8 * 77, 77}}));
-    EXPECT_EQ(end({0, 77}, {77, 77}), (std::vector<SurfaceCell>{{8 * 77, 77}, {8 * 77, 77}}));
-    EXPECT_EQ(end({}, {0, 1}), (std::vector<SurfaceCell>{{0, 1}}));
-    EXPECT_TRUE(end({77, 77}, {}).empty());
+    EXPECT_EQ(end({77, 79}, {0, 4}), (std::vector<SurfaceCell>{{0, 79}, {8 * 77, 79}, {8 * 77, 79}}));
+    EXPECT_EQ(end({0, 79}, {77, 79}), (std::vector<SurfaceCell>{{8 * 77, 79}, {8 * 77, 79}}));
+    EXPECT_EQ(end({}, {0, 4}), (std::vector<SurfaceCell>{{0, 4}}));
+    EXPECT_TRUE(end({77, 79}, {}).empty());
     column.setup.cells.p_part = 0;
     column.cells[4] = {};
     EXPECT_TRUE(column.met(one_step_q20).empty());

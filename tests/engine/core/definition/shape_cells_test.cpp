@@ -18,28 +18,58 @@ SurfaceCell between_cells(const SurfaceCell (&cells)[2][2], int p_part, int h_pa
     return surfaces_between(cells, p_part, h_part, jump).first;
 }
 
+// Backs whose lowest bits are 3: both pictures show the surface.
 TEST(BetweenLines, InterpolatesInEighthsUpToTheJump) {
     for (int part = 0; part < 8; ++part) {
-        EXPECT_EQ(between_lines({100, 110}, {120, 115}, part, 20),
-                  (SurfaceCell{800 + 20 * part, part > 0 ? 115 : 110, 120}));
-        EXPECT_EQ(between_lines({120, 130}, {100, 125}, part, 20), (SurfaceCell{960 - 20 * part, 130, 120}));
+        EXPECT_EQ(between_lines({100, 111}, {120, 115}, part, 20),
+                  (SurfaceCell{800 + 20 * part, part > 0 ? 115 : 111, kBothShow, 120}));
+        EXPECT_EQ(between_lines({120, 131}, {100, 127}, part, 20), (SurfaceCell{960 - 20 * part, 131, kBothShow, 120}));
     }
 }
 
 TEST(BetweenLines, TakesTheNearerLineAcrossAJump) {
     for (int part = 1; part < 8; ++part) {
-        const SurfaceCell expected{part < 4 ? 800 : 968, 121, 121};
-        EXPECT_EQ(between_lines({100, 110}, {121, 121}, part, 20), expected) << part;
+        const SurfaceCell expected{part < 4 ? 800 : 968, 123, kBothShow, 121};
+        EXPECT_EQ(between_lines({100, 111}, {121, 123}, part, 20), expected) << part;
     }
-    EXPECT_EQ(between_lines({100, 110}, {121, 121}, 0, 20), (SurfaceCell{800, 110, 121}));
+    EXPECT_EQ(between_lines({100, 111}, {121, 123}, 0, 20), (SurfaceCell{800, 111, kBothShow, 121}));
 }
 
 TEST(BetweenLines, OneAloneAnswersAndTheSecondOnlyWhereItHasWeight) {
-    EXPECT_EQ(between_lines({100, 110}, kNone, 7, 20), (SurfaceCell{800, 110}));
-    EXPECT_EQ(between_lines(kNone, {100, 110}, 1, 20), (SurfaceCell{800, 110}));
-    EXPECT_FALSE(between_lines(kNone, {100, 110}, 0, 20).exists());
+    EXPECT_EQ(between_lines({100, 111}, kNone, 7, 20), (SurfaceCell{800, 111}));
+    EXPECT_EQ(between_lines(kNone, {100, 111}, 1, 20), (SurfaceCell{800, 111}));
+    EXPECT_FALSE(between_lines(kNone, {100, 111}, 0, 20).exists());
     EXPECT_FALSE(between_lines(kNone, kNone, 4, 20).exists());
-    EXPECT_EQ(between_lines({0, 1}, kNone, 4, 20), (SurfaceCell{0, 1}));  // depth 0 is a surface, too
+    EXPECT_EQ(between_lines({0, 4}, kNone, 4, 20), (SurfaceCell{0, 4}));  // depth 0 is a surface, too
+}
+
+// Lowest bits 1: the first picture alone shows it; 2: the second; 0 and 3: both.
+TEST(BetweenLines, LeansAsItsCellsDo) {
+    constexpr ShapeCell kFirst{100, 113}, kSecond{100, 114}, kBoth{100, 115}, kUnsaid{100, 112}, kFar{200, 201};
+    for (int part = 0; part < 8; ++part) {
+        EXPECT_EQ(between_lines(kFirst, kSecond, part, 20).lean, 2 * part);
+        EXPECT_EQ(between_lines(kBoth, kFirst, part, 20).lean, 8 - part);
+        EXPECT_EQ(between_lines(kUnsaid, kSecond, part, 20).lean, 8 + part);
+        EXPECT_EQ(between_lines(kSecond, kFar, part, 20).lean, part < 4 ? 16 : 0);
+        EXPECT_EQ(between_lines(kSecond, kNone, part, 20).lean, 16);
+    }
+    EXPECT_EQ(between_lines(kNone, kSecond, 5, 20).lean, 16);
+}
+
+TEST(BetweenCells, LeansAsTheCellsOfItsGroupDo) {
+    const SurfaceCell one[2][2] = {{{80, 20, 0}, {80, 20, 8}}, {{80, 20, 16}, {80, 20, 8}}};
+    const SurfaceCell two[2][2] = {{{80, 20, 0}, {80, 20, 8}}, {{400, 40, 16}, {400, 40, 12}}};
+    for (int p = 0; p < 8; ++p) {
+        for (int h = 0; h < 8; ++h) {
+            const int sum = 8 * (8 - p) * h + 16 * p * (8 - h) + 8 * p * h;
+            EXPECT_EQ(between_cells(one, p, h, 20).lean, (sum + 32) / 64) << p << " " << h;
+            const SurfaceStack stack = surfaces_between(two, p, h, 20);
+            const int of_near = (8 * h + 4) / 8;
+            const int of_far = (16 * (8 - h) + 12 * h + 4) / 8;
+            EXPECT_EQ(stack.first.lean, p <= 4 ? of_near : of_far) << p << " " << h;
+            EXPECT_EQ(stack.behind.lean, stack.behind.exists() ? of_far : kBothShow) << p << " " << h;
+        }
+    }
 }
 
 TEST(BetweenCells, IsBilinearOnOneSurface) {
@@ -77,12 +107,12 @@ TEST(BetweenCells, BehindTheNearerGroupIsTheFartherOne) {
 }
 
 TEST(BetweenCells, TheFarthestIsOneOfAllCellsWhateverTheirWeights) {
-    const SurfaceCell cells[2][2] = {{{80, 20, 11}, {88, 20, 12}}, {{248, 40, 31}, {256, 41, 32}}};
+    const SurfaceCell cells[2][2] = {{{80, 20, 3, 11}, {88, 20, 3, 12}}, {{248, 40, 3, 31}, {256, 41, 3, 32}}};
     for (int p = 0; p < 8; ++p) {
         for (const int jump : {20, 22}) EXPECT_EQ(surfaces_between(cells, p, 0, jump).farthest, (SurfaceCell{256, 41}));
     }
     SurfaceCell at_depth_0[2][2];
-    for (auto& column : at_depth_0) column[0] = column[1] = {0, 1, 0};
+    for (auto& column : at_depth_0) column[0] = column[1] = {0, 1, kBothShow, 0};
     EXPECT_EQ(surfaces_between(at_depth_0, 3, 4, 20).farthest, (SurfaceCell{0, 1}));
     for (int n = 0; n < 4; ++n) {
         SurfaceCell lacks_one[2][2] = {{cells[0][0], cells[0][1]}, {cells[1][0], cells[1][1]}};
@@ -125,6 +155,7 @@ Columns random_columns(test::Random& random) {
     const int low = random.whole(0, columns.bands);  // nothing below, nor from `high` on
     const int high = random.whole(low, columns.bands);
     const int middle = random.whole(0, 255);
+    const bool leans = random.whole(0, 1) == 0;
     for (int p = 0; p < 2; ++p) {
         for (int line = 0; line < 2; ++line) {
             std::vector<ShapeCell>& cells = columns.cells[p][line];
@@ -132,7 +163,8 @@ Columns random_columns(test::Random& random) {
             for (int band = low; band < high; ++band) {
                 if (random.real(0, 1) < empty) continue;
                 const int depth = std::clamp(middle + random.whole(-roughness, roughness), 0, 255);
-                const int back = std::clamp(depth + random.whole(0, 90), 1, 255);
+                const int both = leans && random.whole(0, 1) == 0 ? 0 : ShapeCell::kByFirst | ShapeCell::kBySecond;
+                const int back = std::clamp(depth + random.whole(0, 90), 1, 255) | both;
                 cells[static_cast<std::size_t>(band)] = {static_cast<std::uint8_t>(depth),
                                                          static_cast<std::uint8_t>(back)};
             }
@@ -155,7 +187,11 @@ SurfaceStack defined(const Columns& columns, int band, int h_part) {
     return surfaces_between(around, columns.around.p_part, h_part, columns.jump);
 }
 
-// What an entry says where it does not send its reader to `pairs`.
+std::int32_t in_16_bits(const SurfaceCell& cell) {
+    return cell.exists() ? cell.depth_q3 | cell.lean << kDepthBits : kNoSurface;
+}
+
+// What an entry says where it does not send its reader to `steps`.
 int smooth_depth_q3(std::int32_t entry, int h_part) {
     return (8 * (entry & ((1 << kLowBits) - 1)) + h_part * (entry >> 16) + 32) >> 6;
 }
@@ -166,22 +202,23 @@ void expect_column(const Columns& columns) {
     SurfaceEntries entries;
     entries.hold(kStart + most + 1);
     constexpr std::int32_t kUntouched = -12345;
-    for (auto* const numbers : {&entries.smooth, &entries.pairs, &entries.backs}) {
+    for (auto* const numbers : {&entries.smooth, &entries.backs, &entries.steps}) {
         std::fill(numbers->begin(), numbers->end(), kUntouched);
     }
     const SurfaceColumn column = lay_surfaces(columns.around, columns.bands, columns.jump, kStart, entries);
-    for (const auto* const numbers : {&entries.smooth, &entries.pairs, &entries.backs}) {
+    for (const auto* const numbers : {&entries.smooth, &entries.backs}) {
         EXPECT_EQ((*numbers)[kStart - 1], kUntouched);
         EXPECT_EQ((*numbers)[kStart + most], kUntouched);
     }
+    EXPECT_EQ(entries.steps[kSurfaceParts * kStart - 1], kUntouched);
+    EXPECT_EQ(entries.steps[kSurfaceParts * (kStart + most)], kUntouched);
     EXPECT_EQ(entries.smooth[kStart], kSurfaceNothing);
     EXPECT_EQ(entries.smooth[kStart + static_cast<std::size_t>(column.last)], kSurfaceNothing);
     int nearest = 256 * 8;
     int beyond = 0;
     for (int band = -1; band < columns.bands; ++band) {
         for (int h_part = 0; h_part < 8; ++h_part) {
-            const SurfaceStack defined_here = defined(columns, band, h_part);
-            const SurfaceCell& expected = defined_here.first;
+            const auto [expected, behind, farthest] = defined(columns, band, h_part);
             const int n = std::clamp(band - column.first_band, 0, column.last);
             const std::size_t at = kStart + static_cast<std::size_t>(n);
             const std::int32_t smooth = entries.smooth[at];
@@ -189,7 +226,6 @@ void expect_column(const Columns& columns) {
                 ASSERT_FALSE(expected.exists()) << band << " " << h_part;
                 continue;
             }
-            const SurfaceCell& farthest = defined_here.farthest;
             ASSERT_EQ(entries.backs[at] >> 16, farthest.exists() ? farthest.depth_q3 : -1) << band << " " << h_part;
             const std::int32_t back = entries.backs[at] & 0xFFFF;
             if (expected.exists()) {
@@ -199,18 +235,13 @@ void expect_column(const Columns& columns) {
             }
             if ((smooth & kSurfaceSteps) == 0) {
                 ASSERT_EQ(smooth_depth_q3(smooth, h_part), expected.depth_q3) << band << " " << h_part;
+                ASSERT_EQ(expected.lean, kBothShow) << band << " " << h_part;
                 continue;
             }
-            SurfaceCell around[2][2];
-            for (std::size_t h = 0; h < 2; ++h) {
-                const std::int32_t pair = entries.pairs[at + h];
-                const std::int16_t depths[] = {static_cast<std::int16_t>(pair & 0xFFFF),
-                                               static_cast<std::int16_t>(pair >> 16)};
-                for (int p = 0; p < 2; ++p) {
-                    if (depths[p] >= 0) around[p][h] = {depths[p], back};
-                }
-            }
-            ASSERT_EQ(between_cells(around, columns.around.p_part, h_part, columns.jump), expected) << band;
+            const int place = 8 * (smooth & ((1 << kLowBits) - 1)) + h_part * (smooth >> 16);
+            const std::int32_t both = entries.steps[kSurfaceParts * kStart + static_cast<std::size_t>(place)];
+            ASSERT_EQ(both & 0xFFFF, in_16_bits(expected)) << band << " " << h_part;
+            ASSERT_EQ(both >> 16 & 0xFFFF, in_16_bits(behind)) << band << " " << h_part;
         }
     }
     EXPECT_LE(column.nearest, nearest / 8);

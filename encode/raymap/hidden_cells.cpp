@@ -1,0 +1,96 @@
+#include "encode/raymap/hidden_cells.hpp"
+
+#include "encode/set/soft_coverage.hpp"
+
+#include <cmath>
+
+namespace rs::encode {
+namespace {
+
+// A wrong depth is often off by less; what stands in front of another part is mostly farther away.
+constexpr double kClearlyInFront = 0.1;  // object radii
+constexpr int kEnoughOfNine = 7;         // pixels around a point that show something clearly in front of it
+
+// f(column, row) of the pixels that are at most one away from where the picture sees the point, as long as it gives
+// true; false where it sees it outside of its frame.
+template <class F>
+bool for_pixels_around(const WorkView& view, const SeenColumn& seen, double y, const F& f) {
+    if (seen.axial <= 0) return false;
+    const double row = view.row_of(y, seen.axial);
+    if (!(seen.column >= 0 && seen.column < view.width && row >= 0 && row < view.height)) return false;
+    const auto column = static_cast<int>(seen.column);
+    const auto row_number = static_cast<int>(row);
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, view.width - 1); ++c) {
+        for (int r = std::max(row_number - 1, 0); r <= std::min(row_number + 1, view.height - 1); ++r) {
+            if (!f(c, r)) return true;
+        }
+    }
+    return true;
+}
+
+// Whether a picture shows its other layer where the point is, or a pixel away from there.
+bool other_layer_hides(const DepthView& picture, const glm::dvec2& place, double y) {
+    bool hidden = false;
+    for_pixels_around(picture.view, picture.view.see(place), y, [&](int column, int row) {
+        hidden = std::isnan(picture.depth(row, column)) && picture.view.at(column, row).a >= kFaintest;
+        return !hidden;
+    });
+    return hidden;
+}
+
+// Whether what a picture was found to show stands clearly in front of the point.
+bool is_hidden(const DepthView& picture, const glm::dvec2& place, double y) {
+    const SeenColumn seen = picture.view.see(place);
+    if (seen.axial <= 0) return false;
+    const HorizontalRay ray = picture.view.ray_of(seen.column);
+    const double nearer = glm::dot(place - ray.foot, ray.along) - kClearlyInFront;
+    int in_front = 0;
+    for_pixels_around(picture.view, seen, y, [&](int column, int row) {
+        if (static_cast<double>(picture.depth(row, column)) <= nearer) ++in_front;  // not where there is none
+        return true;
+    });
+    return in_front >= kEnoughOfNine;
+}
+
+}  // namespace
+
+void avoid_hidden(const LineGrid& grid, const LinePictures& pictures, int p_cell, ShapeCell* cells) {
+    const CellRay ray(grid, pictures.viewpoint, p_cell);
+    for (int h = 0; h < grid.bands; ++h) {
+        ShapeCell& cell = cells[h];
+        if (!cell.has_surface()) continue;
+        const auto both_show = [&](int d) {
+            const glm::dvec2 place = ray.place(d);
+            const double y = ray.height(h, d);
+            return !other_layer_hides(pictures.first, place, y) && !other_layer_hides(pictures.second, place, y);
+        };
+        const std::optional<std::uint8_t> depth = nearest_depth(cell.depth, both_show);
+        if (!depth) {
+            cell = {};
+            continue;
+        }
+        cell.depth = *depth;
+        cell.back = std::max(cell.back, cell.depth);
+    }
+}
+
+void say_who_shows(const LineGrid& grid, const LinePictures& pictures, bool trust_depths, int p_cell,
+                   ShapeCell* cells) {
+    constexpr int kBoth = ShapeCell::kByFirst | ShapeCell::kBySecond;
+    const CellRay ray(grid, pictures.viewpoint, p_cell);
+    for (int h = 0; h < grid.bands; ++h) {
+        ShapeCell& cell = cells[h];
+        if (!cell.has_surface()) continue;
+        const glm::dvec2 place = ray.place(cell.depth);
+        const double y = ray.height(h, cell.depth);
+        int shown = kBoth;
+        if (trust_depths && is_hidden(pictures.first, place, y)) shown -= ShapeCell::kByFirst;
+        if (trust_depths && is_hidden(pictures.second, place, y)) shown -= ShapeCell::kBySecond;
+        if (shown == 0) shown = kBoth;  // some other picture's depth is wrong
+        int back = (cell.back & ~kBoth) | shown;
+        if (back < cell.depth) back += kBoth + 1;
+        cell.back = static_cast<std::uint8_t>(back < kDepths ? back : kDepths - 1);
+    }
+}
+
+}  // namespace rs::encode

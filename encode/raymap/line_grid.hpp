@@ -1,0 +1,72 @@
+#pragma once
+// The cells of a shape map's line (rayspace/object/shape_map.hpp) and its rays, in object radii.
+
+#include "encode/raymap/depth_range.hpp"
+#include "encode/raymap/visual_hull.hpp"
+#include "encode/raymap/work_view.hpp"
+#include "rayspace/object/shape_map.hpp"
+
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace rs::encode {
+
+inline constexpr double kHalfWidth = kDeepest;  // of p and of depth
+inline constexpr int kDepths = 256;
+inline constexpr double kDepthStep = 2 * kHalfWidth / (kDepths - 1);
+
+// The grid of cells of one line, and of the finer raster that surfaces are drawn on.
+struct LineGrid {
+    int p_cells = 0, bands = 0;
+    double p_low = 0, h_low = 0;
+    double cells_per_unit = 0;
+    double bands_per_unit = 0;
+    double distance = 0, height = 0;  // of the reference viewpoint
+    int fine = 1;                     // raster points along a cell's side
+
+    // From the reference viewpoint to the foot of a ray at distance p from the axis.
+    [[nodiscard]] double rho(double p) const {
+        return std::sqrt(std::max(distance * distance - p * p, distance * distance / 4));
+    }
+};
+
+struct LinePoint {
+    double p = 0, h = 0, depth = 0;
+};
+
+// A point as a line's viewpoint sees it.
+LinePoint on_line(const LineGrid& grid, const glm::dvec2& viewpoint, const glm::dvec2& place, double y);
+
+// The ray of a line's viewpoint that passes the axis at distance p, seen from above.
+HorizontalRay line_ray(const glm::dvec2& viewpoint, double p);
+
+// The points along the ray of the cells of one p.
+class CellRay {
+public:
+    CellRay(const LineGrid& grid, const glm::dvec2& viewpoint, int p_cell);
+
+    [[nodiscard]] glm::dvec2 place(int depth) const { return ray_.place_at(-kHalfWidth + depth * kDepthStep); }
+    [[nodiscard]] double height(int band, int depth) const;
+
+private:
+    const LineGrid& grid_;
+    double rho_;
+    HorizontalRay ray_;
+};
+
+// The depth nearest to `depth` for which `holds`, the farther one of two; nothing where there is none.
+template <class Holds>
+std::optional<std::uint8_t> nearest_depth(int depth, const Holds& holds) {
+    for (int away = 0; away < kDepths; ++away) {
+        for (const int d : {depth + away, depth - away}) {
+            if (d >= 0 && d < kDepths && holds(d)) return static_cast<std::uint8_t>(d);
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace rs::encode

@@ -1,0 +1,152 @@
+// What both pictures show of a surface (shown_surface() and laid_over() of shape_pixel.hpp) on vectors, a row of the
+// column per lane. No include guard: shape_walk.cpp includes it once for each SIMD target.
+
+#include "engine/core/definition/shape_pixel.hpp"
+#include "engine/core/fast/cell_march_lanes.inl"
+
+HWY_BEFORE_NAMESPACE();
+namespace rs::engine::HWY_NAMESPACE {
+
+// Where a sample of each lane falls, from the upper left of four texels.
+struct SamplePlace {
+    LaneMask exists;
+    Vector x_q3;
+    Vector y_q3;
+};
+
+// sample_picture() of the lanes `wanted`, as far as the texels.
+HWY_INLINE SamplePlace sample_place(const ShapeWalk& walk, const ShapePictureColumn& picture, Vector d, Vector y_q16,
+                                    LaneMask wanted) {
+    const Vector l = hn::Add(number(picture.l0_q20), hn::ShiftRight<7>(hn::Mul(d, number(picture.l1_q24))));
+    const Vector inverse_l = inverse(l);
+    const Vector n = hn::Add(number(picture.n0_q12), hn::ShiftRight<3>(hn::Mul(d, number(picture.n1_q12))));
+    const Vector column = hn::Add(number(picture.cx_q8), multiply_shift_within<24>(n, inverse_l));
+    const Vector m = multiply_shift_within<16>(number(picture.fl_y_q8), inverse_l);
+    const Vector row =
+        hn::Sub(number(picture.cy_q8), multiply_shift<20>(m, hn::Sub(y_q16, number(picture.height_q16))));
+    SamplePlace place;
+    place.exists = hn::And(hn::And(wanted, hn::Gt(l, number(kNearest_q20 - 1))),
+                           hn::And(within(column, walk.width << 8), within(row, walk.height << 8)));
+    place.x_q3 = hn::ShiftRight<5>(hn::Sub(column, number(128 - 16)));
+    place.y_q3 = hn::ShiftRight<5>(hn::Sub(row, number(128 - 16)));
+    return place;
+}
+
+struct Sample {
+    TexelWeights weights;
+    TexelQuads texels;
+};
+
+// Where both pictures are looked at for a surface.
+struct SurfacePlace {
+    Vector lambda_q20;
+    SamplePlace first;
+    SamplePlace second;
+};
+
+HWY_INLINE SurfacePlace surface_place(const ShapeWalk& walk, const ShapeColumn& column, Vector rise, Vector d,
+                                      LaneMask wanted) {
+    SurfacePlace place;
+    place.lambda_q20 = hn::Add(number(column.lambda0_q20), hn::ShiftRight<4>(hn::Mul(d, number(column.lambda1_q21))));
+    const LaneMask looked_at = hn::And(wanted, hn::Gt(place.lambda_q20, hn::Zero(Lanes())));
+    const Vector y_q16 = hn::Add(number(walk.b_q16), multiply_shift_within<28>(place.lambda_q20, rise));
+    const auto in_picture = [&](const ShapePictureColumn& picture) {
+        return sample_place(walk, picture, d, y_q16, picture.used ? looked_at : none());
+    };
+    place.first = in_picture(column.first);
+    place.second = in_picture(column.second);
+    return place;
+}
+
+struct ShownLanes {
+    LaneMask shown;
+    Vector colour;
+};
+
+// leaning_weight() of the lanes `wanted`.
+HWY_INLINE Vector weight_of_second(const ShapeColumn& column, Vector surface, LaneMask wanted) {
+    const Vector lean = hn::ShiftRight<kDepthBits>(surface);
+    const Vector both = number(kBothShow);
+    const Vector weight = number(column.weight);
+    if (HWY_LIKELY(hn::AllTrue(Lanes(), hn::Or(hn::Not(wanted), hn::Eq(lean, both))))) return weight;
+    const auto share = [](Vector of, Vector eighths) {
+        return hn::ShiftRight<3>(hn::Add(hn::Mul(of, eighths), number(4)));
+    };
+    const Vector to_second = hn::Add(weight, share(hn::Sub(number(256), weight), hn::Sub(lean, both)));
+    return hn::IfThenElse(hn::Gt(lean, both), to_second, share(weight, lean));
+}
+
+// Inside of the object: where every texel of both pictures is opaque, resolve(mix()) is a mean of eight texels whose
+// weights are 64 * 256 together.
+HWY_INLINE Vector opaque_colour(const Sample& first, const Sample& second, Vector weight) {
+    const Vector half = number(1 << 13);
+    Channels sum{half, half, half, half};
+    const auto add = [&](const Sample& sample, Vector share) {  // of 256, in both halves of 32 bits
+        add_texels(sample.texels,
+                   {multiply_halves(sample.weights.upper, share), multiply_halves(sample.weights.lower, share)}, sum);
+    };
+    const Vector share = hn::Mul(weight, number(0x10001));
+    add(first, hn::Sub(number(256 * 0x10001), share));
+    add(second, share);
+    return packed(hn::ShiftRight<14>(sum.r), hn::ShiftRight<14>(sum.g), hn::ShiftRight<14>(sum.b), number(255));
+}
+
+// shown_surface() of the lanes `wanted`: of `met`, whose place is known.
+HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& column, const SurfacePlace& place,
+                                  Vector met, LaneMask wanted) {
+    const Vector zero = hn::Zero(Lanes());
+    // The texels' border stands in for the clamps of section 7.
+    const TexelGrid grid{reinterpret_cast<const std::int32_t*>(walk.texels), walk.column_stride, walk.height};
+    const auto sample = [&](const SamplePlace& of, const ShapePictureColumn& picture) {
+        return Sample{texel_weights(hn::And(of.x_q3, number(7)), hn::And(of.y_q3, number(7))),
+                      fetch(grid, picture.start, of.x_q3, of.y_q3, of.exists)};
+    };
+    const LaneMask first_exists = place.first.exists;
+    const LaneMask second_exists = place.second.exists;
+    const Sample first = sample(place.first, column.first);
+    const Sample second = sample(place.second, column.second);
+    ShownLanes surface;
+    const LaneMask both = hn::And(first_exists, second_exists);
+    const Vector alphas = hn::Or(hn::And(all_bits(first.texels), all_bits(second.texels)), number(0x00FFFFFF));
+    if (HWY_LIKELY(hn::AllTrue(Lanes(), hn::Or(hn::Not(wanted), hn::And(both, hn::Eq(alphas, number(-1))))))) {
+        surface.shown = both;
+        surface.colour = opaque_colour(first, second, weight_of_second(column, met, wanted));
+        return surface;
+    }
+
+    const Channels first_sum = premultiplied(first.texels, first.weights);
+    const Channels second_sum = premultiplied(second.texels, second.weights);
+    const LaneMask transparent =
+        hn::Or(hn::And(first_exists, hn::Eq(first_sum.a, zero)), hn::And(second_exists, hn::Eq(second_sum.a, zero)));
+    surface.shown = hn::AndNot(transparent, hn::Or(first_exists, second_exists));
+    const Vector weight =
+        hn::IfThenElse(both, weight_of_second(column, met, wanted), hn::IfThenZeroElse(first_exists, number(256)));
+    const auto mixed = [&](Vector f, Vector s) { return hn::Add(hn::ShiftLeft<8>(f), hn::Mul(hn::Sub(s, f), weight)); };
+    surface.colour = resolve_lanes({mixed(first_sum.r, second_sum.r), mixed(first_sum.g, second_sum.g),
+                                    mixed(first_sum.b, second_sum.b), mixed(first_sum.a, second_sum.a)});
+    return surface;
+}
+
+HWY_INLINE Vector alpha_of(Vector colour) {
+    const hn::RebindToUnsigned<Lanes> bits;
+    return hn::BitCast(Lanes(), hn::ShiftRight<24>(hn::BitCast(bits, colour)));
+}
+
+// laid_over() of colours where both surfaces show something and the farther one covers its pixel. Two channels at once.
+HWY_INLINE Vector laid_over(Vector nearer, Vector farther) {
+    const Vector two = number(0x00FF00FF);
+    const Vector alpha = alpha_of(nearer);
+    const Vector weight = hn::Add(alpha, hn::ShiftRight<7>(alpha));
+    const auto mixed = [&](Vector n, Vector f) {
+        const Vector sum =
+            hn::Add(hn::Mul(hn::And(n, two), weight), hn::Mul(hn::And(f, two), hn::Sub(number(256), weight)));
+        return hn::Add(sum, number(0x00800080));
+    };
+    const Vector opaque = hn::Or(nearer, number(-0x01000000));
+    const Vector red_blue = mixed(opaque, farther);
+    const Vector green_alpha = mixed(hn::ShiftRight<8>(opaque), hn::ShiftRight<8>(farther));
+    return hn::Or(hn::And(hn::ShiftRight<8>(red_blue), two), hn::AndNot(two, green_alpha));
+}
+
+}  // namespace rs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
