@@ -69,6 +69,14 @@ Head take_head(JsonObject object) {
     return head;
 }
 
+Head take_tracker(JsonObject object) {
+    Head zero;
+    zero.position = corner(object, "position");
+    zero.heading_rad = angle(object, "heading_deg");
+    object.expect_all_taken();
+    return zero;
+}
+
 RoomPlace take_place(JsonObject object) {
     RoomPlace place;
     place.position = object.take("position").triple(-kFarthestPlace, kFarthestPlace);
@@ -146,6 +154,7 @@ Result<WallDisplay> walls_from_json(const std::string& text, const std::filesyst
             }
         }
         if (top.has("head")) display.head = take_head(JsonObject(top.take("head")));
+        if (top.has("tracker")) display.tracker = take_tracker(JsonObject(top.take("tracker")));
         if (top.has("eye_distance")) display.eye_distance_m = top.take("eye_distance").number(0, 1);
         if (top.has("units_per_metre")) display.units_per_metre = top.take("units_per_metre").number(1e-6, 1e6);
         if (top.has("fit_scene")) display.fits_scene = top.take("fit_scene").boolean();

@@ -16,6 +16,7 @@ namespace rs::compositor {
 struct WallDisplay {
     std::vector<Wall> walls;  // 1..64, each passes check_wall(); names differ and are fit for files
     Head head;
+    std::optional<Head> tracker;  // its zero, of which position and heading count; else the head
     double eye_distance_m = 0.065;
     double units_per_metre = 1;
     std::optional<RoomPlace> place;  // in the scene; else where a visitor would begin

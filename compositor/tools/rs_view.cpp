@@ -113,12 +113,12 @@ Status run_view(ViewArguments arguments) {
     std::optional<QuiltViews> quilt;
     const std::size_t moments = cameras->size();
     if (on_walls) {
-        Result<WallViews> asked = asked_walls(arguments, *scene, *cameras);
-        if (!asked) return asked.error();
-        walls = std::move(*asked);
         if (*kind != OutputKind::folder && !in_window) {
             return Error{arguments.output + ": walls go into a folder; give a folder to -o"};
         }
+        Result<WallViews> asked = asked_walls(arguments, *scene, *cameras);
+        if (!asked) return asked.error();
+        walls = std::move(*asked);
         cameras = wall_cameras(*walls);
     } else if (in_tiles) {
         Result<QuiltViews> asked = asked_quilt(arguments, *scene, *cameras);

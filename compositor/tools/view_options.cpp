@@ -63,8 +63,11 @@ void add_display_options(CLI::App& app, ViewArguments& arguments) {
         ->check(CLI::Range(0.0, 1.0))
         ->type_name("M")
         ->needs(walls);
-    app.add_option("--heads", arguments.heads, "where the head is in each frame (compositor/displays/README.md)")
-        ->type_name("FILE.json")
+    app.add_option("--heads", arguments.heads,
+                   "where the head is in each frame, or the tracker that says so now, in datagrams as opentrack sends "
+                   "them over UDP to this port of 127.0.0.1, or of the address that is named: windows follow it; -o "
+                   "waits up to 10 s for the first, and draws that one (compositor/displays/README.md)")
+        ->type_name("FILE.json|udp:[ADDRESS:]PORT")
         ->needs(walls);
     CLI::Option* quilt =
         app.add_option("--quilt", arguments.quilt,
@@ -231,6 +234,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         "  rs-view hall.wrl --save-lights hall_lights.json\n"
         "  rs-view --sequence maps/street --weather rain -o street.mp4\n"
         "  rs-view hall.wrl --walls cave --stereo side-by-side -o walls\n"
+        "  rs-view hall.wrl --walls cave --heads udp:0.0.0.0:4242\n"
         "  rs-view hall.wrl --quilt 5x9 -o hall.png\n"
         "  rs-view room.json --eye 0,1.2,6 --at 0,0.8,0 --fov 45 --size 1920x1080 -o room.png");
 }

@@ -1,5 +1,6 @@
 #include "compositor/tools/wall_views.hpp"
 
+#include "compositor/displays/head_datagram.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/pictures/picture_io.hpp"
@@ -12,6 +13,8 @@ namespace rs::compositor {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kFirstHead_s = 10;
 
 // To the right of the middle; one or two.
 std::vector<double> eye_offsets_m(const WallViews& views) {
@@ -47,11 +50,40 @@ Result<WallDisplay> asked_display(const ViewArguments& arguments) {
     return display;
 }
 
+Head in_room(const WallViews& views, const Head& tracked) {
+    return tracked_in_room(tracked, views.display.tracker.value_or(views.display.head));
+}
+
+// A tracker's head for all frames of pictures; windows ask it anew for each.
+Status add_tracked_head(const ViewArguments& arguments, WallViews& views) {
+    const Result<UdpPlace> place = udp_place_from(arguments.heads);
+    if (!place) return place.error();
+    Result<HeadReceiver> tracker = HeadReceiver::listen(*place);
+    if (!tracker) return tracker.error();
+    views.tracker = std::make_shared<HeadReceiver>(std::move(*tracker));
+    if (arguments.output.empty()) return {};
+    const std::optional<Head> head = views.tracker->wait_for_newest(kFirstHead_s);
+    if (head) {
+        views.heads = {in_room(views, *head)};
+        return {};
+    }
+    const std::string& fault = views.tracker->first_fault();
+    return Error{place->text() + ": no head has come in " + std::to_string(static_cast<int>(kFirstHead_s)) +
+                 (fault.empty() ? " s; start the tracker, and let it send to this address and port"
+                                : " s, but a datagram that " + fault)};
+}
+
 std::string numbered(const std::string& name, std::size_t frame, std::size_t frames) {
     return frames == 1 ? name + ".png" : name + "/" + numbered_picture_name(frame);
 }
 
 }  // namespace
+
+std::optional<Head> newest_head(const WallViews& views) {
+    const std::optional<Head> tracked = views.tracker ? views.tracker->newest() : std::nullopt;
+    if (!tracked) return std::nullopt;
+    return in_room(views, *tracked);
+}
 
 Result<std::vector<Camera>> wall_cameras(const WallViews& views) {
     std::vector<Camera> cameras;
@@ -79,7 +111,9 @@ Result<WallViews> asked_walls(const ViewArguments& arguments, const Scene& scene
         if (arguments.stereo == named.name) views.stereo = named.form;
     }
     views.heads = {views.display.head};
-    if (!arguments.heads.empty()) {
+    if (asks_for_udp(arguments.heads)) {
+        if (const Status tracked = add_tracked_head(arguments, views); !tracked) return tracked.error();
+    } else if (!arguments.heads.empty()) {
         Result<std::vector<Head>> heads = read_heads(arguments.heads);
         if (!heads) return heads.error();
         views.heads = std::move(*heads);

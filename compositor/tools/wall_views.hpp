@@ -1,6 +1,7 @@
 #pragma once
 // What `rs-view --walls` draws: which cameras, and how their pictures become files.
 
+#include "compositor/displays/head_receiver.hpp"
 #include "compositor/displays/stereo_picture.hpp"
 #include "compositor/displays/walls_file.hpp"
 #include "compositor/scene/scene.hpp"
@@ -9,6 +10,7 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/output/view_output.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +22,7 @@ struct WallViews {
     std::vector<Head> heads;        // one for all frames, or one for each
     std::vector<RoomPlace> places;  // likewise
     std::optional<StereoForm> stereo;
+    std::shared_ptr<HeadReceiver> tracker;  // moves the head; null without
 
     [[nodiscard]] std::size_t frames() const { return std::max(heads.size(), places.size()); }
     [[nodiscard]] const Head& head(std::size_t frame) const { return heads[heads.size() == 1 ? 0 : frame]; }
@@ -27,8 +30,12 @@ struct WallViews {
 };
 
 // `visitor`: the cameras of a visitor without a display (asked_cameras.hpp), which say where the room stands where the
-// walls' file does not. Every eye of every frame is checked: fails where one is behind a wall, naming it.
+// walls' file does not. Every eye of every frame is checked: fails where one is behind a wall, naming it. Pictures of a
+// head that is tracked wait for it, and fail where none comes.
 Result<WallViews> asked_walls(const ViewArguments& arguments, const Scene& scene, const std::vector<Camera>& visitor);
+
+// Where the head is in the room, if the tracker has said so since the last call.
+std::optional<Head> newest_head(const WallViews& views);
 
 // Frame by frame, wall by wall, the left eye before the right one.
 Result<std::vector<Camera>> wall_cameras(const WallViews& views);

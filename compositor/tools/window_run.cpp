@@ -43,16 +43,30 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
 Status run_walls(const ViewArguments& arguments, const Scene& scene, const WallViews& views,
                  std::unique_ptr<Showroom> showroom) {
     if (asked_method(arguments)) return Error{"--renderer " + arguments.renderer + ": on walls it needs -o FOLDER"};
-    return visit_walls(scene, std::move(showroom),
-                       {.display = views.display,
-                        .heads = views.heads,
-                        .place = views.places.front(),
-                        .stereo = views.stereo,
-                        .samples = arguments.samples,
-                        .exposure_ev = arguments.exposure_ev,
-                        .object_depth = asked_depth(arguments),
-                        .object_samples = arguments.object_samples,
-                        .warn = print_warnings});
+    const auto tracked = [&views, warned = false]() mutable {
+        const std::optional<Head> head = newest_head(views);
+        if (views.tracker->dropped() > 0 && !std::exchange(warned, true)) {
+            print_warnings({views.tracker->place().text() + ": a datagram " + views.tracker->first_fault() +
+                            "; it is dropped, as others like it will be"});
+        }
+        return head;
+    };
+    WallVisitOptions options{.display = views.display,
+                             .heads = views.heads,
+                             .place = views.places.front(),
+                             .stereo = views.stereo,
+                             .samples = arguments.samples,
+                             .exposure_ev = arguments.exposure_ev,
+                             .object_depth = asked_depth(arguments),
+                             .object_samples = arguments.object_samples,
+                             .warn = print_warnings};
+    if (views.tracker) options.tracked = tracked;
+    Status left = visit_walls(scene, std::move(showroom), options);
+    if (views.tracker && views.tracker->dropped() > 1) {
+        print_warnings({views.tracker->place().text() + ": of " + std::to_string(views.tracker->received()) +
+                        " datagrams " + std::to_string(views.tracker->dropped()) + " were dropped"});
+    }
+    return left;
 }
 
 }  // namespace rs::compositor

@@ -130,6 +130,9 @@ void WallVisit::move(double seconds) {
         head_ = options_.heads[next_head_];
         next_head_ = (next_head_ + 1) % options_.heads.size();
     }
+    if (const std::optional<Head> tracked = options_.tracked ? options_.tracked() : std::nullopt) {
+        if (sees_all_walls(*tracked)) head_ = *tracked;
+    }
     if (!moves_head_) {
         const double speed = navigation_.speed;
         const Visitor there = moved(as_visitor(head_, place_), mode_, movement, {.speed = speed});

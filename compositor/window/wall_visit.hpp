@@ -1,6 +1,6 @@
 #pragma once
 // A visit with a window for each wall of a display: the room is driven through the scene, and the head moves in the
-// room.
+// room, by keys, by a list or by a tracker.
 //
 //     scene -> one compositor, wall by wall and eye by eye -> pictures -> the windows, each with a context of its own
 //
@@ -31,6 +31,9 @@ struct WallVisitOptions {
     WallDisplay display;      // windows have the walls' sizes
     std::vector<Head> heads;  // one, or one for each frame, again and again
     RoomPlace place;          // where the visit begins
+    // Where a tracker has the head, in the room; nothing where it says nothing new. Asked once a frame; a head whose
+    // eyes are not before all walls is passed over.
+    std::function<std::optional<Head>()> tracked = nullptr;
     std::optional<StereoForm> stereo = std::nullopt;
     int samples = 4;
     double exposure_ev = 0;

@@ -4,12 +4,16 @@
 #include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/udp_sender.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 namespace rs {
 namespace {
@@ -92,6 +96,62 @@ TEST_F(Displays, HeadsMoveFrameByFrameAndNotThroughWalls) {
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_THAT(run.err, HasSubstr("heads.json: head 1: an eye is 0.4 m behind wall 'w'"));
     EXPECT_FALSE(exists("no"));
+}
+
+// Sends a head again and again, as a tracker does.
+class Tracker {
+public:
+    Tracker(std::uint16_t port, const std::array<double, 6>& head)
+        : thread_([port, head](const std::stop_token& stop) {
+              test::UdpSender sender(port);
+              while (!stop.stop_requested()) {
+                  sender.send(head);
+                  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+              }
+          }) {}
+
+private:
+    std::jthread thread_;
+};
+
+TEST_F(Displays, PicturesAreOfTheHeadThatIsTracked) {
+    write("walls.json",
+          R"({"walls": [{"name": "w", "lower_left": [-1, 0, -1], "lower_right": [1, 0, -1], "upper_left": [-1, 2, -1],
+              "pixels": [32, 32]}], "head": {"position": [0, 1, 0]}})");
+    write("heads.json", R"({"heads": [{"position": [0.4, 1.1, 0.5]}]})");
+    test::ToolRun run =
+        view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", in("heads.json"), "-o", in("by-file")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::uint16_t port = test::TakenPort().number();
+    const std::string udp = "udp:" + std::to_string(port);
+    {
+        const Tracker tracker(port, {40, 10, 50, 0, 0, 0});
+        run = view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", udp, "-o", in("tracked")});
+    }
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(picture("tracked/w.png"), picture("by-file/w.png"));
+    {
+        const Tracker tracker(port, {0, 0, -140, 0, 0, 0});
+        run = view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", udp, "-o", in("behind")});
+    }
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_THAT(run.err, HasSubstr(udp + ": an eye is 0.4 m behind wall 'w'"));
+    EXPECT_FALSE(exists("behind"));
+}
+
+TEST_F(Displays, ATrackerThatSaysNothingIsNamed) {
+    const auto fault = [&](const std::string& heads) {
+        const test::ToolRun run = view({in("hall.wrl"), "--walls", "cave", "--heads", heads, "-o", in("none")});
+        EXPECT_EQ(run.exit_code, 1);
+        EXPECT_FALSE(exists("none"));
+        return run.err;
+    };
+    const test::TakenPort taken;
+    const std::string udp = "udp:127.0.0.1:" + std::to_string(taken.number());
+    EXPECT_THAT(fault(udp), HasSubstr("another program has the port: end it, or give another port"));
+    const std::uint16_t free = test::TakenPort().number();
+    EXPECT_THAT(fault("udp:" + std::to_string(free)), HasSubstr("no head has come in 10 s; start the tracker"));
+    EXPECT_THAT(fault("udp:here:1"), HasSubstr("udp:here:1: must be udp:PORT"));
 }
 
 TEST_F(Displays, TracedLightFallsOnWallsToo) {

@@ -46,6 +46,9 @@ int fuzz_manifest(const std::uint8_t* data, std::size_t size);
 // The bytes as a file of a display's walls, and as one of heads before them.
 int fuzz_walls(const std::uint8_t* data, std::size_t size);
 
+// The bytes as a datagram of a head tracker.
+int fuzz_head(const std::uint8_t* data, std::size_t size);
+
 // The bytes as a list of lights; what is read is written and read again.
 int fuzz_lights(const std::uint8_t* data, std::size_t size);
 

@@ -1,5 +1,6 @@
 // Runs every file of the corpus through its fuzz entry: what a fuzzer found once must not come back.
 #include "capture/calibration/known/known_files.hpp"
+#include "compositor/displays/head_datagram.hpp"
 #include "compositor/scene/scene_file.hpp"
 #include "compositor/scene/vrml_file.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -99,6 +100,10 @@ TEST(FuzzReplay, Walls) {
     replay("walls", fuzz::fuzz_walls);
 }
 
+TEST(FuzzReplay, Head) {
+    replay("head", fuzz::fuzz_head);
+}
+
 TEST(FuzzReplay, Lights) {
     replay("lights", fuzz::fuzz_lights);
 }
@@ -187,7 +192,13 @@ TEST(FuzzReplay, SeedsAreValid) {
         EXPECT_TRUE(read_picture(file).ok()) << file;
         ++seeds;
     }
-    EXPECT_GE(seeds, 16);
+    for (const fs::path& file : corpus("head")) {
+        if (file.filename().string().rfind("seed-", 0) != 0) continue;
+        const auto input = contents(file);
+        EXPECT_TRUE(compositor::head_from_datagram(std::as_bytes(std::span(input))).ok()) << file;
+        ++seeds;
+    }
+    EXPECT_GE(seeds, 18);
 }
 
 }  // namespace

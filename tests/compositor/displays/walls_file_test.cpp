@@ -45,6 +45,19 @@ TEST(WallsFile, SaysWhereWallsAndHeadAre) {
     EXPECT_DOUBLE_EQ(display->place->heading_rad, kPi);
 }
 
+TEST(WallsFile, ATrackerMayHaveItsZeroElsewhere) {
+    EXPECT_FALSE(walls_from_json(file_of(""), "walls.json")->tracker.has_value());
+    const auto display =
+        walls_from_json(file_of(R"(, "tracker": {"position": [0, 2.5, -1], "heading_deg": 180})"), "walls.json");
+    ASSERT_TRUE(display.ok()) << display.error().message;
+    ASSERT_TRUE(display->tracker.has_value());
+    EXPECT_EQ(display->tracker->position, glm::dvec3(0, 2.5, -1));
+    EXPECT_DOUBLE_EQ(display->tracker->heading_rad, kPi);
+    EXPECT_THAT(fault_of(file_of(R"(, "tracker": {"position": [0, 0, 0], "roll_deg": 1})")),
+                HasSubstr("'roll_deg' that means nothing"));
+    EXPECT_THAT(fault_of(file_of(R"(, "tracker": {})")), HasSubstr("tracker: position is missing"));
+}
+
 TEST(WallsFile, PresetsAreWalls) {
     for (const char* name : {"cave", "power-wall", "tabletop"}) {
         const auto display = preset_display(name);

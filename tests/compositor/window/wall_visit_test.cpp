@@ -120,6 +120,31 @@ TEST_F(WallWindows, KeysDriveTheRoomAndMoveTheHead) {
     EXPECT_LT(visit_->head().position.z, -1.3);
 }
 
+TEST_F(WallWindows, FollowATrackedHeadButThroughNoWall) {
+    std::optional<Head> tracked;
+    options_.tracked = [&tracked] { return std::exchange(tracked, std::nullopt); };
+    open();
+    const double before = red_middle(1);
+    const RoomPlace place = visit_->place();
+    tracked = Head{.position = {0.5, 1.5, 0.2}, .heading_rad = 0.4};
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->head().position, glm::dvec3(0.5, 1.5, 0.2));
+    EXPECT_EQ(visit_->head().heading_rad, 0.4);
+    EXPECT_GT(red_middle(1), before + 2);  // what is behind the wall goes with the head
+    // The room stays where it is.
+    EXPECT_NEAR(glm::distance(visit_->place().position, place.position), 0, 1e-12);
+    EXPECT_NEAR(visit_->place().heading_rad, place.heading_rad, 1e-12);
+    // Behind the front wall, and in the left one's plane: the last good head stays.
+    for (const glm::dvec3& behind : {glm::dvec3(0, 1.5, -1.6), glm::dvec3(-1.5, 1.5, 0)}) {
+        tracked = Head{.position = behind};
+        ASSERT_TRUE(step());
+        EXPECT_EQ(visit_->head().position, glm::dvec3(0.5, 1.5, 0.2));
+    }
+    // Nothing new: it stays as well.
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->head().position, glm::dvec3(0.5, 1.5, 0.2));
+}
+
 TEST_F(WallWindows, GoToViewpointsTakePicturesAndLeave) {
     options_.stereo = StereoForm::kAnaglyph;
     open();
