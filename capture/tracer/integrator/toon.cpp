@@ -21,10 +21,10 @@ glm::vec2 even_place(const glm::vec2& shift, int index) {
 }  // namespace
 
 ToonTracer::ToonTracer(const LightTransport& transport, IrradianceMap irradiance, const glm::vec3& ambient,
-                       int max_depth, ToonStyle style)
+                       int max_depth, ToonStyle style, float pixel_rad)
     : WhittedTracer(transport, std::move(irradiance), ambient, max_depth),
       style_(std::move(style)),
-      edges_(transport.rays(), style_),
+      edges_(transport.rays(), style_, pixel_rad),
       everywhere_(kPiF * luminance(ambient)) {
     find_sky();
 }
@@ -57,9 +57,9 @@ bool ToonTracer::trace(const glm::vec3& origin, const glm::vec3& direction, floa
     return met;
 }
 
-bool ToonTracer::shade(const LightTransport::Vertex& vertex, const glm::vec3& direction, Sampler& sampler,
+bool ToonTracer::shade(const LightTransport::Vertex& vertex, const Ray& ray, Sampler& sampler,
                        glm::vec3& radiance) const {
-    if (edges_.near_edge(vertex.point, direction)) {
+    if (edges_.near_edge(vertex.point, ray.segment.direction, ray.behind)) {
         radiance += style_.brightness * style_.edge_colour;
         return false;
     }

@@ -23,8 +23,9 @@ namespace rs::capture {
 
 class ToonTracer final : public WhittedTracer {
 public:
+    // `pixel_rad`: between the rays of neighbouring pixels in the middle of the picture.
     ToonTracer(const LightTransport& transport, IrradianceMap irradiance, const glm::vec3& ambient, int max_depth,
-               ToonStyle style);
+               ToonStyle style, float pixel_rad);
 
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
@@ -33,7 +34,7 @@ public:
     }
 
 protected:
-    bool shade(const LightTransport::Vertex& vertex, const glm::vec3& direction, Sampler& sampler,
+    bool shade(const LightTransport::Vertex& vertex, const Ray& ray, Sampler& sampler,
                glm::vec3& radiance) const override;
 
 private:

@@ -1,5 +1,8 @@
 #include "capture/tracer/integrator/toon_edges.hpp"
 
+#include "capture/tracer/light/directions.hpp"
+#include "rayspace/base/conventions.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,8 +11,11 @@ namespace rs::capture {
 
 namespace {
 
-constexpr int kDiameters = 4;
-constexpr float kFlattest = 0.01F;  // cosine of a ray and a surface's normal, that is told from a flatter one
+constexpr int kFewest = 4, kMost = 64;  // diameters
+constexpr float kNarrower_px = 0.4F;    // that a line may be than its disc, between two diameters
+constexpr float kHidden_px = 0.3F;      // that a line may be narrower because its crease hides in the last chord
+constexpr float kMostAngle_rad = 3.1F;  // of a crease; its half has a tangent
+constexpr float kFlattest = 0.01F;      // cosine of a ray and a surface's normal, that is told from a flatter one
 
 // How many radii before the disc its rays start: before the facet that is met, if that goes on.
 float start_of(float cos_ray) {
@@ -24,41 +30,90 @@ void span_disc(const glm::vec3& direction, glm::vec3& u, glm::vec3& v) {
     v = glm::cross(u, direction);
 }
 
+// How many diameters a disc needs, so that lines are as wide as it is.
+std::size_t diameters_of(float radius_px) {
+    std::size_t count = kFewest;
+    // 1 - cos(x) is x * x / 2 here.
+    for (float narrower_px = radius_px * kPiF * kPiF / (8.0F * kFewest * kFewest);
+         narrower_px > kNarrower_px && count < kMost; narrower_px /= 4.0F) {
+        count *= 2;
+    }
+    return count;
+}
+
+// Of each diameter after the fewest: cosine and sine from the first one. The first N of all, for N = 8, 16, ..., are
+// spread evenly.
+std::array<glm::vec2, kMost - kFewest> make_turns() {
+    std::array<glm::vec2, kMost - kFewest> turns;
+    std::size_t count = 0;
+    for (int all = 2 * kFewest; all <= kMost; all *= 2) {
+        for (int odd = 1; odd < all; odd += 2) {
+            const double turn_rad = kPi * odd / all;
+            turns[count++] = glm::vec2(glm::dvec2(std::cos(turn_rad), std::sin(turn_rad)));
+        }
+    }
+    return turns;
+}
+
+const std::array<glm::vec2, kMost - kFewest> kTurns = make_turns();
+
+// Of the disc that u and v span.
+glm::vec3 way_of(std::size_t diameter, const glm::vec3& u, const glm::vec3& v) {
+    constexpr float kDiagonal = 0.70710678F;
+    switch (diameter) {
+        case 0:
+            return u;
+        case 1:
+            return v;
+        case 2:
+            return (u + v) * kDiagonal;
+        case 3:
+            return (u - v) * kDiagonal;
+        default:
+            return u * kTurns[diameter - kFewest].x + v * kTurns[diameter - kFewest].y;
+    }
+}
+
 }  // namespace
 
-ToonEdges::ToonEdges(const RayScene& rays, const ToonStyle& style)
+ToonEdges::ToonEdges(const RayScene& rays, const ToonStyle& style, float pixel_rad)
     : rays_(rays),
       radius_(style.edge_radius),
       spacing_(style.edge_radius / kSteps),
       jump_(style.edge_depth > 0.0F ? style.edge_depth : 2.0F * style.edge_radius),
+      pixel_rad_(pixel_rad),
       cos_angle_(std::cos(style.edge_angle_rad)),
-      sin_angle_(std::sin(style.edge_angle_rad)) {}
+      sin_angle_(std::sin(style.edge_angle_rad)),
+      // The slopes beside a crease differ by 2 tan(angle / 2) at least; that of a chord changes by as much of this as
+      // it has behind the crease.
+      least_bend_px_(kHidden_px * kSteps * 2.0F * std::tan(0.5F * std::min(style.edge_angle_rad, kMostAngle_rad))) {}
 
-bool ToonEdges::near_edge(const SurfacePoint& point, const glm::vec3& direction) const {
+bool ToonEdges::near_edge(const SurfacePoint& point, const glm::vec3& direction, float behind) const {
     if (!(radius_ > 0.0F)) return false;
     const float cos_ray = std::max(-glm::dot(point.geometric_normal, direction), kFlattest);
     const float before = std::min(radius_ * start_of(cos_ray), 0.999F * point.distance);
     const glm::vec3 middle = point.position - direction * before;
     glm::vec3 u, v;
     span_disc(direction, u, v);
-    for (int d = 0; d < kDiameters; ++d) {
-        constexpr float kDiagonal = 0.70710678F;
-        const std::array<glm::vec3, kDiameters> ways{u, v, (u + v) * kDiagonal, (u - v) * kDiagonal};
-        const glm::vec3 way = ways[static_cast<std::size_t>(d)];
+    const Ray ray{direction, point.time, radius_ / ((behind + point.distance) * pixel_rad_)};
+    const std::size_t count = diameters_of(ray.radius_px);
+    for (std::size_t d = 0; d < count; ++d) {
+        const glm::vec3 way = way_of(d, u, v);
         Diameter diameter;
+        diameter.way = way;
         std::array<glm::vec3, RayScene::kBundle> origins;
         for (int i = -kSteps; i <= kSteps; ++i) {
-            const glm::vec3 origin = middle + way * (static_cast<float>(i) * spacing_);
-            diameter.origins[static_cast<std::size_t>(i + kSteps)] = origin;
-            if (i != 0) origins[static_cast<std::size_t>(i + kSteps - (i > 0 ? 1 : 0))] = origin;
+            diameter.origins[static_cast<std::size_t>(i + kSteps)] = middle + way * (static_cast<float>(i) * spacing_);
         }
+        std::copy_n(diameter.origins.begin(), kSteps, origins.begin());
+        std::copy_n(diameter.origins.begin() + kSteps + 1, kSteps, origins.begin() + kSteps);
         const RayScene::Bundle depths = rays_.distances(origins, direction, point.time);
         std::copy_n(depths.begin(), kSteps, diameter.depths.begin());
         std::copy_n(depths.begin() + kSteps, kSteps, diameter.depths.begin() + kSteps + 1);
         diameter.depths[kSteps] = before;
         diameter.slope = glm::dot(point.geometric_normal, way) / cos_ray;
         const Extent extent = extent_of(diameter);
-        if (extent.ends || has_crease(diameter, extent, {direction, point.time})) return true;
+        if (extent.ends || has_crease(diameter, extent, ray)) return true;
     }
     return false;
 }
@@ -96,21 +151,44 @@ bool ToonEdges::has_crease(const Diameter& diameter, const Extent& extent, const
     // Of two chords beside each other, and of two with one between, which may lie across the edge.
     for (int gap = 1; gap <= 2; ++gap) {
         for (int i = extent.first; i + gap + 1 <= extent.last; ++i) {
-            const float a = rise(i), b = rise(i + gap);
-            // The angle between (h, a) and (h, b), without its tangent.
-            const float sine = spacing_ * std::abs(b - a), cosine = spacing_ * spacing_ + a * b;
-            if (sine * cos_angle_ > cosine * sin_angle_ && normals_turn(diameter, i, i + gap + 1, ray)) return true;
+            if (slopes_turn(spacing_, rise(i), rise(i + gap)) && normals_turn(diameter, i, i + gap + 1, ray)) {
+                return true;
+            }
         }
     }
-    return false;
+    return has_crease_at_end(diameter, extent, extent.first, extent.first + 1, ray) ||
+           has_crease_at_end(diameter, extent, extent.last, extent.last - 1, ray);
 }
 
-bool ToonEdges::normals_turn(const Diameter& diameter, int first, int last, const Ray& ray) const {
+bool ToonEdges::has_crease_at_end(const Diameter& diameter, const Extent& extent, int outer, int inner,
+                                  const Ray& ray) const {
+    if (inner < extent.first || inner > extent.last || ray.radius_px < kHidden_px * kSteps) return false;
+    const auto depth = [&](int i) { return diameter.depths[static_cast<std::size_t>(i)]; };
+    const int before = inner + (inner - outer);
+    if (before >= extent.first && before <= extent.last) {
+        const float bend = (depth(outer) - depth(inner)) - (depth(inner) - depth(before));
+        if (std::abs(bend) * ray.radius_px < least_bend_px_ * spacing_) return false;
+    }
+    return normals_turn(diameter, outer, inner, ray, true);
+}
+
+bool ToonEdges::slopes_turn(float run, float a, float b) const {
+    // The angle, without its tangent.
+    const float sine = run * std::abs(b - a), cosine = run * run + a * b;
+    return sine * cos_angle_ > cosine * sin_angle_;
+}
+
+bool ToonEdges::normals_turn(const Diameter& diameter, int first, int last, const Ray& ray, bool and_facets) const {
     SurfacePoint here, there;
     if (!rays_.intersect(diameter.origins[static_cast<std::size_t>(first)], ray.direction, ray.time, here) ||
         !rays_.intersect(diameter.origins[static_cast<std::size_t>(last)], ray.direction, ray.time, there)) {
         return false;
     }
+    const auto slope = [&](const SurfacePoint& point) {
+        return glm::dot(point.geometric_normal, diameter.way) /
+               std::max(-glm::dot(point.geometric_normal, ray.direction), kFlattest);
+    };
+    if (and_facets && !slopes_turn(1.0F, slope(here), slope(there))) return false;
     return glm::dot(here.shading_normal, there.shading_normal) < cos_angle_;
 }
 

@@ -98,6 +98,13 @@ RayPicture rays_of(const Camera& camera) {
             [camera](double x, double y) { return camera.ray(x, y); }};
 }
 
+// Between the rays of pixels beside each other in the middle.
+float pixel_rad_of(const RayPicture& rays) {
+    const double x = 0.5 * rays.width, y = 0.5 * rays.height;
+    return static_cast<float>(
+        glm::distance(glm::normalize(rays.ray(x - 0.5, y)), glm::normalize(rays.ray(x + 0.5, y))));
+}
+
 // Axial, of the first surface through each pixel's centre.
 Image<float> first_depths(const RayPicture& rays, const PixelRectangle& visible, const RayScene& scene, int threads) {
     Image<float> depths(rays.width, rays.height);
@@ -170,7 +177,7 @@ std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& 
         case RenderMethod::kToon:
             return std::make_unique<ToonTracer>(transport, IrradianceMap(transport.lights().environment()),
                                                 options.ambient, std::min(options.max_bounces, kWhittedDepth),
-                                                options.toon);
+                                                options.toon, pixel_rad_of(picture));
         case RenderMethod::kPath:
             break;
     }

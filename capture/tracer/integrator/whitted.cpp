@@ -24,7 +24,7 @@ bool WhittedTracer::follow(const Ray& ray, Sampler& sampler, glm::vec3& radiance
     if (met != Met::kSurface) return here.depth > 0 || met != Met::kNothing;
     const LightTransport::Vertex vertex = transport_.vertex_at(point, here.segment.direction);
     glm::vec3 sent(0.0F);
-    const bool goes_on = shade(vertex, here.segment.direction, sampler, sent);
+    const bool goes_on = shade(vertex, here, sampler, sent);
     radiance += here.throughput * sent;
     if (goes_on) follow_mirrors(here, vertex, sampler, radiance);
     return true;
@@ -42,11 +42,12 @@ void WhittedTracer::follow_mirrors(const Ray& ray, const LightTransport::Vertex&
             next.media.cross(transport_.material_of(vertex.point), vertex.point.front_side);
         }
         ++next.depth;
+        next.behind += vertex.point.distance;
         follow(next, sampler, radiance);
     }
 }
 
-bool WhittedTracer::shade(const LightTransport::Vertex& vertex, const glm::vec3& /*direction*/, Sampler& sampler,
+bool WhittedTracer::shade(const LightTransport::Vertex& vertex, const Ray& /*ray*/, Sampler& sampler,
                           glm::vec3& radiance) const {
     if (vertex.surface.is_specular()) return true;
     radiance += matte_light(vertex);

@@ -42,19 +42,21 @@ public:
     void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override;
 
 protected:
-    // What a surface sends back along `direction`, beside what it reflects or lets pass. False where it does neither.
-    virtual bool shade(const LightTransport::Vertex& vertex, const glm::vec3& direction, Sampler& sampler,
-                       glm::vec3& radiance) const;
-    [[nodiscard]] const LightTransport& transport() const { return transport_; }
-    [[nodiscard]] const IrradianceMap& irradiance() const { return irradiance_; }
-
-private:
     struct Ray {
         LightTransport::Segment segment;
         glm::vec3 throughput{1.0F};
         MediumStack media{};
         int depth = 0;
+        float behind = 0.0F;  // how far it is from the camera to where the segment begins
     };
+    // What a surface sends back along the ray that met it, beside what it reflects or lets pass. False where it does
+    // neither.
+    virtual bool shade(const LightTransport::Vertex& vertex, const Ray& ray, Sampler& sampler,
+                       glm::vec3& radiance) const;
+    [[nodiscard]] const LightTransport& transport() const { return transport_; }
+    [[nodiscard]] const IrradianceMap& irradiance() const { return irradiance_; }
+
+private:
     // The ray to a light, and what the light makes the surface send where nothing is in its way.
     struct Shadow {
         RayScene::Ray ray;
