@@ -20,7 +20,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 
 namespace rs::encode {
@@ -126,13 +125,6 @@ std::vector<ReportFact> facts_of(const BuildArguments& arguments, const BuildOpt
         {"time", text_of("%.1f s", summary.seconds)},
         {"peak memory", text_of("%.0f MB", static_cast<double>(summary.peak_memory_bytes) / 1e6)},
     };
-}
-
-Status write_report(StagedFile& file, const BuildReport& report) {
-    const Result<std::string> page = build_report_page(report);
-    if (!page) return page.error();
-    if (Status status = file.write(std::as_bytes(std::span(*page))); !status) return status;
-    return file.commit();
 }
 
 Status run_build(const BuildArguments& arguments) {

@@ -1,6 +1,7 @@
 #include "encode/tools/commands.hpp"
 
 #include "encode/tools/evaluation.hpp"
+#include "encode/tools/report_of_build.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -10,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -24,6 +26,7 @@ struct EvaluateArguments {
     std::string hold_out = "every-2nd";
     std::string methods = "photo,plane,shape";
     std::string output;
+    std::string report;
     int planes = EvaluationOptions{}.planes;
     bool views = false;
     bool quiet = false;
@@ -113,6 +116,21 @@ void print_table(const EvaluateArguments& arguments, const HoldOut& hold_out, co
     }
 }
 
+Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, const HoldOut& hold_out,
+                  const std::vector<MethodScores>& scores, KeptAnswers answers, StagedFile& file) {
+    BuildReport report;
+    report.name = std::filesystem::weakly_canonical(std::filesystem::absolute(set.folder)).filename().string();
+    report.facts = {{"capture set", arguments.set},
+                    {"pictures", std::to_string(set.upright.views.size()) + (set.resampled ? ", made upright" : "")},
+                    {"reference planes", std::to_string(arguments.planes)}};
+    report.rig = set.upright;
+    if (Status status = add_captured_pictures(set, report); !status) return status;
+    std::string which = arguments.hold_out;  // every-3rd
+    std::ranges::replace(which, '-', ' ');
+    add_scores(set, hold_out, which, scores, std::move(answers), report);
+    return write_report(file, report);
+}
+
 Status run_evaluate(const EvaluateArguments& arguments) {
     const Result<int> every = parse_hold_out(arguments.hold_out);
     if (!every) return every.error();
@@ -133,12 +151,28 @@ Status run_evaluate(const EvaluateArguments& arguments) {
         if (!created) return created.error();
         folder = std::move(*created);
     }
-    LookAtAnswer look;
-    if (folder) look = [&](const AnsweredView& answered) { return folder->write(answered); };
+    std::optional<StagedFile> page;
+    if (!arguments.report.empty()) {
+        Result<StagedFile> created = StagedFile::create(arguments.report);
+        if (!created) return created.error();
+        page = std::move(*created);
+    }
+    KeptAnswers answers(*hold_out, options.methods);
+    const LookAtAnswer look = [&](const AnsweredView& answered) -> Status {
+        if (page) {
+            if (Status status = answers.keep(answered); !status) return status;
+        }
+        return folder ? folder->write(answered) : Status{};
+    };
     const Result<std::vector<MethodScores>> scores = evaluate(*set, *hold_out, options, look, &progress);
     if (!scores) return scores.error();
     if (folder) {
         if (Status status = folder->commit(); !status) return status;
+    }
+    if (page) {
+        if (Status status = write_page(arguments, *set, *hold_out, *scores, std::move(answers), *page); !status) {
+            return status;
+        }
     }
     if (arguments.json) {
         print_json(arguments, *hold_out, *scores);
@@ -170,11 +204,13 @@ void add_evaluate_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("--planes", arguments->planes, "reference planes about the axis, 3..64")->capture_default_str();
     command->add_option("-o,--output", arguments->output,
                         "folder for the true pictures of the views held out, the answers and their errors, as PNG");
+    command->add_option("--report", arguments->report,
+                        "also write a page of it, PAGE.html: scores, some answers beside the truth, the cameras");
     command->add_flag("--views", arguments->views, "every view's PSNR too");
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
     command->add_flag("--json", arguments->json, "everything as JSON");
     command->footer(
-        "Examples:\n  rs-encode evaluate vase-set\n"
+        "Examples:\n  rs-encode evaluate vase-set --report vase.html\n"
         "  rs-encode evaluate vase-set --hold-out every-4th --methods plane,shape -o vase-errors --json");
     command->callback([arguments, &run] { run = [arguments] { return run_evaluate(*arguments); }; });
 }

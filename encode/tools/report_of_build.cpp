@@ -1,12 +1,10 @@
 #include "encode/tools/report_of_build.hpp"
 
-#include "encode/tools/evaluation.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <iterator>
-#include <map>
+#include <span>
 #include <utility>
 
 namespace rs::encode {
@@ -26,53 +24,6 @@ std::string with_db(const std::string& text, double psnr_db) {
     return text + ", " + number.data();
 }
 
-// Answers come from several threads; each (view, method) has a place of its own, made before they start.
-class KeptAnswers {
-public:
-    KeptAnswers(const HoldOut& hold_out, const std::vector<Method>& methods) {
-        for (const int n : evenly_spread(static_cast<int>(hold_out.held.size()), kHeldOutShown)) {
-            for (const Method method : methods) kept_[{static_cast<std::size_t>(n), method}] = {};
-        }
-    }
-
-    Status keep(const AnsweredView& answered) {
-        const auto place = kept_.find({answered.number, answered.method});
-        if (place == kept_.end()) return {};
-        const std::string name = to_string(answered.method);
-        place->second.view = answered.view;
-        place->second.truth = scaled_down(answered.truth, kKept_px);
-        place->second.answer = {scaled_down(answered.answer, kKept_px), with_db(name, answered.psnr_db)};
-        place->second.error = {scaled_down(error_picture(answered.truth, answered.answer, kErrorFullScale), kKept_px),
-                               "error of " + name};
-        return {};
-    }
-
-    // One row for each view: the truth, then each method's answer and its error.
-    [[nodiscard]] std::vector<PictureRow> rows(const CaptureSet& set) && {
-        std::vector<PictureRow> rows;
-        std::size_t row_of = 0;
-        for (auto& [key, kept] : kept_) {
-            if (rows.empty() || key.first != row_of) {
-                row_of = key.first;
-                rows.push_back({caption_of(set, kept.view), {}});
-                rows.back().pictures.push_back({std::move(kept.truth), "truth"});
-            }
-            rows.back().pictures.push_back(std::move(kept.answer));
-            rows.back().pictures.push_back(std::move(kept.error));
-        }
-        return rows;
-    }
-
-private:
-    struct Kept {
-        int view = 0;
-        Image<Rgba8> truth;
-        CaptionedPicture answer;
-        CaptionedPicture error;
-    };
-    std::map<std::pair<std::size_t, Method>, Kept> kept_;
-};
-
 // What was found column by column, as a picture.
 Image<float> transposed(const Image<float>& columns) {
     Image<float> picture(columns.height(), columns.width());
@@ -83,6 +34,47 @@ Image<float> transposed(const Image<float>& columns) {
 }
 
 }  // namespace
+
+KeptAnswers::KeptAnswers(const HoldOut& hold_out, const std::vector<Method>& methods) {
+    for (const int n : evenly_spread(static_cast<int>(hold_out.held.size()), kHeldOutShown)) {
+        for (const Method method : methods) kept_[{static_cast<std::size_t>(n), method}] = {};
+    }
+}
+
+Status KeptAnswers::keep(const AnsweredView& answered) {
+    const auto place = kept_.find({answered.number, answered.method});
+    if (place == kept_.end()) return {};
+    const std::string name = to_string(answered.method);
+    place->second.view = answered.view;
+    place->second.truth = scaled_down(answered.truth, kKept_px);
+    place->second.answer = {scaled_down(answered.answer, kKept_px), with_db(name, answered.psnr_db)};
+    place->second.error = {scaled_down(error_picture(answered.truth, answered.answer, kErrorFullScale), kKept_px),
+                           "error of " + name};
+    return {};
+}
+
+std::vector<PictureRow> KeptAnswers::rows(const CaptureSet& set) && {
+    std::vector<PictureRow> rows;
+    std::size_t row_of = 0;
+    for (auto& [key, kept] : kept_) {
+        if (rows.empty() || key.first != row_of) {
+            row_of = key.first;
+            rows.push_back({caption_of(set, kept.view), {}});
+            rows.back().pictures.push_back({std::move(kept.truth), "truth"});
+        }
+        rows.back().pictures.push_back(std::move(kept.answer));
+        rows.back().pictures.push_back(std::move(kept.error));
+    }
+    return rows;
+}
+
+void add_scores(const CaptureSet& set, const HoldOut& hold_out, const std::string& which,
+                std::vector<MethodScores> scores, KeptAnswers answers, BuildReport& report) {
+    report.scores = std::move(scores);
+    report.hold_out = "Of " + std::to_string(set.upright.views.size()) + " views " + which + " was held out, " +
+                      std::to_string(hold_out.held.size()) + " in all.";
+    report.held_out = std::move(answers).rows(set);
+}
 
 Status add_captured_pictures(const CaptureSet& set, BuildReport& report) {
     for (const int view : evenly_spread(static_cast<int>(set.upright.views.size()), kCapturedShown)) {
@@ -105,10 +97,7 @@ Status add_held_out_views(const CaptureSet& set, int planes, BuildReport& report
     Result<std::vector<MethodScores>> scores = evaluate(
         set, *hold_out, options, [&](const AnsweredView& answered) { return answers.keep(answered); }, progress);
     if (!scores) return scores.error();
-    report.scores = std::move(*scores);
-    report.hold_out = "Of " + std::to_string(set.upright.views.size()) + " views every 2nd was held out, " +
-                      std::to_string(hold_out->held.size()) + " in all.";
-    report.held_out = std::move(answers).rows(set);
+    add_scores(set, *hold_out, "every 2nd", std::move(*scores), std::move(answers), report);
     return {};
 }
 
@@ -121,6 +110,13 @@ void add_depths(const CaptureSet& set, const std::vector<FoundDepth>& depths, Bu
         report.depth_pictures.push_back(
             {scaled_down(depth_picture(transposed(found.depth), -kShown, kShown), kKept_px), caption});
     }
+}
+
+Status write_report(StagedFile& file, const BuildReport& report) {
+    const Result<std::string> page = build_report_page(report);
+    if (!page) return page.error();
+    if (Status status = file.write(std::as_bytes(std::span(*page))); !status) return status;
+    return file.commit();
 }
 
 }  // namespace rs::encode

@@ -88,6 +88,19 @@ TEST_F(Evaluate, SaysWhatIsWrong) {
     EXPECT_EQ(run({"evaluate"}).exit_code, 2);
 }
 
+TEST_F(Evaluate, WritesAPageOfItsScores) {
+    const test::ToolRun done = run({"evaluate", in("set"), "--hold-out", "every-3rd", "--methods", "photo,shape",
+                                    "--report", in("page.html"), "-q"});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_THAT(done.out, HasSubstr("mean PSNR"));
+    std::ifstream file(work_ / "page.html");
+    const std::string page(std::istreambuf_iterator<char>(file), {});
+    EXPECT_THAT(page, HasSubstr("Of 12 views every 3rd was held out, 4 in all."));
+    EXPECT_THAT(page, HasSubstr("error of shape"));
+    EXPECT_EQ(page.find("error of plane"), std::string::npos);
+    expect_failure({"evaluate", in("set"), "--report", in("nowhere/page.html"), "-q"}, {"nowhere"});
+}
+
 TEST_F(Evaluate, BuildWritesAPageAboutItself) {
     const test::ToolRun built =
         run({"build", in("set"), "-o", in("o.rso"), "--name", "<balls>", "--report", in("page.html"), "-q"});
