@@ -44,7 +44,7 @@ void set_surfaces(const ShapeMap& shape, const ShapeSetup& setup, std::size_t st
     column.beyond = surfaces.beyond;
 }
 
-constexpr double kFarthestLook = 256 + 256 / 2;  // no march looks at a greater depth
+constexpr double kFarthestLook = 256 + 128;  // no march looks at a greater depth: half a step of 256 beyond
 
 // Section 6 at one end of the view, without its roundings. Everything is linear in the rise but for these, so that the
 // view's ends say what lies between.
