@@ -64,9 +64,9 @@ step() {
 from_set() {
   local name=$1
   step "$name: encode" "$OUT/$name.rso" "$BIN/rs-encode" build "$OUT/$name-set" -o "$OUT/$name.rso" --name "$name"
+  step "$name: orbit video" "$OUT/$name-orbit.mp4" "$BIN/rs-engine" render "$OUT/$name.rso" --orbit 180 -o "$OUT/$name-orbit.mp4"
   step "$name: verify" "" "$BIN/rs-encode" verify "$OUT/$name.rso"
   step "$name: bit-accuracy" "" "$BIN/rs-engine" conformance "$OUT/$name.rso" --views 40
-  step "$name: orbit video" "$OUT/$name-orbit.mp4" "$BIN/rs-engine" render "$OUT/$name.rso" --orbit 180 -o "$OUT/$name-orbit.mp4"
   step "$name: contact sheet" "$OUT/$name-sheet.png" "$BIN/rs-engine" render "$OUT/$name.rso" --orbit 12 --sheet 4 -o "$OUT/$name-sheet.png"
   step "$name: how good it is" "$OUT/$name.html" "$BIN/rs-encode" evaluate "$OUT/$name-set" --report "$OUT/$name.html" -q
 }
