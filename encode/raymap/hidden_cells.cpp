@@ -2,6 +2,7 @@
 
 #include "encode/set/soft_coverage.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rs::encode {
@@ -11,45 +12,41 @@ namespace {
 constexpr double kClearlyInFront = 0.1;  // object radii
 constexpr int kEnoughOfNine = 7;         // pixels around a point that show something clearly in front of it
 
-// f(column, row) of the pixels that are at most one away from where the picture sees the point, as long as it gives
-// true; false where it sees it outside of its frame.
-template <class F>
-bool for_pixels_around(const WorkView& view, const SeenColumn& seen, double y, const F& f) {
-    if (seen.axial <= 0) return false;
+// Of the pixels that are at most one away from where the picture sees the point, for how many holds(column, row); none
+// where it sees it outside of its frame.
+template <class Holds>
+int count_around(const WorkView& view, const SeenColumn& seen, double y, const Holds& holds) {
+    if (seen.axial <= 0) return 0;
     const double row = view.row_of(y, seen.axial);
-    if (!(seen.column >= 0 && seen.column < view.width && row >= 0 && row < view.height)) return false;
+    if (!(seen.column >= 0 && seen.column < view.width && row >= 0 && row < view.height)) return 0;
+    int count = 0;
     const auto column = static_cast<int>(seen.column);
     const auto row_number = static_cast<int>(row);
     for (int c = std::max(column - 1, 0); c <= std::min(column + 1, view.width - 1); ++c) {
         for (int r = std::max(row_number - 1, 0); r <= std::min(row_number + 1, view.height - 1); ++r) {
-            if (!f(c, r)) return true;
+            if (holds(c, r)) ++count;
         }
     }
-    return true;
+    return count;
 }
 
 // Whether a picture shows its other layer where the point is, or a pixel away from there.
 bool other_layer_hides(const DepthView& picture, const glm::dvec2& place, double y) {
-    bool hidden = false;
-    for_pixels_around(picture.view, picture.view.see(place), y, [&](int column, int row) {
-        hidden = std::isnan(picture.depth(row, column)) && picture.view.at(column, row).a >= kFaintest;
-        return !hidden;
-    });
-    return hidden;
+    const auto is_others = [&](int column, int row) {
+        return std::isnan(picture.depth(row, column)) && picture.view.at(column, row).a >= kFaintest;
+    };
+    return count_around(picture.view, picture.view.see(place), y, is_others) > 0;
 }
 
 // Whether what a picture was found to show stands clearly in front of the point.
 bool is_hidden(const DepthView& picture, const glm::dvec2& place, double y) {
     const SeenColumn seen = picture.view.see(place);
-    if (seen.axial <= 0) return false;
     const HorizontalRay ray = picture.view.ray_of(seen.column);
     const double nearer = glm::dot(place - ray.foot, ray.along) - kClearlyInFront;
-    int in_front = 0;
-    for_pixels_around(picture.view, seen, y, [&](int column, int row) {
-        if (static_cast<double>(picture.depth(row, column)) <= nearer) ++in_front;  // not where there is none
-        return true;
-    });
-    return in_front >= kEnoughOfNine;
+    const auto is_in_front = [&](int column, int row) {
+        return static_cast<double>(picture.depth(row, column)) <= nearer;  // false where there is none
+    };
+    return count_around(picture.view, seen, y, is_in_front) >= kEnoughOfNine;
 }
 
 }  // namespace
@@ -76,7 +73,7 @@ void avoid_hidden(const LineGrid& grid, const LinePictures& pictures, int p_cell
 
 void say_who_shows(const LineGrid& grid, const LinePictures& pictures, bool trust_depths, int p_cell,
                    ShapeCell* cells) {
-    constexpr int kBoth = ShapeCell::kByFirst | ShapeCell::kBySecond;
+    constexpr int kBoth = ShapeCell::kByBoth;
     const CellRay ray(grid, pictures.viewpoint, p_cell);
     for (int h = 0; h < grid.bands; ++h) {
         ShapeCell& cell = cells[h];

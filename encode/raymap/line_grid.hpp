@@ -41,16 +41,15 @@ struct LinePoint {
 // A point as a line's viewpoint sees it.
 LinePoint on_line(const LineGrid& grid, const glm::dvec2& viewpoint, const glm::dvec2& place, double y);
 
-// The ray of a line's viewpoint that passes the axis at distance p, seen from above.
-HorizontalRay line_ray(const glm::dvec2& viewpoint, double p);
-
-// The points along the ray of the cells of one p.
+// The ray of a line's viewpoint through the middles of the cells of one p, seen from above. Depths are those of cells.
 class CellRay {
 public:
     CellRay(const LineGrid& grid, const glm::dvec2& viewpoint, int p_cell);
 
     [[nodiscard]] glm::dvec2 place(int depth) const { return ray_.place_at(-kHalfWidth + depth * kDepthStep); }
+    // Of the middle of a band, and where among the bands a height is: n + 1/2 in the middle of band n.
     [[nodiscard]] double height(int band, int depth) const;
+    [[nodiscard]] double bands_at(double height, int depth) const;
 
 private:
     const LineGrid& grid_;

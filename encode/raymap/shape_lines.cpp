@@ -72,17 +72,12 @@ ShapeCell make_cell(const std::vector<float>& found) {
 void heed_hull(const LineGrid& grid, const SampledHull& hull, const glm::dvec2& viewpoint, int p_cell, ShapeCell* cells,
                std::uint8_t* meets_hull) {
     if (std::all_of(cells, cells + grid.bands, [](const ShapeCell& cell) { return !cell.has_surface(); })) return;
-    const double p = grid.p_low + (p_cell + 0.5) / grid.cells_per_unit;
-    const HorizontalRay ray = line_ray(viewpoint, p);
-    const double rho = grid.rho(p);
+    const CellRay ray(grid, viewpoint, p_cell);
     std::vector<std::uint8_t> within(static_cast<std::size_t>(grid.bands * kDepths));
     for (int d = 0; d < kDepths; ++d) {
-        const double depth = -kHalfWidth + d * kDepthStep;
-        const std::span<const Interval> heights = hull.heights_above(ray.place_at(depth));
-        const double per_y = rho / (rho + depth);
-        for (const Interval& i : heights) {
-            const double low = (grid.height + (i.low - grid.height) * per_y - grid.h_low) * grid.bands_per_unit - 0.5;
-            const double high = (grid.height + (i.high - grid.height) * per_y - grid.h_low) * grid.bands_per_unit - 0.5;
+        for (const Interval& i : hull.heights_above(ray.place(d))) {
+            const double low = ray.bands_at(i.low, d) - 0.5;
+            const double high = ray.bands_at(i.high, d) - 0.5;
             const int first = std::max(static_cast<int>(std::ceil(low)), 0);
             const int last = std::min(static_cast<int>(std::floor(high)), grid.bands - 1);
             for (int h = first; h <= last; ++h) within[static_cast<std::size_t>(h * kDepths + d)] = 1;

@@ -229,6 +229,10 @@ Status check_memory(const CaptureSet& set, std::int64_t memory_bytes) {
                  "; leave out the steepest views, or make the pictures smaller"};
 }
 
+std::string name_of(const CaptureSet& set) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(set.folder)).filename().string();
+}
+
 Result<Image<Rgba8>> read_upright_picture(const CaptureSet& set, int view) {
     Result<Image<Rgba8>> picture = read_captured_picture(set, view);
     if (!picture || !set.resampled) return picture;

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace rs::encode {
 
@@ -38,6 +39,9 @@ inline constexpr std::int64_t kEncodingBytesPerPixel = 16;
 // An error where encoding the set takes more than `memory_bytes`: cameras on a hemisphere have upright pictures many
 // times as high as those that were taken. open_capture_set() asks for the machine's memory.
 Status check_memory(const CaptureSet& set, std::int64_t memory_bytes);
+
+// The name of the set's folder, however that was told: what objects and pages are called where nobody names them.
+std::string name_of(const CaptureSet& set);
 
 // Picture `view` of the set, seen by upright.views[view].camera. Thread-safe.
 Result<Image<Rgba8>> read_upright_picture(const CaptureSet& set, int view);

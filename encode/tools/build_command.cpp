@@ -144,8 +144,7 @@ Status run_build(const BuildArguments& arguments) {
         if (!created) return created.error();
         page = std::move(*created);
     }
-    if (options->name.empty())
-        options->name = std::filesystem::weakly_canonical(std::filesystem::absolute(set->folder)).filename().string();
+    if (options->name.empty()) options->name = name_of(*set);
     const Result<std::optional<PictureGoal>> goal = goal_of(arguments.profile);
     if (!goal) return goal.error();
     options->raw_pictures = !goal->has_value();

@@ -119,7 +119,7 @@ void print_table(const EvaluateArguments& arguments, const HoldOut& hold_out, co
 Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, const HoldOut& hold_out,
                   const std::vector<MethodScores>& scores, KeptAnswers answers, StagedFile& file) {
     BuildReport report;
-    report.name = std::filesystem::weakly_canonical(std::filesystem::absolute(set.folder)).filename().string();
+    report.name = name_of(set);
     report.facts = {{"capture set", arguments.set},
                     {"pictures", std::to_string(set.upright.views.size()) + (set.resampled ? ", made upright" : "")},
                     {"reference planes", std::to_string(arguments.planes)}};

@@ -326,7 +326,7 @@ Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
     if (surfaces_of(shape) != coded.surfaces) return Error{"has a cell with a surface whose back is 0"};
     if (coded.says_who_shows) return {};
     for (ShapeCell& cell : shape.cells) {
-        if (cell.has_surface()) cell.back |= ShapeCell::kByFirst | ShapeCell::kBySecond;
+        if (cell.has_surface()) cell.back |= ShapeCell::kByBoth;
     }
     return {};
 }

@@ -35,12 +35,12 @@ struct ShapeCell {
     // it.
     std::uint8_t back = 0;
 
-    static constexpr std::uint8_t kByFirst = 1, kBySecond = 2;
+    static constexpr std::uint8_t kByFirst = 1, kBySecond = 2, kByBoth = kByFirst | kBySecond;
 
     // An empty cell is all 0; of one with a surface `back` is not.
     [[nodiscard]] bool has_surface() const { return back != 0; }
-    [[nodiscard]] bool first_alone() const { return (back & 3) == kByFirst; }
-    [[nodiscard]] bool second_alone() const { return (back & 3) == kBySecond; }
+    [[nodiscard]] bool first_alone() const { return (back & kByBoth) == kByFirst; }
+    [[nodiscard]] bool second_alone() const { return (back & kByBoth) == kBySecond; }
 
     bool operator==(const ShapeCell&) const = default;
 };

@@ -53,7 +53,7 @@ inline ShapeMap random_shape(const RaySpaceObject& object, std::size_t ring, std
         const auto depth = [&] { return smooth ? std::clamp(middle + whole(-9, 9), 0, 255) : whole(0, 255); };
         cell.depth = static_cast<std::uint8_t>(depth());
         cell.back = static_cast<std::uint8_t>(std::clamp(cell.depth + whole(0, 60), 1, 255));
-        if (!leans || whole(0, 2) == 0) cell.back |= ShapeCell::kByFirst | ShapeCell::kBySecond;
+        if (!leans || whole(0, 2) == 0) cell.back |= ShapeCell::kByBoth;
     }
     return shape;
 }

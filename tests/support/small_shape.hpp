@@ -51,7 +51,7 @@ inline ShapeCell cell(const ShapeMap& shape, const glm::dvec3& foot, const glm::
     if (!nearest) return {};
     const double steps = (*nearest - std::ldexp(shape.depth_low_q20, -20)) / std::ldexp(shape.depth_step_q24, -24);
     const auto depth = static_cast<std::uint8_t>(std::clamp(std::lround(steps), 0L, 255L));
-    return {depth, static_cast<std::uint8_t>(std::min(depth + 9, 255) | ShapeCell::kByFirst | ShapeCell::kBySecond)};
+    return {depth, static_cast<std::uint8_t>(std::min(depth + 9, 255) | ShapeCell::kByBoth)};
 }
 
 }  // namespace small_shape_detail

@@ -42,26 +42,26 @@ HWY_INLINE SurfaceHalves between_lines(const ShapeCell* first_cells, const Shape
     const Half first_q3 = hn::ShiftLeft<3>(depth_of(first));
     const Half second_q3 = hn::ShiftLeft<3>(depth_of(second));
     const Half apart = hn::Sub(depth_of(second), depth_of(first));
-    const Half smooth = hn::Add(first_q3, hn::Mul(apart, half(part)));
-    const Half both = hn::IfThenElse(hn::Gt(hn::Abs(apart), half(jump)), part < 4 ? first_q3 : second_q3, smooth);
-    const Half of_first = hn::IfThenElse(has_second, both, first_q3);
-    const Half of_second = hn::IfThenElse(has_second, second_q3, half(-1));
+    const auto jumps = hn::Gt(hn::Abs(apart), half(jump));
+    // Of the lines' answers and what lies between them.
+    const auto between = [&](Half of_first, Half of_second, Half mean, Half nothing) {
+        const Half both = hn::IfThenElse(jumps, part < 4 ? of_first : of_second, mean);
+        return hn::IfThenElse(has_first, hn::IfThenElse(has_second, both, of_first),
+                              hn::IfThenElse(has_second, of_second, nothing));
+    };
     const auto lean_of = [&](Half cell) {  // as of one cell
-        const Half shown = hn::And(back_of(cell), half(3));
+        const Half shown = hn::And(back_of(cell), half(ShapeCell::kByBoth));
         const Half leans = hn::Sub(hn::IfThenElseZero(hn::Eq(shown, half(ShapeCell::kBySecond)), half(1)),
                                    hn::IfThenElseZero(hn::Eq(shown, half(ShapeCell::kByFirst)), half(1)));
         return hn::Add(half(1), leans);
     };
     const Half first_lean = hn::ShiftLeft<3>(lean_of(first));
-    const Half second_lean = hn::ShiftLeft<3>(lean_of(second));
-    const Half mean_lean = hn::Add(first_lean, hn::Mul(hn::Sub(lean_of(second), lean_of(first)), half(part)));
-    const Half both_lean =
-        hn::IfThenElse(hn::Gt(hn::Abs(apart), half(jump)), part < 4 ? first_lean : second_lean, mean_lean);
-    const Half lean_of_first = hn::IfThenElse(has_second, both_lean, first_lean);
-    const Half lean_of_second = hn::IfThenElse(has_second, second_lean, half(kBothShow));
+    const Half more_lean = hn::Sub(lean_of(second), lean_of(first));
     const auto have_both = hn::Gt(hn::Min(first_back, back_of(second)), zero);
-    return {hn::IfThenElse(has_first, of_first, of_second), hn::Max(first_back, second_back),
-            hn::IfThenElse(has_first, lean_of_first, lean_of_second),
+    return {between(first_q3, second_q3, hn::Add(first_q3, hn::Mul(apart, half(part))), half(-1)),
+            hn::Max(first_back, second_back),
+            between(first_lean, hn::ShiftLeft<3>(lean_of(second)), hn::Add(first_lean, hn::Mul(more_lean, half(part))),
+                    half(kBothShow)),
             hn::IfThenElse(have_both, hn::Max(first_q3, second_q3), half(-1))};
 }
 

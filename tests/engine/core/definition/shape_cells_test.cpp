@@ -163,7 +163,7 @@ Columns random_columns(test::Random& random) {
             for (int band = low; band < high; ++band) {
                 if (random.real(0, 1) < empty) continue;
                 const int depth = std::clamp(middle + random.whole(-roughness, roughness), 0, 255);
-                const int both = leans && random.whole(0, 1) == 0 ? 0 : ShapeCell::kByFirst | ShapeCell::kBySecond;
+                const int both = leans && random.whole(0, 1) == 0 ? 0 : ShapeCell::kByBoth;
                 const int back = std::clamp(depth + random.whole(0, 90), 1, 255) | both;
                 cells[static_cast<std::size_t>(band)] = {static_cast<std::uint8_t>(depth),
                                                          static_cast<std::uint8_t>(back)};
