@@ -67,7 +67,6 @@ void avoid_hidden(const LineGrid& grid, const LinePictures& pictures, int p_cell
             continue;
         }
         cell.depth = *depth;
-        cell.back = std::max(cell.back, cell.depth);
     }
 }
 
@@ -83,10 +82,8 @@ void say_who_shows(const LineGrid& grid, const LinePictures& pictures, bool trus
         int shown = kBoth;
         if (trust_depths && is_hidden(pictures.first, place, y)) shown -= ShapeCell::kByFirst;
         if (trust_depths && is_hidden(pictures.second, place, y)) shown -= ShapeCell::kBySecond;
-        if (shown == 0) shown = kBoth;  // some other picture's depth is wrong
-        int back = (cell.back & ~kBoth) | shown;
-        if (back < cell.depth) back += kBoth + 1;
-        cell.back = static_cast<std::uint8_t>(back < kDepths ? back : kDepths - 1);
+        // Where both are hidden some other picture's depth is wrong.
+        cell.shown = static_cast<std::uint8_t>(shown == 0 ? kBoth : shown);
     }
 }
 

@@ -21,8 +21,7 @@ struct LinePictures {
 // the bands of one p.
 void avoid_hidden(const LineGrid& grid, const LinePictures& pictures, int p_cell, ShapeCell* cells);
 
-// Says of each surface which of the pictures show it, in the two lowest bits of `back`: both, where their depths are
-// not to be trusted.
+// Says of each surface which of the pictures show it: both, where their depths are not to be trusted.
 void say_who_shows(const LineGrid& grid, const LinePictures& pictures, bool trust_depths, int p_cell, ShapeCell* cells);
 
 }  // namespace rs::encode

@@ -6,6 +6,7 @@
 #include "encode/raymap/semi_global.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/format/shape_chunk.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -63,12 +64,12 @@ ShapeCell make_cell(const std::vector<float>& found) {
     if (found.empty()) return cell;
     const auto depth = static_cast<double>(median(found));
     cell.depth = static_cast<std::uint8_t>(std::clamp(std::lround((depth + kHalfWidth) / kDepthStep), 0L, 255L));
-    cell.back = std::max<std::uint8_t>(cell.depth, 1);
+    cell.shown = ShapeCell::kByBoth;
     return cell;
 }
 
-// Moves surfaces that lie outside of the hull to the nearest place in it, and finds where the object ends behind them:
-// the last depth within the hull. Says of each cell with a surface whether its ray meets the hull at all.
+// Moves surfaces that lie outside of the hull to the nearest place in it. Says of each cell with a surface whether its
+// ray meets the hull at all.
 void heed_hull(const LineGrid& grid, const SampledHull& hull, const glm::dvec2& viewpoint, int p_cell, ShapeCell* cells,
                std::uint8_t* meets_hull) {
     if (std::all_of(cells, cells + grid.bands, [](const ShapeCell& cell) { return !cell.has_surface(); })) return;
@@ -89,10 +90,6 @@ void heed_hull(const LineGrid& grid, const SampledHull& hull, const glm::dvec2& 
         const std::uint8_t* const inside = within.data() + h * kDepths;
         meets_hull[h] = std::find(inside, inside + kDepths, 1) != inside + kDepths ? 1 : 0;
         cell.depth = nearest_depth(cell.depth, [&](int d) { return inside[d] != 0; }).value_or(cell.depth);
-        int last = kDepths - 1;
-        while (last > cell.depth && inside[last] == 0) --last;
-        constexpr int kStride = 8;  // a coarse back is enough, and packs well
-        cell.back = static_cast<std::uint8_t>(std::max({last / kStride * kStride, static_cast<int>(cell.depth), 1}));
     }
 }
 
@@ -195,6 +192,18 @@ HeightRange height_range(const std::vector<SurfaceLayer>& layers, double distanc
     return range;
 }
 
+// By how many depth steps a surface seen from the middle of the widest gap that has lines may be off.
+int settled_steps(const std::vector<DepthView>& ring, const ShapeMap& map, double px_per_radius,
+                  const ShapeLinesOptions& options) {
+    double widest = 0;
+    for (std::size_t n = 0; n < ring.size(); ++n) {
+        if (map.gaps[n].lines > 0) widest = std::max(widest, gap_width(ring, n));
+    }
+    const double step_px = kDepthStep * std::sin(widest / 2) * px_per_radius;
+    return step_px * options.most_settled <= options.settled_px ? options.most_settled
+                                                                : static_cast<int>(options.settled_px / step_px);
+}
+
 }  // namespace
 
 double gap_width(const std::vector<DepthView>& ring, std::size_t n) {
@@ -226,13 +235,14 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
     map.depth_low_q20 = fixed_point(-kHalfWidth, 20);
     map.depth_step_q24 = fixed_point(kDepthStep, 24);
     map.jump = options.jump;
+    map.thickness = options.thickness;
     grid.p_cells = map.p_cells;
     grid.bands = map.bands;
     grid.p_low = -kHalfWidth;
     grid.h_low = heights.low - cell;
     grid.cells_per_unit = map.p_cells / (2 * kHalfWidth);
     grid.bands_per_unit = 1 / cell;
-    grid.fine = std::max(1, static_cast<int>(std::lround(options.cell_px / options.raster_px)));
+    grid.fine = options.raster_points;
 
     std::uint32_t lines = 0;
     for (std::size_t n = 0; n < ring.size(); ++n) {
@@ -262,6 +272,7 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
             }
         }
     });
+    object_chunks::settle_depths(map, settled_steps(ring, map, scale, options));
     return map;
 }
 

@@ -12,11 +12,15 @@
 namespace rs::encode {
 
 struct ShapeLinesOptions {
-    double cell_px = 3.2;  // side of a cell in pixels of the working pictures
-    double raster_px =
-        0.8;              // of the raster on which pictures' depths meet: finer ones fatten what stands in front less
-    double line_deg = 2;  // a gap of n times that has n - 1 lines, rounded up, and one at least
-    int jump = 24;        // depth steps between neighbouring cells that are still one surface, 1..255
+    double cell_px = 2.0;   // side of a cell in pixels of the working pictures
+    int raster_points = 3;  // on it, of the raster on which pictures' depths meet: fewer fatten what stands in front
+    double line_deg = 2;    // a gap of n times that has n - 1 lines, rounded up, and one at least
+    int jump = 24;          // depth steps between neighbouring cells that are still one surface, 1..255
+    int thickness = 8;      // of the object behind its surfaces, depth steps, 0..255
+    // A depth may be off by what moves a point by so many pixels of the working pictures between a line and the
+    // pictures beside it, and by this many steps at most: then most are what the file's prediction says.
+    double settled_px = 0.15;
+    int most_settled = 2;
     double widest_gap_deg = 45.01;  // wider ones stay without lines
 };
 

@@ -34,11 +34,11 @@ Status parse_map(Bytes payload, Unread unread, Index r) {
     return coded ? parse_map(*coded, unread.object.rings[r]) : coded.error();
 }
 
-// Cells are unpacked from planes of bytes, one for each byte of a cell.
+// Cells are unpacked from one plane after the other, of at most a byte for each cell.
 Result<ChunkMemory> shape_memory(Bytes payload, Unread unread, Index r) {
     const auto coded = parse_shape_head(payload, unread.object.rings[r]);
     if (!coded) return coded.error();
-    return ChunkMemory{coded->cells * sizeof(ShapeCell), coded->cells * sizeof(ShapeCell)};
+    return ChunkMemory{coded->cells * sizeof(ShapeCell), coded->cells};
 }
 
 Status parse_shape(Bytes payload, Unread unread, Index r) {

@@ -12,7 +12,7 @@ namespace rs::container_layout {
 // As PNG's: the first byte is no text, the line ends and the end-of-file mark are what text-mode transfers damage.
 inline constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'R', 'S', 'O', 0x0D, 0x0A, 0x1A, 0x0A};
 inline constexpr std::uint16_t kVersionMajor = 2;
-inline constexpr std::uint16_t kVersionMinor = 2;
+inline constexpr std::uint16_t kVersionMinor = 3;
 
 inline constexpr std::uint64_t kHeader_bytes = 48;
 inline constexpr std::uint64_t kHeaderChecked_bytes = 40;  // the header's checksum covers these and follows them

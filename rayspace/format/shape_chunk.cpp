@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -16,18 +16,12 @@ namespace {
 
 constexpr int kNone = -1;
 
-template <class Cell>  // ShapeCell, const or not
-auto& depth_in(Cell& cell, Depth depth) {
-    return depth == Depth::kBack ? cell.back : cell.depth;
-}
-
 // The depths around one cell of the map, by their distance from it in lines, in p and in bands; kNone: no such cell, or
-// it lacks the depth.
+// it is empty.
 class Neighbourhood {
 public:
-    Neighbourhood(const ShapeMap& shape, Depth depth)
+    explicit Neighbourhood(const ShapeMap& shape)
         : shape_(shape),
-          depth_(depth),
           p_cells_(shape.p_cells),
           bands_(shape.bands),
           line_stride_(std::ptrdiff_t{shape.p_cells} * shape.bands) {}
@@ -49,12 +43,11 @@ public:
         if (line_ + line_step < 0 || p < 0 || p >= p_cells_ || band < 0 || band >= bands_) return kNone;
         const std::ptrdiff_t index = index_ + line_step * line_stride_ + std::ptrdiff_t{p_step} * bands_ + band_step;
         const ShapeCell& cell = shape_.cells[static_cast<std::size_t>(index)];
-        return cell.has_surface() ? depth_in(cell, depth_) : kNone;
+        return cell.has_surface() ? cell.depth : kNone;
     }
 
 private:
     const ShapeMap& shape_;
-    Depth depth_;
     int p_cells_;
     int bands_;
     std::ptrdiff_t line_stride_;
@@ -108,61 +101,67 @@ std::size_t surfaces_of(const ShapeMap& shape) {
                                                   [](const ShapeCell& cell) { return cell.has_surface(); }));
 }
 
-std::vector<std::uint8_t> surface_plane(const ShapeMap& shape) {
-    std::vector<std::uint8_t> plane(surface_plane_bytes(shape.cells.size()));
+std::vector<std::uint8_t> shown_plane(const ShapeMap& shape) {
+    std::vector<std::uint8_t> plane(shown_plane_bytes(shape.cells.size()));
     for (std::size_t i = 0; i < shape.cells.size(); ++i) {
-        const unsigned bit = shape.cells[i].has_surface() ? 1 : 0;
-        plane[i / 8] = static_cast<std::uint8_t>(plane[i / 8] | bit << (i % 8));
+        plane[i / 4] = static_cast<std::uint8_t>(plane[i / 4] | shape.cells[i].shown << 2 * (i % 4));
     }
     return plane;
 }
 
-std::vector<std::uint8_t> residual_plane(const ShapeMap& shape, Depth depth) {
+std::vector<std::uint8_t> residual_plane(const ShapeMap& shape) {
     std::vector<std::uint8_t> plane;
     plane.reserve(surfaces_of(shape));
-    Neighbourhood around(shape, depth);
+    Neighbourhood around(shape);
     for (; around.index() < shape.cells.size(); around.go_to_next()) {
         const ShapeCell& cell = shape.cells[around.index()];
-        if (cell.has_surface()) plane.push_back(static_cast<std::uint8_t>(depth_in(cell, depth) - predict(around)));
+        if (cell.has_surface()) plane.push_back(static_cast<std::uint8_t>(cell.depth - predict(around)));
     }
     return plane;
 }
 
-Status put_surfaces(std::span<const std::uint8_t> plane, ShapeMap& shape) {
-    RS_CHECK(plane.size() == surface_plane_bytes(shape.cells.size()));
+Status put_shown(std::span<const std::uint8_t> plane, ShapeMap& shape) {
+    RS_CHECK(plane.size() == shown_plane_bytes(shape.cells.size()));
     for (std::size_t i = 0; i < shape.cells.size(); ++i) {
-        shape.cells[i].back = static_cast<std::uint8_t>(plane[i / 8] >> (i % 8) & 1);
+        shape.cells[i].shown = static_cast<std::uint8_t>(plane[i / 4] >> 2 * (i % 4) & ShapeCell::kByBoth);
     }
-    if (shape.cells.size() % 8 != 0 && plane.back() >> (shape.cells.size() % 8) != 0) {
+    if (shape.cells.size() % 4 != 0 && plane.back() >> 2 * (shape.cells.size() % 4) != 0) {
         return Error{"has bits behind its last cell"};
     }
     return {};
 }
 
-void put_residuals(std::span<const std::uint8_t> plane, Depth depth, ShapeMap& shape) {
+void put_residuals(std::span<const std::uint8_t> plane, ShapeMap& shape) {
     std::size_t taken = 0;
-    Neighbourhood around(shape, depth);
+    Neighbourhood around(shape);
     for (; around.index() < shape.cells.size(); around.go_to_next()) {
         ShapeCell& cell = shape.cells[around.index()];
         if (!cell.has_surface()) continue;
         RS_CHECK(taken < plane.size());
-        depth_in(cell, depth) = static_cast<std::uint8_t>(predict(around) + plane[taken++]);
+        cell.depth = static_cast<std::uint8_t>(predict(around) + plane[taken++]);
     }
     RS_CHECK(taken == plane.size());
 }
 
+void settle_depths(ShapeMap& shape, int tolerance) {
+    Neighbourhood around(shape);
+    for (; around.index() < shape.cells.size(); around.go_to_next()) {
+        ShapeCell& cell = shape.cells[around.index()];
+        if (!cell.has_surface()) continue;
+        const std::uint8_t predicted = predict(around);
+        if (std::abs(predicted - cell.depth) <= tolerance) cell.depth = predicted;
+    }
+}
+
 namespace {
 
-using Plane = std::vector<std::uint8_t>;
-
-constexpr std::uint8_t kBothShowCoding = 0;  // of files up to 2.1, whose backs say nothing about the pictures
-constexpr std::uint8_t kZstdCoding = 1;
-constexpr std::size_t kReserved_bytes = 2;
-constexpr std::size_t kFixed_bytes = 56;
+constexpr std::uint8_t kCoding = 2;  // those before were of files up to 2.2
+constexpr std::size_t kReserved_bytes = 1;
+constexpr std::size_t kFixed_bytes = 52;
 constexpr std::size_t kNormalLine_bytes = 16;
 
-constexpr const char* kSurfacesName = "its surfaces";
-constexpr std::array<const char*, kDepths.size()> kDepthNames = {"its depths", "its backs"};
+constexpr const char* kShownName = "what is shown of its cells";
+constexpr const char* kResidualsName = "its depths";
 
 void put_numbers(const ShapeMap& shape, ByteWriter& out) {
     out.put(static_cast<std::uint16_t>(shape.p_cells));
@@ -222,19 +221,17 @@ Status check_counts(const CodedShapeCells& coded) {
 Payload shape_payload(const Ring& ring) {
     const ShapeMap& shape = ring.shape;
     RS_CHECK(!shape.empty());
-    const Payload surfaces = zstd_frame(surface_plane(shape));
-    std::array<Payload, kDepths.size()> depths;
-    for (std::size_t i = 0; i < kDepths.size(); ++i) {
-        depths[i] = zstd_frame(residual_plane(shape, kDepths[i]));
-    }
+    const Payload shown = zstd_frame(shown_plane(shape));
+    const Payload residuals = zstd_frame(residual_plane(shape));
     ByteWriter out;
-    out.put(kZstdCoding);
+    out.put(kCoding);
     out.put(static_cast<std::uint8_t>(shape.jump));
+    out.put(static_cast<std::uint8_t>(shape.thickness));
     out.put_zeros(kReserved_bytes);
     put_numbers(shape, out);
     out.put(static_cast<std::uint32_t>(surfaces_of(shape)));
-    out.put(static_cast<std::uint32_t>(surfaces.size()));
-    for (const Payload& frame : depths) out.put(static_cast<std::uint32_t>(frame.size()));
+    out.put(static_cast<std::uint32_t>(shown.size()));
+    out.put(static_cast<std::uint32_t>(residuals.size()));
     for (const ShapeGap& gap : shape.gaps) out.put(gap.lines);
     for (const NormalLine& line : shape.normal_lines) {
         out.put(line.l2_q30);
@@ -242,8 +239,8 @@ Payload shape_payload(const Ring& ring) {
         out.put(line.a_q20);
         out.put(line.c_q20);
     }
-    out.put(std::span<const std::byte>(surfaces));
-    for (const Payload& frame : depths) out.put(std::span<const std::byte>(frame));
+    out.put(std::span<const std::byte>(shown));
+    out.put(std::span<const std::byte>(residuals));
     return out.bytes();
 }
 
@@ -252,18 +249,21 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
     ByteReader in(payload);
     const auto coding = in.get<std::uint8_t>();
     if (!in.ok()) return Error{"is empty"};
-    if (coding != kZstdCoding && coding != kBothShowCoding) {
+    if (coding < kCoding) {
+        return Error{"has shape coding " + std::to_string(coding) +
+                     ", of a file older than format 2.3; encode the capture set anew"};
+    }
+    if (coding > kCoding) {
         return Error{"has shape coding " + std::to_string(coding) + ", which is not known here; update these tools"};
     }
     shape.jump = in.get<std::uint8_t>();
+    shape.thickness = in.get<std::uint8_t>();
     const bool is_reserved_zero = in.take_zeros(kReserved_bytes);
     get_numbers(in, shape);
     CodedShapeCells coded;
-    coded.says_who_shows = coding == kZstdCoding;
     coded.surfaces = in.get<std::uint32_t>();
-    const auto surface_bytes = in.get<std::uint32_t>();
-    std::array<std::uint32_t, kDepths.size()> depths_bytes{};
-    for (std::uint32_t& bytes : depths_bytes) bytes = in.get<std::uint32_t>();
+    const auto shown_bytes = in.get<std::uint32_t>();
+    const auto residual_bytes = in.get<std::uint32_t>();
     if (!in.ok()) return Error{"is too short"};
     if (!is_reserved_zero) return Error{"has reserved bytes that are not zero"};
     const auto is_side = [](int side) { return side >= 1 && side <= kMaxMapSide; };
@@ -274,8 +274,7 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
 
     const std::size_t normal_lines = ring.views.size() * static_cast<std::size_t>(ring.planes);
     const std::uint64_t expected_bytes = kFixed_bytes + ring.views.size() * sizeof(std::uint16_t) +
-                                         normal_lines * kNormalLine_bytes + surface_bytes +
-                                         std::accumulate(depths_bytes.begin(), depths_bytes.end(), std::uint64_t{0});
+                                         normal_lines * kNormalLine_bytes + shown_bytes + residual_bytes;
     if (payload.size() != expected_bytes) {
         return Error{"is " + std::to_string(payload.size()) + " bytes long instead of " +
                      std::to_string(expected_bytes)};
@@ -292,42 +291,32 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
     }
     coded.cells = *lines * static_cast<std::uint64_t>(shape.p_cells) * static_cast<std::uint64_t>(shape.bands);
     if (Status status = check_counts(coded); !status) return status.error();
-    coded.surface_bits = in.take(surface_bytes);
-    const std::uint64_t plane_bytes = surface_plane_bytes(coded.cells);
-    if (Status status = check_zstd_frame(coded.surface_bits, plane_bytes, kSurfacesName); !status) {
+    coded.shown = in.take(shown_bytes);
+    if (Status status = check_zstd_frame(coded.shown, shown_plane_bytes(coded.cells), kShownName); !status) {
         return status.error();
     }
-    for (std::size_t i = 0; i < kDepths.size(); ++i) {
-        coded.depths[i] = in.take(depths_bytes[i]);
-        const Status status = check_zstd_frame(coded.depths[i], coded.surfaces, kDepthNames[i]);
-        if (!status) return status.error();
+    coded.residuals = in.take(residual_bytes);
+    if (Status status = check_zstd_frame(coded.residuals, coded.surfaces, kResidualsName); !status) {
+        return status.error();
     }
     return coded;
 }
 
 Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
     shape.cells.assign(static_cast<std::size_t>(coded.cells), ShapeCell{});
-    Plane plane;  // one at a time
-    const std::uint64_t plane_bytes = surface_plane_bytes(shape.cells.size());
-    if (Status status = expand_zstd_frame(coded.surface_bits, plane_bytes, kSurfacesName, plane); !status) {
-        return status;
-    }
-    if (Status status = put_surfaces(plane, shape); !status) return status;
+    std::vector<std::uint8_t> plane;  // one at a time
+    const std::uint64_t plane_bytes = shown_plane_bytes(shape.cells.size());
+    if (Status status = expand_zstd_frame(coded.shown, plane_bytes, kShownName, plane); !status) return status;
+    if (Status status = put_shown(plane, shape); !status) return status;
     const std::uint64_t found = surfaces_of(shape);
     if (found != coded.surfaces) {
         return Error{"claims " + std::to_string(coded.surfaces) + " cells with a surface, but its bits show " +
                      std::to_string(found)};
     }
-    for (std::size_t i = 0; i < kDepths.size(); ++i) {
-        Status status = expand_zstd_frame(coded.depths[i], coded.surfaces, kDepthNames[i], plane);
-        if (!status) return status;
-        put_residuals(plane, kDepths[i], shape);
+    if (Status status = expand_zstd_frame(coded.residuals, coded.surfaces, kResidualsName, plane); !status) {
+        return status;
     }
-    if (surfaces_of(shape) != coded.surfaces) return Error{"has a cell with a surface whose back is 0"};
-    if (coded.says_who_shows) return {};
-    for (ShapeCell& cell : shape.cells) {
-        if (cell.has_surface()) cell.back |= ShapeCell::kByBoth;
-    }
+    put_residuals(plane, shape);
     return {};
 }
 

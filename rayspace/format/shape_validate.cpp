@@ -45,6 +45,7 @@ Status check_numbers(const ShapeMap& shape) {
         return Error{"its depth step is not between 0 and 1/64"};
     }
     if (!is_within(shape.jump, 1, 255)) return Error{"its jump is not between 1 and 255 depth steps"};
+    if (!is_within(shape.thickness, 0, 255)) return Error{"its thickness is not between 0 and 255 depth steps"};
     return {};
 }
 
@@ -84,7 +85,7 @@ Status check_gaps(const Ring& ring) {
 // What does not exist is 0, so that equal maps are equal in memory and the file need not hold it.
 Status check_cell(const ShapeCell& cell) {
     if (!cell.has_surface() && cell.depth != 0) return Error{"has a depth and no surface"};
-    if (cell.back < cell.depth) return Error{"has its back in front of its surface"};
+    if (cell.shown > ShapeCell::kByBoth) return Error{"is shown by pictures that its gap does not have"};
     return {};
 }
 

@@ -19,7 +19,8 @@
 //
 // A cell holds one surface, which both pictures show or one of them: depth d means depth_low + d * depth_step along the
 // ray from the foot, away from the viewer. Cells are samples at their middles: between neighbouring cells, in p, in
-// height and from line to line, the engine interpolates where their depths differ by at most `jump`.
+// height and from line to line, the engine interpolates where their depths differ by at most `jump`. A ray of another
+// slope that passes less than `thickness` behind the deepest cell around it meets the object all the same.
 //
 // Lengths are in object radii; everything is integer. Stored as in encode/FORMAT.md, chunk `shap`.
 
@@ -30,17 +31,12 @@ namespace rs {
 
 struct ShapeCell {
     std::uint8_t depth = 0;
-    // Where the object ends behind the surface, as far as silhouettes tell: at least depth. Its two lowest bits say
-    // which of the gap's pictures show the surface, kByFirst and kBySecond, where not both do: another surface hides
-    // it.
-    std::uint8_t back = 0;
+    // The gap's pictures that show the surface: kByFirst, kBySecond or kByBoth. 0: there is none, and depth is 0.
+    std::uint8_t shown = 0;
 
     static constexpr std::uint8_t kByFirst = 1, kBySecond = 2, kByBoth = kByFirst | kBySecond;
 
-    // An empty cell is all 0; of one with a surface `back` is not.
-    [[nodiscard]] bool has_surface() const { return back != 0; }
-    [[nodiscard]] bool first_alone() const { return (back & kByBoth) == kByFirst; }
-    [[nodiscard]] bool second_alone() const { return (back & kByBoth) == kBySecond; }
+    [[nodiscard]] bool has_surface() const { return shown != 0; }
 
     bool operator==(const ShapeCell&) const = default;
 };
@@ -75,6 +71,7 @@ struct ShapeMap {
     std::int32_t depth_low_q20 = 0;
     std::int32_t depth_step_q24 = 0;
     int jump = 0;                          // 1..255, depth steps
+    int thickness = 0;                     // 0..255, depth steps
     std::vector<ShapeGap> gaps;            // [n], one per view of the ring
     std::vector<NormalLine> normal_lines;  // [n * planes + k]
     std::vector<ShapeCell> cells;

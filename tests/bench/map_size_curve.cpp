@@ -74,7 +74,7 @@ Status run(const Arguments& arguments) {
     if (!set) return set.error();
     std::printf("cell_px,file_bytes,file_percent,memory_bytes,memory_percent,psnr_db\n");
     std::vector<Measured> measured;
-    for (const double cell_px : {12.0, 8.0, 6.0, 4.8, 3.2, 2.4}) {
+    for (const double cell_px : {12.0, 8.0, 6.0, 4.8, 3.2, 2.4, 2.0, 1.6}) {
         const Result<Measured> point = measure(*set, arguments.held_out, cell_px);
         if (!point) return point.error();
         measured.push_back(*point);

@@ -44,6 +44,7 @@ inline ShapeMap random_shape(const RaySpaceObject& object, std::size_t ring, std
         shape.depth_step_q24 = fixed(real(0.0001, 0.015), 24);
     }
     shape.jump = whole(0, 2) == 0 ? whole(1, 255) : whole(1, 20);
+    shape.thickness = whole(0, 3) == 0 ? whole(0, 255) : whole(0, 30);
     const bool smooth = whole(0, 1) == 0;
     const bool leans = whole(0, 1) == 0;
     const int middle = whole(0, 255);
@@ -52,8 +53,7 @@ inline ShapeMap random_shape(const RaySpaceObject& object, std::size_t ring, std
         if (real(0, 1) < empty_share) continue;
         const auto depth = [&] { return smooth ? std::clamp(middle + whole(-9, 9), 0, 255) : whole(0, 255); };
         cell.depth = static_cast<std::uint8_t>(depth());
-        cell.back = static_cast<std::uint8_t>(std::clamp(cell.depth + whole(0, 60), 1, 255));
-        if (!leans || whole(0, 2) == 0) cell.back |= ShapeCell::kByBoth;
+        cell.shown = leans ? static_cast<std::uint8_t>(whole(1, 3)) : ShapeCell::kByBoth;
     }
     return shape;
 }

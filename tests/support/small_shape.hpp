@@ -51,7 +51,7 @@ inline ShapeCell cell(const ShapeMap& shape, const glm::dvec3& foot, const glm::
     if (!nearest) return {};
     const double steps = (*nearest - std::ldexp(shape.depth_low_q20, -20)) / std::ldexp(shape.depth_step_q24, -24);
     const auto depth = static_cast<std::uint8_t>(std::clamp(std::lround(steps), 0L, 255L));
-    return {depth, static_cast<std::uint8_t>(std::min(depth + 9, 255) | ShapeCell::kByBoth)};
+    return {depth, ShapeCell::kByBoth};
 }
 
 }  // namespace small_shape_detail
@@ -77,6 +77,7 @@ inline ShapeMap small_shape(const RaySpaceObject& object, std::size_t ring_index
     shape.depth_low_q20 = fixed(-1.02, 20);
     shape.depth_step_q24 = fixed(2 * 1.02 / 255, 24);
     shape.jump = 20;
+    shape.thickness = 9;
     std::uint32_t line = 0;
     for (std::size_t n = 0; n < ring.views.size(); ++n) {
         const Camera& camera = rig.views[ring.views[n]].camera;

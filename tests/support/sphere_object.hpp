@@ -68,6 +68,7 @@ inline ShapeMap empty_shape(const Rig& rig, const Ring& ring, int lines, int p_c
     shape.depth_low_q20 = fixed(-half, 20);
     shape.depth_step_q24 = fixed(2 * half / 255, 24);
     shape.jump = 20;
+    shape.thickness = 8;
     for (std::size_t n = 0; n < rig.views.size(); ++n) {
         const Camera& camera = rig.views[n].camera;
         shape.gaps.push_back(
@@ -121,7 +122,7 @@ inline ShapeMap sphere_shape(const Sphere& sphere, const Rig& rig, const Ring& r
                     if (!near) continue;
                     const double middle = (near->enters + near->leaves) / 2;
                     const SphereHit met = hit(sphere, ray.foot, ray.direction).value_or(SphereHit{middle, middle});
-                    shape.cells[at] = {level(met.enters), std::max<std::uint8_t>(level(met.leaves), 1)};
+                    shape.cells[at] = {level(met.enters), ShapeCell::kByBoth};
                 }
             }
         }

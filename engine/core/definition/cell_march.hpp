@@ -15,15 +15,15 @@ namespace rs::engine {
 
 // A ray with the slope of the reference viewpoint's stays in one band. Any other passes from band to band, linearly in
 // depth: band = zero + d * per_depth. It is followed away from the viewer in steps of half a band, and gives the
-// surfaces whose object, between surface and back, it meets, one after the other; at the end the one that a ray of
-// reference slope would meet, and what may lie behind it.
+// surfaces that it meets, or passes less than the map's thickness behind the deepest cell around, one after the other;
+// at the end the one that a ray of reference slope would meet, and what may lie behind it.
 class CellMarch {
 public:
     static constexpr int kMostSteps = 64;
     static constexpr std::int32_t kMostPerDepth_q20 = 1 << 22;
 
     CellMarch(const ShapeMap& shape, const ShapeSetup& setup, std::int32_t b_q20, std::int32_t rise_q24)
-        : cells_(setup.cells), bands_(shape.bands), jump_(shape.jump) {
+        : cells_(setup.cells), bands_(shape.bands), jump_(shape.jump), thickness_(shape.thickness) {
         const std::int32_t h_q16 = (b_q20 >> 4) + multiply_shift(setup.lambda_foot_q20, rise_q24, 28);
         const std::int32_t slope_q20 = multiply_shift(rise_q24, setup.inverse_r_q20, 24);
         const std::int32_t reference_q20 =
@@ -44,7 +44,7 @@ public:
             const int begin = begin_;
             begin_ += step_;
             SurfaceCell cell = surfaces_at(band_q12(begin + step_ / 2)).first;
-            if (!cell.exists() || cell.depth_q3 > 8 * begin_ || cell.back < begin) continue;
+            if (!cell.exists() || cell.depth_q3 > 8 * begin_ || cell.deepest + thickness_ < begin) continue;
             cell.depth_q3 = std::max(cell.depth_q3, 8 * begin);
             return cell;
         }
@@ -82,6 +82,7 @@ private:
     const CellColumns& cells_;
     int bands_;
     int jump_;
+    int thickness_;
     std::int32_t foot_q12_ = 0;
     std::int32_t zero_q12_ = 0;
     std::int32_t per_depth_q20_ = 0;

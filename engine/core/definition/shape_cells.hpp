@@ -7,20 +7,22 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 
 namespace rs::engine {
 
 // How far the blend of two pictures leans: 0, the first alone; 16, the second alone.
 inline constexpr std::int32_t kBothShow = 8;
 
-// A surface beside or between cells. `back` 0: there is none.
+// A surface beside or between cells.
 struct SurfaceCell {
-    std::int32_t depth_q3 = 0;  // eighths of a depth step
-    std::int32_t back = 0;
+    std::int32_t depth_q3 = -1;  // eighths of a depth step; -1: there is none
     std::int32_t lean = kBothShow;
-    std::int32_t farthest = -1;  // of both lines' cells, whole steps; -1 where one of them has no surface
+    // Of the cells around, on either line, whatever their weights.
+    std::int32_t deepest = -1;  // greatest depth, whole steps; -1 where none has a surface
+    bool all_have_one = false;
 
-    [[nodiscard]] bool exists() const { return back != 0; }
+    [[nodiscard]] bool exists() const { return depth_q3 >= 0; }
     bool operator==(const SurfaceCell&) const = default;
 };
 
@@ -39,26 +41,29 @@ struct CellColumns {
     std::int32_t line_part = 0;      // of the second line, likewise
 };
 
-// Of a cell: 0, 1 where both pictures show it, 2.
+// Of a cell: 0 where the first picture alone shows it, 1 where both do, 2.
 inline int lean_of(ShapeCell cell) {
-    return cell.first_alone() ? 0 : cell.second_alone() ? 2 : 1;
+    return cell.shown == ShapeCell::kByFirst ? 0 : cell.shown == ShapeCell::kBySecond ? 2 : 1;
 }
 
 // `part` of the second line, in eighths.
 inline SurfaceCell between_lines(ShapeCell first, ShapeCell second, int part, int jump) {
+    SurfaceCell cell;
+    cell.all_have_one = first.has_surface() && second.has_surface();
+    if (first.has_surface()) cell.deepest = first.depth;
+    if (second.has_surface()) cell.deepest = std::max<std::int32_t>(cell.deepest, second.depth);
     const bool has_second = second.has_surface() && part > 0;
-    if (!first.has_surface() && !has_second) return {};
-    const bool both = first.has_surface() && second.has_surface();
-    const int farthest = both ? std::max(first.depth, second.depth) : -1;
-    if (!has_second) return {8 * first.depth, first.back, 8 * lean_of(first), farthest};
-    if (!first.has_surface()) return {8 * second.depth, second.back, 8 * lean_of(second)};
-    const int back = std::max(first.back, second.back);
+    if (!first.has_surface() && !has_second) return cell;
     const int apart = second.depth - first.depth;
-    if (apart > jump || -apart > jump) {
-        const ShapeCell& nearest = part < 4 ? first : second;
-        return {8 * nearest.depth, back, 8 * lean_of(nearest), farthest};
+    if (first.has_surface() && has_second && std::abs(apart) <= jump) {
+        cell.depth_q3 = 8 * first.depth + part * apart;
+        cell.lean = (8 - part) * lean_of(first) + part * lean_of(second);
+    } else {
+        const ShapeCell& nearest = !first.has_surface() || (has_second && part >= 4) ? second : first;
+        cell.depth_q3 = 8 * nearest.depth;
+        cell.lean = 8 * lean_of(nearest);
     }
-    return {8 * first.depth + part * apart, back, (8 - part) * lean_of(first) + part * lean_of(second), farthest};
+    return cell;
 }
 
 // cells[p][h] around a point at p_part and h_part eighths between them. Where they lie on one surface, its mean;
@@ -66,17 +71,15 @@ inline SurfaceCell between_lines(ShapeCell first, ShapeCell second, int part, in
 inline SurfaceStack surfaces_between(const SurfaceCell (&cells)[2][2], int p_part, int h_part, int jump) {
     int nearest = 1 << 12;
     int farthest = -1;
-    int back = 0;
+    int deepest = -1;
     bool all_have_one = true;
-    int last = 0;
     for (const auto& column : cells) {
         for (const SurfaceCell& cell : column) {
-            all_have_one = all_have_one && cell.farthest >= 0;
-            last = std::max(last, cell.farthest);
+            deepest = std::max(deepest, cell.deepest);
+            all_have_one = all_have_one && cell.all_have_one;
             if (!cell.exists()) continue;
             nearest = std::min(nearest, cell.depth_q3);
             farthest = std::max(farthest, cell.depth_q3);
-            back = std::max(back, cell.back);
         }
     }
     const bool steps = farthest - nearest > 8 * jump;
@@ -95,11 +98,14 @@ inline SurfaceStack surfaces_between(const SurfaceCell (&cells)[2][2], int p_par
         }
     }
     const auto mean = [&](int group) {
-        if (weight[group] == 0) return SurfaceCell{};
+        SurfaceCell surface{.deepest = deepest, .all_have_one = all_have_one};
+        if (weight[group] == 0) return surface;
         const auto of_group = [&](int total) { return (total + weight[group] / 2) / weight[group]; };
-        return SurfaceCell{of_group(sum[group]), back, of_group(lean[group])};
+        surface.depth_q3 = of_group(sum[group]);
+        surface.lean = of_group(lean[group]);
+        return surface;
     };
-    const SurfaceCell behind_all = all_have_one ? SurfaceCell{8 * last, back} : SurfaceCell{};
+    const SurfaceCell behind_all = all_have_one ? SurfaceCell{.depth_q3 = 8 * deepest} : SurfaceCell{};
     if (weight[0] < weight[1]) return {mean(1), {}, behind_all};
     return {mean(0), mean(1), behind_all};
 }

@@ -36,7 +36,7 @@ public:
     MarchLanes() = default;
 
     HWY_INLINE MarchLanes(const ShapeWalk& walk, const ShapeColumn& column, Vector rise)
-        : column_(&column), begin_(number(256)), step_(number(256)) {
+        : column_(&column), thickness_(number(walk.thickness)), begin_(number(256)), step_(number(256)) {
         const Vector h = hn::Add(number(walk.b_q16), multiply_shift_within<28>(number(column.lambda_foot_q20), rise));
         const auto shifted = [&](auto shift, Vector a, Vector b) {
             return column.level ? multiply_shift_within<decltype(shift)::value>(a, b)
@@ -73,8 +73,8 @@ public:
             const LaneMask reached = hn::And(is_surface(surface), at_least(hn::ShiftLeft<3>(end), depth));
             const LaneMask in_reach = hn::And(reached, marching);
             if (!hn::AllFalse(Lanes(), in_reach)) {
-                const Vector back = hn::And(look_up(column_->backs, entry_at(at)), number(0xFFFF));
-                const LaneMask hit = hn::And(in_reach, at_least(back, begin));
+                const Vector deepest = hn::And(look_up(column_->deepest, entry_at(at)), number(0xFFFF));
+                const LaneMask hit = hn::And(in_reach, at_least(hn::Add(deepest, thickness_), begin));
                 const Vector farther = hn::Max(hn::Sub(hn::ShiftLeft<3>(begin), depth), hn::Zero(Lanes()));
                 found = hn::IfThenElse(hit, hn::Add(surface, farther), found);
                 begin_ = hn::IfThenElse(marching, end, begin);
@@ -110,7 +110,8 @@ public:
 
     // The farthest of the cells beside the last surface of lanes that have ended.
     [[nodiscard]] HWY_INLINE Vector farthest() const {
-        return shown_by_both(hn::ShiftRight<16>(look_up(column_->backs, entry_at(last_at_))));
+        const Vector deepest = look_up(column_->deepest, entry_at(last_at_));
+        return hn::IfThenElse(is_surface(deepest), shown_by_both(hn::ShiftLeft<3>(deepest)), number(-1));
     }
 
 private:
@@ -172,6 +173,7 @@ private:
     }
 
     const ShapeColumn* column_;
+    Vector thickness_;
     Vector begin_;
     Vector step_;
     Vector foot_;

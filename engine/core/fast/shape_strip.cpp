@@ -32,11 +32,10 @@ ShapePictureColumn picture_column(const RaySpaceObject& object, const TexelStore
 
 void set_surfaces(const ShapeMap& shape, const ShapeSetup& setup, std::size_t start, SurfaceEntries& entries,
                   ShapeColumn& column) {
-    const SurfaceColumn surfaces = setup.has_shape()
-                                       ? lay_surfaces(setup.cells, shape.bands, shape.jump, start, entries)
-                                       : lay_nothing(start, entries);
+    const SurfaceColumn surfaces =
+        setup.has_shape() ? lay_surfaces(setup.cells, shape, start, entries) : lay_nothing(start, entries);
     column.smooth = entries.smooth.data() + start;
-    column.backs = entries.backs.data() + start;
+    column.deepest = entries.deepest.data() + start;
     column.steps = entries.steps.data() + kSurfaceParts * start;
     column.last_entry = surfaces.last;
     column.first_middle_q12 = (surfaces.first_band << 12) + (1 << 11);
@@ -145,6 +144,7 @@ ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, co
     walk.reference_height_q16 = shape.reference_height_q20 >> 4;
     walk.h_low_q16 = shape.h_low_q20 >> 4;
     walk.bands_per_unit_q12 = shape.bands_per_unit_q12;
+    walk.thickness = shape.thickness;
     walk.depth_low_q20 = shape.depth_low_q20;
     walk.depth_step_q24 = shape.depth_step_q24;
     return walk;

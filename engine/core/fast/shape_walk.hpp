@@ -47,7 +47,7 @@ struct ShapeColumn {
     bool level = false;
     // SurfaceColumn and its entries; first_middle: the middle of the first entry's band.
     const std::int32_t* smooth = nullptr;
-    const std::int32_t* backs = nullptr;
+    const std::int32_t* deepest = nullptr;
     const std::int32_t* steps = nullptr;
     std::int32_t last_entry = 0;
     std::int32_t first_middle_q12 = 0;
@@ -80,6 +80,7 @@ struct ShapeWalk {
     std::int32_t reference_height_q16 = 0;
     std::int32_t h_low_q16 = 0;
     std::int32_t bands_per_unit_q12 = 0;
+    std::int32_t thickness = 0;  // depth steps
     std::int32_t depth_low_q20 = 0;
     std::int32_t depth_step_q24 = 0;
 };

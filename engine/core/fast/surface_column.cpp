@@ -22,9 +22,9 @@ HWY_INLINE Half half(int value) {
 
 struct SurfaceHalves {
     Half depth_q3;  // -1: nothing
-    Half back;
     Half lean;
-    Half farthest_q3;  // of both lines; -1: one of them has nothing
+    Half deepest;  // of both lines, whole steps; -1: neither has a surface
+    Half lacking;  // -1 where one of them has none
 };
 
 // between_lines() of as many bands as a vector has.
@@ -34,11 +34,9 @@ HWY_INLINE SurfaceHalves between_lines(const ShapeCell* first_cells, const Shape
     const Half first = hn::LoadU(Halves(), reinterpret_cast<const std::int16_t*>(first_cells));
     const Half second = hn::LoadU(Halves(), reinterpret_cast<const std::int16_t*>(second_cells));
     const auto depth_of = [](Half cell) { return hn::And(cell, half(255)); };
-    const auto back_of = [](Half cell) { return hn::And(hn::ShiftRight<8>(cell), half(255)); };
-    const Half first_back = back_of(first);
-    const Half second_back = part > 0 ? back_of(second) : zero;
-    const auto has_first = hn::Gt(first_back, zero);
-    const auto has_second = hn::Gt(second_back, zero);
+    const auto shown_of = [](Half cell) { return hn::ShiftRight<8>(cell); };
+    const auto has_first = hn::Gt(shown_of(first), zero);
+    const auto has_second = hn::Gt(part > 0 ? shown_of(second) : zero, zero);
     const Half first_q3 = hn::ShiftLeft<3>(depth_of(first));
     const Half second_q3 = hn::ShiftLeft<3>(depth_of(second));
     const Half apart = hn::Sub(depth_of(second), depth_of(first));
@@ -50,27 +48,29 @@ HWY_INLINE SurfaceHalves between_lines(const ShapeCell* first_cells, const Shape
                               hn::IfThenElse(has_second, of_second, nothing));
     };
     const auto lean_of = [&](Half cell) {  // as of one cell
-        const Half shown = hn::And(back_of(cell), half(ShapeCell::kByBoth));
+        const Half shown = shown_of(cell);
         const Half leans = hn::Sub(hn::IfThenElseZero(hn::Eq(shown, half(ShapeCell::kBySecond)), half(1)),
                                    hn::IfThenElseZero(hn::Eq(shown, half(ShapeCell::kByFirst)), half(1)));
         return hn::Add(half(1), leans);
     };
     const Half first_lean = hn::ShiftLeft<3>(lean_of(first));
     const Half more_lean = hn::Sub(lean_of(second), lean_of(first));
-    const auto have_both = hn::Gt(hn::Min(first_back, back_of(second)), zero);
+    const auto deepest_of = [&](Half cell) {
+        return hn::IfThenElse(hn::Gt(shown_of(cell), zero), depth_of(cell), half(-1));
+    };
+    const Half least_shown = hn::Min(shown_of(first), shown_of(second));
     return {between(first_q3, second_q3, hn::Add(first_q3, hn::Mul(apart, half(part))), half(-1)),
-            hn::Max(first_back, second_back),
             between(first_lean, hn::ShiftLeft<3>(lean_of(second)), hn::Add(first_lean, hn::Mul(more_lean, half(part))),
                     half(kBothShow)),
-            hn::IfThenElse(have_both, hn::Max(first_q3, second_q3), half(-1))};
+            hn::Max(deepest_of(first), deepest_of(second)), hn::IfThenElseZero(hn::Eq(least_shown, zero), half(-1))};
 }
 
 // The bands of one of the two p, with nothing at either end.
 struct BandHalves {
     std::vector<std::int16_t> depth_q3;
-    std::vector<std::int16_t> back;
     std::vector<std::int16_t> lean;
-    std::vector<std::int16_t> farthest_q3;
+    std::vector<std::int16_t> deepest;
+    std::vector<std::int16_t> lacking;
 };
 
 void lay_bands(const ShapeCell* first, const ShapeCell* second, int bands, int part, int jump, int margin,
@@ -78,17 +78,17 @@ void lay_bands(const ShapeCell* first, const ShapeCell* second, int bands, int p
     const int lanes = static_cast<int>(hn::Lanes(Halves()));
     const auto length = static_cast<std::size_t>(bands + 2 * margin + lanes);
     out.depth_q3.assign(length, -1);
-    out.back.assign(length, 0);
     out.lean.assign(length, kBothShow);
-    out.farthest_q3.assign(length, -1);
+    out.deepest.assign(length, -1);
+    out.lacking.assign(length, -1);
     const int rest_count = bands % lanes;
     int band = 0;
     const auto lay = [&](const ShapeCell* f, const ShapeCell* s) {
         const SurfaceHalves surfaces = between_lines(f, s, part, jump);
         hn::StoreU(surfaces.depth_q3, Halves(), out.depth_q3.data() + margin + band);
-        hn::StoreU(surfaces.back, Halves(), out.back.data() + margin + band);
         hn::StoreU(surfaces.lean, Halves(), out.lean.data() + margin + band);
-        hn::StoreU(surfaces.farthest_q3, Halves(), out.farthest_q3.data() + margin + band);
+        hn::StoreU(surfaces.deepest, Halves(), out.deepest.data() + margin + band);
+        hn::StoreU(surfaces.lacking, Halves(), out.lacking.data() + margin + band);
     };
     for (; band < bands - rest_count; band += lanes) lay(first + band, second + band);
     if (rest_count == 0) return;
@@ -155,21 +155,24 @@ void lay_step(const int (&depth)[2][2], const int (&lean)[2][2], int p_part, int
     }
 }
 
-SurfaceColumn lay_column(const CellColumns& columns, int bands, int jump, std::size_t start, SurfaceEntries& entries) {
+SurfaceColumn lay_column(const CellColumns& columns, const ShapeMap& shape, std::size_t start,
+                         SurfaceEntries& entries) {
     constexpr int kMargin = 2;
+    const int bands = shape.bands;
+    const int jump = shape.jump;
     static thread_local BandHalves of_p[2];
     for (int p = 0; p < 2; ++p) {
         lay_bands(columns.at[p][0], columns.at[p][1], bands, columns.line_part, jump, kMargin, of_p[p]);
     }
-    const auto are_empty = [&](int band, auto backs) {  // as many bands as `backs` has halves
-        decltype(backs) both[2];
+    const auto are_empty = [&](int band, auto depths) {  // as many bands as `depths` has halves
+        decltype(depths) both[2];
         for (std::size_t p = 0; p < 2; ++p) {
-            std::memcpy(&both[p], of_p[p].back.data() + band + kMargin, sizeof backs);
+            std::memcpy(&both[p], of_p[p].depth_q3.data() + band + kMargin, sizeof depths);
         }
-        return (both[0] | both[1]) == 0;
+        return (both[0] & both[1]) == -1;
     };
-    using One = std::uint16_t;
-    using Four = std::uint64_t;
+    using One = std::int16_t;
+    using Four = std::int64_t;
     int low = 0;
     int high = bands;
     while (low + 4 <= bands && are_empty(low, Four{})) low += 4;
@@ -186,22 +189,19 @@ SurfaceColumn lay_column(const CellColumns& columns, int bands, int jump, std::s
     const Half zero = hn::Zero(halves);
     std::size_t step = 0;
     Half nearest = half(8 * 256);
-    Half farthest_back = zero;
+    Half deepest_of_all = half(-1);
     for (int n = 0; n <= column.last; n += lanes) {
         const auto from = static_cast<std::size_t>(low + n);  // first_band + n + kMargin
         Half depth[2][2];                                     // [p][band]
         Half low_sum[2];
-        Half back = zero;
-        Half farthest = zero;
+        Half deepest = half(-1);
         Half lacking = zero;  // -1 where one of the eight cells has no surface
         Half leans = zero;    // not 0 where a surface does
         for (std::size_t b = 0; b < 2; ++b) {
             for (std::size_t p = 0; p < 2; ++p) {
                 depth[p][b] = hn::LoadU(halves, of_p[p].depth_q3.data() + from + b);
-                back = hn::Max(back, hn::LoadU(halves, of_p[p].back.data() + from + b));
-                const Half of_lines = hn::LoadU(halves, of_p[p].farthest_q3.data() + from + b);
-                farthest = hn::Max(farthest, of_lines);
-                lacking = hn::Min(lacking, of_lines);
+                deepest = hn::Max(deepest, hn::LoadU(halves, of_p[p].deepest.data() + from + b));
+                lacking = hn::Or(lacking, hn::LoadU(halves, of_p[p].lacking.data() + from + b));
                 leans = hn::Or(leans, hn::Xor(hn::LoadU(halves, of_p[p].lean.data() + from + b), half(kBothShow)));
             }
             low_sum[b] =
@@ -217,8 +217,7 @@ SurfaceColumn lay_column(const CellColumns& columns, int bands, int jump, std::s
         const Half upper = hn::IfThenElseZero(is_smooth, hn::Sub(low_sum[1], low_sum[0]));
         const std::size_t to = start + static_cast<std::size_t>(n);
         hn::StoreInterleaved2(lower, upper, halves, reinterpret_cast<std::int16_t*>(entries.smooth.data() + to));
-        hn::StoreInterleaved2(back, hn::Or(farthest, lacking), halves,
-                              reinterpret_cast<std::int16_t*>(entries.backs.data() + to));
+        hn::StoreInterleaved2(deepest, lacking, halves, reinterpret_cast<std::int16_t*>(entries.deepest.data() + to));
         std::uint8_t bits[8] = {};
         hn::StoreMaskBits(halves, hn::Eq(lower, half(kSurfaceSteps)), bits);
         std::uint64_t stepping = 0;
@@ -236,10 +235,10 @@ SurfaceColumn lay_column(const CellColumns& columns, int bands, int jump, std::s
         for (const auto& both_bands : depth) {
             for (const Half d : both_bands) nearest = hn::Min(nearest, hn::IfThenElse(hn::Lt(d, zero), nearest, d));
         }
-        farthest_back = hn::Max(farthest_back, back);
+        deepest_of_all = hn::Max(deepest_of_all, deepest);
     }
     column.nearest = hn::GetLane(hn::MinOfLanes(halves, nearest)) >> 3;
-    column.beyond = hn::GetLane(hn::MaxOfLanes(halves, farthest_back)) + 1;
+    column.beyond = std::min(hn::GetLane(hn::MaxOfLanes(halves, deepest_of_all)) + shape.thickness + 1, 256);
     return column;
 }
 
@@ -251,9 +250,9 @@ namespace rs::engine {
 
 HWY_EXPORT(lay_column);
 
-SurfaceColumn lay_surfaces(const CellColumns& columns, int bands, int jump, std::size_t start,
+SurfaceColumn lay_surfaces(const CellColumns& columns, const ShapeMap& shape, std::size_t start,
                            SurfaceEntries& entries) {
-    return HWY_DYNAMIC_DISPATCH(lay_column)(columns, bands, jump, start, entries);
+    return HWY_DYNAMIC_DISPATCH(lay_column)(columns, shape, start, entries);
 }
 
 SurfaceColumn lay_nothing(std::size_t start, SurfaceEntries& entries) {

@@ -32,20 +32,20 @@ struct SurfaceColumn {
     std::int32_t first_band = 0;
     std::int32_t last = 0;       // number of the last entry
     std::int32_t nearest = 256;  // least depth of all surfaces, whole steps, rounded down; 256 where there are none
-    std::int32_t beyond = 0;     // one more than the greatest back, 0 where there are none
+    std::int32_t beyond = 0;     // a march that begins a step here or later meets none; 256 at most
 };
 
 // What each entry says, in memory that columns share.
 struct SurfaceEntries {
     std::vector<std::int32_t> smooth;
-    std::vector<std::int32_t> backs;  // the greatest of the four; upper 16 bits: depth_q3 of the farthest cell, or -1
+    std::vector<std::int32_t> deepest;  // of the eight cells, whole steps; upper 16 bits: -1 where one has no surface
     // kSurfaceParts numbers for each entry at most, those of a column from kSurfaceParts * its first entry on: the
     // first surface of a SurfaceStack and the one behind it, 16 bits each.
     std::vector<std::int32_t> steps;
 
     void hold(std::size_t count) {
         smooth.resize(std::max(smooth.size(), count));
-        backs.resize(smooth.size());
+        deepest.resize(smooth.size());
         steps.resize(kSurfaceParts * smooth.size());
     }
 };
@@ -56,8 +56,9 @@ constexpr std::size_t surface_entries(int bands) {
     return static_cast<std::size_t>(bands) + 4 + kSurfaceLanes;
 }
 
-// `columns` has a shape. Writes up to surface_entries(bands) numbers each to smooth and backs + start.
-SurfaceColumn lay_surfaces(const CellColumns& columns, int bands, int jump, std::size_t start, SurfaceEntries& entries);
+// `columns` has the shape `shape`. Writes up to surface_entries(bands) numbers each to smooth and deepest + start.
+SurfaceColumn lay_surfaces(const CellColumns& columns, const ShapeMap& shape, std::size_t start,
+                           SurfaceEntries& entries);
 
 // The column of a ray without a shape: one entry, which says nothing.
 SurfaceColumn lay_nothing(std::size_t start, SurfaceEntries& entries);

@@ -153,6 +153,7 @@ ShapeRegisters shape_registers(const ShapeMap& shape, WordAddress cells) {
     r.foot_d_q3 = static_cast<int>(
         std::clamp<std::int64_t>(-std::int64_t{shape.depth_low_q20} * 128 / shape.depth_step_q24, 0, 255 * 8));
     r.jump = shape.jump;
+    r.thickness = shape.thickness;
     r.lines = static_cast<std::int64_t>(shape.cells.size()) / (shape.p_cells * shape.bands);
     r.cells = cells;
     return r;

@@ -8,7 +8,7 @@
 //                                                          lines, plus 2 where the one behind it has)
 //                      then for plane k:
 //                          l0 | l1 << 32,  q0 | q1 << 32,  l2 | q2 << 32,  va | vc << 32
-//     shape cells      four to a word, the lowest bits first: depth | back << 8; every column (a place in p of a line)
+//     shape cells      four to a word, the lowest bits first: depth | shown << 8; every column (a place in p of a line)
 //                      begins with a word
 //     raw pictures     blocks of 8x8 texels, a picture's column by column, 20 words each: for each pair of texel
 //     columns
@@ -44,7 +44,7 @@ constexpr int column_words(int bands) {
 }
 
 constexpr std::uint16_t packed_cell(const ShapeCell& cell) {
-    return static_cast<std::uint16_t>(cell.depth | cell.back << 8);
+    return static_cast<std::uint16_t>(cell.depth | cell.shown << 8);
 }
 constexpr ShapeCell unpacked_cell(std::uint16_t bits) {
     return {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};

@@ -20,7 +20,7 @@ inline constexpr int kPatchSlots = 4;
 inline constexpr int kPatchIds = kPatchSlots * kPatchPixels;
 inline constexpr int kStripeNumbers = 4;  // two stripes are under way
 inline constexpr int kStripeSlots = 2;
-inline constexpr int kMostBands = 256;
+inline constexpr int kMostBands = 384;
 
 // What is known of a column's ray, and so what a pixel of it is.
 enum class RayKind {

@@ -39,6 +39,7 @@ struct ShapeRegisters {
     std::int32_t depth_step_q24 = 0;
     int foot_d_q3 = 0;       // 11 bits
     int jump = 0;            // 8 bits
+    int thickness = 0;       // 8 bits
     std::int64_t lines = 0;  // of all gaps; 27 bits
     WordAddress cells = 0;
 };

@@ -14,25 +14,26 @@ using test::PixelRegisters;
 using test::put;
 
 // Column 1, between two equal lines and at the first of two places in p: bands 2 and 6 of seven have a surface at depth
-// 100, up to 120.
+// 100, and the object goes on to 120.
 struct March {
     March() {
+        r.file.objects[static_cast<std::size_t>(r.slot)].shape.thickness = 20;
         put(columns, column_of(RayKind::none, 0));
         put(columns, column_of(RayKind::shape, 1));
         for (int n = 0; n < 2; ++n) bench.step(block);
         for (int n = 0; n < 8; ++n) {  // words 0, 0, 1, 1 of either place
-            put(words, {std::uint64_t{packed_cell({100, 120})} << 32U});
+            put(words, {std::uint64_t{packed_cell({100, ShapeCell::kByBoth})} << 32U});
             bench.step(block);
         }
     }
-    // A column whose band 1 alone has surfaces, or band 2 the same: their depths by [p][line], up to 200.
+    // A column whose band 1 alone has surfaces, or band 2 the same: their depths by [p][line].
     void put_band_1(const ColumnSetup& column, const int (&depths)[2][2], bool and_band_2 = false) {
         put(columns, column);
         bench.step(block);
         for (const auto& of_p : depths) {
             for (int word = 0; word < 2; ++word) {
                 for (const int depth : of_p) {
-                    const ShapeCell cell = {static_cast<std::uint8_t>(depth), 200};
+                    const ShapeCell cell = {static_cast<std::uint8_t>(depth), ShapeCell::kByBoth};
                     const std::uint64_t band_1 = std::uint64_t{packed_cell(cell)} << 16U;
                     put(words, {word == 0 ? band_1 | (and_band_2 ? band_1 << 16U : 0) : 0});
                     bench.step(block);
@@ -101,7 +102,7 @@ TEST(CellMarchTiming, GoesOnWithPixelsThatComeBackFirst) {
     m.again.push({1, m.met.pop().next});
     m.met.commit();
     m.again.commit();
-    // The look behind 112 is at depth 126: the same surface, whose back is at 120.
+    // The look behind 112 is at depth 126: the object still goes on there.
     EXPECT_EQ(m.bench.until(m.block, m.met), CellMarch::kStages + 1);
     EXPECT_EQ(m.met.front().pixel.id, 1);
     EXPECT_EQ(m.met.front().depth_q3, 8 * 112);

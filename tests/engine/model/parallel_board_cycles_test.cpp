@@ -211,9 +211,9 @@ TEST(ParallelBoardCyclesGolden, AllKinds) {
     };
     EXPECT_EQ(cycles_of(0, 8, 96, 64), 11'894U);
     EXPECT_EQ(cycles_of(1, 8, 96, 64), 35'795U);
-    EXPECT_EQ(cycles_of(2, 8, 96, 64), 19'905U);
-    EXPECT_EQ(cycles_of(3, 8, 96, 64), 46'335U);
-    EXPECT_EQ(cycles_of(3, 3, 50, 33), 44'015U);
+    EXPECT_EQ(cycles_of(2, 8, 96, 64), 19'929U);
+    EXPECT_EQ(cycles_of(3, 8, 96, 64), 47'335U);
+    EXPECT_EQ(cycles_of(3, 3, 50, 33), 48'558U);
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ TEST(ParallelBoardFaults, RefusesWhatItCannotDrawAndSaysWhy) {
     dense.coded = std::make_shared<codec::CodedPictures>();
     EXPECT_NE(refusal(dense).find("of profile dense"), std::string::npos);
     RaySpaceObject tall = small_for_pipes(1, false);
-    tall.rings.front().shape.bands = 257;
-    EXPECT_NE(refusal(tall).find("bands of height in its shape map: 257, more than the board's 256"),
+    tall.rings.front().shape.bands = 385;
+    EXPECT_NE(refusal(tall).find("bands of height in its shape map: 385, more than the board's 384"),
               std::string::npos);
     RaySpaceObject missing = small_for_pipes(1, false);
     missing.pictures[2] = {};

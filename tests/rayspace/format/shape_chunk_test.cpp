@@ -25,7 +25,7 @@ using testing::HasSubstr;
 
 constexpr std::size_t kSurfacesAt = 40;
 constexpr std::size_t kFrameBytesAt = 44;
-constexpr std::size_t kGapsAt = 56;
+constexpr std::size_t kGapsAt = 52;
 
 // 8 views and 4 planes, as small_object() has.
 std::size_t frames_at() {
@@ -123,9 +123,7 @@ TEST(ShapeChunk, AnyCellsComeBack) {
             cell = {};
             if (random() % 4 == 0) continue;
             cell.depth = static_cast<std::uint8_t>(random());
-            const int least = std::max<int>(cell.depth, 1);
-            cell.back =
-                static_cast<std::uint8_t>(least + static_cast<int>(random() % static_cast<unsigned>(256 - least)));
+            cell.shown = static_cast<std::uint8_t>(1 + random() % 3);
         }
         const auto back = read_back(shape_payload(ring), ring);
         ASSERT_TRUE(back.ok()) << back.error().message;
@@ -133,41 +131,21 @@ TEST(ShapeChunk, AnyCellsComeBack) {
     }
 }
 
-// Files up to 2.1: both pictures show every surface, whatever its back's lowest bits are.
-TEST(ShapeChunk, BacksOfCoding0SayNothingAboutPictures) {
-    Ring ring = small_object_with_shape().rings[0];
-    for (ShapeCell& cell : ring.shape.cells) {
-        if (cell.has_surface()) cell.back ^= ShapeCell::kBySecond;
-    }
-    Payload payload = shape_payload(ring);
-    test::put_number(payload, 0, 0, 1);
-    const auto back = read_back(payload, ring);
-    ASSERT_TRUE(back.ok()) << back.error().message;
-    int changed = 0;
-    for (std::size_t i = 0; i < ring.shape.cells.size(); ++i) {
-        const ShapeCell& cell = ring.shape.cells[i];
-        const int expected = cell.has_surface() ? cell.back | 3 : 0;
-        ASSERT_EQ(back->cells[i].back, expected) << i;
-        ASSERT_EQ(back->cells[i].depth, cell.depth) << i;
-        changed += expected != cell.back;
-    }
-    EXPECT_GT(changed, 0);
-}
-
 // The sums of FORMAT.md, section "Planes", by hand: line 0 has cells a and b, one above the other, and nothing else.
 TEST(ShapeChunk, PlanesAreAsTheFormatSays) {
     Ring ring = small_object_with_shape({}, {.p_cells = 1, .bands = 3, .lines = {1, 0}}).rings[0];
     ASSERT_EQ(ring.shape.cells.size(), 12U);
     std::fill(ring.shape.cells.begin(), ring.shape.cells.end(), ShapeCell{});
-    ring.shape.cells[0] = {100, 140};
-    ring.shape.cells[1] = {110, 151};
-    ring.shape.cells[3] = {104, 104};
-    ring.shape.cells[4] = {90, 117};
+    ring.shape.cells[0] = {100, 3};
+    ring.shape.cells[1] = {110, 1};
+    ring.shape.cells[3] = {104, 2};
+    ring.shape.cells[4] = {90, 3};
     ring.shape.jump = 77;
+    ring.shape.thickness = 99;
     const Payload payload = shape_payload(ring);
-    EXPECT_EQ(payload.at(0), std::byte{1});
+    EXPECT_EQ(payload.at(0), std::byte{2});
     EXPECT_EQ(payload.at(1), std::byte{77});
-    EXPECT_EQ(payload.at(2), std::byte{0});
+    EXPECT_EQ(payload.at(2), std::byte{99});
     EXPECT_EQ(payload.at(3), std::byte{0});
     EXPECT_EQ(number_at(payload, kSurfacesAt), 4U);
     const auto plane = [&](std::size_t which, std::size_t size) {
@@ -176,11 +154,28 @@ TEST(ShapeChunk, PlanesAreAsTheFormatSays) {
         EXPECT_EQ(ZSTD_decompress(bytes.data(), size, frame.data(), frame.size()), size);
         return bytes;
     };
-    EXPECT_EQ(plane(0, 2), (std::vector<std::uint8_t>{0x1B, 0}));
+    EXPECT_EQ(plane(0, 3), (std::vector<std::uint8_t>{3 + 4 * 1 + 64 * 2, 3, 0}));
     // 128; below; line before; median of below 104, before 110 and 110 + 104 - 100 = 114.
     EXPECT_EQ(plane(1, 4), (std::vector<std::uint8_t>{256 - 28, 10, 4, 256 - 20}));
-    // 128; below 140; before 140; of below 104, before 151 and 151 + 104 - 140 = 115 the median.
-    EXPECT_EQ(plane(2, 4), (std::vector<std::uint8_t>{140 - 128, 11, 256 - 36, 2}));
+}
+
+// A depth that is off by no more than the tolerance becomes what it is predicted to be, and the next ones are predicted
+// from that.
+TEST(ShapeChunk, DepthsSettleOnTheirPredictions) {
+    const auto settled = [](int tolerance) {
+        ShapeMap shape = small_object_with_shape({}, {.p_cells = 1, .bands = 6, .lines = {1, 0}}).rings[0].shape;
+        std::fill(shape.cells.begin(), shape.cells.end(), ShapeCell{});
+        constexpr int kDepths[] = {100, 101, 103, 102, 104};
+        for (std::size_t i = 0; i < 5; ++i) shape.cells[i] = {static_cast<std::uint8_t>(kDepths[i]), 1};
+        settle_depths(shape, tolerance);
+        std::vector<int> depths;
+        for (std::size_t i = 0; i < 6; ++i) depths.push_back(shape.cells[i].depth);
+        return depths;
+    };
+    EXPECT_EQ(settled(0), (std::vector<int>{100, 101, 103, 102, 104, 0}));
+    EXPECT_EQ(settled(1), (std::vector<int>{100, 100, 103, 103, 103, 0}));
+    EXPECT_EQ(settled(2), (std::vector<int>{100, 100, 103, 103, 103, 0}));
+    EXPECT_EQ(settled(3), (std::vector<int>{100, 100, 100, 100, 104, 0}));
 }
 
 TEST(ShapeChunk, TheSameMapGivesTheSameBytes) {
@@ -232,12 +227,13 @@ TEST(ShapeChunk, FieldsAreCheckedBeforeTheyAllocate) {
     EXPECT_EQ(error_after([](Payload&) {}), "read without error");
     EXPECT_EQ(error_after([](Payload& payload) { payload.clear(); }), "is empty");
     EXPECT_EQ(error_after([](Payload& payload) { payload.resize(kGapsAt - 1); }), "is too short");
-    EXPECT_THAT(number(0, 2, 1), HasSubstr("has shape coding 2, which is not known here; update"));
-    EXPECT_EQ(number(0, 0, 1), "read without error");
+    EXPECT_THAT(number(0, 3, 1), HasSubstr("has shape coding 3, which is not known here; update"));
+    EXPECT_THAT(number(0, 1, 1),
+                HasSubstr("has shape coding 1, of a file older than format 2.3; encode the capture set"));
     EXPECT_THAT(number(1, 0, 1), HasSubstr("its jump is not between 1 and 255"));
     EXPECT_EQ(number(1, 1, 1), "read without error");
     EXPECT_EQ(number(1, 255, 1), "read without error");
-    EXPECT_THAT(number(2, 1, 1), HasSubstr("reserved bytes"));
+    EXPECT_EQ(number(2, 255, 1), "read without error");
     EXPECT_THAT(number(3, 1, 1), HasSubstr("reserved bytes"));
     EXPECT_THAT(number(4, 0, 2), HasSubstr("lines of 0x7 cells"));
     EXPECT_THAT(number(6, 4097, 2), HasSubstr("lines of 9x4097 cells; each side must be 1..4096"));
@@ -248,10 +244,11 @@ TEST(ShapeChunk, FieldsAreCheckedBeforeTheyAllocate) {
                 }),
                 HasSubstr("has 268435456 cells; at most 134217728 are possible"));
     EXPECT_THAT(number(kSurfacesAt, 1009, 4), HasSubstr("claims 1009 cells with a surface among 1008"));
-    for (const std::size_t field : {0U, 1U, 2U}) {
+    for (const std::size_t field : {0U, 1U}) {
         EXPECT_THAT(number(kFrameBytesAt + 4 * field, 0xFFFFFFFF, 4), HasSubstr("bytes long instead of")) << field;
     }
-    EXPECT_THAT(number(kGapsAt, 3, 2), HasSubstr("its surfaces do not state the 134 bytes that they must expand to"));
+    EXPECT_THAT(number(kGapsAt, 3, 2),
+                HasSubstr("what is shown of its cells do not state the 268 bytes that they must expand to"));
 }
 
 TEST(ShapeChunk, FramesAreExactlyWhatTheySay) {
@@ -261,10 +258,10 @@ TEST(ShapeChunk, FramesAreExactlyWhatTheySay) {
         return error_after([&](Payload& payload) { replace_frame(payload, which, frame); });
     };
     EXPECT_EQ(with(1, frame_number(good, 1)), "read without error");
-    EXPECT_THAT(with(0, {}), HasSubstr("its surfaces are no Zstandard frame"));
+    EXPECT_THAT(with(0, {}), HasSubstr("what is shown of its cells are no Zstandard frame"));
     EXPECT_THAT(with(1, frame_of(std::vector<std::uint8_t>(surfaces + 1))), HasSubstr("its depths do not state the"));
-    EXPECT_THAT(with(2, frame_of(std::vector<std::uint8_t>(surfaces - 1))), HasSubstr("its backs do not state the"));
-    EXPECT_THAT(with(2, {}), HasSubstr("its backs are no Zstandard frame"));
+    EXPECT_THAT(with(1, frame_of(std::vector<std::uint8_t>(surfaces - 1))), HasSubstr("its depths do not state the"));
+    EXPECT_THAT(with(1, {}), HasSubstr("its depths are no Zstandard frame"));
 
     // A second frame, a skippable one in front, one cut short, one without its size.
     Payload two = frame_number(good, 1);
@@ -298,7 +295,7 @@ std::string error_with_plane(const SmallShapeOptions& options, std::size_t which
                              const std::function<void(std::vector<std::uint8_t>&)>& change) {
     const Ring ring = small_object_with_shape({}, options).rings[0];
     Payload payload = shape_payload(ring);
-    std::vector<std::uint8_t> plane(which == 0 ? (ring.shape.cells.size() + 7) / 8 : number_at(payload, kSurfacesAt));
+    std::vector<std::uint8_t> plane(which == 0 ? (ring.shape.cells.size() + 3) / 4 : number_at(payload, kSurfacesAt));
     const Payload frame = frame_number(payload, which);
     EXPECT_EQ(ZSTD_decompress(plane.data(), plane.size(), frame.data(), frame.size()), plane.size());
     change(plane);
@@ -310,7 +307,7 @@ std::string error_with_plane(const SmallShapeOptions& options, std::size_t which
 TEST(ShapeChunk, BitsMustBearOutTheCount) {
     const auto with_flipped = [](std::size_t cell) {
         return error_with_plane({}, 0, [&](auto& plane) {
-            plane.at(cell / 8) = static_cast<std::uint8_t>(plane.at(cell / 8) ^ 1U << (cell % 8));
+            plane.at(cell / 4) = static_cast<std::uint8_t>(plane.at(cell / 4) ^ 3U << 2 * (cell % 4));
         });
     };
     const Ring ring = small_object_with_shape().rings[0];
@@ -326,37 +323,15 @@ TEST(ShapeChunk, BitsMustBearOutTheCount) {
 }
 
 TEST(ShapeChunk, BitsBehindTheLastCellAreZero) {
-    const SmallShapeOptions options{.p_cells = 3, .bands = 5, .lines = {1, 0, 0}};  // 45 cells: 3 bits are left
+    const SmallShapeOptions options{.p_cells = 3, .bands = 5, .lines = {1, 0, 0}};  // 45 cells: 6 bits are left
     ASSERT_EQ(small_object_with_shape({}, options).rings[0].shape.cells.size(), 45U);
     const auto with = [&](unsigned bits) {
         return error_with_plane(options, 0,
                                 [&](auto& plane) { plane.back() = static_cast<std::uint8_t>(plane.back() | bits); });
     };
     EXPECT_EQ(with(0), "read without error");
-    EXPECT_EQ(with(0x20), "has bits behind its last cell");
+    EXPECT_EQ(with(0x04), "has bits behind its last cell");
     EXPECT_EQ(with(0x80), "has bits behind its last cell");
-}
-
-// The first cell with a surface has no neighbours: its bytes are 128 and the residuals.
-TEST(ShapeChunk, ABackIsNotZeroAndNotInFront) {
-    const SmallShapeOptions one_cell{.p_cells = 1, .bands = 1, .lines = {1, 0, 0, 0, 0, 0, 0, 0}};
-    const auto with = [&](std::size_t which, int depth) {
-        return error_with_plane(one_cell, which,
-                                [&](auto& plane) { plane.at(0) = static_cast<std::uint8_t>(depth - 128); });
-    };
-    const ShapeMap shape = small_object_with_shape({}, one_cell).rings[0].shape;
-    ASSERT_EQ(shape.cells.size(), 1U);
-    const ShapeCell cell = shape.cells[0];
-    ASSERT_TRUE(cell.has_surface());
-    ASSERT_GT(cell.depth, 0);
-    ASSERT_LT(cell.back, 255);
-    EXPECT_EQ(with(2, cell.depth), "read without error");
-    EXPECT_EQ(with(2, 255), "read without error");
-    EXPECT_EQ(with(2, 0), "has a cell with a surface whose back is 0");
-    EXPECT_EQ(with(2, cell.depth - 1), "cell 0 has its back in front of its surface");
-    EXPECT_EQ(with(1, 0), "read without error");
-    EXPECT_EQ(with(1, cell.back), "read without error");
-    EXPECT_EQ(with(1, cell.back + 1), "cell 0 has its back in front of its surface");
 }
 
 }  // namespace

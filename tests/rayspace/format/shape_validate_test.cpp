@@ -62,6 +62,7 @@ TEST(ValidateShape, Numbers) {
     expect_range(&ShapeMap::depth_low_q20, -(1 << 21) - (1 << 16), (1 << 21) + (1 << 16), "lowest depth");
     expect_range(&ShapeMap::depth_step_q24, 1, 1 << 18, "depth step");
     expect_range(&ShapeMap::jump, 1, 255, "jump is not between 1 and 255 depth steps");
+    expect_range(&ShapeMap::thickness, 0, 255, "thickness is not between 0 and 255 depth steps");
 }
 
 TEST(ValidateShape, Sides) {
@@ -139,12 +140,12 @@ TEST(ValidateShape, Cells) {
     EXPECT_EQ(with({0, 0}), "valid");
     EXPECT_EQ(with({0, 1}), "valid");
     EXPECT_EQ(with({1, 1}), "valid");
-    EXPECT_EQ(with({255, 255}), "valid");
-    EXPECT_EQ(with({100, 150}), "valid");
+    EXPECT_EQ(with({255, 2}), "valid");
+    EXPECT_EQ(with({100, 3}), "valid");
     EXPECT_EQ(with({1, 0}), "cell 7 has a depth and no surface");
     EXPECT_EQ(with({255, 0}), "cell 7 has a depth and no surface");
-    EXPECT_EQ(with({2, 1}), "cell 7 has its back in front of its surface");
-    EXPECT_EQ(with({255, 254}), "cell 7 has its back in front of its surface");
+    EXPECT_EQ(with({2, 4}), "cell 7 is shown by pictures that its gap does not have");
+    EXPECT_EQ(with({0, 255}), "cell 7 is shown by pictures that its gap does not have");
 }
 
 }  // namespace

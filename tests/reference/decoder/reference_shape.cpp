@@ -42,7 +42,7 @@ std::string check_numbers(const Shape& shape) {
     return "";
 }
 
-// "Planes": the depth bytes of one kind, of the cells that have a surface.
+// "Planes": the depth bytes of the cells that have a surface.
 std::vector<std::optional<int>> undo(const Plane& residuals, const std::vector<bool>& has_surface, int p_cells,
                                      int bands) {
     std::vector<std::optional<int>> values(has_surface.size());
@@ -90,31 +90,31 @@ std::vector<std::optional<int>> undo(const Plane& residuals, const std::vector<b
     return values;
 }
 
-std::string read_cells(Bytes frames, const std::array<std::size_t, 3>& frame_bytes, std::size_t cells,
+std::string read_cells(Bytes frames, const std::array<std::size_t, 2>& frame_bytes, std::size_t cells,
                        std::size_t surfaces, Shape& shape) {
-    std::array<Plane, 3> planes;
-    const std::array<std::size_t, 3> plane_bytes = {(cells + 7) / 8, surfaces, surfaces};
+    std::array<Plane, 2> planes;
+    const std::array<std::size_t, 2> plane_bytes = {(cells + 3) / 4, surfaces};
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const std::string error = expand(frames.first(frame_bytes[i]), plane_bytes[i], planes[i]);
         if (!error.empty()) return error;
         frames = frames.subspan(frame_bytes[i]);
     }
+    std::vector<int> shown(cells);
     std::vector<bool> has_surface(cells);
-    for (std::size_t i = 0; i < 8 * plane_bytes[0]; ++i) {
-        const bool bit = ((planes[0][i / 8] >> (i % 8)) & 1) != 0;
-        if (i < cells) has_surface[i] = bit;
-        if (i >= cells && bit) return "bits behind the last cell";
+    for (std::size_t i = 0; i < 4 * plane_bytes[0]; ++i) {
+        const int bits = planes[0][i / 4] / (1 << 2 * (i % 4)) % 4;
+        if (i >= cells && bits != 0) return "bits behind the last cell";
+        if (i >= cells) continue;
+        shown[i] = bits;
+        has_surface[i] = bits != 0;
     }
     if (static_cast<std::size_t>(std::count(has_surface.begin(), has_surface.end(), true)) != surfaces) {
         return "a number of surfaces that the bits do not bear out";
     }
     const auto depths = undo(planes[1], has_surface, shape.p_cells, shape.bands);
-    const auto backs = undo(planes[2], has_surface, shape.p_cells, shape.bands);
     shape.surfaces.resize(cells);
     for (std::size_t i = 0; i < cells; ++i) {
-        if (!has_surface[i]) continue;
-        if (*backs[i] == 0 || *backs[i] < *depths[i]) return "a back that is 0 or less than its depth";
-        shape.surfaces[i] = {*depths[i], *backs[i]};
+        if (has_surface[i]) shape.surfaces[i] = {*depths[i], shown[i]};
     }
     return "";
 }
@@ -123,26 +123,27 @@ std::string read_cells(Bytes frames, const std::array<std::size_t, 3>& frame_byt
 
 std::string read_shape(Bytes payload, int views, int planes, Shape& shape) {
     const std::size_t n = static_cast<std::size_t>(views);
-    const std::size_t frames_at = 56 + 2 * n + 16 * n * static_cast<std::size_t>(planes);
+    const std::size_t frames_at = 52 + 2 * n + 16 * n * static_cast<std::size_t>(planes);
     if (payload.size() < frames_at) return "shorter than its fields";
-    if (payload[0] > 1) return "a coding that is not known";
+    if (payload[0] != 2) return "a coding that is not known";
     shape.jump = payload[1];
-    if (payload[2] != 0 || payload[3] != 0) return "reserved bytes that are not 0";
+    shape.thickness = payload[2];
+    if (payload[3] != 0) return "reserved bytes that are not 0";
     shape.p_cells = u16_at(payload, 4);
     shape.bands = u16_at(payload, 6);
     if (shape.p_cells < 1 || shape.p_cells > 4096) return "p_cells out of range";
     if (shape.bands < 1 || shape.bands > 4096) return "bands out of range";
     for (std::size_t i = 0; i < shape.numbers.size(); ++i) shape.numbers[i] = i32_at(payload, 8 + 4 * i);
     const std::size_t surfaces = u32_at(payload, 40);
-    const std::array<std::size_t, 3> frame_bytes = {u32_at(payload, 44), u32_at(payload, 48), u32_at(payload, 52)};
-    if (payload.size() != frames_at + frame_bytes[0] + frame_bytes[1] + frame_bytes[2]) return "of another size";
+    const std::array<std::size_t, 2> frame_bytes = {u32_at(payload, 44), u32_at(payload, 48)};
+    if (payload.size() != frames_at + frame_bytes[0] + frame_bytes[1]) return "of another size";
     std::size_t all_lines = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        shape.lines.push_back(u16_at(payload, 56 + 2 * i));
+        shape.lines.push_back(u16_at(payload, 52 + 2 * i));
         if (shape.lines.back() > 1024) return "lines out of range";
         all_lines += static_cast<std::size_t>(shape.lines.back());
     }
-    for (std::size_t at = 56 + 2 * n; at < frames_at; at += 16) {
+    for (std::size_t at = 52 + 2 * n; at < frames_at; at += 16) {
         shape.normal.push_back(
             {i32_at(payload, at), i32_at(payload, at + 4), i32_at(payload, at + 8), i32_at(payload, at + 12)});
     }
@@ -151,12 +152,7 @@ std::string read_shape(Bytes payload, int views, int planes, Shape& shape) {
         all_lines * static_cast<std::size_t>(shape.p_cells) * static_cast<std::size_t>(shape.bands);
     if (cells > std::size_t{1} << 27) return "more than 2^27 cells";
     if (surfaces > cells) return "surfaces out of range";
-    std::string error = read_cells(payload.subspan(frames_at), frame_bytes, cells, surfaces, shape);
-    if (payload[0] == 1) return error;
-    for (auto& surface : shape.surfaces) {
-        if (surface) surface->back |= 3;
-    }
-    return error;
+    return read_cells(payload.subspan(frames_at), frame_bytes, cells, surfaces, shape);
 }
 
 }  // namespace rs::reference

@@ -12,11 +12,12 @@ namespace rs::reference {
 
 struct ShapeSurface {
     int depth = 0;
-    int back = 0;
+    int shown = 0;
 };
 
 struct Shape {
     int jump = 0;
+    int thickness = 0;
     int p_cells = 0;
     int bands = 0;
     std::array<std::int32_t, 8> numbers{};              // p_half .. depth_step, in the order of the table

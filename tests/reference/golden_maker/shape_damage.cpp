@@ -12,12 +12,12 @@ using object_chunks::kShape;
 
 const std::string kBase = "raw-shape";  // ring 1 has it: 3 views, 3 planes, 3 lines of 5 x 3 cells
 constexpr std::uint32_t kRing = 1;
-constexpr std::size_t kLines = 56;
+constexpr std::size_t kLines = 52;
 constexpr std::size_t kNormalLines = kLines + 2 * 3;
 constexpr std::size_t kFrames = kNormalLines + 16 * 3 * 3;
 constexpr std::size_t kSurfaces = 40, kFrameSizes = 44;
 
-using Frames = std::array<Bytes, 3>;  // surface bits, residuals of depth, of back
+using Frames = std::array<Bytes, 2>;  // shown, residuals of depth
 
 Frames frames_of(const Bytes& payload) {
     Frames frames;
@@ -63,29 +63,20 @@ void add_to(Bytes& payload, std::size_t offset, std::int64_t difference) {
 }
 
 std::size_t first_cell_with_surface(const Bytes& bits) {
-    for (std::size_t i = 0; i < 8 * bits.size(); ++i) {
-        if ((bits[i / 8] >> (i % 8) & std::byte{1}) != std::byte{0}) return i;
+    for (std::size_t i = 0; i < 4 * bits.size(); ++i) {
+        if ((bits[i / 4] >> 2 * (i % 4) & std::byte{3}) != std::byte{0}) return i;
     }
     RS_CHECK(false);
     return 0;
 }
 
-// The depth byte of the first cell with a surface, of which the residuals tell by themselves: it has no neighbours.
-Damage first_byte_damage(const std::string& name, std::size_t frame, int depth, const std::string& words) {
-    return frames_damage(name, words, [=](Bytes&, Frames& f) {
-        Bytes residuals = content_of(f[frame]);
-        residuals.front() = static_cast<std::byte>(depth - 128);
-        f[frame] = frame_of(residuals, false, true);
-    });
-}
-
 std::vector<Damage> numbers() {
     constexpr std::int64_t kTop = std::int64_t{1} << 30, kFar = std::int64_t{1} << 28;
     return {
-        number("coding-2", 0, 1, 2, "chunk shap 1 | shape coding 2"),
+        number("coding-1", 0, 1, 1, "chunk shap 1 | older than format 2.3"),
+        number("coding-3", 0, 1, 3, "chunk shap 1 | shape coding 3"),
         number("jump-0", 1, 1, 0, "ring 1 | jump"),
-        number("reserved", 2, 1, 1, "chunk shap 1 | reserved"),
-        number("reserved-last", 3, 1, 1, "chunk shap 1 | reserved"),
+        number("reserved", 3, 1, 1, "chunk shap 1 | reserved"),
         number("p-cells-0", 4, 2, 0, "chunk shap 1 | each side"),
         number("bands-4097", 6, 2, 4097, "chunk shap 1 | each side"),
         number("p-half", 8, 4, (1 << 20) - 1, "ring 1 | half width along p"),
@@ -116,17 +107,17 @@ std::vector<Damage> frames() {
                        }),
         payload_damage("short", "chunk shap 1 | bytes long instead of", [](Bytes& b) { b.pop_back(); }),
         payload_damage("long", "chunk shap 1 | bytes long instead of", [](Bytes& b) { b.push_back(std::byte{0}); }),
-        frames_damage("frame-no-zstandard", "chunk shap 1 | surfaces are no Zstandard frame",
+        frames_damage("frame-no-zstandard", "chunk shap 1 | shown of its cells are no Zstandard frame",
                       [](Bytes&, Frames& f) { f[0][0] = std::byte{0x27}; }),
-        frames_damage("frame-without-size", "chunk shap 1 | surfaces do not state",
+        frames_damage("frame-without-size", "chunk shap 1 | shown of its cells do not state",
                       [](Bytes&, Frames& f) { f[0] = frame_of(content_of(f[0]), false, false); }),
         frames_damage("frame-other-size", "chunk shap 1 | depths do not state",
                       [](Bytes&, Frames& f) { f[1] = fewer(f[1]); }),
-        frames_damage("frame-and-more", "chunk shap 1 | backs are not one whole",
-                      [](Bytes&, Frames& f) { f[2].push_back(std::byte{0}); }),
+        frames_damage("frame-and-more", "chunk shap 1 | depths are not one whole",
+                      [](Bytes&, Frames& f) { f[1].push_back(std::byte{0}); }),
         frames_damage("frame-cut", "chunk shap 1 | depths are not one whole",
                       [](Bytes&, Frames& f) { f[1].pop_back(); }),
-        frames_damage("frame-damaged", "chunk shap 1 | surfaces cannot be decompressed",
+        frames_damage("frame-damaged", "chunk shap 1 | shown of its cells cannot be decompressed",
                       [](Bytes&, Frames& f) {
                           f[0] = frame_of(content_of(f[0]), true, true);
                           f[0].back() ^= std::byte{1};
@@ -134,24 +125,21 @@ std::vector<Damage> frames() {
         frames_damage("bits-behind-the-last-cell", "chunk shap 1 | behind its last cell",
                       [](Bytes&, Frames& f) {
                           Bytes bits = content_of(f[0]);
-                          bits.back() |= std::byte{0x20};
+                          bits.back() |= std::byte{0x40};
                           f[0] = frame_of(bits, false, true);
                       }),
         frames_damage("surfaces-too-few", "chunk shap 1 | cells with a surface, but its bits show",
                       [](Bytes& payload, Frames& f) {
                           add_to(payload, kSurfaces, -1);
                           f[1] = fewer(f[1]);
-                          f[2] = fewer(f[2]);
                       }),
         frames_damage("bits-too-few", "chunk shap 1 | cells with a surface, but its bits show",
                       [](Bytes&, Frames& f) {
                           Bytes bits = content_of(f[0]);
                           const std::size_t cell = first_cell_with_surface(bits);
-                          bits[cell / 8] ^= std::byte{1} << (cell % 8);
+                          bits[cell / 4] &= ~(std::byte{3} << 2 * (cell % 4));
                           f[0] = frame_of(bits, false, true);
                       }),
-        first_byte_damage("back-0", 2, 0, "chunk shap 1 | whose back is 0"),
-        first_byte_damage("back-in-front", 2, 1, "ring 1 | back in front of its surface"),
     };
 }
 

@@ -7,19 +7,19 @@
 namespace rs::reference {
 namespace {
 
-// Nothing, or a depth in eighths of a step, a back in steps and a lean.
+// Nothing, or a depth in eighths of a step and a lean.
 struct Surface {
     Whole depth = 0;
-    Whole back = 0;
     Whole lean = 0;
 };
 using Found = std::optional<Surface>;
 
-// "surface(v)", "behind(v)" and "farthest(v)"
+// "surface(v)", "behind(v)", "farthest(v)" and "deepest(v)"
 struct Surfaces {
     Found surface;
     Found behind;
     Found farthest;
+    Whole deepest = 0;  // of none 0; but then surface(v) is nothing
 };
 
 struct Bands {
@@ -81,11 +81,10 @@ public:
             branches_.take(Branch::nothing_of_four);
             return {};
         }
-        Whole near = of_four[0].surface.depth, far = near, back = 0;
+        Whole near = of_four[0].surface.depth, far = near;
         for (const Weighted& one : of_four) {
             near = std::min(near, one.surface.depth);
             far = std::max(far, one.surface.depth);
-            back = std::max(back, one.surface.back);
         }
         struct Group {
             Whole weights = 0, depths = 0, leans = 0;
@@ -105,7 +104,7 @@ public:
             const Whole sum = below(group.depths + floor_div(group.weights, 2), 17, "depths + floor(weights / 2)");
             within(group.leans, 0, 64 * 16, "leans");
             const Whole lean = floor_div(group.leans + floor_div(group.weights, 2), group.weights);
-            return Surface{within(floor_div(sum, group.weights), 0, 2040, "depth"), back, within(lean, 0, 16, "lean")};
+            return Surface{within(floor_div(sum, group.weights), 0, 2040, "depth"), within(lean, 0, 16, "lean")};
         };
         const bool takes_nearer = nearer.weights >= farther.weights;
         if (nearer.weights == 0 && farther.weights == 0) {
@@ -116,23 +115,31 @@ public:
                        : !takes_nearer                     ? Branch::farther_group
                        : nearer.weights == farther.weights ? Branch::nearer_group_of_equals
                                                            : Branch::nearer_group);
-        if (!takes_nearer) return {surface_of(farther), {}, farthest(hi)};
-        return {surface_of(nearer), surface_of(farther), farthest(hi)};
+        const Eight eight = of_eight(hi);
+        const Found farthest = eight.count == 8 ? Found(Surface{8 * eight.deepest, 8}) : Found();
+        if (!takes_nearer) return {surface_of(farther), {}, farthest, eight.deepest};
+        return {surface_of(nearer), surface_of(farther), farthest, eight.deepest};
     }
 
 private:
-    // "farthest(v)" of the bands hi and hi + 1. Nothing asks for its back.
-    [[nodiscard]] Found farthest(Whole hi) const {
-        Whole greatest = 0;
+    // Of the eight cells around that have a surface, in the bands hi and hi + 1.
+    struct Eight {
+        int count = 0;
+        Whole deepest = 0;
+    };
+    [[nodiscard]] Eight of_eight(Whole hi) const {
+        Eight eight;
         for (const std::size_t c : {std::size_t{0}, std::size_t{1}}) {
             for (const std::size_t line : {std::size_t{0}, std::size_t{1}}) {
                 for (const Whole band : {hi, hi + 1}) {
-                    if (band < 0 || band >= shape_.bands || cell(c, line, band).back == 0) return {};
-                    greatest = std::max<Whole>(greatest, cell(c, line, band).depth);
+                    if (band < 0 || band >= shape_.bands || cell(c, line, band).shown == 0) continue;
+                    ++eight.count;
+                    eight.deepest =
+                        within(std::max<Whole>(eight.deepest, cell(c, line, band).depth), 0, 255, "deepest");
                 }
             }
         }
-        return Surface{within(8 * greatest, 0, 2040, "farthest depth"), 0, 8};
+        return eight;
     }
 
     [[nodiscard]] ShapeCell cell(std::size_t c, std::size_t n, Whole hi) const {
@@ -143,12 +150,11 @@ private:
 
     // "leans": of one cell
     [[nodiscard]] Whole lean_of(const ShapeCell& e) const {
-        const Whole shown = e.back % 4;
-        if (shown == 1) {
+        if (e.shown == 1) {
             branches_.take(Branch::first_shows_alone);
             return 0;
         }
-        if (shown == 2) {
+        if (e.shown == 2) {
             branches_.take(Branch::second_shows_alone);
             return 2;
         }
@@ -159,28 +165,27 @@ private:
     Found between_lines(std::size_t c, Whole hi) {
         const ShapeCell e = cell(c, 0, hi);
         const ShapeCell e2 = ray_.line_part > 0 ? cell(c, 1, hi) : ShapeCell{};
-        if (e.back == 0 && e2.back == 0) {
+        if (e.shown == 0 && e2.shown == 0) {
             branches_.take(Branch::no_cell_of_two);
             return {};
         }
-        if (e2.back == 0) {
+        if (e2.shown == 0) {
             branches_.take(Branch::first_cell_alone);
-            return Surface{8 * Whole{e.depth}, e.back, 8 * lean_of(e)};
+            return Surface{8 * Whole{e.depth}, 8 * lean_of(e)};
         }
-        if (e.back == 0) {
+        if (e.shown == 0) {
             branches_.take(Branch::second_cell_alone);
-            return Surface{8 * Whole{e2.depth}, e2.back, 8 * lean_of(e2)};
+            return Surface{8 * Whole{e2.depth}, 8 * lean_of(e2)};
         }
-        const Whole back = std::max(e.back, e2.back);
         const Whole change = Whole{e2.depth} - e.depth;
         if (change > shape_.jump || -change > shape_.jump) {
             const bool takes_first = ray_.line_part < 4;
             branches_.take(takes_first ? Branch::lines_jump_to_first : Branch::lines_jump_to_second);
-            return Surface{8 * Whole{takes_first ? e.depth : e2.depth}, back, 8 * lean_of(takes_first ? e : e2)};
+            return Surface{8 * Whole{takes_first ? e.depth : e2.depth}, 8 * lean_of(takes_first ? e : e2)};
         }
         branches_.take(Branch::lines_interpolated);
         const Whole lean = (8 - ray_.line_part) * lean_of(e) + ray_.line_part * lean_of(e2);
-        return Surface{8 * Whole{e.depth} + ray_.line_part * change, back, lean};
+        return Surface{8 * Whole{e.depth} + ray_.line_part * change, lean};
     }
 
     const ShapeMap& shape_;
@@ -203,12 +208,13 @@ void march(const ShapeMap& shape, const engine::ViewRegisters& view, const Shape
         int looks = 0;
         for (Whole begin = 0; begin < 256; begin = begin + size) {
             within(++looks, 1, 64, "looks of the march");
-            const Found e = cells.at(bands.band_at(begin + (size >> 1))).surface;
+            const Surfaces at_v = cells.at(bands.band_at(begin + (size >> 1)));
+            const Found& e = at_v.surface;
             if (!e) {
                 branches.take(Branch::not_met_nothing);
             } else if (e->depth > 8 * (begin + size)) {
                 branches.take(Branch::not_met_behind_the_step);
-            } else if (e->back < begin) {
+            } else if (at_v.deepest + shape.thickness < begin) {
                 branches.take(Branch::not_met_ends_before);
             } else {
                 branches.take(e->depth > 8 * begin ? Branch::met_within_the_step : Branch::met_at_the_step);

@@ -217,6 +217,7 @@ void move_map_to_ends(ShapeMap& shape, Ends& ends) {
     if (ends.one_of(2)) shape.depth_low_q20 = ends.below((1 << 21) + (1 << 16) + 1);
     if (ends.one_of(2)) shape.depth_step_q24 = ends.in(1, 1 << 18);
     shape.jump = ends.in(1, 255);
+    if (ends.one_of(2)) shape.thickness = ends.in(0, 255);
     const bool are_scattered = ends.one_of(3);  // so that the search for the gap strays
     for (NormalLine& line : shape.normal_lines) {
         if (are_scattered) line.a_q20 = ends.within(-k20, k20);
@@ -226,7 +227,7 @@ void move_map_to_ends(ShapeMap& shape, Ends& ends) {
     }
     for (ShapeCell& cell : shape.cells) {
         const std::int32_t depth = ends.in(0, 255);
-        cell = {static_cast<std::uint8_t>(depth), static_cast<std::uint8_t>(ends.in(std::max(depth, 1), 255))};
+        cell = {static_cast<std::uint8_t>(depth), static_cast<std::uint8_t>(ends.in(1, 3))};
     }
 }
 

@@ -112,9 +112,10 @@ void CellMarch::look(Turn& turn, const ColumnSetup& column) {
     const int size = march_steps(turn.ray.per_d_q20).size;
     const int begin = turn.state.begin;
     const SurfaceCell cell = surfaces_at(column, band_q12(turn.ray, begin + (size >> 1))).first;
+    const int thickness = registers_.object_of(column.view).shape.thickness;
     const int end = begin + size;
     turn.state.begin = std::min(end, MarchState::kFoot);
-    if (!cell.exists() || cell.depth_q3 > 8 * end || cell.back < begin) return;
+    if (!cell.exists() || cell.depth_q3 > 8 * end || cell.deepest + thickness < begin) return;
     turn.outcome = Turn::Outcome::met;
     turn.met = {turn.ray.pixel, std::max(cell.depth_q3, 8 * begin), is_alone(column), turn.state, cell.lean};
 }

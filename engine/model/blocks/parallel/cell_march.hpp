@@ -10,8 +10,8 @@
 // zero and per_d (a product, kProductCycles), read, nearest and farthest, groups and weights, products and sums, mean
 // (a table of reciprocals and a product, divide_by_weight()), meet or not.
 //
-// It keeps the cells of two stripes, between their lines already (SurfaceCell, 33 bits), in four memories: even and odd
-// bands of both places in p, four bands to two words of 66 bits. A look reads each of the four at one place; they have
+// It keeps the cells of two stripes, between their lines already (SurfaceCell, 26 bits), in four memories: even and odd
+// bands of both places in p, four bands to two words of 52 bits. A look reads each of the four at one place; they have
 // two ports, and cells that come in take one. It also keeps of each pixel under way where its ray passes the bands.
 
 #include "engine/core/definition/shape_cells.hpp"
@@ -37,7 +37,7 @@ MarchSteps march_steps(std::int32_t per_d_q20);
 class CellMarch final : public Block {
 public:
     static constexpr int kStages = kProductCycles + 6;
-    static constexpr int kSurfaceBits = 11 + 8 + 5 + 9;
+    static constexpr int kSurfaceBits = 12 + 5 + 8 + 1;
     static constexpr std::size_t kCellBits =
         std::size_t{kStripeSlots} * kStripeColumns * 2 * kMostBands * static_cast<std::size_t>(kSurfaceBits);
     static constexpr std::size_t kHeldBits = std::size_t{4} * kMostBands / kCellsPerWord * 64;

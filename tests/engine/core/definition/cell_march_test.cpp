@@ -11,6 +11,7 @@
 namespace rs::engine {
 namespace {
 
+constexpr std::uint8_t kByBoth = ShapeCell::kByBoth;
 constexpr std::int32_t kOne_q20 = 1 << 20;
 constexpr std::int32_t kStep_q24 = 1 << 18;  // so per_depth_q20 = slope_q20 * bands per unit / 64
 
@@ -36,10 +37,11 @@ struct Column {
     Column(const Column&) = delete;
     Column& operator=(const Column&) = delete;
 
-    [[nodiscard]] std::vector<SurfaceCell> met(std::int32_t slope_q20, std::int32_t b_q20 = 0) const {
+    // Their depths, in eighths of a step.
+    [[nodiscard]] std::vector<int> met(std::int32_t slope_q20, std::int32_t b_q20 = 0) const {
         CellMarch march(shape, setup, b_q20, slope_q20 * 16);
-        std::vector<SurfaceCell> result;
-        for (SurfaceCell cell = march.next(); cell.exists(); cell = march.next()) result.push_back(cell);
+        std::vector<int> result;
+        for (SurfaceCell cell = march.next(); cell.exists(); cell = march.next()) result.push_back(cell.depth_q3);
         EXPECT_FALSE(march.next().exists());
         return result;
     }
@@ -47,27 +49,28 @@ struct Column {
 
 TEST(CellMarch, ARayOfReferenceSlopeMeetsTheSurfaceOfItsFootAlone) {
     Column column(8, {});
-    for (int band = 0; band < 8; ++band) column.cells[static_cast<std::size_t>(band)] = {std::uint8_t(band * 10), 255};
+    for (int band = 0; band < 8; ++band)
+        column.cells[static_cast<std::size_t>(band)] = {std::uint8_t(band * 10), kByBoth};
     const auto at = [&](std::int32_t b_q20) {
         column.shape.reference_height_q20 = b_q20;
         return column.met(0, b_q20);
     };
     // On the border of bands 3 and 4, and an eighth of a band below and above it.
-    EXPECT_EQ(at(0), (std::vector<SurfaceCell>{{35 * 8, 255}, {40 * 8, 255}}));
-    EXPECT_EQ(at(-kOne_q20 / 8), (std::vector<SurfaceCell>{{35 * 8 - 10, 255}, {40 * 8, 255}}));
-    EXPECT_EQ(at(kOne_q20 / 8), (std::vector<SurfaceCell>{{35 * 8 + 10, 255}, {40 * 8, 255}}));
-    EXPECT_EQ(at(kOne_q20 / 8 - 256), (std::vector<SurfaceCell>{{35 * 8, 255}, {40 * 8, 255}}));
+    EXPECT_EQ(at(0), (std::vector<int>{35 * 8, 40 * 8}));
+    EXPECT_EQ(at(-kOne_q20 / 8), (std::vector<int>{35 * 8 - 10, 40 * 8}));
+    EXPECT_EQ(at(kOne_q20 / 8), (std::vector<int>{35 * 8 + 10, 40 * 8}));
+    EXPECT_EQ(at(kOne_q20 / 8 - 256), (std::vector<int>{35 * 8, 40 * 8}));
     // The first and the last cell reach half a band beyond their middles and half a band more: as far as they are
     // given weight.
-    EXPECT_EQ(at(-9 * kOne_q20 / 2 + kOne_q20 / 8), (std::vector<SurfaceCell>{{0, 255}}));
+    EXPECT_EQ(at(-9 * kOne_q20 / 2 + kOne_q20 / 8), (std::vector<int>{0}));
     EXPECT_TRUE(at(-9 * kOne_q20 / 2 + kOne_q20 / 8 - 256).empty());
-    EXPECT_EQ(at(9 * kOne_q20 / 2 - 256), (std::vector<SurfaceCell>{{70 * 8, 255}}));
+    EXPECT_EQ(at(9 * kOne_q20 / 2 - 256), (std::vector<int>{70 * 8}));
     EXPECT_TRUE(at(9 * kOne_q20 / 2).empty());
 }
 
 // A ray that rises as the one from the reference viewpoint through the same foot stays in its band.
 TEST(CellMarch, TheReferenceViewpointSeesEveryBandAlongItself) {
-    Column column(8, {100, 110});
+    Column column(8, {100, kByBoth});
     column.setup.lambda_foot_q20 = 3 * kOne_q20;
     EXPECT_EQ(column.met(kOne_q20 / 2).size(), 2U);
     column.setup.lambda_foot_q20 = kOne_q20;
@@ -76,14 +79,15 @@ TEST(CellMarch, TheReferenceViewpointSeesEveryBandAlongItself) {
 
 // Surfaces that are met wherever they are looked at: their number is that of the steps, and two at the end.
 TEST(CellMarch, CountsItsSteps) {
-    const Column column(4096, {0, 255});
+    Column column(4096, {0, kByBoth});
+    column.shape.thickness = 255;
     const auto steps = [&](std::int32_t per_depth_q20) {
-        const std::vector<SurfaceCell> met = column.met(per_depth_q20 * 64);
+        const std::vector<int> met = column.met(per_depth_q20 * 64);
         const int taken = static_cast<int>(met.size()) - 2;
         for (int i = 0; i < taken; ++i) {
-            EXPECT_EQ(met[static_cast<std::size_t>(i)].depth_q3, i * met[1].depth_q3);
+            EXPECT_EQ(met[static_cast<std::size_t>(i)], i * met[1]);
         }
-        for (std::size_t i = met.size() - 2; i < met.size(); ++i) EXPECT_EQ(met[i].depth_q3, 0);
+        for (std::size_t i = met.size() - 2; i < met.size(); ++i) EXPECT_EQ(met[i], 0);
         return taken;
     };
     for (const int sign : {1, -1}) {
@@ -101,7 +105,8 @@ TEST(CellMarch, CountsItsSteps) {
 }
 
 TEST(CellMarch, NeverTakesMoreThanItsMostSteps) {
-    Column column(4096, {0, 255});
+    Column column(4096, {0, kByBoth});
+    column.shape.thickness = 255;
     column.shape.bands_per_unit_q12 = 1 << 26;
     column.shape.h_low_q20 = -kOne_q20 / 8;
     for (const std::int32_t slope_q20 : {kOne_q20, -kOne_q20, 127 * kOne_q20, -127 * kOne_q20}) {
@@ -114,11 +119,12 @@ TEST(CellMarch, NeverTakesMoreThanItsMostSteps) {
 // Half a band per step, bands -4 .. 4 of the foot, of which the map has the upper or lower half; its last cell reaches
 // half a band, one step, farther.
 TEST(CellMarch, LeavesTheBandsAndEntersThem) {
-    Column column(8, {0, 255});
+    Column column(8, {0, kByBoth});
+    column.shape.thickness = 255;
     const auto begins = [&](std::int32_t slope_q20, std::int32_t h_low_q20) {
         column.shape.h_low_q20 = h_low_q20;
         std::vector<int> depths;
-        for (const SurfaceCell& cell : column.met(slope_q20)) depths.push_back(cell.depth_q3 / 8);
+        for (const int depth_q3 : column.met(slope_q20)) depths.push_back(depth_q3 / 8);
         return depths;
     };
     const std::int32_t slope_q20 = 16 * 2048 * 64 - 64;  // sixteen steps of 16
@@ -140,22 +146,37 @@ TEST(CellMarch, LeavesTheBandsAndEntersThem) {
     EXPECT_TRUE(begins(slope_q20, -13 * kOne_q20).empty());
 }
 
-TEST(CellMarch, MeetsASurfaceBetweenItsDepthAndItsBack) {
+TEST(CellMarch, MeetsASurfaceOfTheMapsThickness) {
     const std::int32_t four_steps_q20 = 3 * 2048 * 64;
-    const auto met = [&](int depth, int back) {
-        auto found =
-            Column(64, {static_cast<std::uint8_t>(depth), static_cast<std::uint8_t>(back)}).met(four_steps_q20);
+    const auto met = [&](int depth, int thickness) {
+        Column column(64, {static_cast<std::uint8_t>(depth), kByBoth});
+        column.shape.thickness = thickness;
+        std::vector<int> found = column.met(four_steps_q20);
         for (int end = 0; end < 2; ++end) {  // those at the end are as the map has them
-            EXPECT_EQ(found.back(), (SurfaceCell{8 * depth, back}));
+            EXPECT_EQ(found.back(), 8 * depth);
             found.pop_back();
         }
         return found;
     };
-    EXPECT_EQ(met(200, 211), (std::vector<SurfaceCell>{{8 * 200, 211}}));
-    EXPECT_EQ(met(193, 195).size(), 1U);
-    EXPECT_EQ(met(192, 192).size(), 2U);  // on the border of two steps
-    EXPECT_EQ(met(20, 63).size(), 1U);
-    EXPECT_EQ(met(20, 64), (std::vector<SurfaceCell>{{8 * 20, 64}, {8 * 64, 64}}));
+    EXPECT_EQ(met(200, 11), (std::vector<int>{8 * 200}));
+    EXPECT_EQ(met(193, 2).size(), 1U);
+    EXPECT_EQ(met(192, 0).size(), 2U);  // on the border of two steps
+    EXPECT_EQ(met(20, 43).size(), 1U);
+    EXPECT_EQ(met(20, 44), (std::vector<int>{8 * 20, 8 * 64}));
+    EXPECT_EQ(met(255, 255), (std::vector<int>{8 * 255}));
+}
+
+// It is counted from the deepest of the cells around, which may be another than those that the ray meets.
+TEST(CellMarch, CountsTheThicknessFromTheDeepestCell) {
+    const std::int32_t four_steps_q20 = 3 * 2048 * 64;
+    Column column(64, {20, kByBoth});
+    std::vector<ShapeCell> beside(64, {60, kByBoth});
+    for (const ShapeCell*& line : column.setup.cells.at[1]) line = beside.data();
+    column.setup.cells.p_part = 1;
+    column.shape.thickness = 3;
+    EXPECT_EQ(column.met(four_steps_q20), (std::vector<int>{8 * 20, 8 * 20, 8 * 60, 8 * 60}));
+    column.shape.thickness = 4;
+    EXPECT_EQ(column.met(four_steps_q20), (std::vector<int>{8 * 20, 8 * 64, 8 * 20, 8 * 60, 8 * 60}));
 }
 
 // At the end: the foot's surface says at what depth a reference ray would meet the object; that of the place answers.
@@ -169,12 +190,12 @@ TEST(CellMarch, EndsWithTheSurfaceThatAReferenceRayWouldMeet) {
         return column.met(one_step_q20);
     };
     // Depth 0 lies 2 eighths below the middle, and a quarter of the weight says there is band 3.
-    EXPECT_EQ(end({16, 16}, {0, 4}), (std::vector<SurfaceCell>{{2 * 16, 16}, {8 * 16, 16}}));
+    EXPECT_EQ(end({16, kByBoth}, {0, kByBoth}), (std::vector<int>{2 * 16, 8 * 16}));
     // Beyond a jump: the one with more weight, what lies behind it, and the farthest, which is the same here.
-    EXPECT_EQ(end({77, 79}, {0, 4}), (std::vector<SurfaceCell>{{0, 79}, {8 * 77, 79}, {8 * 77, 79}}));
-    EXPECT_EQ(end({0, 79}, {77, 79}), (std::vector<SurfaceCell>{{8 * 77, 79}, {8 * 77, 79}}));
-    EXPECT_EQ(end({}, {0, 4}), (std::vector<SurfaceCell>{{0, 4}}));
-    EXPECT_TRUE(end({77, 79}, {}).empty());
+    EXPECT_EQ(end({77, kByBoth}, {0, kByBoth}), (std::vector<int>{0, 8 * 77, 8 * 77}));
+    EXPECT_EQ(end({0, kByBoth}, {77, kByBoth}), (std::vector<int>{8 * 77, 8 * 77}));
+    EXPECT_EQ(end({}, {0, kByBoth}), (std::vector<int>{0}));
+    EXPECT_TRUE(end({77, kByBoth}, {}).empty());
     column.setup.cells.p_part = 0;
     column.cells[4] = {};
     EXPECT_TRUE(column.met(one_step_q20).empty());
@@ -185,12 +206,12 @@ TEST(CellMarch, EndsWithTheSurfaceThatAReferenceRayWouldMeet) {
 TEST(CellMarch, EndsWithTheFootsSurfacesWhereNothingLiesAtTheirDepth) {
     Column column(2, {});
     std::vector<ShapeCell> beside(2);
-    column.cells[1] = {90, 120};
-    beside[1] = {255, 255};
+    column.cells[1] = {90, kByBoth};
+    beside[1] = {255, kByBoth};
     for (const ShapeCell*& line : column.setup.cells.at[1]) line = beside.data();
     column.setup.cells.p_part = 3;
     column.shape.h_low_q20 = -5 * kOne_q20 / 8;
-    EXPECT_EQ(column.met(2047 * 64), (std::vector<SurfaceCell>{{8 * 90, 255}, {8 * 255, 255}}));
+    EXPECT_EQ(column.met(2047 * 64), (std::vector<int>{8 * 90, 8 * 255}));
 }
 
 }  // namespace

@@ -18,47 +18,47 @@ SurfaceCell between_cells(const SurfaceCell (&cells)[2][2], int p_part, int h_pa
     return surfaces_between(cells, p_part, h_part, jump).first;
 }
 
-// Backs whose lowest bits are 3: both pictures show the surface.
+constexpr std::uint8_t kFirst = ShapeCell::kByFirst, kSecond = ShapeCell::kBySecond, kBoth = ShapeCell::kByBoth;
+
 TEST(BetweenLines, InterpolatesInEighthsUpToTheJump) {
     for (int part = 0; part < 8; ++part) {
-        EXPECT_EQ(between_lines({100, 111}, {120, 115}, part, 20),
-                  (SurfaceCell{800 + 20 * part, part > 0 ? 115 : 111, kBothShow, 120}));
-        EXPECT_EQ(between_lines({120, 131}, {100, 127}, part, 20), (SurfaceCell{960 - 20 * part, 131, kBothShow, 120}));
+        EXPECT_EQ(between_lines({100, kBoth}, {120, kBoth}, part, 20),
+                  (SurfaceCell{800 + 20 * part, kBothShow, 120, true}));
+        EXPECT_EQ(between_lines({120, kBoth}, {100, kBoth}, part, 20),
+                  (SurfaceCell{960 - 20 * part, kBothShow, 120, true}));
     }
 }
 
 TEST(BetweenLines, TakesTheNearerLineAcrossAJump) {
-    for (int part = 1; part < 8; ++part) {
-        const SurfaceCell expected{part < 4 ? 800 : 968, 123, kBothShow, 121};
-        EXPECT_EQ(between_lines({100, 111}, {121, 123}, part, 20), expected) << part;
+    for (int part = 0; part < 8; ++part) {
+        const SurfaceCell expected{part < 4 ? 800 : 968, kBothShow, 121, true};
+        EXPECT_EQ(between_lines({100, kBoth}, {121, kBoth}, part, 20), expected) << part;
     }
-    EXPECT_EQ(between_lines({100, 111}, {121, 123}, 0, 20), (SurfaceCell{800, 111, kBothShow, 121}));
 }
 
 TEST(BetweenLines, OneAloneAnswersAndTheSecondOnlyWhereItHasWeight) {
-    EXPECT_EQ(between_lines({100, 111}, kNone, 7, 20), (SurfaceCell{800, 111}));
-    EXPECT_EQ(between_lines(kNone, {100, 111}, 1, 20), (SurfaceCell{800, 111}));
-    EXPECT_FALSE(between_lines(kNone, {100, 111}, 0, 20).exists());
-    EXPECT_FALSE(between_lines(kNone, kNone, 4, 20).exists());
-    EXPECT_EQ(between_lines({0, 4}, kNone, 4, 20), (SurfaceCell{0, 4}));  // depth 0 is a surface, too
+    EXPECT_EQ(between_lines({100, kBoth}, kNone, 7, 20), (SurfaceCell{800, kBothShow, 100, false}));
+    EXPECT_EQ(between_lines(kNone, {100, kBoth}, 1, 20), (SurfaceCell{800, kBothShow, 100, false}));
+    EXPECT_EQ(between_lines(kNone, {100, kBoth}, 0, 20), (SurfaceCell{-1, kBothShow, 100, false}));
+    EXPECT_EQ(between_lines(kNone, kNone, 4, 20), SurfaceCell{});
+    EXPECT_EQ(between_lines({0, kBoth}, kNone, 4, 20), (SurfaceCell{0, kBothShow, 0, false}));  // a surface, too
 }
 
-// Lowest bits 1: the first picture alone shows it; 2: the second; 0 and 3: both.
 TEST(BetweenLines, LeansAsItsCellsDo) {
-    constexpr ShapeCell kFirst{100, 113}, kSecond{100, 114}, kBoth{100, 115}, kUnsaid{100, 112}, kFar{200, 201};
+    constexpr ShapeCell kOfFirst{100, kFirst}, kOfSecond{100, kSecond}, kOfBoth{100, kBoth}, kFar{200, kFirst};
     for (int part = 0; part < 8; ++part) {
-        EXPECT_EQ(between_lines(kFirst, kSecond, part, 20).lean, 2 * part);
-        EXPECT_EQ(between_lines(kBoth, kFirst, part, 20).lean, 8 - part);
-        EXPECT_EQ(between_lines(kUnsaid, kSecond, part, 20).lean, 8 + part);
-        EXPECT_EQ(between_lines(kSecond, kFar, part, 20).lean, part < 4 ? 16 : 0);
-        EXPECT_EQ(between_lines(kSecond, kNone, part, 20).lean, 16);
+        EXPECT_EQ(between_lines(kOfFirst, kOfSecond, part, 20).lean, 2 * part);
+        EXPECT_EQ(between_lines(kOfBoth, kOfFirst, part, 20).lean, 8 - part);
+        EXPECT_EQ(between_lines(kOfBoth, kOfSecond, part, 20).lean, 8 + part);
+        EXPECT_EQ(between_lines(kOfSecond, kFar, part, 20).lean, part < 4 ? 16 : 0);
+        EXPECT_EQ(between_lines(kOfSecond, kNone, part, 20).lean, 16);
     }
-    EXPECT_EQ(between_lines(kNone, kSecond, 5, 20).lean, 16);
+    EXPECT_EQ(between_lines(kNone, kOfSecond, 5, 20).lean, 16);
 }
 
 TEST(BetweenCells, LeansAsTheCellsOfItsGroupDo) {
-    const SurfaceCell one[2][2] = {{{80, 20, 0}, {80, 20, 8}}, {{80, 20, 16}, {80, 20, 8}}};
-    const SurfaceCell two[2][2] = {{{80, 20, 0}, {80, 20, 8}}, {{400, 40, 16}, {400, 40, 12}}};
+    const SurfaceCell one[2][2] = {{{80, 0}, {80, 8}}, {{80, 16}, {80, 8}}};
+    const SurfaceCell two[2][2] = {{{80, 0}, {80, 8}}, {{400, 16}, {400, 12}}};
     for (int p = 0; p < 8; ++p) {
         for (int h = 0; h < 8; ++h) {
             const int sum = 8 * (8 - p) * h + 16 * p * (8 - h) + 8 * p * h;
@@ -73,32 +73,32 @@ TEST(BetweenCells, LeansAsTheCellsOfItsGroupDo) {
 }
 
 TEST(BetweenCells, IsBilinearOnOneSurface) {
-    const SurfaceCell cells[2][2] = {{{80, 20}, {160, 30}}, {{240, 25}, {240, 10}}};
+    const SurfaceCell cells[2][2] = {{{80}, {160}}, {{240}, {240}}};
     for (int p = 0; p < 8; ++p) {
         for (int h = 0; h < 8; ++h) {
             const int sum = 80 * (8 - p) * (8 - h) + 160 * (8 - p) * h + 240 * p * 8;
-            EXPECT_EQ(between_cells(cells, p, h, 20), (SurfaceCell{(sum + 32) / 64, 30})) << p << " " << h;
+            EXPECT_EQ(between_cells(cells, p, h, 20).depth_q3, (sum + 32) / 64) << p << " " << h;
         }
     }
 }
 
 TEST(BetweenCells, StepsWhereTheGreaterWeightSays) {
-    const SurfaceCell cells[2][2] = {{{80, 20}, {80, 20}}, {{248, 40}, {248, 40}}};  // 21 depths apart
+    const SurfaceCell cells[2][2] = {{{80}, {80}}, {{248}, {248}}};  // 21 depths apart
     for (int p = 0; p < 8; ++p) {
-        EXPECT_EQ(between_cells(cells, p, 3, 20), (SurfaceCell{p <= 4 ? 80 : 248, 40})) << p;
+        EXPECT_EQ(between_cells(cells, p, 3, 20).depth_q3, p <= 4 ? 80 : 248) << p;
         EXPECT_EQ(between_cells(cells, p, 3, 21).depth_q3, 80 + 21 * p) << p;
     }
     // What lies between near and far belongs to the nearer half: 164 is in their middle, 165 is not.
-    const SurfaceCell three[2][2] = {{{80, 20}, {164, 30}}, {{248, 40}, {}}};
+    const SurfaceCell three[2][2] = {{{80}, {164}}, {{248}, {}}};
     EXPECT_EQ(between_cells(three, 3, 4, 20).depth_q3, (80 * 20 + 164 * 20 + 20) / 40);
-    const SurfaceCell other[2][2] = {{{80, 20}, {165, 30}}, {{248, 40}, {}}};
+    const SurfaceCell other[2][2] = {{{80}, {165}}, {{248}, {}}};
     EXPECT_EQ(between_cells(other, 3, 4, 20).depth_q3, (165 * 20 + 248 * 12 + 16) / 32);
 }
 
 TEST(BetweenCells, BehindTheNearerGroupIsTheFartherOne) {
-    const SurfaceCell cells[2][2] = {{{80, 20}, {88, 20}}, {{248, 40}, {256, 40}}};  // 22 depths apart at most
+    const SurfaceCell cells[2][2] = {{{80}, {88}}, {{248}, {256}}};  // 22 depths apart at most
     for (int p = 1; p < 8; ++p) {
-        EXPECT_EQ(surfaces_between(cells, p, 4, 20).behind, (p <= 4 ? SurfaceCell{252, 40} : SurfaceCell{})) << p;
+        EXPECT_EQ(surfaces_between(cells, p, 4, 20).behind.depth_q3, p <= 4 ? 252 : -1) << p;
         EXPECT_FALSE(surfaces_between(cells, p, 4, 22).behind.exists()) << p;  // one surface
     }
     EXPECT_FALSE(surfaces_between(cells, 0, 4, 20).behind.exists());  // without weight
@@ -107,32 +107,37 @@ TEST(BetweenCells, BehindTheNearerGroupIsTheFartherOne) {
 }
 
 TEST(BetweenCells, TheFarthestIsOneOfAllCellsWhateverTheirWeights) {
-    const SurfaceCell cells[2][2] = {{{80, 20, 3, 11}, {88, 20, 3, 12}}, {{248, 40, 3, 31}, {256, 41, 3, 32}}};
+    const SurfaceCell cells[2][2] = {{{80, 3, 11, true}, {88, 3, 12, true}}, {{248, 3, 31, true}, {256, 3, 32, true}}};
     for (int p = 0; p < 8; ++p) {
-        for (const int jump : {20, 22}) EXPECT_EQ(surfaces_between(cells, p, 0, jump).farthest, (SurfaceCell{256, 41}));
+        for (const int jump : {20, 22}) {
+            const SurfaceStack stack = surfaces_between(cells, p, 0, jump);
+            EXPECT_EQ(stack.farthest, (SurfaceCell{.depth_q3 = 256}));
+            EXPECT_EQ(stack.first.deepest, 32);
+        }
     }
     SurfaceCell at_depth_0[2][2];
-    for (auto& column : at_depth_0) column[0] = column[1] = {0, 1, kBothShow, 0};
-    EXPECT_EQ(surfaces_between(at_depth_0, 3, 4, 20).farthest, (SurfaceCell{0, 1}));
+    for (auto& column : at_depth_0) column[0] = column[1] = {0, kBothShow, 0, true};
+    EXPECT_EQ(surfaces_between(at_depth_0, 3, 4, 20).farthest, (SurfaceCell{.depth_q3 = 0}));
     for (int n = 0; n < 4; ++n) {
         SurfaceCell lacks_one[2][2] = {{cells[0][0], cells[0][1]}, {cells[1][0], cells[1][1]}};
-        lacks_one[n / 2][n % 2].farthest = -1;
+        lacks_one[n / 2][n % 2].all_have_one = false;
         EXPECT_FALSE(surfaces_between(lacks_one, 3, 4, 20).farthest.exists()) << n;
+        EXPECT_EQ(surfaces_between(lacks_one, 3, 4, 20).first.deepest, 32) << n;
     }
 }
 
 TEST(BetweenCells, IsNothingWhereAllWeightIsOnNothing) {
     SurfaceCell cells[2][2] = {};
-    cells[1][1] = {80, 20};
+    cells[1][1] = {80};
     EXPECT_FALSE(between_cells(cells, 0, 5, 20).exists());
     EXPECT_FALSE(between_cells(cells, 5, 0, 20).exists());
-    EXPECT_EQ(between_cells(cells, 1, 1, 20), (SurfaceCell{80, 20}));
+    EXPECT_EQ(between_cells(cells, 1, 1, 20), SurfaceCell{80});
 }
 
-// Of weight 0 but there: it makes a step of what would be one surface, and its back counts.
+// Of weight 0 but there: it makes a step of what would be one surface, and may be the deepest.
 TEST(BetweenCells, HeedsCellsWithoutWeight) {
-    const SurfaceCell cells[2][2] = {{{80, 20}, {160, 30}}, {{400, 90}, {400, 90}}};
-    EXPECT_EQ(between_cells(cells, 0, 4, 20), (SurfaceCell{120, 90}));
+    const SurfaceCell cells[2][2] = {{{80, 8, 10}, {160, 8, 20}}, {{400, 8, 50}, {-1, 8, 90}}};
+    EXPECT_EQ(between_cells(cells, 0, 4, 20), (SurfaceCell{120, kBothShow, 90}));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -140,33 +145,32 @@ TEST(BetweenCells, HeedsCellsWithoutWeight) {
 struct Columns {
     std::vector<ShapeCell> cells[2][2];  // [p][line]
     CellColumns around;
-    int bands = 0;
-    int jump = 0;
+    ShapeMap shape;  // its bands, jump and thickness
 };
 
 Columns random_columns(test::Random& random) {
     Columns columns;
-    columns.bands = random.whole(1, 100);
-    columns.jump = random.whole(1, 60);
+    const int bands = columns.shape.bands = random.whole(1, 100);
+    columns.shape.jump = random.whole(1, 60);
+    columns.shape.thickness = random.whole(0, 1) == 0 ? 8 : random.whole(0, 255);
     columns.around.p_part = random.whole(0, 7);
     columns.around.line_part = random.whole(0, 7);
     const int roughness = random.whole(0, 2) == 0 ? 100 : random.whole(0, 12);
     const double empty = random.whole(0, 1) == 0 ? 0 : random.real(0, 1);
-    const int low = random.whole(0, columns.bands);  // nothing below, nor from `high` on
-    const int high = random.whole(low, columns.bands);
+    const int low = random.whole(0, bands);  // nothing below, nor from `high` on
+    const int high = random.whole(low, bands);
     const int middle = random.whole(0, 255);
     const bool leans = random.whole(0, 1) == 0;
     for (int p = 0; p < 2; ++p) {
         for (int line = 0; line < 2; ++line) {
             std::vector<ShapeCell>& cells = columns.cells[p][line];
-            cells.resize(static_cast<std::size_t>(columns.bands));
+            cells.resize(static_cast<std::size_t>(bands));
             for (int band = low; band < high; ++band) {
                 if (random.real(0, 1) < empty) continue;
                 const int depth = std::clamp(middle + random.whole(-roughness, roughness), 0, 255);
-                const int both = leans && random.whole(0, 1) == 0 ? 0 : ShapeCell::kByBoth;
-                const int back = std::clamp(depth + random.whole(0, 90), 1, 255) | both;
+                const int shown = leans ? random.whole(1, 3) : 3;
                 cells[static_cast<std::size_t>(band)] = {static_cast<std::uint8_t>(depth),
-                                                         static_cast<std::uint8_t>(back)};
+                                                         static_cast<std::uint8_t>(shown)};
             }
             columns.around.at[p][line] = cells.data();
         }
@@ -178,13 +182,13 @@ SurfaceStack defined(const Columns& columns, int band, int h_part) {
     SurfaceCell around[2][2];
     for (int p = 0; p < 2; ++p) {
         for (int h = 0; h < 2; ++h) {
-            if (band + h < 0 || band + h >= columns.bands) continue;
+            if (band + h < 0 || band + h >= columns.shape.bands) continue;
             const auto at = static_cast<std::size_t>(band + h);
-            around[p][h] =
-                between_lines(columns.cells[p][0][at], columns.cells[p][1][at], columns.around.line_part, columns.jump);
+            around[p][h] = between_lines(columns.cells[p][0][at], columns.cells[p][1][at], columns.around.line_part,
+                                         columns.shape.jump);
         }
     }
-    return surfaces_between(around, columns.around.p_part, h_part, columns.jump);
+    return surfaces_between(around, columns.around.p_part, h_part, columns.shape.jump);
 }
 
 std::int32_t in_16_bits(const SurfaceCell& cell) {
@@ -198,15 +202,15 @@ int smooth_depth_q3(std::int32_t entry, int h_part) {
 
 void expect_column(const Columns& columns) {
     constexpr std::size_t kStart = 5;
-    const std::size_t most = surface_entries(columns.bands);
+    const std::size_t most = surface_entries(columns.shape.bands);
     SurfaceEntries entries;
     entries.hold(kStart + most + 1);
     constexpr std::int32_t kUntouched = -12345;
-    for (auto* const numbers : {&entries.smooth, &entries.backs, &entries.steps}) {
+    for (auto* const numbers : {&entries.smooth, &entries.deepest, &entries.steps}) {
         std::fill(numbers->begin(), numbers->end(), kUntouched);
     }
-    const SurfaceColumn column = lay_surfaces(columns.around, columns.bands, columns.jump, kStart, entries);
-    for (const auto* const numbers : {&entries.smooth, &entries.backs}) {
+    const SurfaceColumn column = lay_surfaces(columns.around, columns.shape, kStart, entries);
+    for (const auto* const numbers : {&entries.smooth, &entries.deepest}) {
         EXPECT_EQ((*numbers)[kStart - 1], kUntouched);
         EXPECT_EQ((*numbers)[kStart + most], kUntouched);
     }
@@ -216,7 +220,7 @@ void expect_column(const Columns& columns) {
     EXPECT_EQ(entries.smooth[kStart + static_cast<std::size_t>(column.last)], kSurfaceNothing);
     int nearest = 256 * 8;
     int beyond = 0;
-    for (int band = -1; band < columns.bands; ++band) {
+    for (int band = -1; band < columns.shape.bands; ++band) {
         for (int h_part = 0; h_part < 8; ++h_part) {
             const auto [expected, behind, farthest] = defined(columns, band, h_part);
             const int n = std::clamp(band - column.first_band, 0, column.last);
@@ -226,12 +230,15 @@ void expect_column(const Columns& columns) {
                 ASSERT_FALSE(expected.exists()) << band << " " << h_part;
                 continue;
             }
-            ASSERT_EQ(entries.backs[at] >> 16, farthest.exists() ? farthest.depth_q3 : -1) << band << " " << h_part;
-            const std::int32_t back = entries.backs[at] & 0xFFFF;
+            ASSERT_EQ(entries.deepest[at] >> 16, farthest.exists() ? 0 : -1) << band << " " << h_part;
+            const std::int32_t deepest = entries.deepest[at] & 0xFFFF;
+            if (farthest.exists()) {
+                ASSERT_EQ(8 * deepest, farthest.depth_q3) << band << " " << h_part;
+            }
             if (expected.exists()) {
-                ASSERT_EQ(back, expected.back) << band << " " << h_part;
+                ASSERT_EQ(deepest, expected.deepest) << band << " " << h_part;
                 nearest = std::min(nearest, expected.depth_q3);
-                beyond = std::max(beyond, expected.back + 1);
+                beyond = std::max(beyond, std::min(expected.deepest + columns.shape.thickness + 1, 256));
             }
             if ((smooth & kSurfaceSteps) == 0) {
                 ASSERT_EQ(smooth_depth_q3(smooth, h_part), expected.depth_q3) << band << " " << h_part;
@@ -246,6 +253,7 @@ void expect_column(const Columns& columns) {
     }
     EXPECT_LE(column.nearest, nearest / 8);
     EXPECT_GE(column.beyond, beyond);
+    EXPECT_LE(column.beyond, 256);
 }
 
 TEST(SurfaceColumn, SaysWhatTheDefinitionSaysOnEverySimdTarget) {

@@ -90,7 +90,7 @@ TEST(BoardConfig, ParallelHasPipesAndBanksForEachImageBuffer) {
     EXPECT_EQ(read_board_config("parallel")->pipes, 16);
     EXPECT_NE(refusal(R"({"base": "parallel", "pipes": 33})").find("pipes is 33, outside 1..32"), std::string::npos);
     EXPECT_NE(refusal(R"({"pipes": 2})").find("\"pipes\" is no setting"), std::string::npos);
-    EXPECT_NE(refusal(R"({"base": "parallel", "limits": {"shape_bands": 257}})").find("outside 1..256"),
+    EXPECT_NE(refusal(R"({"base": "parallel", "limits": {"shape_bands": 385}})").find("outside 1..384"),
               std::string::npos);
     EXPECT_NE(refusal(R"({"base": "parallel", "memory": {"images": {"count": 1}}})").find("is odd"), std::string::npos);
     const BoardTop board(*config);
