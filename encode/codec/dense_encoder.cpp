@@ -1,12 +1,12 @@
 #include "encode/codec/dense_encoder.hpp"
 
-#include "encode/codec/bool_encoder.hpp"
 #include "encode/codec/coders.hpp"
 #include "encode/codec/fidelity.hpp"
 #include "encode/codec/ring_references.hpp"
 #include "encode/codec/source_picture.hpp"
 #include "encode/codec/tile_encoder.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/codec/bool_encoder.hpp"
 #include "rayspace/codec/context_states.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
 #include "rayspace/codec/stream/decode_picture.hpp"
@@ -255,7 +255,7 @@ private:
             CodedPicture& picture = coded_.pictures[v];
             for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
                 if (!picture.tiles[t].present) continue;
-                BoolEncoder encoder;
+                codec::BoolEncoder encoder;
                 codec::ContextStates states(coded_.dense);
                 for (const Decision d : work_[v].decisions[t]) {
                     const int context = d >> 1;

@@ -6,7 +6,7 @@
 #include "encode/raymap/semi_global.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
-#include "rayspace/format/shape_chunk.hpp"
+#include "rayspace/format/shape_coding.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -272,7 +272,7 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
             }
         }
     });
-    object_chunks::settle_depths(map, settled_steps(ring, map, scale, options));
+    shape_coding::settle_depths(map, settled_steps(ring, map, scale, options));
     return map;
 }
 

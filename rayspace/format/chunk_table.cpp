@@ -34,11 +34,10 @@ Status parse_map(Bytes payload, Unread unread, Index r) {
     return coded ? parse_map(*coded, unread.object.rings[r]) : coded.error();
 }
 
-// Cells are unpacked from one plane after the other, of at most a byte for each cell.
 Result<ChunkMemory> shape_memory(Bytes payload, Unread unread, Index r) {
     const auto coded = parse_shape_head(payload, unread.object.rings[r]);
     if (!coded) return coded.error();
-    return ChunkMemory{coded->cells * sizeof(ShapeCell), coded->cells};
+    return ChunkMemory{.kept_bytes = coded->cells * sizeof(ShapeCell)};
 }
 
 Status parse_shape(Bytes payload, Unread unread, Index r) {

@@ -166,7 +166,7 @@ TEST(ShapeFile, MemoryIsCapped) {
     const std::size_t cells = small_object_with_shape().rings[0].shape.cells.size();
     const auto without_rig = [](Chunks& chunks) { chunks[1].payload.clear(); };
     ReadObjectOptions options;
-    options.memory_cap_bytes = 2048 + 8 * 300 + 3 * cells;  // two bytes each, and a plane while it is unpacked
+    options.memory_cap_bytes = 2048 + 8 * 300 + 2 * cells;
     EXPECT_EQ(error_after(without_rig, options), "read without error");
     options.memory_cap_bytes -= 1;
     EXPECT_THAT(error_after(without_rig, options), HasSubstr("of memory, more than"));
@@ -185,8 +185,8 @@ TEST(ShapeFile, ASmallChunkCannotAskForMuchMemory) {
     options.memory_cap_bytes = std::uint64_t{8} << 20;
     const auto refused = object_of(chunks, options);
     ASSERT_FALSE(refused.ok());
-    EXPECT_THAT(refused.error().message, HasSubstr("needs 25 MiB of memory, more than the 8 MiB allowed"));
-    options.memory_cap_bytes = std::uint64_t{26} << 20;
+    EXPECT_THAT(refused.error().message, HasSubstr("needs 17 MiB of memory, more than the 8 MiB allowed"));
+    options.memory_cap_bytes = std::uint64_t{18} << 20;
     const auto back = object_of(chunks, options);
     ASSERT_TRUE(back.ok()) << back.error().message;
     EXPECT_EQ(back->rings, object.rings);

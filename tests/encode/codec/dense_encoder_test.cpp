@@ -1,10 +1,10 @@
 // Pictures through the dense encoder and the decoder.
 
 #include "encode/codec/dense_encoder.hpp"
-#include "encode/codec/bool_encoder.hpp"
 #include "encode/codec/quantise.hpp"
 #include "encode/codec/search_kernels.hpp"
 #include "encode/encode_pictures.hpp"
+#include "rayspace/codec/bool_encoder.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
 #include "rayspace/codec/stream/byte_account.hpp"
 #include "rayspace/codec/stream/coded_chunks.hpp"
@@ -56,7 +56,7 @@ TEST(BoolCoder, ReadsBackWhatWasWritten) {
     std::mt19937 random(11);
     for (int round = 0; round < 300; ++round) {
         std::vector<std::pair<int, std::uint32_t>> bits;
-        BoolEncoder encoder;
+        codec::BoolEncoder encoder;
         const int count = static_cast<int>(random() % 400);
         for (int i = 0; i < count; ++i) {
             const auto probability = static_cast<std::uint32_t>(round % 3 == 0 ? 4095 : 1 + random() % 4095);
@@ -74,7 +74,7 @@ TEST(BoolCoder, ReadsBackWhatWasWritten) {
 }
 
 TEST(BoolCoder, LikelyBitsCostLittle) {
-    BoolEncoder encoder;
+    codec::BoolEncoder encoder;
     for (int i = 0; i < 8000; ++i) encoder.bit(0, 4080);
     EXPECT_LE(encoder.finish().size(), 8000 * 0.0057 / 8 + 2);
 }

@@ -1,8 +1,8 @@
 // What a tile teaches its contexts, and levels with hidden signs from quantising to reading.
 
-#include "encode/codec/bool_encoder.hpp"
 #include "encode/codec/quantise.hpp"
 #include "rayspace/codec/bool_decoder.hpp"
+#include "rayspace/codec/bool_encoder.hpp"
 #include "rayspace/codec/context_states.hpp"
 #include "rayspace/codec/syntax.hpp"
 
@@ -76,7 +76,7 @@ TEST(ContextStates, DoNotMoveWithoutAdaptation) {
 
 // A coder that writes, and one that reads, with even chances.
 struct Writer {
-    BoolEncoder& bits;
+    codec::BoolEncoder& bits;
     int bit(int /*context*/, int value) {
         bits.bit(value, 2048);
         return value;
@@ -109,7 +109,7 @@ Quantised quantised(const std::vector<std::int32_t>& coefficients, int size, int
 
 // What is written, read again, and how many raw bits it has.
 std::pair<codec::Levels, int> read_back(const Quantised& quantised, int size, bool sign_data_hiding) {
-    BoolEncoder encoder;
+    codec::BoolEncoder encoder;
     Writer writer{encoder};
     codec::Levels levels = quantised.levels;
     codec::syntax::block(writer, 2, size, sign_data_hiding, levels, quantised.last);

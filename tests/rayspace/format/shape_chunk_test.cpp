@@ -1,13 +1,13 @@
 #include "rayspace/format/shape_chunk.hpp"
 
 #include "rayspace/format/object_file.hpp"
+#include "rayspace/format/shape_coding.hpp"
 #include "rayspace/format/shape_validate.hpp"
 #include "tests/support/put_number.hpp"
 #include "tests/support/small_shape.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <functional>
@@ -24,13 +24,8 @@ using testing::AnyOf;
 using testing::HasSubstr;
 
 constexpr std::size_t kSurfacesAt = 40;
-constexpr std::size_t kFrameBytesAt = 44;
-constexpr std::size_t kGapsAt = 52;
-
-// 8 views and 4 planes, as small_object() has.
-std::size_t frames_at() {
-    return kGapsAt + 8 * 2 + 8 * 4 * 16;
-}
+constexpr std::size_t kCellBytesAt = 44;
+constexpr std::size_t kGapsAt = 48;
 
 Status parse(std::span<const std::byte> payload, Ring& ring) {
     const auto coded = parse_shape_head(payload, ring);
@@ -58,30 +53,6 @@ std::string error_after(const std::function<void(Payload&)>& change) {
     change(payload);
     const auto back = read_back(payload, ring);
     return back.ok() ? "read without error" : back.error().message;
-}
-
-Payload frame_of(const std::vector<std::uint8_t>& plane) {
-    Payload frame(ZSTD_compressBound(plane.size()));
-    frame.resize(ZSTD_compress(frame.data(), frame.size(), plane.data(), plane.size(), 3));
-    return frame;
-}
-
-// Puts `frame` in the place of frame number `which`.
-void replace_frame(Payload& payload, std::size_t which, const Payload& frame) {
-    std::size_t begin = frames_at();
-    for (std::size_t i = 0; i < which; ++i) begin += number_at(payload, kFrameBytesAt + 4 * i);
-    const auto first = payload.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto place =
-        payload.erase(first, first + static_cast<std::ptrdiff_t>(number_at(payload, kFrameBytesAt + 4 * which)));
-    payload.insert(place, frame.begin(), frame.end());
-    test::put_number(payload, kFrameBytesAt + 4 * which, frame.size(), 4);
-}
-
-Payload frame_number(const Payload& payload, std::size_t which) {
-    std::size_t begin = frames_at();
-    for (std::size_t i = 0; i < which; ++i) begin += number_at(payload, kFrameBytesAt + 4 * i);
-    const auto first = payload.begin() + static_cast<std::ptrdiff_t>(begin);
-    return {first, first + static_cast<std::ptrdiff_t>(number_at(payload, kFrameBytesAt + 4 * which))};
 }
 
 TEST(ShapeChunk, TheSmallShapeIsNotTrivial) {
@@ -131,15 +102,8 @@ TEST(ShapeChunk, AnyCellsComeBack) {
     }
 }
 
-// The sums of FORMAT.md, section "Planes", by hand: line 0 has cells a and b, one above the other, and nothing else.
-TEST(ShapeChunk, PlanesAreAsTheFormatSays) {
-    Ring ring = small_object_with_shape({}, {.p_cells = 1, .bands = 3, .lines = {1, 0}}).rings[0];
-    ASSERT_EQ(ring.shape.cells.size(), 12U);
-    std::fill(ring.shape.cells.begin(), ring.shape.cells.end(), ShapeCell{});
-    ring.shape.cells[0] = {100, 3};
-    ring.shape.cells[1] = {110, 1};
-    ring.shape.cells[3] = {104, 2};
-    ring.shape.cells[4] = {90, 3};
+TEST(ShapeChunk, FieldsAreWhereTheFormatSays) {
+    Ring ring = small_object_with_shape().rings[0];
     ring.shape.jump = 77;
     ring.shape.thickness = 99;
     const Payload payload = shape_payload(ring);
@@ -147,16 +111,10 @@ TEST(ShapeChunk, PlanesAreAsTheFormatSays) {
     EXPECT_EQ(payload.at(1), std::byte{77});
     EXPECT_EQ(payload.at(2), std::byte{99});
     EXPECT_EQ(payload.at(3), std::byte{0});
-    EXPECT_EQ(number_at(payload, kSurfacesAt), 4U);
-    const auto plane = [&](std::size_t which, std::size_t size) {
-        std::vector<std::uint8_t> bytes(size);
-        const Payload frame = frame_number(payload, which);
-        EXPECT_EQ(ZSTD_decompress(bytes.data(), size, frame.data(), frame.size()), size);
-        return bytes;
-    };
-    EXPECT_EQ(plane(0, 3), (std::vector<std::uint8_t>{3 + 4 * 1 + 64 * 2, 3, 0}));
-    // 128; below; line before; median of below 104, before 110 and 110 + 104 - 100 = 114.
-    EXPECT_EQ(plane(1, 4), (std::vector<std::uint8_t>{256 - 28, 10, 4, 256 - 20}));
+    const auto surfaces = std::count_if(ring.shape.cells.begin(), ring.shape.cells.end(),
+                                        [](const ShapeCell& cell) { return cell.has_surface(); });
+    EXPECT_EQ(number_at(payload, kSurfacesAt), static_cast<std::uint32_t>(surfaces));
+    EXPECT_EQ(payload.size(), kGapsAt + 8 * 2 + 8 * 4 * 16 + number_at(payload, kCellBytesAt));
 }
 
 // A depth that is off by no more than the tolerance becomes what it is predicted to be, and the next ones are predicted
@@ -167,7 +125,7 @@ TEST(ShapeChunk, DepthsSettleOnTheirPredictions) {
         std::fill(shape.cells.begin(), shape.cells.end(), ShapeCell{});
         constexpr int kDepths[] = {100, 101, 103, 102, 104};
         for (std::size_t i = 0; i < 5; ++i) shape.cells[i] = {static_cast<std::uint8_t>(kDepths[i]), 1};
-        settle_depths(shape, tolerance);
+        shape_coding::settle_depths(shape, tolerance);
         std::vector<int> depths;
         for (std::size_t i = 0; i < 6; ++i) depths.push_back(shape.cells[i].depth);
         return depths;
@@ -244,94 +202,25 @@ TEST(ShapeChunk, FieldsAreCheckedBeforeTheyAllocate) {
                 }),
                 HasSubstr("has 268435456 cells; at most 134217728 are possible"));
     EXPECT_THAT(number(kSurfacesAt, 1009, 4), HasSubstr("claims 1009 cells with a surface among 1008"));
-    for (const std::size_t field : {0U, 1U}) {
-        EXPECT_THAT(number(kFrameBytesAt + 4 * field, 0xFFFFFFFF, 4), HasSubstr("bytes long instead of")) << field;
-    }
-    EXPECT_THAT(number(kGapsAt, 3, 2),
-                HasSubstr("what is shown of its cells do not state the 268 bytes that they must expand to"));
+    EXPECT_THAT(number(kCellBytesAt, 0xFFFFFFFF, 4), HasSubstr("bytes long instead of"));
+    EXPECT_THAT(number(kGapsAt, 3, 2), HasSubstr("cells with a surface, but has"));
 }
 
-TEST(ShapeChunk, FramesAreExactlyWhatTheySay) {
-    const Payload good = shape_payload(small_object_with_shape().rings[0]);
-    const std::uint32_t surfaces = number_at(good, kSurfacesAt);
-    const auto with = [](std::size_t which, const Payload& frame) {
-        return error_after([&](Payload& payload) { replace_frame(payload, which, frame); });
-    };
-    EXPECT_EQ(with(1, frame_number(good, 1)), "read without error");
-    EXPECT_THAT(with(0, {}), HasSubstr("what is shown of its cells are no Zstandard frame"));
-    EXPECT_THAT(with(1, frame_of(std::vector<std::uint8_t>(surfaces + 1))), HasSubstr("its depths do not state the"));
-    EXPECT_THAT(with(1, frame_of(std::vector<std::uint8_t>(surfaces - 1))), HasSubstr("its depths do not state the"));
-    EXPECT_THAT(with(1, {}), HasSubstr("its depths are no Zstandard frame"));
-
-    // A second frame, a skippable one in front, one cut short, one without its size.
-    Payload two = frame_number(good, 1);
-    const Payload none = frame_of({});
-    two.insert(two.end(), none.begin(), none.end());
-    EXPECT_THAT(with(1, two), HasSubstr("not one whole Zstandard frame"));
-    Payload skippable = {std::byte{0x50}, std::byte{0x2A}, std::byte{0x4D}, std::byte{0x18}, {}, {}, {}, {}};
-    const Payload second = frame_number(good, 1);
-    skippable.insert(skippable.end(), second.begin(), second.end());
-    EXPECT_THAT(with(1, skippable), HasSubstr("are no Zstandard frame"));
-    Payload cut = frame_number(good, 1);
-    cut.pop_back();
-    EXPECT_THAT(with(1, cut), HasSubstr("not one whole Zstandard frame"));
-    ZSTD_CCtx* const context = ZSTD_createCCtx();
-    ZSTD_CCtx_setParameter(context, ZSTD_c_contentSizeFlag, 0);
-    const std::vector<std::uint8_t> zeros(surfaces);
-    Payload unstated(ZSTD_compressBound(zeros.size()));
-    unstated.resize(ZSTD_compress2(context, unstated.data(), unstated.size(), zeros.data(), zeros.size()));
-    ZSTD_freeCCtx(context);
-    EXPECT_THAT(with(1, unstated), HasSubstr("do not state"));
-    // A frame that states the right size and holds another: two bytes in a raw block behind a header that says
-    // otherwise.
-    Payload liar = frame_of(std::vector<std::uint8_t>(300));
-    ASSERT_GE(surfaces, 256U);
-    test::put_number(liar, 5, surfaces - 256, 2);  // Frame_Content_Size of two bytes, behind magic and descriptor
-    EXPECT_THAT(with(1, liar), AnyOf(HasSubstr("cannot be decompressed"), HasSubstr("too few bytes")));
-}
-
-// The plane `which` of a small shape, changed; what the reader says then.
-std::string error_with_plane(const SmallShapeOptions& options, std::size_t which,
-                             const std::function<void(std::vector<std::uint8_t>&)>& change) {
-    const Ring ring = small_object_with_shape({}, options).rings[0];
-    Payload payload = shape_payload(ring);
-    std::vector<std::uint8_t> plane(which == 0 ? (ring.shape.cells.size() + 3) / 4 : number_at(payload, kSurfacesAt));
-    const Payload frame = frame_number(payload, which);
-    EXPECT_EQ(ZSTD_decompress(plane.data(), plane.size(), frame.data(), frame.size()), plane.size());
-    change(plane);
-    replace_frame(payload, which, frame_of(plane));
-    const auto back = read_back(payload, ring);
-    return back.ok() ? std::string("read without error") : back.error().message;
-}
-
-TEST(ShapeChunk, BitsMustBearOutTheCount) {
-    const auto with_flipped = [](std::size_t cell) {
-        return error_with_plane({}, 0, [&](auto& plane) {
-            plane.at(cell / 4) = static_cast<std::uint8_t>(plane.at(cell / 4) ^ 3U << 2 * (cell % 4));
-        });
-    };
-    const Ring ring = small_object_with_shape().rings[0];
-    const auto& cells = ring.shape.cells;
-    const std::size_t count = number_at(shape_payload(ring), kSurfacesAt);
-    const std::string claim = "claims " + std::to_string(count) + " cells with a surface, but its bits show ";
-    const auto empty = std::find(cells.begin(), cells.end(), ShapeCell{});
-    ASSERT_NE(empty, cells.end());
-    EXPECT_EQ(with_flipped(static_cast<std::size_t>(empty - cells.begin())), claim + std::to_string(count + 1));
-    const auto full = std::find_if(cells.begin(), cells.end(), [](const ShapeCell& c) { return c.has_surface(); });
-    ASSERT_NE(full, cells.end());
-    EXPECT_EQ(with_flipped(static_cast<std::size_t>(full - cells.begin())), claim + std::to_string(count - 1));
-}
-
-TEST(ShapeChunk, BitsBehindTheLastCellAreZero) {
-    const SmallShapeOptions options{.p_cells = 3, .bands = 5, .lines = {1, 0, 0}};  // 45 cells: 6 bits are left
-    ASSERT_EQ(small_object_with_shape({}, options).rings[0].shape.cells.size(), 45U);
-    const auto with = [&](unsigned bits) {
-        return error_with_plane(options, 0,
-                                [&](auto& plane) { plane.back() = static_cast<std::uint8_t>(plane.back() | bits); });
-    };
-    EXPECT_EQ(with(0), "read without error");
-    EXPECT_EQ(with(0x04), "has bits behind its last cell");
-    EXPECT_EQ(with(0x80), "has bits behind its last cell");
+// Any bytes are those of some cells, whose number of surfaces alone tells that they are not the right ones.
+TEST(ShapeChunk, CellsMustBearOutTheCount) {
+    const std::uint32_t count = number_at(shape_payload(small_object_with_shape().rings[0]), kSurfacesAt);
+    EXPECT_EQ(error_after([&](Payload& payload) { test::put_number(payload, kSurfacesAt, count - 1, 4); }),
+              "claims " + std::to_string(count - 1) + " cells with a surface, but has " + std::to_string(count));
+    const std::string of_noise = error_after([](Payload& payload) {
+        const std::size_t cells = payload.size() - number_at(payload, kCellBytesAt);
+        for (std::size_t at = cells; at < payload.size(); ++at) payload[at] = std::byte{0x5A};
+    });
+    EXPECT_THAT(of_noise, HasSubstr("claims " + std::to_string(count) + " cells with a surface, but has "));
+    EXPECT_THAT(error_after([](Payload& payload) {
+                    payload.resize(payload.size() - number_at(payload, kCellBytesAt));
+                    test::put_number(payload, kCellBytesAt, 0, 4);
+                }),
+                HasSubstr("cells with a surface, but has 0"));
 }
 
 }  // namespace

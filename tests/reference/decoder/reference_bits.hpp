@@ -1,5 +1,5 @@
 #pragma once
-// FORMAT.md, "Bits" and "Context adaptation": the binary arithmetic decoder of a tile's bytes.
+// FORMAT.md, "Bits" and "Context adaptation": the binary arithmetic decoder of a tile's or a shape map's bytes.
 
 #include "tests/reference/decoder/reference_chunks.hpp"
 
@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 
 namespace rs::reference {
 
@@ -17,6 +18,13 @@ public:
     LearnedContext() = default;
     // "z = 256 p of its listed probability p (128 where it is not listed)"
     LearnedContext(int context, int listed_probability) : z_(256 * listed_probability), n_(first_count(context)) {}
+
+    static LearnedContext of(int z, int n) {
+        LearnedContext context;
+        context.z_ = z;
+        context.n_ = n;
+        return context;
+    }
 
     // "P = z >> 4, held within 8 .. 4088"
     int probability() const { return std::clamp(z_ >> 4, 8, 4088); }
@@ -37,27 +45,62 @@ private:
     int n_ = 1;
 };
 
+// "it keeps range ... and value ...", and reads bits of probabilities that it is told.
+class ArithmeticDecoder {
+public:
+    explicit ArithmeticDecoder(Bytes bytes) : bytes_(bytes) {
+        for (int i = 0; i < 16; ++i) value_ = static_cast<std::uint16_t>(2 * value_ + next_bit());
+    }
+
+    int decode(unsigned probability) {
+        const unsigned split = (range_ * probability) >> 12;
+        const int result = value_ < split ? 0 : 1;
+        if (result == 0) {
+            range_ = split;
+        } else {
+            value_ = static_cast<std::uint16_t>(value_ - split);
+            range_ = range_ - split;
+        }
+        while (range_ < 32768) {
+            range_ = 2 * range_;
+            value_ = static_cast<std::uint16_t>(2 * value_ + next_bit());
+        }
+        return result;
+    }
+
+private:
+    // "the highest of each byte first", "followed by zeros without end"
+    int next_bit() {
+        const std::size_t at = position_++;
+        return at / 8 < bytes_.size() ? (bytes_[at / 8] >> (7 - at % 8)) & 1 : 0;
+    }
+
+    Bytes bytes_;
+    std::size_t position_ = 0;
+    unsigned range_ = 65535;
+    std::uint16_t value_ = 0;
+};
+
 // One object reads one tile: "At the beginning of every tile" learning starts anew.
 class Bits {
 public:
     Bits(Bytes bytes, const std::array<int, kContexts[1]>& probability, bool is_learning)
-        : bytes_(bytes), probability_(probability), is_learning_(is_learning) {
+        : decoder_(bytes), probability_(probability), is_learning_(is_learning) {
         for (std::size_t context = 0; context < learned_.size(); ++context) {
             learned_[context] = LearnedContext(static_cast<int>(context), probability[context]);
         }
-        for (int i = 0; i < 16; ++i) value_ = static_cast<std::uint16_t>(2 * value_ + next_bit());
     }
 
     int bit(int context) {
         const std::size_t c = static_cast<std::size_t>(context);
-        if (!is_learning_) return decode(16 * static_cast<unsigned>(probability_.at(c)));
+        if (!is_learning_) return decoder_.decode(16 * static_cast<unsigned>(probability_.at(c)));
         LearnedContext& learned = learned_.at(c);
-        const int result = decode(static_cast<unsigned>(learned.probability()));
+        const int result = decoder_.decode(static_cast<unsigned>(learned.probability()));
         learned.learn(result);
         return result;
     }
     // "Raw bits teach nothing."
-    int raw() { return decode(2048); }
+    int raw() { return decoder_.decode(2048); }
 
     // "n bits, the highest first; the bit after those that so far make the number m (of k bits) has context
     // c + 2^k - 1 + m"
@@ -79,35 +122,30 @@ public:
     }
 
 private:
-    // "the highest of each byte first", "followed by zeros without end"
-    int next_bit() {
-        const std::size_t at = position_++;
-        return at / 8 < bytes_.size() ? (bytes_[at / 8] >> (7 - at % 8)) & 1 : 0;
-    }
-
-    int decode(unsigned probability) {
-        const unsigned split = (range_ * probability) >> 12;
-        const int result = value_ < split ? 0 : 1;
-        if (result == 0) {
-            range_ = split;
-        } else {
-            value_ = static_cast<std::uint16_t>(value_ - split);
-            range_ = range_ - split;
-        }
-        while (range_ < 32768) {
-            range_ = 2 * range_;
-            value_ = static_cast<std::uint16_t>(2 * value_ + next_bit());
-        }
-        return result;
-    }
-
-    Bytes bytes_;
+    ArithmeticDecoder decoder_;
     const std::array<int, kContexts[1]>& probability_;
     bool is_learning_;
     std::array<LearnedContext, kContexts[1]> learned_;
-    std::size_t position_ = 0;
-    unsigned range_ = 65535;
-    std::uint16_t value_ = 0;
+};
+
+// Contexts by any name, which "begin with z = 32768 and n = 2".
+class AdaptingBits {
+public:
+    using Name = std::array<int, 4>;
+
+    explicit AdaptingBits(Bytes bytes) : decoder_(bytes) {}
+
+    int bit(const Name& context) {
+        LearnedContext& learned = learned_.try_emplace(context, LearnedContext::of(32768, 2)).first->second;
+        const int result = decoder_.decode(static_cast<unsigned>(learned.probability()));
+        learned.learn(result);
+        return result;
+    }
+    int raw() { return decoder_.decode(2048); }
+
+private:
+    ArithmeticDecoder decoder_;
+    std::map<Name, LearnedContext> learned_;
 };
 
 }  // namespace rs::reference

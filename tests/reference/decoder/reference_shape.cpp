@@ -1,5 +1,6 @@
 #include "tests/reference/decoder/reference_shape.hpp"
 
+#include "tests/reference/decoder/reference_bits.hpp"
 #include "tests/reference/decoder/reference_bytes.hpp"
 
 #include <algorithm>
@@ -9,7 +10,6 @@ namespace rs::reference {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
-using Plane = std::vector<std::uint8_t>;
 
 std::uint32_t u32_at(Bytes bytes, std::size_t at) {
     return bytes[at] + 256U * bytes[at + 1] + 65536U * bytes[at + 2] + 16777216U * bytes[at + 3];
@@ -42,89 +42,109 @@ std::string check_numbers(const Shape& shape) {
     return "";
 }
 
-// "Planes": the depth bytes of the cells that have a surface.
-std::vector<std::optional<int>> undo(const Plane& residuals, const std::vector<bool>& has_surface, int p_cells,
-                                     int bands) {
-    std::vector<std::optional<int>> values(has_surface.size());
-    const int lines = static_cast<int>(has_surface.size()) / (p_cells * bands);
-    const auto number = [&](int line, int p, int band) {
-        return static_cast<std::size_t>((line * p_cells + p) * bands + band);
-    };
-    std::size_t taken = 0;
-    for (int line = 0; line < lines; ++line) {
-        for (int p = 0; p < p_cells; ++p) {
-            for (int band = 0; band < bands; ++band) {
-                if (!has_surface[number(line, p, band)]) continue;
-                const auto v = [&](int i, int j, int k) -> std::optional<int> {
-                    const bool is_inside =
-                        line + i >= 0 && p + j >= 0 && p + j < p_cells && band + k >= 0 && band + k < bands;
-                    return is_inside ? values[number(line + i, p + j, band + k)] : std::nullopt;
-                };
-                using Place = std::array<int, 3>;
-                static constexpr std::array<Place, 3> kAlone = {{{0, 0, -1}, {0, -1, 0}, {-1, 0, 0}}};
-                static constexpr std::array<std::array<Place, 3>, 6> kSums = {{
-                    {{{0, 0, -1}, {0, -1, 0}, {0, -1, -1}}},
-                    {{{0, 0, -1}, {0, -1, 1}, {0, -1, 0}}},
-                    {{{-1, 0, 0}, {0, 0, -1}, {-1, 0, -1}}},
-                    {{{-1, 0, 0}, {0, -1, 0}, {-1, -1, 0}}},
-                    {{{-1, 0, 0}, {0, -1, 1}, {-1, -1, 1}}},
-                    {{{0, 0, -1}, {-1, 1, 0}, {-1, 1, -1}}},
-                }};
-                std::vector<int> candidates;
-                for (const auto& [i, j, k] : kAlone) {
-                    if (const auto value = v(i, j, k)) candidates.push_back(*value);
-                }
-                for (const auto& [a, b, c] : kSums) {
-                    const auto first = v(a[0], a[1], a[2]);
-                    const auto second = v(b[0], b[1], b[2]);
-                    const auto third = v(c[0], c[1], c[2]);
-                    if (first && second && third) candidates.push_back(std::clamp(*first + *second - *third, 0, 255));
-                }
-                std::sort(candidates.begin(), candidates.end());
-                const std::size_t c = candidates.size();
-                const int prediction = c == 0 ? 128 : (candidates[(c - 1) / 2] + candidates[c / 2]) / 2;
-                values[number(line, p, band)] = (prediction + residuals[taken++]) % 256;
-            }
+// "Cells": by which pictures each cell is shown, 0 where it is empty, and its depth.
+class Cells {
+public:
+    Cells(Bytes bytes, std::size_t count, int p_cells, int bands)
+        : bits_(bytes), p_cells_(p_cells), bands_(bands), cells_(count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            cells_[i].shown = read_shown(static_cast<long>(i));
+            if (cells_[i].shown != 0) cells_[i].depth = read_depth(static_cast<long>(i));
         }
     }
-    return values;
-}
+    [[nodiscard]] const std::vector<ShapeSurface>& all() const { return cells_; }
 
-std::string read_cells(Bytes frames, const std::array<std::size_t, 2>& frame_bytes, std::size_t cells,
-                       std::size_t surfaces, Shape& shape) {
-    std::array<Plane, 2> planes;
-    const std::array<std::size_t, 2> plane_bytes = {(cells + 3) / 4, surfaces};
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-        const std::string error = expand(frames.first(frame_bytes[i]), plane_bytes[i], planes[i]);
-        if (!error.empty()) return error;
-        frames = frames.subspan(frame_bytes[i]);
+private:
+    // "cell(i, j, k) is the cell i lines, j p cells and k bands further on; one that the map does not have is empty"
+    [[nodiscard]] ShapeSurface cell(long at, int i, int j, int k) const {
+        const long line = at / (long{p_cells_} * bands_) + i;
+        const long p = at / bands_ % p_cells_ + j;
+        const long band = at % bands_ + k;
+        if (line < 0 || p < 0 || p >= p_cells_ || band < 0 || band >= bands_) return {};
+        return cells_[static_cast<std::size_t>((line * p_cells_ + p) * bands_ + band)];
     }
-    std::vector<int> shown(cells);
-    std::vector<bool> has_surface(cells);
-    for (std::size_t i = 0; i < 4 * plane_bytes[0]; ++i) {
-        const int bits = planes[0][i / 4] / (1 << 2 * (i % 4)) % 4;
-        if (i >= cells && bits != 0) return "bits behind the last cell";
-        if (i >= cells) continue;
-        shown[i] = bits;
-        has_surface[i] = bits != 0;
+
+    int read_shown(long at) {
+        const int s = cell(at, 0, 0, -1).shown + 4 * cell(at, 0, -1, 0).shown + 16 * cell(at, -1, 0, 0).shown +
+                      64 * cell(at, 0, -1, 1).shown + 256 * cell(at, -1, 1, 0).shown + 1024 * cell(at, -1, 0, 1).shown;
+        if (bits_.bit({'s', s, 0, 0}) == 0) return 0;
+        if (bits_.bit({'b', s, 0, 0}) == 1) return 3;
+        return bits_.bit({'2', s, 0, 0}) == 1 ? 2 : 1;
     }
-    if (static_cast<std::size_t>(std::count(has_surface.begin(), has_surface.end(), true)) != surfaces) {
-        return "a number of surfaces that the bits do not bear out";
+
+    int read_depth(long at) {
+        const auto v = [&](int i, int j, int k) -> std::optional<int> {
+            const ShapeSurface found = cell(at, i, j, k);
+            return found.shown != 0 ? std::optional(found.depth) : std::nullopt;
+        };
+        using Place = std::array<int, 3>;
+        static constexpr std::array<Place, 3> kAlone = {{{0, 0, -1}, {0, -1, 0}, {-1, 0, 0}}};
+        static constexpr std::array<std::array<Place, 3>, 6> kSums = {{
+            {{{0, 0, -1}, {0, -1, 0}, {0, -1, -1}}},
+            {{{0, 0, -1}, {0, -1, 1}, {0, -1, 0}}},
+            {{{-1, 0, 0}, {0, 0, -1}, {-1, 0, -1}}},
+            {{{-1, 0, 0}, {0, -1, 0}, {-1, -1, 0}}},
+            {{{-1, 0, 0}, {0, -1, 1}, {-1, -1, 1}}},
+            {{{0, 0, -1}, {-1, 1, 0}, {-1, 1, -1}}},
+        }};
+        std::vector<int> candidates;
+        for (const auto& [i, j, k] : kAlone) {
+            if (const auto value = v(i, j, k)) candidates.push_back(*value);
+        }
+        for (const auto& [a, b, c] : kSums) {
+            const auto first = v(a[0], a[1], a[2]);
+            const auto second = v(b[0], b[1], b[2]);
+            const auto third = v(c[0], c[1], c[2]);
+            if (first && second && third) candidates.push_back(std::clamp(*first + *second - *third, 0, 255));
+        }
+        std::sort(candidates.begin(), candidates.end());
+        const std::size_t c = candidates.size();
+        const int prediction = c == 0 ? 128 : (candidates[(c - 1) / 2] + candidates[c / 2]) / 2;
+        const int g = c == 0 ? 121
+                             : 11 * class_of(candidates[c - 1] - candidates[0]) +
+                                   class_of(candidates[3 * c / 4] - candidates[c / 4]);
+        if (bits_.bit({'d', g, 0, 0}) == 0) return prediction;
+        const int nearer = bits_.bit({'n', g, 0, 0});
+        int m = 0;
+        while (m < 14 && bits_.bit({'m', g, nearer, m}) == 1) ++m;
+        if (m == 14) {
+            int raw = 0;
+            for (int i = 0; i < 7; ++i) raw = 2 * raw + bits_.raw();
+            m = 14 + raw;
+        }
+        return ((nearer == 1 ? prediction - 1 - m : prediction + 1 + m) % 256 + 256) % 256;
     }
-    const auto depths = undo(planes[1], has_surface, shape.p_cells, shape.bands);
+
+    static int class_of(int a) {
+        int found = 0;
+        for (const int bound : {1, 2, 3, 4, 6, 9, 13, 21, 41, 81}) found += bound <= a ? 1 : 0;
+        return found;
+    }
+
+    AdaptingBits bits_;
+    int p_cells_;
+    int bands_;
+    std::vector<ShapeSurface> cells_;
+};
+
+std::string read_cells(Bytes bytes, std::size_t cells, std::size_t surfaces, Shape& shape) {
+    const Cells read(bytes, cells, shape.p_cells, shape.bands);
     shape.surfaces.resize(cells);
+    std::size_t count = 0;
     for (std::size_t i = 0; i < cells; ++i) {
-        if (has_surface[i]) shape.surfaces[i] = {*depths[i], shown[i]};
+        if (read.all()[i].shown == 0) continue;
+        shape.surfaces[i] = read.all()[i];
+        ++count;
     }
-    return "";
+    return count == surfaces ? "" : "a number of surfaces that the cells do not bear out";
 }
 
 }  // namespace
 
 std::string read_shape(Bytes payload, int views, int planes, Shape& shape) {
     const std::size_t n = static_cast<std::size_t>(views);
-    const std::size_t frames_at = 52 + 2 * n + 16 * n * static_cast<std::size_t>(planes);
-    if (payload.size() < frames_at) return "shorter than its fields";
+    const std::size_t cells_at = 48 + 2 * n + 16 * n * static_cast<std::size_t>(planes);
+    if (payload.size() < cells_at) return "shorter than its fields";
     if (payload[0] != 2) return "a coding that is not known";
     shape.jump = payload[1];
     shape.thickness = payload[2];
@@ -135,15 +155,14 @@ std::string read_shape(Bytes payload, int views, int planes, Shape& shape) {
     if (shape.bands < 1 || shape.bands > 4096) return "bands out of range";
     for (std::size_t i = 0; i < shape.numbers.size(); ++i) shape.numbers[i] = i32_at(payload, 8 + 4 * i);
     const std::size_t surfaces = u32_at(payload, 40);
-    const std::array<std::size_t, 2> frame_bytes = {u32_at(payload, 44), u32_at(payload, 48)};
-    if (payload.size() != frames_at + frame_bytes[0] + frame_bytes[1]) return "of another size";
+    if (payload.size() != cells_at + u32_at(payload, 44)) return "of another size";
     std::size_t all_lines = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        shape.lines.push_back(u16_at(payload, 52 + 2 * i));
+        shape.lines.push_back(u16_at(payload, 48 + 2 * i));
         if (shape.lines.back() > 1024) return "lines out of range";
         all_lines += static_cast<std::size_t>(shape.lines.back());
     }
-    for (std::size_t at = 52 + 2 * n; at < frames_at; at += 16) {
+    for (std::size_t at = 48 + 2 * n; at < cells_at; at += 16) {
         shape.normal.push_back(
             {i32_at(payload, at), i32_at(payload, at + 4), i32_at(payload, at + 8), i32_at(payload, at + 12)});
     }
@@ -152,7 +171,7 @@ std::string read_shape(Bytes payload, int views, int planes, Shape& shape) {
         all_lines * static_cast<std::size_t>(shape.p_cells) * static_cast<std::size_t>(shape.bands);
     if (cells > std::size_t{1} << 27) return "more than 2^27 cells";
     if (surfaces > cells) return "surfaces out of range";
-    return read_cells(payload.subspan(frames_at), frame_bytes, cells, surfaces, shape);
+    return read_cells(payload.subspan(cells_at), cells, surfaces, shape);
 }
 
 }  // namespace rs::reference

@@ -1,5 +1,5 @@
 #pragma once
-// The writer for rayspace/codec/bool_decoder.hpp.
+// The writer for bool_decoder.hpp.
 
 #include "rayspace/codec/bool_decoder.hpp"
 
@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <vector>
 
-namespace rs::encode {
+namespace rs::codec {
 
 class BoolEncoder {
 public:
     // probability: of a 0, 1 .. 4095.
     void bit(int value, std::uint32_t probability) {
-        const std::uint32_t split = (range_ * probability) >> codec::kProbabilityBits;
+        const std::uint32_t split = (range_ * probability) >> kProbabilityBits;
         if (value != 0) {
             low_ += split;
             range_ -= split;
@@ -66,4 +66,4 @@ private:
     int pending_bits_ = 0;
 };
 
-}  // namespace rs::encode
+}  // namespace rs::codec
