@@ -12,7 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 namespace rs::encode {
 namespace {
@@ -25,10 +25,10 @@ double azimuth(const WorkView& view) {
 class LineRaster {
 public:
     explicit LineRaster(const LineGrid& grid)
-        : grid_(grid), depth_(grid.bands * grid.fine, grid.p_cells * grid.fine, kNoDepth) {}
+        : grid_(grid), depth_(grid.bands * grid.fine, grid.p_cells * grid.fine, kNothing) {}
 
     void draw(const DepthView& source, const glm::dvec2& viewpoint) {
-        std::fill(depth_.pixels().begin(), depth_.pixels().end(), kNoDepth);
+        std::fill(depth_.pixels().begin(), depth_.pixels().end(), kNothing);
         for (int column = 0; column < source.view.width; ++column) {
             const HorizontalRay ray = source.view.ray_of(column + 0.5);
             for (int row = 0; row < source.view.height; ++row) {
@@ -39,17 +39,26 @@ public:
             }
         }
     }
-    [[nodiscard]] float at(int p, int h) const { return depth_(h, p); }
+    // Appends the depths within a cell.
+    void find(int p, int h, std::vector<float>& found) const {
+        for (int x = p * grid_.fine; x < (p + 1) * grid_.fine; ++x) {
+            const float* const depths = &depth_(h * grid_.fine, x);
+            for (int y = 0; y < grid_.fine; ++y) {
+                if (depths[y] < kNothing) found.push_back(depths[y]);
+            }
+        }
+    }
 
 private:
+    static constexpr float kNothing = std::numeric_limits<float>::infinity();
+
     void put(const LinePoint& point) {
         const auto p = static_cast<int>(std::floor((point.p - grid_.p_low) * grid_.cells_per_unit * grid_.fine - 0.5));
         const auto h = static_cast<int>(std::floor((point.h - grid_.h_low) * grid_.bands_per_unit * grid_.fine - 0.5));
-        for (int x = p; x <= p + 1; ++x) {
-            for (int y = h; y <= h + 1; ++y) {
-                if (x < 0 || y < 0 || x >= depth_.height() || y >= depth_.width()) continue;
-                float& nearest = depth_(y, x);
-                if (!(nearest <= static_cast<float>(point.depth))) nearest = static_cast<float>(point.depth);
+        const auto depth = static_cast<float>(point.depth);
+        for (int x = std::max(p, 0); x <= std::min(p + 1, depth_.height() - 1); ++x) {
+            for (int y = std::max(h, 0); y <= std::min(h + 1, depth_.width() - 1); ++y) {
+                depth_(y, x) = std::min(depth_(y, x), depth);
             }
         }
     }
@@ -149,13 +158,8 @@ private:
     // The depths that both pictures have within a cell.
     void find(int p, int h) {
         found_.clear();
-        for (int x = p * grid_.fine; x < (p + 1) * grid_.fine; ++x) {
-            for (int y = h * grid_.fine; y < (h + 1) * grid_.fine; ++y) {
-                for (const LineRaster* const raster : {&from_first_, &from_second_}) {
-                    if (!std::isnan(raster->at(x, y))) found_.push_back(raster->at(x, y));
-                }
-            }
-        }
+        from_first_.find(p, h, found_);
+        from_second_.find(p, h, found_);
     }
 
     const LineGrid& grid_;
