@@ -204,8 +204,7 @@ int settled_steps(const std::vector<DepthView>& ring, const ShapeMap& map, doubl
         if (map.gaps[n].lines > 0) widest = std::max(widest, gap_width(ring, n));
     }
     const double step_px = kDepthStep * std::sin(widest / 2) * px_per_radius;
-    return step_px * options.most_settled <= options.settled_px ? options.most_settled
-                                                                : static_cast<int>(options.settled_px / step_px);
+    return static_cast<int>(std::min<double>(options.most_settled, options.settled_px / step_px));
 }
 
 }  // namespace

@@ -36,4 +36,9 @@ inline std::uint16_t learned(std::uint16_t zero_q16, unsigned shift, int bit) {
     return static_cast<std::uint16_t>(bit == 0 ? more : less);
 }
 
+// The decisions that a context has had, after one more.
+inline std::uint8_t one_more(std::uint8_t uses) {
+    return static_cast<std::uint8_t>(uses + (uses < kMostUses ? 1 : 0));
+}
+
 }  // namespace rs::codec

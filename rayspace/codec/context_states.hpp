@@ -29,7 +29,7 @@ public:
     void learn(int context, int bit) {
         const auto c = static_cast<std::size_t>(context);
         zero_q16_[c] = learned(zero_q16_[c], shifts_[uses_[c]], bit);
-        uses_[c] = static_cast<std::uint8_t>(uses_[c] + (uses_[c] < kMostUses ? 1 : 0));
+        uses_[c] = one_more(uses_[c]);
     }
 
 private:

@@ -1,6 +1,5 @@
 #include "rayspace/format/shape_coding.hpp"
 
-#include "rayspace/base/check.hpp"
 #include "rayspace/codec/adaptation.hpp"
 #include "rayspace/codec/bool_decoder.hpp"
 #include "rayspace/codec/bool_encoder.hpp"
@@ -129,7 +128,7 @@ public:
     void learn(int context, int bit) {
         State& state = states_[static_cast<std::size_t>(context)];
         state.zero = codec::learned(state.zero, codec::kAdaptationShifts[state.uses], bit);
-        state.uses = static_cast<std::uint8_t>(state.uses + (state.uses < codec::kMostUses ? 1 : 0));
+        state.uses = codec::one_more(state.uses);
     }
 
 private:
@@ -236,6 +235,7 @@ void put_cells(std::span<const std::byte> bytes, ShapeMap& shape) {
 }
 
 void settle_depths(ShapeMap& shape, int tolerance) {
+    if (tolerance == 0) return;
     Neighbourhood around(shape);
     for (ShapeCell& cell : shape.cells) {
         if (cell.has_surface()) {

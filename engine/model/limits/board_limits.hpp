@@ -23,6 +23,8 @@ enum class BoardKind {
     any_object,      // either kind of pictures, alpha in 8 bits, with a shape map or without: the parallel board
 };
 
+inline constexpr int kMostBands = 384;  // of a shape map: the parallel board's place for a column of cells
+
 struct BoardLimits {
     int objects = 20;
     int views_per_cycle = 15;
@@ -34,7 +36,7 @@ struct BoardLimits {
     int image_buffer_side_px = 512;  // the largest reconstructed image, R, G, B and alpha, in two buffers
     std::uint64_t memory_bytes = std::uint64_t{1} << 30;
     BoardKind kind = BoardKind::raw_pictures;
-    int shape_bands = 384;  // of a shape map
+    int shape_bands = kMostBands;  // of a shape map
     // The board has what unpacks pictures of profile `board`.
     [[nodiscard]] bool unpacks() const { return kind != BoardKind::raw_pictures; }
     [[nodiscard]] bool any_object() const { return kind == BoardKind::any_object; }

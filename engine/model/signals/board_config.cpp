@@ -34,7 +34,7 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("limits/picture_side_px", c.limits.picture_side_px, 1, 512);
     visit("limits/planes", c.limits.planes, 1, 12);
     visit("limits/map_side", c.limits.map_side, 1, 1024);
-    if (c.limits.any_object()) visit("limits/shape_bands", c.limits.shape_bands, 1, 384);
+    if (c.limits.any_object()) visit("limits/shape_bands", c.limits.shape_bands, 1, kMostBands);
     visit("limits/image_buffer_side_px", c.limits.image_buffer_side_px, 1, 512);
     visit("memory/bank_bits", c.memory.shape.bank_bits, 1, 4);
     visit("memory/row_bits", c.memory.shape.row_bits, 1, 14);

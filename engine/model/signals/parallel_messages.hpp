@@ -7,6 +7,7 @@
 // modulo 4.
 
 #include "engine/core/definition/shape_cells.hpp"
+#include "engine/model/limits/board_limits.hpp"
 #include "engine/model/signals/messages.hpp"
 #include "engine/model/signals/stripes.hpp"
 
@@ -20,7 +21,6 @@ inline constexpr int kPatchSlots = 4;
 inline constexpr int kPatchIds = kPatchSlots * kPatchPixels;
 inline constexpr int kStripeNumbers = 4;  // two stripes are under way
 inline constexpr int kStripeSlots = 2;
-inline constexpr int kMostBands = 384;
 
 // What is known of a column's ray, and so what a pixel of it is.
 enum class RayKind {
