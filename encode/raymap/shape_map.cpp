@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace rs::encode {
 namespace {
@@ -15,6 +17,8 @@ namespace {
 constexpr int kSampleViews = 4;
 constexpr double kMostContradicted = 0.01;
 constexpr double kHullSpacing_px = 0.5;  // of the working pictures
+constexpr int kHullLevels = 128;         // of depth, where silhouettes are asked whether they agree
+constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of a ring
 constexpr int kOverruledMargin_px = 4;
 constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
 constexpr double kWidestBetweenRings_deg = 20;
@@ -26,6 +30,11 @@ NormalLine normal_line(const Camera& camera, const ReferencePlane& plane) {
     const ViewpointLine line = viewpoint_line(camera.centre(), plane);
     return {fixed(glm::dot(plane.normal, camera.forward()), 30),
             fixed(glm::dot(plane.normal, camera.right()) * camera.fl_x, 16), fixed(line.a, 20), fixed(line.c, 20)};
+}
+
+// Seen from the middle of the object, in radians.
+double angle_between(const WorkView& a, const WorkView& b) {
+    return std::acos(std::clamp(glm::dot(glm::normalize(a.place()), glm::normalize(b.place())), -1.0, 1.0));
 }
 
 std::string sector_text(const DepthView& from, const DepthView& to) {
@@ -51,7 +60,8 @@ public:
           options_(options),
           layer_(layer),
           views_(ring.views.size()),
-          soft_(ring.views.size()) {}
+          soft_(ring.views.size()),
+          colour_costs_(ring.views.size()) {}
 
     Status read(Progress* progress) {
         const int longest = std::max(set_.width, set_.height);
@@ -81,10 +91,14 @@ public:
         sampled_hull_ = std::make_unique<SampledHull>(*hull_, kHullSpacing_px * glm::length(any.centre) / any.fl_x);
         return for_each_in_parallel(count(), "depth", progress, [&](int n) -> Status {
             DepthView& view = views_[static_cast<std::size_t>(n)];
-            const DepthRange range = range_of(n);
+            const Neighbours neighbours = neighbours_of(n);
+            const DepthRange range = range_of(n, neighbours);
             CostVolume costs = levels_within(*sampled_hull_, view.view, range);
-            match_colours(costs, view.view, neighbours_of(n), range);
+            match_colours(costs, view.view, neighbours, range);
             view.depth = depths_at(semi_global_levels(view.view, costs, options_.smoothness), range);
+            if (costs.costs.size() <= kKeptCosts / views_.size()) {
+                colour_costs_[static_cast<std::size_t>(n)] = std::move(costs);
+            }
             return {};
         });
     }
@@ -102,17 +116,18 @@ public:
             Status status = for_each_in_parallel(of_these, "depth that agrees", progress, [&](int m) -> Status {
                 const int n = first + 2 * m;
                 const WorkView& view = views_[static_cast<std::size_t>(n)].view;
-                const DepthRange range = range_of(n);
-                CostVolume costs = levels_within(*sampled_hull_, view, range);
-                Image<float> hull = n % every == 0 ? first_allowed(view, costs, range) : Image<float>();
                 const Neighbours neighbours = neighbours_of(n);
-                match_colours(costs, view, neighbours, range);
+                const DepthRange range = range_of(n, neighbours);
+                std::optional<CostVolume> kept = std::exchange(colour_costs_[static_cast<std::size_t>(n)], {});
+                CostVolume costs = kept ? std::move(*kept) : levels_within(*sampled_hull_, view, range);
+                if (!kept) match_colours(costs, view, neighbours, range);
                 add_inconsistency(costs, view, neighbours, range);
                 Image<float>& depth = agreed[static_cast<std::size_t>(n)];
                 depth = depths_at(semi_global_levels(view, costs, options_.smoothness), range);
                 if (n % every == 0) {
                     samples[first_sample + static_cast<std::size_t>(n / every)] = {
-                        ring_.views[static_cast<std::size_t>(n)], std::move(hull), depth};
+                        ring_.views[static_cast<std::size_t>(n)],
+                        first_allowed(view, levels_within(*sampled_hull_, view, range), range), depth};
                 }
                 return {};
             });
@@ -190,8 +205,7 @@ private:
     }
 
     [[nodiscard]] bool silhouettes_agree(const std::vector<const WorkView*>& views, const VisualHull& hull) const {
-        const DepthRange range{-kDeepest, 2 * kDeepest / (options_.depths - 1), options_.depths};
-        return contradicted_share(views, hull, range) <= kMostContradicted;
+        return contradicted_share(views, hull, range_of(kHullLevels)) <= kMostContradicted;
     }
 
     // The narrowest margin at which the silhouettes agree. Where none does, since cameras do not stand where the rig
@@ -243,27 +257,29 @@ private:
             found.beside.push_back(&views_[static_cast<std::size_t>(after)]);
         }
         const WorkView& view = views_[static_cast<std::size_t>(n)].view;
-        const auto cosine_to = [&](const DepthView& other) {
-            return glm::dot(glm::normalize(glm::dvec3(view.centre, view.centre_y)),
-                            glm::normalize(glm::dvec3(other.view.centre, other.view.centre_y)));
-        };
+        const auto angle_to = [&](const DepthView& other) { return angle_between(view, other.view); };
         for (const RingSearch* const ring : beside_) {
             const auto nearest =
-                std::max_element(ring->views_.begin(), ring->views_.end(),
-                                 [&](const DepthView& a, const DepthView& b) { return cosine_to(a) < cosine_to(b); });
-            if (cosine_to(*nearest) > std::cos(radians(kWidestBetweenRings_deg))) found.across.push_back(&*nearest);
+                std::min_element(ring->views_.begin(), ring->views_.end(),
+                                 [&](const DepthView& a, const DepthView& b) { return angle_to(a) < angle_to(b); });
+            if (angle_to(*nearest) < radians(kWidestBetweenRings_deg)) found.across.push_back(&*nearest);
         }
         return found;
     }
 
-    [[nodiscard]] DepthRange range_of(int n) const {
-        double widest_deg = 0;
-        for (const int gap : {n, (n + count() - 1) % count()}) {
-            if (gap_deg(gap) <= options_.lines.widest_gap_deg) widest_deg = std::max(widest_deg, gap_deg(gap));
+    static DepthRange range_of(int levels) { return {-kDeepest, 2 * kDeepest / (levels - 1), levels}; }
+
+    [[nodiscard]] DepthRange range_of(int n, const Neighbours& neighbours) const {
+        const WorkView& view = views_[static_cast<std::size_t>(n)].view;
+        double most_moved = 0;  // by a change of depth of one, in object radii
+        for (const auto* const kind : {&neighbours.beside, &neighbours.across}) {
+            for (const DepthView* const neighbour : *kind) {
+                most_moved = std::max(most_moved, std::sin(angle_between(view, neighbour->view)));
+            }
         }
-        const int levels =
-            std::clamp(static_cast<int>(options_.depths * widest_deg / 5), options_.depths, 2 * options_.depths);
-        return {-kDeepest, 2 * kDeepest / (levels - 1), levels};
+        const double moved_px = most_moved * view.fl_x / glm::length(view.place());
+        return range_of(std::clamp(static_cast<int>(2 * kDeepest * moved_px / options_.level_px),
+                                   options_.fewest_levels, options_.most_levels));
     }
 
     static Image<float> first_allowed(const WorkView& view, const CostVolume& costs, const DepthRange& range) {
@@ -284,7 +300,8 @@ private:
     const ShapeOptions& options_;
     Layer layer_;
     std::vector<DepthView> views_;
-    std::vector<Image<std::uint8_t>> soft_;  // of each view
+    std::vector<Image<std::uint8_t>> soft_;                // of each view
+    std::vector<std::optional<CostVolume>> colour_costs_;  // of each view, from match() to agree()
     std::vector<const RingSearch*> beside_;
     std::unique_ptr<VisualHull> hull_;
     std::unique_ptr<SampledHull> sampled_hull_;  // kHullSpacing_px apart

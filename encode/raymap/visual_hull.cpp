@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace rs::encode {
 namespace {
@@ -71,6 +72,22 @@ void remove(std::vector<Interval>& from, const Interval& hole) {
     }
 }
 
+// Neighbours say nearly the same. In this order most places outside of the object are ruled out by the first few.
+template <class T>
+void spread_out(std::vector<T>& in_turning_order) {
+    constexpr double kGolden = 0.6180339887498949;
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t n = 0; n < in_turning_order.size(); ++n) {
+        const double turns = kGolden * static_cast<double>(n);
+        order.emplace_back(turns - std::floor(turns), n);
+    }
+    std::sort(order.begin(), order.end());
+    // The rank of each n: places far apart in turning order.
+    std::vector<T> spread(in_turning_order.size());
+    for (std::size_t rank = 0; rank < order.size(); ++rank) spread[order[rank].second] = std::move(in_turning_order[rank]);
+    in_turning_order = std::move(spread);
+}
+
 }  // namespace
 
 VisualHull::VisualHull(const std::vector<const WorkView*>& views, int margin_px, int tolerated)
@@ -83,6 +100,7 @@ VisualHull::VisualHull(const std::vector<const WorkView*>& views, int margin_px,
         }
         silhouettes_.push_back(std::move(silhouette));
     }
+    spread_out(silhouettes_);
 }
 
 void VisualHull::heights_above(const glm::dvec2& place, std::vector<Interval>& heights) const {

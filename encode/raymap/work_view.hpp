@@ -42,6 +42,8 @@ struct WorkView {
     glm::dvec2 forward{0, -1};
 
     [[nodiscard]] const Rgba8& at(int column, int row) const { return columns(row, column); }
+    // Of the camera: x and z, then y.
+    [[nodiscard]] glm::dvec3 place() const { return {centre, centre_y}; }
     // Through the middle of a column.
     [[nodiscard]] HorizontalRay ray_of(double column) const;
     [[nodiscard]] SeenColumn see(const glm::dvec2& place) const;
