@@ -186,28 +186,31 @@ double contradicted_share(const std::vector<const WorkView*>& views, const Visua
     tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
         const WorkView& view = *views[v];
         std::vector<Interval> heights;
-        std::vector<char> covered;
+        std::vector<int> unseen;  // rows of the column's object pixels at no depth of which the hull is
         for (int column = static_cast<int>(v) % kEveryColumn; column < view.width; column += kEveryColumn) {
+            unseen.clear();
+            for (int row = 0; row < view.height; ++row) {
+                if (view.at(column, row).a >= kInside) unseen.push_back(row);
+            }
+            pixels[v] += static_cast<std::int64_t>(unseen.size());
             const HorizontalRay ray = view.ray_of(column + 0.5);
-            covered.assign(static_cast<std::size_t>(view.height), 0);
-            for (int level = 0; level < range.count; ++level) {
+            // From the middle outwards: most are seen there, and the rest of the levels need not be asked for.
+            for (int n = 0; n < range.count && !unseen.empty(); ++n) {
+                const int level = range.count / 2 + (n % 2 == 0 ? n / 2 : -(n + 1) / 2);
                 const double depth = range.at(level);
                 const double axial = ray.axial_at(depth);
                 if (axial <= 0) continue;
                 hull.heights_above(ray.place_at(depth), heights);
                 for (const Interval& interval : heights) {
-                    const int top =
-                        static_cast<int>(std::clamp(view.row_of(interval.high, axial), 0.0, double(view.height)));
-                    const int bottom =
-                        static_cast<int>(std::clamp(view.row_of(interval.low, axial), 0.0, double(view.height)));
-                    std::fill(covered.begin() + top, covered.begin() + bottom, 1);
+                    const auto row_of = [&](double height) {
+                        return static_cast<int>(std::clamp(view.row_of(height, axial), 0.0, double(view.height)));
+                    };
+                    const int top = row_of(interval.high);
+                    const int bottom = row_of(interval.low);
+                    std::erase_if(unseen, [&](int row) { return row >= top && row < bottom; });
                 }
             }
-            for (int row = 0; row < view.height; ++row) {
-                if (view.at(column, row).a < kInside) continue;
-                ++pixels[v];
-                if (covered[static_cast<std::size_t>(row)] == 0) ++contradicted[v];
-            }
+            contradicted[v] += static_cast<std::int64_t>(unseen.size());
         }
     });
     const auto all = std::accumulate(pixels.begin(), pixels.end(), std::int64_t{0});
