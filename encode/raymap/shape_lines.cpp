@@ -11,8 +11,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace rs::encode {
 namespace {
@@ -68,37 +73,62 @@ private:
 };
 
 // One surface: the median of the depths that the pictures found.
-ShapeCell make_cell(const std::vector<float>& found) {
+ShapeCell make_cell(std::vector<float>& found) {
     ShapeCell cell;
     if (found.empty()) return cell;
-    const auto depth = static_cast<double>(median(found));
+    const auto depth = static_cast<double>(median_of(std::span<float>(found)));
     cell.depth = static_cast<std::uint8_t>(std::clamp(std::lround((depth + kHalfWidth) / kDepthStep), 0L, 255L));
     cell.shown = ShapeCell::kByBoth;
     return cell;
 }
 
-// Moves surfaces that lie outside of the hull to the nearest place in it. Says of each cell with a surface whether its
-// ray meets the hull at all.
-void heed_hull(const LineGrid& grid, const SampledHull& hull, const glm::dvec2& viewpoint, int p_cell, ShapeCell* cells,
-               std::uint8_t* meets_hull) {
-    if (std::all_of(cells, cells + grid.bands, [](const ShapeCell& cell) { return !cell.has_surface(); })) return;
-    const CellRay ray(grid, viewpoint, p_cell);
-    std::vector<std::uint8_t> within(static_cast<std::size_t>(grid.bands * kDepths));
-    for (int d = 0; d < kDepths; ++d) {
-        for (const Interval& i : hull.heights_above(ray.place(d))) {
-            const double low = ray.bands_at(i.low, d) - 0.5;
-            const double high = ray.bands_at(i.high, d) - 0.5;
-            const int first = std::max(static_cast<int>(std::ceil(low)), 0);
-            const int last = std::min(static_cast<int>(std::floor(high)), grid.bands - 1);
-            for (int h = first; h <= last; ++h) within[static_cast<std::size_t>(h * kDepths + d)] = 1;
+// Which bands of a column of cells lie in the hull at each depth. The hull is asked for a depth when that is first of
+// interest: a column's surfaces have few.
+class HullColumns {
+public:
+    HullColumns(const LineGrid& grid, const SampledHull& hull)
+        : grid_(grid), hull_(hull), inside_(static_cast<std::size_t>(grid.bands * kDepths)) {}
+
+    // The column of this ray, until the next call.
+    void begin(const CellRay& ray) {
+        ray_ = &ray;
+        known_.fill(false);
+    }
+    [[nodiscard]] bool holds(int h, int d) {
+        std::uint8_t* const bands = inside_.data() + d * grid_.bands;
+        if (!known_[static_cast<std::size_t>(d)]) find(d, bands);
+        return bands[h] != 0;
+    }
+
+private:
+    void find(int d, std::uint8_t* bands) {
+        known_[static_cast<std::size_t>(d)] = true;
+        std::fill(bands, bands + grid_.bands, std::uint8_t{0});
+        for (const Interval& i : hull_.heights_above(ray_->place(d))) {
+            const int first = std::max(static_cast<int>(std::ceil(ray_->bands_at(i.low, d) - 0.5)), 0);
+            const int last = std::min(static_cast<int>(std::floor(ray_->bands_at(i.high, d) - 0.5)), grid_.bands - 1);
+            if (first <= last) std::fill(bands + first, bands + last + 1, std::uint8_t{1});
         }
     }
+
+    const LineGrid& grid_;
+    const SampledHull& hull_;
+    const CellRay* ray_ = nullptr;
+    std::array<bool, kDepths> known_{};
+    std::vector<std::uint8_t> inside_;  // [d * bands + h]
+};
+
+// Moves surfaces that lie outside of the hull to the nearest place in it. Says of each cell with a surface whether its
+// ray meets the hull at all.
+void heed_hull(const LineGrid& grid, const CellRay& ray, HullColumns& hull, ShapeCell* cells,
+               std::uint8_t* meets_hull) {
+    hull.begin(ray);
     for (int h = 0; h < grid.bands; ++h) {
         ShapeCell& cell = cells[h];
         if (!cell.has_surface()) continue;
-        const std::uint8_t* const inside = within.data() + h * kDepths;
-        meets_hull[h] = std::find(inside, inside + kDepths, 1) != inside + kDepths ? 1 : 0;
-        cell.depth = nearest_depth(cell.depth, [&](int d) { return inside[d] != 0; }).value_or(cell.depth);
+        const std::optional<std::uint8_t> depth = nearest_depth(cell.depth, [&](int d) { return hull.holds(h, d); });
+        meets_hull[h] = depth ? 1 : 0;
+        cell.depth = depth.value_or(cell.depth);
     }
 }
 
@@ -141,9 +171,11 @@ public:
             }
         }
         std::vector<std::uint8_t> meets_hull(cells_.size(), 0);
+        HullColumns hull(grid_, layer.hull);
         for (int p = 0; p < grid_.p_cells; ++p) {
             const auto column = static_cast<std::size_t>(p * grid_.bands);
-            heed_hull(grid_, layer.hull, pictures.viewpoint, p, cells_.data() + column, meets_hull.data() + column);
+            heed_hull(grid_, CellRay(grid_, pictures.viewpoint, p), hull, cells_.data() + column,
+                      meets_hull.data() + column);
         }
         if (layer.silhouettes_agree) drop_floating(grid_, meets_hull, cells_.data());
         for (int p = 0; p < grid_.p_cells; ++p) {
