@@ -26,8 +26,9 @@ std::vector<char> widened_column(const WorkView& view, int column, int margin) {
     return near_object;
 }
 
-std::vector<Interval> forbidden_rows(const WorkView& view, int column, int margin) {
+std::vector<Interval> forbidden_slopes(const WorkView& view, int column, int margin) {
     const std::vector<char> near_object = widened_column(view, column, margin);
+    const auto slope_of = [&](double row) { return (view.cy - row) / view.fl_y; };
     std::vector<Interval> forbidden;
     int begin = 0;
     for (int row = 0; row <= view.height; ++row) {
@@ -36,9 +37,10 @@ std::vector<Interval> forbidden_rows(const WorkView& view, int column, int margi
         // The frame's own edges are no edges of the object.
         const double low = begin == 0 ? 0 : begin + margin;
         const double high = row == view.height ? row : row - margin;
-        if (high > low) forbidden.push_back({low, high});
+        if (high > low) forbidden.push_back({slope_of(high), slope_of(low)});
         begin = row + 1;
     }
+    std::ranges::reverse(forbidden);  // rows count downwards
     return forbidden;
 }
 
@@ -96,7 +98,7 @@ VisualHull::VisualHull(const std::vector<const WorkView*>& views, int margin_px,
         if (!has_object(*view)) continue;
         Silhouette silhouette{view, {}};
         for (int column = 0; column < view->width; ++column) {
-            silhouette.forbidden_rows.push_back(forbidden_rows(*view, column, margin_px));
+            silhouette.forbidden_slopes.push_back(forbidden_slopes(*view, column, margin_px));
         }
         silhouettes_.push_back(std::move(silhouette));
     }
@@ -112,9 +114,8 @@ void VisualHull::heights_above(const glm::dvec2& place, std::vector<Interval>& h
     for (const Silhouette& silhouette : silhouettes_) {
         const SeenColumn seen = silhouette.view->see(place);
         if (seen.axial <= 0 || seen.column < 0 || seen.column >= silhouette.view->width) continue;
-        for (const Interval& rows : silhouette.forbidden_rows[static_cast<std::size_t>(seen.column)]) {
-            remove(heights, {silhouette.view->height_of(rows.high, seen.axial),
-                             silhouette.view->height_of(rows.low, seen.axial)});
+        for (const Interval& slopes : silhouette.forbidden_slopes[static_cast<std::size_t>(seen.column)]) {
+            remove(heights, silhouette.forbidden_heights(slopes, seen.axial));
         }
         if (heights.empty()) return;
     }
@@ -130,9 +131,10 @@ void VisualHull::tolerant_heights(const glm::dvec2& place, std::vector<Interval>
     for (const Silhouette& silhouette : silhouettes_) {
         const SeenColumn seen = silhouette.view->see(place);
         if (seen.axial <= 0 || seen.column < 0 || seen.column >= silhouette.view->width) continue;
-        for (const Interval& rows : silhouette.forbidden_rows[static_cast<std::size_t>(seen.column)]) {
-            events.push_back({silhouette.view->height_of(rows.high, seen.axial), 1});
-            events.push_back({silhouette.view->height_of(rows.low, seen.axial), -1});
+        for (const Interval& slopes : silhouette.forbidden_slopes[static_cast<std::size_t>(seen.column)]) {
+            const Interval forbidden = silhouette.forbidden_heights(slopes, seen.axial);
+            events.push_back({forbidden.low, 1});
+            events.push_back({forbidden.high, -1});
         }
     }
     std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.height < b.height; });

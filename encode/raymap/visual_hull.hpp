@@ -35,7 +35,11 @@ public:
 private:
     struct Silhouette {
         const WorkView* view = nullptr;
-        std::vector<std::vector<Interval>> forbidden_rows;  // [column], ascending
+        // [column], ascending: heights above the camera's centre per axial depth.
+        std::vector<std::vector<Interval>> forbidden_slopes;
+        [[nodiscard]] Interval forbidden_heights(const Interval& slopes, double axial) const {
+            return {view->centre_y + axial * slopes.low, view->centre_y + axial * slopes.high};
+        }
     };
     void tolerant_heights(const glm::dvec2& place, std::vector<Interval>& heights) const;
 
