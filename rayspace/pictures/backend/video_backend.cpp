@@ -19,6 +19,8 @@ namespace {
 
 // x264's rate factor at which a frame cannot be told from its still but beside it.
 constexpr const char* kRateFactor = "15";
+// An orbit's frames took longer to code than to render with x264's own choice; this one costs .4 dB of 38 and 1 % of bits.
+constexpr const char* kPreset = "veryfast";
 
 struct Deleter {
     void operator()(AVFormatContext* format) const {
@@ -115,6 +117,7 @@ private:
         if ((format_->oformat->flags & AVFMT_GLOBALHEADER) != 0) codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
         if (codec.id == AV_CODEC_ID_H264) {
             av_opt_set(codec_->priv_data, "crf", kRateFactor, 0);
+            av_opt_set(codec_->priv_data, "preset", kPreset, 0);
         } else {
             codec_->flags |= AV_CODEC_FLAG_QSCALE;
             codec_->global_quality = 2 * FF_QP2LAMBDA;
