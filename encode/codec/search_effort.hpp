@@ -1,5 +1,5 @@
 #pragma once
-// How much the dense encoder tries. encode/README.md has what every effort costs and gains.
+// How much the dense encoder tries. tests/bench/ENCODER.md has what every effort costs and gains.
 
 #include <algorithm>
 #include <array>

@@ -19,7 +19,7 @@ struct ShapeLinesOptions {
     int thickness = 8;      // of the object behind its surfaces, depth steps, 0..255
     // A depth may be off by what moves a point by so many pixels of the working pictures between a line and the
     // pictures beside it, and by this many steps at most: then most are what the file's prediction says.
-    double settled_px = 0.25;
+    double settled_px = 0.15;
     int most_settled = 3;
     double widest_gap_deg = 45.01;  // wider ones stay without lines
 };
