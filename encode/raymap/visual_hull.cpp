@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kInside = 128;  // alpha
 constexpr double kEverywhere = 1e6;
+constexpr int kTileSide = 32;  // points of a sampled hull
 
 // is_object[row] of a column with the columns `margin` to either side.
 std::vector<char> widened_column(const WorkView& view, int column, int margin) {
@@ -154,31 +155,35 @@ void VisualHull::tolerant_heights(const glm::dvec2& place, std::vector<Interval>
 SampledHull::SampledHull(const VisualHull& hull, double spacing) : points_per_unit_(1 / spacing) {
     const double reach = kDeepest * std::sqrt(2.0);
     side_ = 2 * static_cast<int>(std::ceil(reach * points_per_unit_)) + 1;
-    rows_.resize(static_cast<std::size_t>(side_));
+    across_ = (side_ + kTileSide - 1) / kTileSide;
+    tiles_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(across_));
     const int middle = side_ / 2;
-    tbb::parallel_for(0, side_, [&](int y) {
-        Row& row = rows_[static_cast<std::size_t>(y)];
-        row.ends.reserve(static_cast<std::size_t>(side_));
+    tbb::parallel_for(0, across_ * across_, [&](int t) {
+        Tile& tile = tiles_[static_cast<std::size_t>(t)];
+        tile.ends.reserve(static_cast<std::size_t>(kTileSide * kTileSide));
         std::vector<Interval> heights;
-        for (int x = 0; x < side_; ++x) {
+        for (int n = 0; n < kTileSide * kTileSide; ++n) {
+            const int x = t % across_ * kTileSide + n % kTileSide;
+            const int y = t / across_ * kTileSide + n / kTileSide;
             const glm::dvec2 place = glm::dvec2(x - middle, y - middle) * spacing;
             heights.clear();
             if (glm::length(place) <= reach + spacing) hull.heights_above(place, heights);
-            row.intervals.insert(row.intervals.end(), heights.begin(), heights.end());
-            row.ends.push_back(static_cast<std::uint32_t>(row.intervals.size()));
+            tile.intervals.insert(tile.intervals.end(), heights.begin(), heights.end());
+            tile.ends.push_back(static_cast<std::uint32_t>(tile.intervals.size()));
         }
     });
 }
 
 std::span<const Interval> SampledHull::heights_above(const glm::dvec2& place) const {
     const auto point = [&](double along) {
-        return static_cast<std::size_t>(
-            std::clamp(static_cast<int>(std::lround(along * points_per_unit_)) + side_ / 2, 0, side_ - 1));
+        return std::clamp(static_cast<int>(std::lround(along * points_per_unit_)) + side_ / 2, 0, side_ - 1);
     };
-    const Row& row = rows_[point(place.y)];
-    const std::size_t x = point(place.x);
-    const std::uint32_t begin = x == 0 ? 0 : row.ends[x - 1];
-    return std::span(row.intervals).subspan(begin, row.ends[x] - begin);
+    const int x = point(place.x);
+    const int y = point(place.y);
+    const Tile& tile = tiles_[static_cast<std::size_t>(y / kTileSide * across_ + x / kTileSide)];
+    const auto n = static_cast<std::size_t>(y % kTileSide * kTileSide + x % kTileSide);
+    const std::uint32_t begin = n == 0 ? 0 : tile.ends[n - 1];
+    return std::span(tile.intervals).subspan(begin, tile.ends[n] - begin);
 }
 
 double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range) {

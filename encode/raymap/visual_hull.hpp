@@ -58,13 +58,15 @@ public:
     [[nodiscard]] std::span<const Interval> heights_above(const glm::dvec2& place) const;
 
 private:
-    struct Row {
+    // A square of points: what is asked for along a ray, and along the next one, lies close together in memory.
+    struct Tile {
         std::vector<Interval> intervals;
-        std::vector<std::uint32_t> ends;  // of each point's intervals
+        std::vector<std::uint32_t> ends;  // of each point's intervals, along x first
     };
     double points_per_unit_ = 1;
-    int side_ = 1;  // points
-    std::vector<Row> rows_;
+    int side_ = 1;    // points
+    int across_ = 1;  // tiles
+    std::vector<Tile> tiles_;
 };
 
 // The share of object pixels (0..1, sampled) whose rays the hull rules out entirely: what the silhouettes contradict
