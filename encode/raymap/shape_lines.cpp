@@ -93,6 +93,12 @@ public:
     void begin(const CellRay& ray) {
         ray_ = &ray;
         known_.fill(false);
+        // Heights come from far away in memory: all are on their way before the first is read.
+        for (int d = 0; d < kDepths; ++d) {
+            const std::span<const Interval> heights = hull_.heights_above(ray.place(d));
+            heights_[static_cast<std::size_t>(d)] = heights;
+            __builtin_prefetch(heights.data());
+        }
     }
     [[nodiscard]] bool holds(int h, int d) {
         std::uint8_t* const bands = inside_.data() + d * grid_.bands;
@@ -104,7 +110,7 @@ private:
     void find(int d, std::uint8_t* bands) {
         known_[static_cast<std::size_t>(d)] = true;
         std::fill(bands, bands + grid_.bands, std::uint8_t{0});
-        for (const Interval& i : hull_.heights_above(ray_->place(d))) {
+        for (const Interval& i : heights_[static_cast<std::size_t>(d)]) {
             const int first = std::max(static_cast<int>(std::ceil(ray_->bands_at(i.low, d) - 0.5)), 0);
             const int last = std::min(static_cast<int>(std::floor(ray_->bands_at(i.high, d) - 0.5)), grid_.bands - 1);
             if (first <= last) std::fill(bands + first, bands + last + 1, std::uint8_t{1});
@@ -114,6 +120,7 @@ private:
     const LineGrid& grid_;
     const SampledHull& hull_;
     const CellRay* ray_ = nullptr;
+    std::array<std::span<const Interval>, kDepths> heights_;
     std::array<bool, kDepths> known_{};
     std::vector<std::uint8_t> inside_;  // [d * bands + h]
 };
