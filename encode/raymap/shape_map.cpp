@@ -16,9 +16,9 @@ namespace {
 
 constexpr int kSampleViews = 4;
 constexpr double kMostContradicted = 0.01;
-constexpr double kHullSpacing_px = 0.5;  // of the working pictures
-constexpr int kHullLevels = 128;         // of depth, where silhouettes are asked whether they agree
-constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of a ring
+constexpr double kHullSpacing_px = 0.5;         // of the working pictures
+constexpr int kHullLevels = 128;                // of depth, where silhouettes are asked whether they agree
+constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of the set
 constexpr int kOverruledMargin_px = 4;
 constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
 constexpr double kWidestBetweenRings_deg = 20;
@@ -61,7 +61,7 @@ public:
           layer_(layer),
           views_(ring.views.size()),
           soft_(ring.views.size()),
-          colour_costs_(ring.views.size()) {}
+          kept_costs_(ring.views.size()) {}
 
     Status read(Progress* progress) {
         const int longest = std::max(set_.width, set_.height);
@@ -93,11 +93,10 @@ public:
             DepthView& view = views_[static_cast<std::size_t>(n)];
             const Neighbours neighbours = neighbours_of(n);
             const DepthRange range = range_of(n, neighbours);
-            CostVolume costs = levels_within(*sampled_hull_, view.view, range);
-            match_colours(costs, view.view, neighbours, range);
+            CostVolume costs = colour_costs(view.view, neighbours, range);
             view.depth = depths_at(semi_global_levels(view.view, costs, options_.smoothness), range);
-            if (costs.costs.size() <= kKeptCosts / views_.size()) {
-                colour_costs_[static_cast<std::size_t>(n)] = std::move(costs);
+            if (costs.costs.size() <= kKeptCosts / rig_.views.size()) {
+                kept_costs_[static_cast<std::size_t>(n)] = std::move(costs);
             }
             return {};
         });
@@ -118,9 +117,8 @@ public:
                 const WorkView& view = views_[static_cast<std::size_t>(n)].view;
                 const Neighbours neighbours = neighbours_of(n);
                 const DepthRange range = range_of(n, neighbours);
-                std::optional<CostVolume> kept = std::exchange(colour_costs_[static_cast<std::size_t>(n)], {});
-                CostVolume costs = kept ? std::move(*kept) : levels_within(*sampled_hull_, view, range);
-                if (!kept) match_colours(costs, view, neighbours, range);
+                std::optional<CostVolume> kept = std::exchange(kept_costs_[static_cast<std::size_t>(n)], {});
+                CostVolume costs = kept ? std::move(*kept) : colour_costs(view, neighbours, range);
                 add_inconsistency(costs, view, neighbours, range);
                 Image<float>& depth = agreed[static_cast<std::size_t>(n)];
                 depth = depths_at(semi_global_levels(view, costs, options_.smoothness), range);
@@ -186,6 +184,14 @@ private:
     static Image<float> depths_at(Image<float> levels, const DepthRange& range) {
         for (float& depth : levels.pixels()) depth = static_cast<float>(range.at(static_cast<double>(depth)));
         return levels;
+    }
+
+    // What the colours say of each level that the hull allows.
+    [[nodiscard]] CostVolume colour_costs(const WorkView& view, const Neighbours& neighbours,
+                                          const DepthRange& range) const {
+        CostVolume costs = levels_within(*sampled_hull_, view, range);
+        match_colours(costs, view, neighbours, range);
+        return costs;
     }
 
     void keep_layer(Image<float>& depth, const Image<std::uint8_t>& soft) const {
@@ -300,8 +306,8 @@ private:
     const ShapeOptions& options_;
     Layer layer_;
     std::vector<DepthView> views_;
-    std::vector<Image<std::uint8_t>> soft_;                // of each view
-    std::vector<std::optional<CostVolume>> colour_costs_;  // of each view, from match() to agree()
+    std::vector<Image<std::uint8_t>> soft_;              // of each view
+    std::vector<std::optional<CostVolume>> kept_costs_;  // of each view, from match() to agree()
     std::vector<const RingSearch*> beside_;
     std::unique_ptr<VisualHull> hull_;
     std::unique_ptr<SampledHull> sampled_hull_;  // kHullSpacing_px apart

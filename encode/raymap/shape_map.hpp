@@ -24,8 +24,8 @@ namespace rs::encode {
 struct ShapeOptions {
     int working_size_px = 768;       // pictures whose longer side is longer are searched at a whole fraction of it
     int widest_hull_margin_px = 16;  // of the working pictures; the narrowest that fits is taken
-    // Levels of depth are so far apart that a point moves by so many pixels of a working picture from one to the next, in
-    // the neighbour where it moves most.
+    // Levels of depth are so far apart that a point moves by so many pixels of a working picture from one to the next,
+    // in the neighbour where it moves most.
     double level_px = 0.3;
     int fewest_levels = 32, most_levels = 256;
     SmoothnessOptions smoothness;

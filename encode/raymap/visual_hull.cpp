@@ -87,7 +87,8 @@ void spread_out(std::vector<T>& in_turning_order) {
     std::sort(order.begin(), order.end());
     // The rank of each n: places far apart in turning order.
     std::vector<T> spread(in_turning_order.size());
-    for (std::size_t rank = 0; rank < order.size(); ++rank) spread[order[rank].second] = std::move(in_turning_order[rank]);
+    for (std::size_t rank = 0; rank < order.size(); ++rank)
+        spread[order[rank].second] = std::move(in_turning_order[rank]);
     in_turning_order = std::move(spread);
 }
 

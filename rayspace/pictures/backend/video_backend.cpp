@@ -19,7 +19,8 @@ namespace {
 
 // x264's rate factor at which a frame cannot be told from its still but beside it.
 constexpr const char* kRateFactor = "15";
-// An orbit's frames took longer to code than to render with x264's own choice; this one costs .4 dB of 38 and 1 % of bits.
+// An orbit's frames took longer to code than to render with x264's own choice; this one costs .4 dB of 38 and 1 % of
+// bits.
 constexpr const char* kPreset = "veryfast";
 
 struct Deleter {

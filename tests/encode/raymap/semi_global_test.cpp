@@ -101,7 +101,7 @@ TEST(SemiGlobal, IsTheSumOfEightPaths) {
     SCOPED_TRACE(kSeed);
     std::mt19937_64 random(kSeed);
     for (const auto& [width, height, levels] :
-         std::vector<std::array<int, 3>>{{7, 9, 5}, {12, 6, 17}, {3, 4, 2}, {40, 30, 9}}) {
+         std::vector<std::array<int, 3>>{{7, 9, 5}, {12, 6, 17}, {3, 4, 2}, {40, 30, 9}, {9, 8, 50}}) {
         const Pixels pixels = random_pixels(width, height, levels, random);
         for (const SmoothnessOptions options : {SmoothnessOptions{}, SmoothnessOptions{7, 30}}) {
             const Image<float> found = semi_global_levels(pixels.view, pixels.volume, options);
