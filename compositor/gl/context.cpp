@@ -4,6 +4,8 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
 namespace rs::gl {
@@ -54,6 +56,29 @@ std::vector<std::string> all_names_alive() {
     return alive;
 }
 
+// Of the machine's GPUs, in EGL's order; none where Mesa is told to draw on the CPU.
+std::vector<EGLDisplay> gpu_displays() {
+    std::vector<EGLDisplay> displays;
+    const char* const software = std::getenv("LIBGL_ALWAYS_SOFTWARE");
+    if (software != nullptr && std::string_view(software) != "0") return displays;
+    const auto has = [](const char* extension) { return epoxy_has_egl_extension(EGL_NO_DISPLAY, extension); };
+    const bool lists_devices =
+        has("EGL_EXT_device_base") || (has("EGL_EXT_device_enumeration") && has("EGL_EXT_device_query"));
+    if (!lists_devices || !has("EGL_EXT_platform_device")) return displays;
+    constexpr EGLint kMostDevices = 64;
+    std::array<EGLDeviceEXT, kMostDevices> devices{};
+    EGLint count = 0;
+    if (!eglQueryDevicesEXT(kMostDevices, devices.data(), &count)) return displays;
+    for (EGLint n = 0; n < count; ++n) {
+        const EGLDeviceEXT device = devices[static_cast<std::size_t>(n)];
+        const char* const extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+        const bool on_cpu = extensions == nullptr ||
+                            std::string_view(extensions).find("EGL_MESA_device_software") != std::string_view::npos;
+        if (!on_cpu) displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
+    }
+    return displays;
+}
+
 }  // namespace
 
 struct Context::State {
@@ -75,6 +100,40 @@ struct Context::State {
         glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
         glEnable(GL_FRAMEBUFFER_SRGB);
         glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    }
+
+    // Its context is current.
+    static Result<std::unique_ptr<State>> open(EGLDisplay display, const ContextOptions& options) {
+        auto state = std::make_unique<State>();
+        state->display = display;
+        if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) {
+            return no_context("EGL's display cannot be opened");
+        }
+        for (const char* extension : {"EGL_KHR_no_config_context", "EGL_KHR_surfaceless_context"}) {
+            if (!epoxy_has_egl_extension(display, extension)) {
+                return no_context(std::string("EGL lacks ") + extension);
+            }
+        }
+        if (!eglBindAPI(EGL_OPENGL_API)) return no_context("EGL offers no desktop OpenGL");
+        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                     4,
+                                     EGL_CONTEXT_MINOR_VERSION,
+                                     5,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     EGL_CONTEXT_OPENGL_DEBUG,
+                                     options.debug ? EGL_TRUE : EGL_FALSE,
+                                     EGL_NONE};
+        state->context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+        if (state->context == EGL_NO_CONTEXT) {
+            return no_context(
+                "the driver has no OpenGL 4.5 core; with LIBGL_ALWAYS_SOFTWARE=1 Mesa draws on the CPU instead");
+        }
+        if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, state->context)) {
+            return no_context("the context cannot be made current");
+        }
+        state->settle(options);
+        return state;
     }
 
     std::vector<std::string> take_errors() {
@@ -108,37 +167,17 @@ Context::~Context() = default;
 Result<Context> Context::create_surfaceless(const ContextOptions& options) {
     // epoxy ends the process when a function of a library that is not there is called: ask before the first.
     if (!epoxy_has_egl()) return no_context("libEGL cannot be loaded");
-    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
-        return no_context("EGL has no surfaceless platform");
+    Result<std::unique_ptr<State>> state = no_context("EGL has no surfaceless platform");
+    for (const EGLDisplay display : gpu_displays()) {
+        state = State::open(display, options);
+        if (state) break;
     }
-    auto state = std::make_unique<State>();
-    state->display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (state->display == EGL_NO_DISPLAY || !eglInitialize(state->display, nullptr, nullptr)) {
-        return no_context("EGL's surfaceless display cannot be opened");
+    if (!state && epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
+        state =
+            State::open(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), options);
     }
-    for (const char* extension : {"EGL_KHR_no_config_context", "EGL_KHR_surfaceless_context"}) {
-        if (!epoxy_has_egl_extension(state->display, extension))
-            return no_context(std::string("EGL lacks ") + extension);
-    }
-    if (!eglBindAPI(EGL_OPENGL_API)) return no_context("EGL offers no desktop OpenGL");
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                 4,
-                                 EGL_CONTEXT_MINOR_VERSION,
-                                 5,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_CONTEXT_OPENGL_DEBUG,
-                                 options.debug ? EGL_TRUE : EGL_FALSE,
-                                 EGL_NONE};
-    state->context = eglCreateContext(state->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-    if (state->context == EGL_NO_CONTEXT)
-        return no_context(
-            "the driver has no OpenGL 4.5 core; with LIBGL_ALWAYS_SOFTWARE=1 Mesa draws on the CPU instead");
-    if (!eglMakeCurrent(state->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state->context)) {
-        return no_context("the context cannot be made current");
-    }
-    state->settle(options);
-    return Context(std::move(state));
+    if (!state) return state.error();
+    return Context(std::move(state).value());
 }
 
 Result<Context> Context::adopt_current(const ContextOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
-// An OpenGL 4.5 core context: without a window or a display (EGL on Mesa's surfaceless platform, drawing only into
-// framebuffers; where there is no GPU Mesa draws on the CPU), or a window's.
+// An OpenGL 4.5 core context: without a window or a display, drawing only into framebuffers, or a window's. The former
+// is EGL's on the first GPU that has one; else Mesa's surfaceless platform, which draws on the CPU where there is no
+// GPU, and always where the environment says LIBGL_ALWAYS_SOFTWARE=1.
 //
 // Everything below compositor/ draws with the same conventions, set at creation: the picture's first row is its top
 // (glClipControl GL_UPPER_LEFT), and depth runs from 1 at the near plane to 0 at infinity (reversed; nearer is
