@@ -82,8 +82,8 @@ ShapeCell make_cell(std::vector<float>& found) {
     return cell;
 }
 
-// Which bands of a column of cells lie in the hull at each depth. The hull is asked for a depth when that is first of
-// interest: a column's surfaces have few.
+// Which bands of a column of cells lie in the hull at each depth; found for a depth when that is first of interest,
+// since a column's surfaces have few.
 class HullColumns {
 public:
     HullColumns(const LineGrid& grid, const SampledHull& hull)
@@ -129,6 +129,7 @@ private:
 // ray meets the hull at all.
 void heed_hull(const LineGrid& grid, const CellRay& ray, HullColumns& hull, ShapeCell* cells,
                std::uint8_t* meets_hull) {
+    if (std::all_of(cells, cells + grid.bands, [](const ShapeCell& cell) { return !cell.has_surface(); })) return;
     hull.begin(ray);
     for (int h = 0; h < grid.bands; ++h) {
         ShapeCell& cell = cells[h];
