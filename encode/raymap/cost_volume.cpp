@@ -213,7 +213,8 @@ ObjectBox object_box(const WorkView& view) {
     return box;
 }
 
-CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range) {
+CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range,
+                         const Image<std::uint8_t>* only) {
     CostVolume volume;
     volume.box = object_box(view);
     volume.levels = range.count;
@@ -227,6 +228,7 @@ CostVolume levels_within(const SampledHull& hull, const WorkView& view, const De
             static_cast<std::size_t>(box.height()));
         for (int row = 0; row < box.height(); ++row) {
             if (view.at(column, box.top + row).a == 0) continue;
+            if (only != nullptr && (*only)(box.top + row, column) == 0) continue;
             const bool meets = allowed.count(row) > 0;
             append(pixels[static_cast<std::size_t>(row)], meets ? allowed.first(row) : 0,
                    meets ? allowed.count(row) : range.count, kOutsideCost, volume.costs);

@@ -44,8 +44,9 @@ struct CostVolume {
 
 // Every pixel of the object with the levels of `range` (at most 65535) that the hull allows, from the first to the
 // last. They cost nothing yet; what lies between but outside of the hull costs kOutsideCost. A pixel whose ray misses
-// the hull has all levels, at that cost.
-CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range);
+// the hull has all levels, at that cost. Of `only` (as WorkView::columns; may be null), pixels that are not 0 there.
+CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range,
+                         const Image<std::uint8_t>* only = nullptr);
 
 // The pictures that one is compared with, at most two of a kind, each with what it was found to show, if anything.
 struct Neighbours {

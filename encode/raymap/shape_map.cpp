@@ -22,6 +22,7 @@ constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of the
 constexpr int kOverruledMargin_px = 4;
 constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
 constexpr double kWidestBetweenRings_deg = 20;
+constexpr int kNearSoft_px = 8;  // what is soft is told from what is around it, too
 
 NormalLine normal_line(const Camera& camera, const ReferencePlane& plane) {
     const auto fixed = [](double value, int bits) {
@@ -35,6 +36,26 @@ NormalLine normal_line(const Camera& camera, const ReferencePlane& plane) {
 // Seen from the middle of the object, in radians.
 double angle_between(const WorkView& a, const WorkView& b) {
     return std::acos(std::clamp(glm::dot(glm::normalize(a.place()), glm::normalize(b.place())), -1.0, 1.0));
+}
+
+// Not 0 where a pixel at most `by` away along x and along y is not.
+Image<std::uint8_t> grown(const Image<std::uint8_t>& mask, int by) {
+    Image<std::uint8_t> along_x(mask.width(), mask.height());
+    Image<std::uint8_t> result(mask.width(), mask.height());
+    for (int y = 0; y < mask.height(); ++y) {
+        for (int x = 0; x < mask.width(); ++x) {
+            if (mask(x, y) == 0) continue;
+            const auto from = along_x.row(y);
+            std::fill(from + std::max(x - by, 0), from + std::min(x + by + 1, mask.width()), mask(x, y));
+        }
+    }
+    for (int y = 0; y < mask.height(); ++y) {
+        for (int v = std::max(y - by, 0); v < std::min(y + by + 1, mask.height()); ++v) {
+            std::transform(along_x.row(v), along_x.row(v) + mask.width(), result.row(y), result.row(y),
+                           [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+        }
+    }
+    return result;
 }
 
 std::string sector_text(const DepthView& from, const DepthView& to) {
@@ -61,6 +82,7 @@ public:
           layer_(layer),
           views_(ring.views.size()),
           soft_(ring.views.size()),
+          near_soft_(ring.views.size()),
           kept_costs_(ring.views.size()) {}
 
     Status read(Progress* progress) {
@@ -76,7 +98,10 @@ public:
                                         view = make_work_view(camera, *picture, reduction);
                                         Image<std::uint8_t>& soft = soft_[static_cast<std::size_t>(n)];
                                         soft = soft_pixels(view);
-                                        if (layer_ == Layer::kSoft) cover_soft(view, soft);
+                                        if (layer_ == Layer::kSoft) {
+                                            cover_soft(view, soft);
+                                            near_soft_[static_cast<std::size_t>(n)] = grown(soft, kNearSoft_px);
+                                        }
                                         weaken_shading(view);
                                         return {};
                                     });
@@ -93,7 +118,7 @@ public:
             DepthView& view = views_[static_cast<std::size_t>(n)];
             const Neighbours neighbours = neighbours_of(n);
             const DepthRange range = range_of(n, neighbours);
-            CostVolume costs = colour_costs(view.view, neighbours, range);
+            CostVolume costs = colour_costs(n, neighbours, range);
             view.depth = depths_at(semi_global_levels(view.view, costs, options_.smoothness), range);
             if (costs.costs.size() <= kKeptCosts / rig_.views.size()) {
                 kept_costs_[static_cast<std::size_t>(n)] = std::move(costs);
@@ -118,7 +143,7 @@ public:
                 const Neighbours neighbours = neighbours_of(n);
                 const DepthRange range = range_of(n, neighbours);
                 std::optional<CostVolume> kept = std::exchange(kept_costs_[static_cast<std::size_t>(n)], {});
-                CostVolume costs = kept ? std::move(*kept) : colour_costs(view, neighbours, range);
+                CostVolume costs = kept ? std::move(*kept) : colour_costs(n, neighbours, range);
                 add_inconsistency(costs, view, neighbours, range);
                 Image<float>& depth = agreed[static_cast<std::size_t>(n)];
                 depth = depths_at(semi_global_levels(view, costs, options_.smoothness), range);
@@ -187,9 +212,10 @@ private:
     }
 
     // What the colours say of each level that the hull allows.
-    [[nodiscard]] CostVolume colour_costs(const WorkView& view, const Neighbours& neighbours,
-                                          const DepthRange& range) const {
-        CostVolume costs = levels_within(*sampled_hull_, view, range);
+    [[nodiscard]] CostVolume colour_costs(int n, const Neighbours& neighbours, const DepthRange& range) const {
+        const WorkView& view = views_[static_cast<std::size_t>(n)].view;
+        const Image<std::uint8_t>& near = near_soft_[static_cast<std::size_t>(n)];
+        CostVolume costs = levels_within(*sampled_hull_, view, range, layer_ == Layer::kSoft ? &near : nullptr);
         match_colours(costs, view, neighbours, range);
         return costs;
     }
@@ -307,6 +333,7 @@ private:
     Layer layer_;
     std::vector<DepthView> views_;
     std::vector<Image<std::uint8_t>> soft_;              // of each view
+    std::vector<Image<std::uint8_t>> near_soft_;         // where that is looked for
     std::vector<std::optional<CostVolume>> kept_costs_;  // of each view, from match() to agree()
     std::vector<const RingSearch*> beside_;
     std::unique_ptr<VisualHull> hull_;

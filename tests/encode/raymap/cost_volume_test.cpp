@@ -66,6 +66,32 @@ TEST(CostVolume, HasTheLevelsThatTheHullAllows) {
     EXPECT_GT(between, 4 * kRange.count) << "the small balls stand before the big one";
 }
 
+TEST(CostVolume, OfAMaskOnlyItsPixelsAreSearched) {
+    const std::vector<WorkView> views = drawn_views(drawn_ring(12, 3));
+    const SampledHull hull(VisualHull(pointers(views), 1), 0.01);
+    const WorkView& view = views[0];
+    Image<std::uint8_t> only(view.columns.width(), view.columns.height());
+    for (int row = 0; row < view.height / 2; ++row) {
+        for (int column = 0; column < view.width; column += 3) only(row, column) = 255;
+    }
+    const CostVolume all = levels_within(hull, view, kRange);
+    const CostVolume some = levels_within(hull, view, kRange, &only);
+    int searched = 0;
+    for (int column = all.box.left; column < all.box.right; ++column) {
+        for (int row = all.box.top; row < all.box.bottom; ++row) {
+            const PixelLevels& pixel = some.of(column, row);
+            const PixelLevels& wanted = all.of(column, row);
+            ASSERT_EQ(pixel.count, only(row, column) != 0 ? wanted.count : 0);
+            if (pixel.count == 0) continue;
+            ++searched;
+            ASSERT_EQ(pixel.first, wanted.first);
+            ASSERT_TRUE(std::equal(some.costs.begin() + pixel.begin, some.costs.begin() + pixel.begin + pixel.count,
+                                   all.costs.begin() + wanted.begin));
+        }
+    }
+    EXPECT_GT(searched, 50);
+}
+
 TEST(CostVolume, ColoursFindTheDepthOfTheBalls) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(60));
     const std::vector<DepthView> all = without_depths(views);
