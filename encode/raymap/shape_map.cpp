@@ -1,6 +1,7 @@
 #include "encode/raymap/shape_map.hpp"
 
 #include "encode/raymap/cost_volume.hpp"
+#include "encode/set/soft_coverage.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/ray_space.hpp"
@@ -38,26 +39,6 @@ double angle_between(const WorkView& a, const WorkView& b) {
     return std::acos(std::clamp(glm::dot(glm::normalize(a.place()), glm::normalize(b.place())), -1.0, 1.0));
 }
 
-// Not 0 where a pixel at most `by` away along x and along y is not.
-Image<std::uint8_t> grown(const Image<std::uint8_t>& mask, int by) {
-    Image<std::uint8_t> along_x(mask.width(), mask.height());
-    Image<std::uint8_t> result(mask.width(), mask.height());
-    for (int y = 0; y < mask.height(); ++y) {
-        for (int x = 0; x < mask.width(); ++x) {
-            if (mask(x, y) == 0) continue;
-            const auto from = along_x.row(y);
-            std::fill(from + std::max(x - by, 0), from + std::min(x + by + 1, mask.width()), mask(x, y));
-        }
-    }
-    for (int y = 0; y < mask.height(); ++y) {
-        for (int v = std::max(y - by, 0); v < std::min(y + by + 1, mask.height()); ++v) {
-            std::transform(along_x.row(v), along_x.row(v) + mask.width(), result.row(y), result.row(y),
-                           [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
-        }
-    }
-    return result;
-}
-
 std::string sector_text(const DepthView& from, const DepthView& to) {
     const auto azimuth_deg = [](const WorkView& view) {
         const double angle = degrees(std::atan2(view.centre.x, view.centre.y));
@@ -82,7 +63,6 @@ public:
           layer_(layer),
           views_(ring.views.size()),
           soft_(ring.views.size()),
-          near_soft_(ring.views.size()),
           kept_costs_(ring.views.size()) {}
 
     Status read(Progress* progress) {
@@ -98,10 +78,7 @@ public:
                                         view = make_work_view(camera, *picture, reduction);
                                         Image<std::uint8_t>& soft = soft_[static_cast<std::size_t>(n)];
                                         soft = soft_pixels(view);
-                                        if (layer_ == Layer::kSoft) {
-                                            cover_soft(view, soft);
-                                            near_soft_[static_cast<std::size_t>(n)] = grown(soft, kNearSoft_px);
-                                        }
+                                        if (layer_ == Layer::kSoft) cover_soft(view, soft);
                                         weaken_shading(view);
                                         return {};
                                     });
@@ -214,8 +191,9 @@ private:
     // What the colours say of each level that the hull allows.
     [[nodiscard]] CostVolume colour_costs(int n, const Neighbours& neighbours, const DepthRange& range) const {
         const WorkView& view = views_[static_cast<std::size_t>(n)].view;
-        const Image<std::uint8_t>& near = near_soft_[static_cast<std::size_t>(n)];
-        CostVolume costs = levels_within(*sampled_hull_, view, range, layer_ == Layer::kSoft ? &near : nullptr);
+        std::optional<Image<std::uint8_t>> near_soft;
+        if (layer_ == Layer::kSoft) near_soft = dilated(soft_[static_cast<std::size_t>(n)], kNearSoft_px);
+        CostVolume costs = levels_within(*sampled_hull_, view, range, near_soft ? &*near_soft : nullptr);
         match_colours(costs, view, neighbours, range);
         return costs;
     }
@@ -333,7 +311,6 @@ private:
     Layer layer_;
     std::vector<DepthView> views_;
     std::vector<Image<std::uint8_t>> soft_;              // of each view
-    std::vector<Image<std::uint8_t>> near_soft_;         // where that is looked for
     std::vector<std::optional<CostVolume>> kept_costs_;  // of each view, from match() to agree()
     std::vector<const RingSearch*> beside_;
     std::unique_ptr<VisualHull> hull_;

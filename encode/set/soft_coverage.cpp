@@ -34,7 +34,7 @@ private:
     Image<int> sums_;
 };
 
-// An erosion with a square, then a dilation with it: an opening.
+// Where holds(how many of the samples in the square around it are set).
 template <class Holds>
 Image<std::uint8_t> where(const Image<std::uint8_t>& set, int radius, const Holds& holds) {
     const Sums sums(set);
@@ -54,9 +54,14 @@ Image<std::uint8_t> soft_patches(ConstImageView<std::uint8_t> alpha, int radius)
     for (int y = 0; y < alpha.height(); ++y) {
         for (int x = 0; x < alpha.width(); ++x) soft(x, y) = is_soft(alpha(x, y)) ? 255 : 0;
     }
+    // An erosion with a square, then a dilation with it: an opening.
     const int side = 2 * radius + 1;
     const Image<std::uint8_t> middles = where(soft, radius, [&](int count) { return count == side * side; });
-    return where(middles, radius, [](int count) { return count > 0; });
+    return dilated(middles, radius);
+}
+
+Image<std::uint8_t> dilated(const Image<std::uint8_t>& set, int radius) {
+    return where(set, radius, [](int count) { return count > 0; });
 }
 
 }  // namespace rs::encode

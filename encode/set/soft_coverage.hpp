@@ -16,4 +16,7 @@ inline constexpr int kFaintest = 8;
 // 255 - kFaintest, else 0. Patches lie within the picture.
 Image<std::uint8_t> soft_patches(ConstImageView<std::uint8_t> alpha, int radius);
 
+// 255 where a sample at most `radius` away along x and along y is not 0, else 0.
+Image<std::uint8_t> dilated(const Image<std::uint8_t>& set, int radius);
+
 }  // namespace rs::encode
