@@ -45,4 +45,42 @@ PacketMaterials::PacketMaterials(const Scene& scene, const std::vector<SurfaceMo
     }
 }
 
+void PacketMaterials::set_lane(std::size_t lane, const LightTransport::Vertex& vertex, SurfaceLanes& surfaces) const {
+    const glm::vec3& facet = vertex.point.geometric_normal;
+    (*this)[vertex.point.material].fill(lane, surfaces.material);
+    surfaces.near_start.set(lane, vertex.start_of(facet, true));
+    surfaces.far_start.set(lane, vertex.start_of(-facet, false));
+    surfaces.geometric_normal.set(lane, facet);
+    surfaces.normal.set(lane, vertex.frame.normal);
+    surfaces.tangent.set(lane, vertex.frame.tangent);
+    surfaces.bitangent.set(lane, vertex.frame.bitangent);
+    surfaces.colour.set(lane, vertex.surface.colour());
+    surfaces.viewer.set(lane, vertex.surface.viewer());
+    surfaces.albedo[lane] = vertex.surface.albedo();
+    surfaces.lambda[lane] = vertex.surface.lambda();
+}
+
+VirtualLight PacketMaterials::virtual_light(const LightTransport::Vertex& vertex, const glm::vec3& flux,
+                                            int depth) const {
+    const PacketMaterial& material = (*this)[vertex.point.material];
+    const glm::vec3& facet = vertex.point.geometric_normal;
+    return {material.kind,
+            material.alpha,
+            material.ior,
+            material.translucency,
+            material.base,
+            material.table,
+            vertex.point.position,
+            vertex.start_of(facet, true),
+            facet,
+            vertex.frame.normal,
+            vertex.frame.tangent,
+            vertex.frame.bitangent,
+            vertex.surface.colour(),
+            vertex.surface.viewer(),
+            vertex.step_off,
+            flux,
+            depth};
+}
+
 }  // namespace rs::capture

@@ -1,7 +1,8 @@
 #pragma once
 // What of a scene's materials shading by packets (packets/surface_lanes.hpp) asks for, material by material.
 
-#include "capture/tracer/integrator/surface.hpp"
+#include "capture/tracer/integrator/transport.hpp"
+#include "capture/tracer/packets/light_lanes.hpp"
 #include "capture/tracer/packets/surface_lanes.hpp"
 #include "capture/tracer/scene/scene.hpp"
 
@@ -38,6 +39,12 @@ public:
     [[nodiscard]] const PacketMaterial& operator[](int number) const {
         return materials_[static_cast<std::size_t>(number)];
     }
+    // A lane that stands for a vertex. `uv`, `front_side` and `position` are not filled.
+    void set_lane(std::size_t lane, const LightTransport::Vertex& vertex, SurfaceLanes& surfaces) const;
+    // What a vertex sends of `flux` that has come from its viewer, over `depth` surfaces.
+    [[nodiscard]] VirtualLight virtual_light(const LightTransport::Vertex& vertex, const glm::vec3& flux,
+                                             int depth) const;
+
     // Tables of albedo, one after the other.
     [[nodiscard]] const float* tables() const { return tables_.data(); }
 

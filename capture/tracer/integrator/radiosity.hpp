@@ -1,13 +1,13 @@
 #pragma once
 // Instant radiosity, a pass of virtual lights at a time (A. Keller, "Instant Radiosity", SIGGRAPH 1997).
 //
-//     photons from the lights -> a virtual light wherever one meets a surface that is not specular
-//     camera ray -> mirrors, glass -> surface: light samples for direct light, all virtual lights for the rest
+//     photons from the lights -> virtual lights (virtual_lights.hpp)
+//     camera ray -> mirrors, glass -> surface: a sample of each light for direct light, virtual lights for the rest
 //
-// Photons leave lights drawn by their flux and die by roulette over what surfaces absorb. Virtual lights that bring the
-// view little are few but strong: one is kept with the probability min(c / mean c + 0.05, 1), c being what it brings to
-// some points that the camera sees, and its power is divided by that (I. Georgiev, P. Slusallek, "Simple and Robust
-// Iterative Importance Sampling of Virtual Point Lights", Eurographics 2010).
+// Virtual lights are interleaved: of the pixels of each square of 4 x 4 every one has a group of its own, so that
+// neighbours together see sixteen times as many (I. Wald et al., "Interactive Global Illumination using Fast Ray
+// Tracing", Eurographics Rendering Workshop 2002); discontinuity_filter.hpp brings them together. Sixteen pixels that
+// have the same group go together as a packet.
 //
 // Near a virtual light the geometry term is bounded, so that no bright spots stand in corners. What that cuts off is
 // found by paths, which go on from a surface only where the term exceeds the bound (T. Kollig, A. Keller, "Illumination
@@ -16,66 +16,73 @@
 // Left out is the light that reaches the camera over more than one surface from primitives, and from surfaces that
 // shine and move while the shutter is open.
 
+#include "capture/tracer/integrator/gather_packet.hpp"
+#include "capture/tracer/integrator/packet_materials.hpp"
 #include "capture/tracer/integrator/ray_picture.hpp"
 #include "capture/tracer/integrator/transport.hpp"
+#include "capture/tracer/integrator/virtual_lights.hpp"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace rs::capture {
-
-struct RadiosityOptions {
-    int max_bounces = 16;     // as RenderOptions has it
-    int lights_of_pass = 24;  // that are kept, about
-    bool importance = true;   // else all are kept
-};
 
 class RadiosityTracer final : public Integrator {
 public:
     // Makes ready for the samples first <= s < first + count of a picture; each is a pass of its own. The same `key`
     // and sample give the same virtual lights.
-    RadiosityTracer(const LightTransport& transport, const RadiosityOptions& options, const RayPicture& picture,
+    RadiosityTracer(const LightTransport& transport, const VirtualLightOptions& options, const RayPicture& picture,
                     std::uint64_t key, int first, int count);
+    RadiosityTracer(const RadiosityTracer&) = delete;
+    RadiosityTracer& operator=(const RadiosityTracer&) = delete;
+    ~RadiosityTracer() override = default;
 
     // At the time of the sampler's pass, whatever `time` is.
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
+    void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override;
 
     // Of the passes that are ready.
     [[nodiscard]] std::size_t light_count() const;
 
 private:
     using Vertex = LightTransport::Vertex;
-    struct VirtualLight {
-        Vertex vertex;   // seen from where the photon came
-        glm::vec3 flux;  // that arrives
-        int depth;       // surfaces that the photon has met, this one included
-    };
-    struct CameraPoint {
-        Vertex vertex;
-        glm::vec3 throughput;
-    };
-    using VirtualLights = std::vector<VirtualLight>;
+    // A camera ray on its way.
+    struct Way {
+        CameraRay* ray = nullptr;
+        Arrived* arrived = nullptr;
+        LightTransport::Segment segment{};
+        MediumStack media;
+        glm::vec3 throughput{1.0F};
+        std::optional<Vertex> vertex;  // where it has arrived
+        // Where virtual lights stand for what the segment would find on a surface, up to their bound: the cosine at its
+        // beginning; else 0.
+        float gathered_cos = 0.0F;
 
-    void find_camera_points(const RayPicture& picture);
-    void plan_photons();
-    void follow_photon(float time, Sampler& sampler, VirtualLights& lights) const;
-    [[nodiscard]] VirtualLights lights_of(int pass) const;
+        void begin(CameraRay& from, Arrived& into, float at);
+    };
+    struct Packet;
+
+    void trace_packet(Packet& packet) const;
+    void follow_to_surfaces(Packet& packet, int bounce) const;
+    void meet(Way& way, bool hit, const SurfacePoint& point, int bounce) const;
+    void gather(Packet& packet, int bounce) const;
+    [[nodiscard]] glm::vec3 from_areas(const Vertex& vertex, Sampler& sampler) const;
+    void go_on(Way& way, int bounce) const;
     // A pass is a moment, for its virtual lights and all that they shine on. 0 where nothing moves.
     [[nodiscard]] float time_of(int pass) const;
-    // What the camera points get, visibility included; luminance.
-    [[nodiscard]] float importance_of(const VirtualLight& light) const;
-    [[nodiscard]] glm::vec3 light_from(const VirtualLight& light, const Vertex& vertex) const;
+    [[nodiscard]] const std::vector<VirtualLight>& lights_for(const CameraRay& ray) const;
 
     LightTransport transport_;
-    RadiosityOptions options_;
+    PacketMaterials materials_;
+    VirtualLightOptions options_;
     std::uint64_t key_;
     int first_;
-    float bound_;  // of the geometry term, cosines over squared distance
-    int photons_ = 1;
-    float mean_importance_ = 0.0F;  // 0: all are kept
-    std::vector<CameraPoint> camera_points_;
-    std::vector<VirtualLights> passes_;
+    int groups_ = 1;  // of a pass
+    float bound_ = 0.0F;
+    std::vector<std::vector<VirtualLight>> lights_;  // of each group of each pass
 };
 
 }  // namespace rs::capture

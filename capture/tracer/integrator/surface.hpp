@@ -60,6 +60,10 @@ public:
     // of other kinds.
     [[nodiscard]] std::vector<SurfaceSample> specular_ways() const;
     [[nodiscard]] const glm::vec3& colour() const { return colour_; }
+    [[nodiscard]] const glm::vec3& viewer() const { return wo_; }
+    // As SurfaceLanes has them.
+    [[nodiscard]] float albedo() const { return albedo_; }
+    [[nodiscard]] float lambda() const { return lambda_; }
 
     // Light that came from wo and goes to `out` instead: f, without a cosine, as a viewer at `out` has it.
     [[nodiscard]] glm::vec3 sent(const glm::vec3& out) const;

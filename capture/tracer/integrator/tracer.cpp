@@ -23,6 +23,7 @@ namespace rs::capture {
 namespace {
 
 constexpr int kTileSide_px = 16;
+constexpr int kSquare_px = 4;
 
 int tiles_along(int pixels) {
     return (pixels + kTileSide_px - 1) / kTileSide_px;
@@ -57,12 +58,11 @@ PixelRectangle visible_rectangle(const Camera& camera, const RayScene& rays) {
 
 // Those that are visible of the tile with this corner, in squares of 4 x 4, which are packets of rays.
 std::vector<glm::ivec2> pixels_of_tile(int left, int top, const PixelRectangle& visible) {
-    constexpr int kSquare = 4;
     std::vector<glm::ivec2> pixels;
-    for (int y0 = top; y0 < top + kTileSide_px; y0 += kSquare) {
-        for (int x0 = left; x0 < left + kTileSide_px; x0 += kSquare) {
-            for (int y = std::max(y0, visible.y0); y < std::min(y0 + kSquare, visible.y1); ++y) {
-                for (int x = std::max(x0, visible.x0); x < std::min(x0 + kSquare, visible.x1); ++x) {
+    for (int y0 = top; y0 < top + kTileSide_px; y0 += kSquare_px) {
+        for (int x0 = left; x0 < left + kTileSide_px; x0 += kSquare_px) {
+            for (int y = std::max(y0, visible.y0); y < std::min(y0 + kSquare_px, visible.y1); ++y) {
+                for (int x = std::max(x0, visible.x0); x < std::min(x0 + kSquare_px, visible.x1); ++x) {
                     pixels.emplace_back(x, y);
                 }
             }
@@ -168,7 +168,7 @@ std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& 
     constexpr int kWhittedDepth = 8;
     switch (options.method) {
         case RenderMethod::kRadiosity:
-            return std::make_unique<RadiosityTracer>(transport, RadiosityOptions{.max_bounces = options.max_bounces},
+            return std::make_unique<RadiosityTracer>(transport, VirtualLightOptions{.max_bounces = options.max_bounces},
                                                      picture, key, first, count);
         case RenderMethod::kWhitted:
             return std::make_unique<WhittedTracer>(transport, IrradianceMap(transport.lights().environment()),
@@ -234,7 +234,8 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
         if (options.lens.aperture > 0) {
             ray = options.lens.through(ray.origin, rays.forward, ray.direction, sampler.next_2d());
         }
-        return CameraRay{glm::vec3(ray.origin), glm::vec3(glm::normalize(ray.direction)), time, sampler};
+        const auto place = static_cast<unsigned>(y % kSquare_px * kSquare_px + x % kSquare_px);
+        return CameraRay{glm::vec3(ray.origin), glm::vec3(glm::normalize(ray.direction)), time, sampler, place};
     };
     const auto add_tile = [&](std::int64_t tile) {
         if (stop != nullptr && *stop) return;

@@ -107,31 +107,31 @@ glm::vec3 LightTransport::emission_of(const SurfacePoint& point, const Segment& 
            weight_of(segment, lights_.emitter_pdf(segment.selection, point.material, point.distance, cos_light));
 }
 
-glm::vec3 LightTransport::light_sample(const Vertex& vertex, float u_source, const glm::vec2& u, int count) const {
-    const glm::vec3 dark(0.0F);
+glm::vec3 LightTransport::light_sample(const Vertex& vertex, float u_source, const glm::vec2& u) const {
     const auto light = lights_.sample(vertex.selection, u_source, u);
-    if (!light) return dark;
-    const glm::vec3 wi = vertex.frame.to_local(light->direction);
-    const Surface::Value value = vertex.surface.evaluate(wi);
-    if (max_component(value.f_cos) <= 0.0F) return dark;
-    const glm::vec3 start = vertex.start_of(light->direction, wi.z > 0.0F);
-    // Just short of the light, which may be a surface itself.
-    const float reach = light->distance * (1.0F - 1e-4F);
-    if (rays_.occluded(start, light->direction, reach, vertex.point.time)) return dark;
-    const auto samples = static_cast<float>(count);
-    const float weight = light->delta ? 1.0F : mis_weight(samples * light->pdf, value.pdf);
-    return value.f_cos * light->radiance * (weight / (samples * light->pdf));
+    return light ? light_from(*light, vertex) : glm::vec3(0.0F);
 }
 
-LightTransport::Segment LightTransport::segment_from(const Vertex& vertex, const SurfaceSample& drawn,
-                                                     int light_samples) const {
+glm::vec3 LightTransport::light_from(const LightSample& light, const Vertex& vertex) const {
+    const glm::vec3 dark(0.0F);
+    const glm::vec3 wi = vertex.frame.to_local(light.direction);
+    const Surface::Value value = vertex.surface.evaluate(wi);
+    if (max_component(value.f_cos) <= 0.0F) return dark;
+    const glm::vec3 start = vertex.start_of(light.direction, wi.z > 0.0F);
+    // Just short of the light, which may be a surface itself.
+    const float reach = light.distance * (1.0F - 1e-4F);
+    if (rays_.occluded(start, light.direction, reach, vertex.point.time)) return dark;
+    const float weight = light.delta ? 1.0F : mis_weight(light.pdf, value.pdf);
+    return value.f_cos * light.radiance * (weight / light.pdf);
+}
+
+LightTransport::Segment LightTransport::segment_from(const Vertex& vertex, const SurfaceSample& drawn) const {
     Segment segment;
     segment.time = vertex.point.time;
     segment.direction = glm::normalize(vertex.frame.to_world(drawn.direction));
     segment.pdf = drawn.pdf;
     segment.specular = drawn.specular;
     segment.selection = vertex.selection;
-    segment.light_samples = light_samples;
     const bool near_side = drawn.direction.z > 0.0F;
     if (drawn.specular) {
         // A reflection must leave the facet and a refraction must enter it; interpolated normals may say otherwise near

@@ -29,6 +29,7 @@ struct CameraRay {
     glm::vec3 direction;  // unit length
     float time;           // 0..1 as ray_scene.hpp has it
     Sampler sampler;
+    unsigned place = 0;  // of its pixel within a square of 4 x 4, row by row
 };
 // What arrived along it.
 struct Arrived {
@@ -77,8 +78,7 @@ public:
         float pdf = 0.0F;
         bool specular = true;  // no light sample could have given it
         bool of_camera = false;
-        LightSet::Selection selection{};  // of the light samples at its beginning,
-        int light_samples = 1;            // as many
+        LightSet::Selection selection{};  // of the light samples at its beginning
     };
     [[nodiscard]] static Segment camera_segment(const glm::vec3& origin, const glm::vec3& direction,
                                                 float time = 0.0F) {
@@ -124,10 +124,12 @@ public:
     void select_lights(Vertex& vertex) const {
         vertex.selection = lights_.select(vertex.start_of(vertex.point.geometric_normal, true));
     }
-    // Light of one source that arrives at a vertex and leaves where the segment before came from: one of `count` such
-    // samples, whose sum is wanted. Their weight is that beside one drawn direction.
-    [[nodiscard]] glm::vec3 light_sample(const Vertex& vertex, float u_source, const glm::vec2& u, int count = 1) const;
-    [[nodiscard]] Segment segment_from(const Vertex& vertex, const SurfaceSample& drawn, int light_samples = 1) const;
+    // Light of one source that arrives at a vertex and leaves where the segment before came from, with its weight
+    // beside one drawn direction.
+    [[nodiscard]] glm::vec3 light_sample(const Vertex& vertex, float u_source, const glm::vec2& u) const;
+    // The same of a sample that is given.
+    [[nodiscard]] glm::vec3 light_from(const LightSample& light, const Vertex& vertex) const;
+    [[nodiscard]] Segment segment_from(const Vertex& vertex, const SurfaceSample& drawn) const;
 
     // The shading normal where the material has relief. Sides that are seen from behind have the front's, turned over.
     [[nodiscard]] glm::vec3 normal_in_relief(const SurfacePoint& point) const;
@@ -151,7 +153,7 @@ private:
     [[nodiscard]] glm::vec3 emission_of(const SurfacePoint& point, const Segment& segment) const;
     // Of what a drawn segment met, beside the light samples at its beginning.
     [[nodiscard]] static float weight_of(const Segment& segment, float light_pdf) {
-        return mis_weight(segment.pdf, static_cast<float>(segment.light_samples) * light_pdf);
+        return mis_weight(segment.pdf, light_pdf);
     }
 
     const Scene& scene_;

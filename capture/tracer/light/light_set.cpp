@@ -188,6 +188,15 @@ LightSet::Selection LightSet::select(const glm::vec3& position) const {
     return selection;
 }
 
+LightSet::Selection LightSet::all(const glm::vec3& position) {
+    return {position, std::numeric_limits<float>::infinity(), 2.0F};
+}
+
+std::optional<LightSample> LightSet::sky(const glm::vec2& u) const {
+    if (!environment_source_) return std::nullopt;
+    return sample_environment(1.0F, u);
+}
+
 void LightSet::gather_emitters() {
     placed_.clear();
     emitters_.clear();

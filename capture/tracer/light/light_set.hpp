@@ -64,6 +64,9 @@ public:
         float even = 0.0F;   // 1 / n; 0 where no source reaches
     };
     [[nodiscard]] Selection select(const glm::vec3& position) const;
+    // That of a place which each source is drawn for, once: by middle() those that is_point() names, by point() the
+    // others, by sky() the environment.
+    [[nodiscard]] static Selection all(const glm::vec3& position);
 
     // Nothing where the drawn source does not light the place. u_source picks the source, u the point on it.
     [[nodiscard]] std::optional<LightSample> sample(const Selection& selection, float u_source,
@@ -76,6 +79,11 @@ public:
 
     // How many lights middle() and point() know by their numbers.
     [[nodiscard]] std::size_t light_count() const { return sources_.size() + glows_.size(); }
+    // One that is a point or infinitely far away. Not a mesh that shines.
+    [[nodiscard]] bool is_point(std::size_t number) const {
+        return number < sources_.size() &&
+               (sources_[number].kind == SourceKind::local || sources_[number].kind == SourceKind::distant);
+    }
     // Each source but the environment as one point that stands for all of it: areas, and each mesh that shines, by
     // their middle. `radiance / pdf` is irradiance. Nothing where it does not light the place.
     [[nodiscard]] std::optional<LightSample> middle(std::size_t number, const glm::vec3& position) const;
@@ -85,6 +93,9 @@ public:
     // The same, but each area by a point of it, and all meshes that shine by one point together; `draw` says where.
     [[nodiscard]] std::optional<LightSample> point(std::size_t number, const glm::vec3& position,
                                                    const std::function<glm::vec2()>& draw) const;
+
+    // Of the environment; nothing where there is none.
+    [[nodiscard]] std::optional<LightSample> sky(const glm::vec2& u) const;
 
     [[nodiscard]] const EnvironmentMap& environment() const { return environment_; }
     // Density with which sample() gives this direction through the environment.

@@ -62,6 +62,9 @@ HWY_INLINE void store(const Floats3& v, Lanes3& lanes, std::size_t at) {
     store(v.y, lanes.y, at);
     store(v.z, lanes.z, at);
 }
+HWY_INLINE Floats3 broadcast(const glm::vec3& v) {
+    return {number(v.x), number(v.y), number(v.z)};
+}
 HWY_INLINE Floats3 operator+(const Floats3& a, const Floats3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }

@@ -11,10 +11,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace rs::capture::HWY_NAMESPACE {
 
-HWY_INLINE Floats3 broadcast(const glm::vec3& v) {
-    return {number(v.x), number(v.y), number(v.z)};
-}
-
 // The twin of LightSet::estimate(), of its sources that are points. `way` goes from the light to the place.
 HWY_INLINE Mask reached_by(const PointLight& light, const Floats3& way, Floats distance2, Floats distance) {
     const Floats zero = number(0.0F), one = number(1.0F);

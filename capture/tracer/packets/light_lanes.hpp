@@ -40,6 +40,22 @@ struct AreaLight {
     float power = 0;  // what LightSet estimates by
 };
 
+// A surface that light has fallen on and that lights others (integrator/radiosity.hpp), as SurfaceLanes has one. Its
+// viewer is where the light came from.
+struct VirtualLight {
+    SurfaceKind kind = SurfaceKind::diffuse;
+    float alpha = 1, ior = 1, translucency = 0, base = 1;
+    std::int32_t table = 0;
+    glm::vec3 position{0}, near_start{0};
+    glm::vec3 geometric_normal{0};
+    glm::vec3 normal{0}, tangent{0}, bitangent{0};
+    glm::vec3 colour{0};
+    glm::vec3 viewer{0};
+    float step_off = 0;
+    glm::vec3 flux{0};  // that arrives
+    int depth = 1;      // surfaces that it has met, this one included
+};
+
 // The same light everywhere; `direction` has unit length and goes to it.
 void light_from_afar(const glm::vec3& direction, const glm::vec3& irradiance, const MaskLanes& wanted,
                      LightLanes& arrives);
@@ -53,6 +69,11 @@ bool light_from_point(const PointLight& light, const Lanes3& places, const MaskL
 
 // That of an area.
 bool light_from_area(const AreaLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives);
+
+// That of a virtual light: the geometry term, both cosines over squared distance, is cut down to `bound`. The twin is
+// RadiosityTracer::arriving().
+bool light_from_virtual(const VirtualLight& light, float bound, const float* tables, const SurfaceLanes& surfaces,
+                        const MaskLanes& wanted, LightLanes& arrives);
 
 // What light makes surfaces of matte, coated and metal materials send to their viewers, and the rays that have to find
 // nothing in the way; false where there are none.

@@ -1,0 +1,197 @@
+#include "capture/tracer/integrator/virtual_lights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rs::capture {
+
+namespace {
+
+constexpr float kBound = 4.0F;
+constexpr int kCameraPoints = 64;
+constexpr int kPilotPhotons = 64;  // at a time
+constexpr int kPilotLights = 32;   // that bring something
+constexpr int kMostPhotons = 4096;
+constexpr float kLeastKept = 0.05F;
+// Keys of the random numbers of parts.
+constexpr std::uint64_t kOfCameraPoints = 0x63616D657261ULL;
+constexpr std::uint64_t kOfPilot = 0x70696C6F74ULL;
+constexpr std::uint64_t kOfGroups = 0x706173736573ULL;
+
+float away_from_zero(float cosine) {
+    return std::max(std::abs(cosine), 1e-2F);
+}
+
+// Light that is followed forwards meets interpolated normals otherwise than light that is followed backwards
+// (E. Veach, thesis, 5.3.2). `in` is where it comes from.
+float adjoint_factor(const LightTransport::Vertex& vertex, const glm::vec3& in, const glm::vec3& out) {
+    const glm::vec3& smooth = vertex.frame.normal;
+    const glm::vec3& facet = vertex.point.geometric_normal;
+    return std::abs(glm::dot(in, smooth) * glm::dot(out, facet)) /
+           (away_from_zero(glm::dot(in, facet)) * away_from_zero(glm::dot(out, smooth)));
+}
+
+}  // namespace
+
+VirtualLights::VirtualLights(const LightTransport& transport, const PacketMaterials& materials,
+                             const VirtualLightOptions& options, const RayPicture& picture, std::uint64_t key)
+    : transport_(transport), materials_(materials), options_(options), key_(key) {
+    if (transport_.lights().empty()) return;
+    find_camera_points(picture);
+    plan_photons();
+}
+
+void VirtualLights::find_camera_points(const RayPicture& picture) {
+    std::vector<float> distances;
+    int found = 0;
+    for (int i = 0; i < kCameraPoints; ++i) {
+        Sampler sampler(mix_bits(key_ ^ kOfCameraPoints), static_cast<std::uint32_t>(i));
+        const glm::vec2 at = sampler.next_2d();
+        const glm::dvec3 ray =
+            picture.ray(at.x * static_cast<float>(picture.width), at.y * static_cast<float>(picture.height));
+        auto segment = LightTransport::camera_segment(glm::vec3(picture.centre), glm::vec3(glm::normalize(ray)));
+        MediumStack media;
+        glm::vec3 throughput(1.0F), ignored(0.0F);
+        SurfacePoint point;
+        for (int mirrors = 0; mirrors <= kMostMirrors; ++mirrors) {
+            if (transport_.meet(segment, media, throughput, ignored, point) != LightTransport::Met::kSurface) break;
+            const Vertex vertex = transport_.vertex_at(point, segment.direction);
+            const bool specular = vertex.surface.is_specular();
+            if (!specular) {
+                const auto lane = static_cast<std::size_t>(found++) % kLanes;
+                if (lane == 0) camera_points_.emplace_back();
+                camera_points_.back().packet.set(lane, vertex, materials_);
+                camera_points_.back().throughput[lane] = throughput;
+            }
+            SurfaceSample drawn;
+            const float lobe = sampler.next_2d().x;
+            if (!vertex.surface.sample(lobe, specular ? glm::vec2(0.0F) : sampler.next_2d(), drawn)) break;
+            throughput *= drawn.weight;
+            segment = transport_.segment_from(vertex, drawn);
+            if (!specular) {
+                if (transport_.rays().intersect(segment.origin, segment.direction, 0.0F, point)) {
+                    distances.push_back(point.distance);
+                }
+                break;
+            }
+            if (vertex.surface.passes(drawn)) media.cross(transport_.material_of(point), point.front_side);
+        }
+    }
+    find_bound(std::move(distances));
+}
+
+void VirtualLights::find_bound(std::vector<float> distances) {
+    const glm::vec3 diagonal = transport_.rays().upper() - transport_.rays().lower();
+    float reach = glm::length(diagonal) / 2;
+    if (!distances.empty()) {
+        const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+        std::nth_element(distances.begin(), middle, distances.end());
+        reach = std::min(reach, *middle);
+    }
+    bound_ = kBound / std::max(reach * reach, 1e-12F);
+}
+
+// How many photons give as many virtual lights as are wanted, and what one brings. The same for every group.
+void VirtualLights::plan_photons() {
+    PacketLight scratch(transport_.rays(), materials_);
+    std::vector<float> importance;
+    double sum = 0;
+    int photons = 0, useful = 0;
+    const bool by_importance = options_.importance && !camera_points_.empty();
+    do {
+        std::vector<VirtualLight> found;
+        for (const int end = photons + kPilotPhotons; photons < end; ++photons) {
+            Sampler sampler(mix_bits(key_ ^ kOfPilot), static_cast<std::uint32_t>(photons));
+            follow_photon(0.0F, sampler, found);
+        }
+        for (const VirtualLight& light : found) {
+            importance.push_back(by_importance ? importance_of(light, scratch) : 0.0F);
+            sum += static_cast<double>(importance.back());
+            useful += importance.back() > 0.0F;
+        }
+    } while (by_importance && useful < kPilotLights && photons < kMostPhotons);
+
+    double kept = static_cast<double>(importance.size());
+    if (sum > 0) {
+        mean_importance_ = static_cast<float>(sum / static_cast<double>(importance.size()));
+        kept = 0;
+        for (const float c : importance) kept += std::min(static_cast<double>(c / mean_importance_ + kLeastKept), 1.0);
+    }
+    const double wanted = options_.lights_of_group * photons / std::max(kept, 1.0);
+    photons_ = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(kMostPhotons)));
+}
+
+void VirtualLights::follow_photon(float time, Sampler& sampler, std::vector<VirtualLight>& lights) const {
+    const glm::vec2 source = sampler.next_2d();
+    const glm::vec2 place = sampler.next_2d();
+    const auto photon = transport_.lights().emit(source.x, place, sampler.next_2d());
+    if (!photon) return;
+    LightTransport::Segment segment{photon->origin + photon->normal * transport_.rays().step_off(), photon->direction,
+                                    time};
+    MediumStack media;
+    glm::vec3 flux(0.0F);
+    for (int depth = 1; depth < options_.max_bounces; ++depth) {
+        SurfacePoint point;
+        if (!transport_.rays().intersect(segment.origin, segment.direction, time, point)) return;
+        if (transport_.rays().ask_primitives(segment.origin, segment.direction, point.distance)) return;
+        if (depth == 1) flux = photon->flux_at(point.position);
+        flux *= media.passed(point.distance);
+        if (!(max_component(flux) > 0.0F)) return;
+        const Material& material = transport_.material_of(point);
+        if (!point.front_side && material.is_one_sided()) return;
+
+        const Vertex vertex = transport_.vertex_at(point, segment.direction);
+        const glm::vec3 in = -segment.direction;
+        if (!vertex.surface.is_specular()) {
+            const float bent = std::abs(glm::dot(in, vertex.frame.normal)) /
+                               away_from_zero(glm::dot(in, vertex.point.geometric_normal));
+            lights.push_back(materials_.virtual_light(vertex, flux * bent, depth));
+        }
+        SurfaceSample drawn;
+        if (!vertex.surface.sample(sampler.next_2d().x, sampler.next_2d(), drawn)) return;
+        segment = transport_.segment_from(vertex, drawn);
+        glm::vec3 weight = drawn.weight;
+        if (!drawn.specular) weight *= adjoint_factor(vertex, in, segment.direction);
+        if (vertex.surface.passes(drawn)) media.cross(material, point.front_side);
+        const float survival = std::min(1.0F, max_component(weight));
+        if (!(sampler.next_2d().x < survival)) return;
+        flux *= weight / survival;
+    }
+}
+
+std::vector<VirtualLight> VirtualLights::group(int number, float time) const {
+    std::vector<VirtualLight> kept;
+    if (transport_.lights().empty()) return kept;
+    PacketLight scratch(transport_.rays(), materials_);
+    for (int i = 0; i < photons_; ++i) {
+        // One sequence for all groups, so that their photons are stratified together.
+        Sampler sampler(mix_bits(key_ ^ kOfGroups), static_cast<std::uint32_t>(number * photons_ + i));
+        std::vector<VirtualLight> found;
+        follow_photon(time, sampler, found);
+        for (VirtualLight& light : found) {
+            if (mean_importance_ > 0.0F) {
+                const float importance = importance_of(light, scratch);
+                const float chance = std::min(importance / mean_importance_ + kLeastKept, 1.0F);
+                if (!(sampler.next_2d().x < chance)) continue;
+                light.flux /= chance;
+            }
+            light.flux /= static_cast<float>(photons_);
+            kept.push_back(light);
+        }
+    }
+    return kept;
+}
+
+float VirtualLights::importance_of(const VirtualLight& light, PacketLight& scratch) const {
+    float sum = 0.0F;
+    for (const CameraPoints& points : camera_points_) {
+        scratch.begin(points.packet);
+        scratch.add_virtual(light, bound_, points.packet);
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            if (points.packet.lit[lane] != 0) sum += luminance(points.throughput[lane] * scratch.sent(lane));
+        }
+    }
+    return sum;
+}
+
+}  // namespace rs::capture
