@@ -1,5 +1,6 @@
 #include "compositor/traced/traced_renderer.hpp"
 
+#include "capture/tracer/integrator/discontinuity_filter.hpp"
 #include "capture/tracer/integrator/light_probe.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "compositor/scene/light/raster_lights.hpp"
@@ -126,6 +127,14 @@ void TracedRenderer::begin(const Camera& camera) {
 capture::RenderOptions TracedRenderer::render_options(const Camera& camera) const {
     capture::RenderOptions render = render_;
     if (options_.lens) render.lens = options_.lens->of(camera);
+    if (render.part && render.method == TracedMethod::kRadiosity) {
+        // What the filter takes into account beyond its edges.
+        auto& [x0, y0, x1, y1] = *render.part;
+        x0 -= capture::kFilterReach_px;
+        y0 -= capture::kFilterReach_px;
+        x1 += capture::kFilterReach_px;
+        y1 += capture::kFilterReach_px;
+    }
     return render;
 }
 
@@ -181,7 +190,7 @@ Image<RgbaF> TracedRenderer::probe(const glm::dvec3& place, int samples, Progres
 }
 
 Image<Rgba8> TracedRenderer::picture() const {
-    return shown(sum_.mean());
+    return shown(capture::filtered_mean(sum_));
 }
 
 Image<Rgba8> TracedRenderer::shown(Image<RgbaF> radiance) const {

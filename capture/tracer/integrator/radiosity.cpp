@@ -83,6 +83,7 @@ void RadiosityTracer::Way::begin(CameraRay& from, Arrived& into, float at) {
     media = {};
     throughput = glm::vec3(1.0F);
     gathered_cos = 0.0F;
+    distance = 0.0F;
 }
 
 void RadiosityTracer::trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
@@ -148,6 +149,11 @@ void RadiosityTracer::meet(Way& way, bool hit, const SurfacePoint& point, int bo
     CameraRay* const ray = std::exchange(way.ray, nullptr);
     if (met != Met::kSurface || bounce == options_.max_bounces) return;
     way.vertex.emplace(transport_.vertex_at(point, way.segment.direction));
+    way.distance += point.distance;
+    if (!way.arrived->guided && !way.vertex->surface.is_specular()) {
+        way.arrived->guided = true;
+        way.arrived->guide = {point.position, way.vertex->frame.normal, way.vertex->surface.colour(), way.distance};
+    }
     if (way.gathered_cos > 0.0F && !way.vertex->surface.is_specular()) {
         // The rest goes on as a path, by roulette.
         const float cos_facet = std::abs(glm::dot(point.geometric_normal, way.segment.direction));

@@ -44,6 +44,8 @@ public:
                glm::vec3& radiance) const override;
     void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override;
 
+    [[nodiscard]] bool gives_guides() const override { return true; }
+
     // Of the passes that are ready.
     [[nodiscard]] std::size_t light_count() const;
 
@@ -60,6 +62,7 @@ private:
         // Where virtual lights stand for what the segment would find on a surface, up to their bound: the cosine at its
         // beginning; else 0.
         float gathered_cos = 0.0F;
+        float distance = 0.0F;  // so far
 
         void begin(CameraRay& from, Arrived& into, float at);
     };

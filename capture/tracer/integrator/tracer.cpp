@@ -214,12 +214,14 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
     RS_CHECK(options.filter_radius_px > 0.0F && options.filter_radius_px <= 0.5F);
     RS_CHECK(options.max_bounces >= 0 && count >= 1);
     RS_CHECK(into.samples == 0 || (into.sum.width() == rays.width && into.sum.height() == rays.height));
-    Image<RgbaF> sum = into.samples == 0 ? Image<RgbaF>(rays.width, rays.height) : into.sum;
+    Accumulation sum = into;
+    if (into.samples == 0) sum.sum = Image<RgbaF>(rays.width, rays.height);
 
     const LightTransport transport(state_->scene, *state_->rays, *state_->lights, state_->models,
                                    {options.see_areas, options.see_environment});
     const std::unique_ptr<const Integrator> integrator =
         make_integrator(transport, rays, frame.key, options, into.samples, count);
+    if (into.samples == 0 && integrator->gives_guides()) sum.guides = Image<GuideSum>(rays.width, rays.height);
     const PixelRectangle visible = options.part ? overlap(frame.visible, *options.part) : frame.visible;
     const bool blurred = state_->rays->blurred();
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);
@@ -250,32 +252,16 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
             for (const glm::ivec2& p : pixels) many.push_back(camera_ray(p.x, p.y, s));
             integrator->trace_many(many, arrived);
             for (std::size_t i = 0; i < pixels.size(); ++i) {
-                if (!arrived[i].met) continue;
-                RgbaF& pixel = sum(pixels[i].x, pixels[i].y);
-                pixel.r += arrived[i].radiance.r;
-                pixel.g += arrived[i].radiance.g;
-                pixel.b += arrived[i].radiance.b;
-                pixel.a += 1.0F;
+                if (arrived[i].met) sum.add(pixels[i].x, pixels[i].y, arrived[i]);
             }
         }
         if (progress != nullptr) progress->advance(1);
     };
     for_each_index(step_count(rays), options.threads, add_tile);
     if (stop != nullptr && *stop) return false;
-    into.sum = std::move(sum);
+    into = std::move(sum);
     into.samples += count;
     return true;
-}
-
-Image<RgbaF> Accumulation::mean() const& {
-    return Accumulation(*this).mean();
-}
-
-Image<RgbaF> Accumulation::mean() && {
-    for (RgbaF& s : sum.pixels()) {
-        if (s.a > 0.0F) s = {s.r / s.a, s.g / s.a, s.b / s.a, s.a / static_cast<float>(samples)};
-    }
-    return std::move(sum);
 }
 
 const std::vector<Light>& Tracer::lights() const {

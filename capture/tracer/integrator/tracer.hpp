@@ -6,6 +6,7 @@
 // The same scene, camera and options give the same bytes, whatever the number of threads. Source: J. Kajiya, "The
 // Rendering Equation", 1986; E. Veach's thesis, 1997, for multiple importance sampling.
 
+#include "capture/tracer/integrator/accumulation.hpp"
 #include "capture/tracer/integrator/ray_picture.hpp"
 #include "capture/tracer/scene/scene.hpp"
 #include "capture/tracer/scene/toon_style.hpp"
@@ -57,16 +58,6 @@ struct Rendering {
     Image<RgbaF> picture;  // linear light, straight alpha = share of camera rays that hit a surface
     // Axial, of the first surface through the pixel's centre at time 0; 0 = none; empty if not asked for.
     Image<float> depth;
-};
-
-// A picture that gains samples: sums, so that passes of one sample each and one pass of as many give the same bits.
-struct Accumulation {
-    Image<RgbaF> sum;  // radiance of the camera rays that met a surface; alpha counts them
-    int samples = 0;   // of each pixel so far
-
-    // Linear light, straight alpha = share of camera rays that hit a surface.
-    [[nodiscard]] Image<RgbaF> mean() const&;
-    [[nodiscard]] Image<RgbaF> mean() &&;
 };
 
 class Integrator;

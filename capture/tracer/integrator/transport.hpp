@@ -4,6 +4,7 @@
 //
 // Radiance is not scaled by the squared index of refraction inside glass: all lights are outside, where it cancels.
 
+#include "capture/tracer/integrator/accumulation.hpp"
 #include "capture/tracer/integrator/medium_stack.hpp"
 #include "capture/tracer/integrator/sampler.hpp"
 #include "capture/tracer/integrator/surface.hpp"
@@ -31,12 +32,6 @@ struct CameraRay {
     Sampler sampler;
     unsigned place = 0;  // of its pixel within a square of 4 x 4, row by row
 };
-// What arrived along it.
-struct Arrived {
-    glm::vec3 radiance{0.0F};
-    bool met = false;
-};
-
 // The light that arrives along one ray of a picture.
 class Integrator {
 public:
@@ -52,6 +47,9 @@ public:
     virtual void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
         trace_one_by_one(rays, arrived);
     }
+
+    // Whether it says what the first rough surface of each ray is.
+    [[nodiscard]] virtual bool gives_guides() const { return false; }
 
 protected:
     void trace_one_by_one(std::span<CameraRay> rays, std::span<Arrived> arrived) const {

@@ -19,7 +19,7 @@ inline constexpr int kMostMirrors = 8;  // that are followed for certain
 
 struct VirtualLightOptions {
     int max_bounces = 16;      // as RenderOptions has it
-    int lights_of_group = 24;  // that are kept, about
+    int lights_of_group = 48;  // that are kept, about
     bool importance = true;    // else all are kept
 };
 

@@ -70,8 +70,8 @@ bool light_from_point(const PointLight& light, const Lanes3& places, const MaskL
 // That of an area.
 bool light_from_area(const AreaLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives);
 
-// That of a virtual light: the geometry term, both cosines over squared distance, is cut down to `bound`. The twin is
-// RadiosityTracer::arriving().
+// That of a virtual light: the geometry term, both cosines over squared distance, is cut down to `bound`. The twin
+// stands beside its test.
 bool light_from_virtual(const VirtualLight& light, float bound, const float* tables, const SurfaceLanes& surfaces,
                         const MaskLanes& wanted, LightLanes& arrives);
 

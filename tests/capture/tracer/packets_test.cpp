@@ -1,5 +1,6 @@
 // Rays in packets beside single rays: the same bits, on what stands still, moves, has holes, mirrors and refracts.
 
+#include "capture/tracer/integrator/gather_packet.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 #include "tests/support/random.hpp"
@@ -13,6 +14,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace rs::capture::test {
 namespace {
@@ -260,6 +263,88 @@ TEST(Packets, OfWhittedGiveTheBitsOfSingleRays) {
     }
 }
 
+// One virtual light, one vertex.
+std::optional<LightSample> light_from(const LightTransport::Vertex& from, const glm::vec3& flux, float bound,
+                                      const LightTransport::Vertex& to) {
+    const glm::vec3 facet = from.point.geometric_normal;
+    const glm::vec3 place = to.start_of(to.point.geometric_normal, true);
+    glm::vec3 target = from.start_of(facet, true);
+    if (from.thin) {
+        const float side = glm::dot(place - from.point.position, facet);
+        target = from.point.position + facet * std::copysign(from.step_off, side);
+    }
+    const glm::vec3 way = target - place;
+    const float distance2 = glm::dot(way, way);
+    if (!(distance2 > 0.0F)) return std::nullopt;
+    const float distance = std::sqrt(distance2);
+    const glm::vec3 direction = way / distance;
+    const float cos_facet = glm::dot(facet, -direction), cosine = glm::dot(direction, to.frame.normal);
+    if (!from.thin && !(cos_facet > 0.0F)) return std::nullopt;
+    if (!to.thin && !(cosine > 0.0F)) return std::nullopt;
+    float geometry = std::abs(cos_facet) / distance2;
+    const float with_cosine = geometry * std::abs(cosine);
+    if (with_cosine > bound) geometry *= bound / with_cosine;
+    const glm::vec3 radiance = from.surface.sent(from.frame.to_local(-direction)) * flux * geometry;
+    if (!(max_component(radiance) > 0.0F)) return std::nullopt;
+    return LightSample{direction, distance, radiance, 1.0F, true};
+}
+
+void expect_virtual_lights_give_the_bits_of_their_twin(const Scene& scene) {
+    const auto rays = RayScene::create(scene);
+    ASSERT_TRUE(rays);
+    const LightSet lights(scene, {}, {glm::vec3(0), 6.0F});
+    const auto models = make_surface_models(scene.materials);
+    const LightTransport transport(scene, *rays, lights, models);
+    const PacketMaterials materials(scene, models);
+    rs::test::Random random(9);
+    const auto number = [&](double low, double high) { return static_cast<float>(random.real(low, high)); };
+    std::vector<LightTransport::Vertex> vertices;
+    while (vertices.size() < 400) {
+        const glm::vec3 from(number(-3, 3), number(0, 3), number(2, 6));
+        const glm::vec3 at(number(-3, 3), number(-1, 1), number(-3, 3));
+        SurfacePoint point;
+        if (!rays->intersect(from, glm::normalize(at - from), 0.0F, point)) continue;
+        const LightTransport::Vertex vertex = transport.vertex_at(point, glm::normalize(at - from));
+        if (!vertex.surface.is_specular()) vertices.push_back(vertex);
+    }
+    const glm::vec3 flux(0.9F, 0.5F, 0.3F);
+    constexpr float kBound = 0.2F;
+    int lit = 0, dark = 0, bounded = 0;
+    for (std::size_t first = 0; first < vertices.size(); first += kLanes) {
+        GatherPacket packet;
+        for (std::size_t lane = 0; lane < kLanes; ++lane) packet.set(lane, vertices[first + lane], materials);
+        packet.lit[3] = 0;
+        for (std::size_t from = 0; from < vertices.size(); from += 3) {
+            LightLanes arrives;
+            const VirtualLight light = materials.virtual_light(vertices[from], flux, 1);
+            const bool some =
+                light_from_virtual(light, kBound, materials.tables(), packet.surfaces, packet.lit, arrives);
+            bool some_expected = false;
+            for (std::size_t lane = 0; lane < kLanes; ++lane) {
+                SCOPED_TRACE(std::to_string(from) + " to " + std::to_string(first + lane));
+                const auto twin = light_from(vertices[from], flux, kBound, vertices[first + lane]);
+                const bool expected = twin && lane != 3;
+                ASSERT_EQ(expected, arrives.lit[lane] != 0);
+                ++(expected ? lit : dark);
+                some_expected = some_expected || expected;
+                if (!expected) continue;
+                ASSERT_EQ(twin->direction, arrives.direction.at(lane));
+                ASSERT_EQ(twin->distance, arrives.distance[lane]);
+                ASSERT_EQ(twin->radiance, arrives.radiance.at(lane));
+                bounded += twin->radiance != light_from(vertices[from], flux, 1e9F, vertices[first + lane])->radiance;
+            }
+            ASSERT_EQ(some, some_expected);
+        }
+    }
+    EXPECT_GT(lit, 5000);
+    EXPECT_GT(dark, 5000);
+    EXPECT_GT(bounded, 500);
+}
+
+TEST(Packets, OfVirtualLightsGiveTheBitsOfTheirTwin) {
+    expect_virtual_lights_give_the_bits_of_their_twin(scene_of_all_details());
+}
+
 TEST(Packets, GiveTheSameBitsOnEveryTarget) {
     const Scene scene = scene_of_all_details();
     std::int64_t targets = hwy::SupportedTargets();
@@ -271,6 +356,7 @@ TEST(Packets, GiveTheSameBitsOnEveryTarget) {
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
         expect_whitted_gives_the_bits_of_single_rays(scene, 0.3F, {true, true}, false);
+        expect_virtual_lights_give_the_bits_of_their_twin(scene);
     }
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());

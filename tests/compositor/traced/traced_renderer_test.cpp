@@ -153,6 +153,30 @@ Scene moving_room() {
     return scene;
 }
 
+TEST(TracedRenderer, PartsHaveTheBytesOfTheWhole) {
+    auto renderer = renderer_of(small_room());
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 280);
+    camera.height = 240;
+    for (const NamedMethod& named : kTracedMethods) {
+        SCOPED_TRACE(named.name);
+        const auto traced = [&](const capture::PixelRectangle& part) {
+            renderer->set_method(named.method);
+            renderer->set_part(part);
+            renderer->look(camera);
+            for (int pass = 0; pass < 2; ++pass) EXPECT_TRUE(renderer->add_pass());
+            return renderer->picture();
+        };
+        const Image<Rgba8> whole = traced({0, 0, 280, 240});
+        for (const capture::PixelRectangle& part : {capture::PixelRectangle{96, 64, 160, 128}, {240, 0, 280, 64}}) {
+            const Image<Rgba8> alone = traced(part);
+            for (int y = part.y0; y < part.y1; ++y) {
+                for (int x = part.x0; x < part.x1; ++x) ASSERT_EQ(whole(x, y), alone(x, y)) << x << " " << y;
+            }
+        }
+    }
+}
+
 TEST(TracedRoom, WhatMayMoveIsAPartThatNodesShare) {
     Scene scene = moving_room();
     scene.geometry.push_back(scene.geometry[3]);
