@@ -108,7 +108,7 @@ show_room() {
       "$BIN/rs-view" "$world/showroom.wrl" --viewpoint "$view" -o "$OUT/showroom-$view.png"
   done
   step "showroom: evening, traced" "$OUT/showroom-evening.png" "$BIN/rs-view" "$world/showroom.wrl" --viewpoint table \
-    --lights "$world/evening.json" --exposure 3 --renderer radiosity --passes 12 --size 800x450 -o "$OUT/showroom-evening.png"
+    --lights "$world/evening.json" --exposure 3 --renderer radiosity --passes 4 --size 800x450 -o "$OUT/showroom-evening.png"
   step "showroom: quilt" "$OUT/showroom_qs5x9a0.75.png" "$BIN/rs-view" "$world/showroom.wrl" --viewpoint table --quilt 5x9 \
     -o "$OUT/showroom.png"
   step "showroom: walk" "$OUT/showroom-walk.mp4" "$BIN/rs-view" "$world/showroom.wrl" \

@@ -39,22 +39,37 @@ void Refinement::begin(const Camera& camera, TracedMethod method) {
 }
 
 void Refinement::set_lights(Lighting lighting) {
-    const std::lock_guard lock(mutex_);
-    lighting_ = std::move(lighting);
-    wanted_.reset();
-    drop_view();
+    {
+        const std::lock_guard lock(mutex_);
+        lighting_ = std::move(lighting);
+        wanted_.reset();
+        drop_view();
+    }
+    changed_.notify_all();
 }
 
 void Refinement::end() {
-    const std::lock_guard lock(mutex_);
-    wanted_.reset();
-    newest_.reset();
-    stop_ = true;
+    {
+        const std::lock_guard lock(mutex_);
+        wanted_.reset();
+        newest_.reset();
+        stop_ = true;
+    }
+    changed_.notify_all();
 }
 
 std::optional<Refinement::Step> Refinement::take() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(newest_, std::nullopt);
+    {
+        const std::lock_guard lock(mutex_);
+        if (newest_) {
+            first_is_taken_ = true;
+            return std::exchange(newest_, std::nullopt);
+        }
+        if (!first_is_taken_ || first_is_drawn_) return std::nullopt;
+        first_is_drawn_ = true;
+    }
+    changed_.notify_all();
+    return std::nullopt;
 }
 
 std::optional<Error> Refinement::failure() {
@@ -64,11 +79,14 @@ std::optional<Error> Refinement::failure() {
 
 void Refinement::publish(Image<Rgba8> picture, const Camera& camera, int passes) {
     auto shared = std::make_shared<const Image<Rgba8>>(std::move(picture));
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     const bool outdated = wanted_ || lighting_;
     if (!stop_) newest_ = Step{std::move(shared), camera, outdated ? 0 : passes};
-    first_is_out_ = true;
+    const bool first = !std::exchange(first_is_out_, true);
     if (outdated) stop_ = true;
+    if (!first) return;
+    first_is_taken_ = first_is_drawn_ = false;
+    changed_.wait(lock, [this] { return stop_ || leaving_ || wanted_ || lighting_ || first_is_drawn_; });
 }
 
 void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {

@@ -43,7 +43,8 @@ public:
         Camera camera;
         int passes = 0;  // 0: of a coarse grid, or the first picture of a view that was begun before the last
     };
-    // The newest picture; nothing where there is none since the last call.
+    // The newest picture; nothing where there is none since the last call. After the first picture of a view tracing
+    // goes on with the call after that which has taken it, so that the processors are free to draw it.
     std::optional<Step> take();
     // Why there will be no pictures; nothing where there will.
     [[nodiscard]] std::optional<Error> failure();
@@ -65,7 +66,9 @@ private:
     std::optional<Step> newest_;
     std::optional<Error> failure_;
     bool leaving_ = false;
-    bool first_is_out_ = true;  // the first picture of what is under way
+    bool first_is_out_ = true;  // the first picture of what is under way,
+    bool first_is_taken_ = true;
+    bool first_is_drawn_ = true;
     Clock clock_;
     FirstGrid grid_;  // of the thread
     std::atomic<bool> stop_{false};

@@ -1,5 +1,7 @@
 #include "capture/tracer/integrator/virtual_lights.hpp"
 
+#include "rayspace/base/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -93,32 +95,51 @@ void VirtualLights::find_bound(std::vector<float> distances) {
 
 // How many photons give as many virtual lights as are wanted, and what one brings. The same for every group.
 void VirtualLights::plan_photons() {
-    PacketLight scratch(transport_.rays(), materials_);
-    std::vector<float> importance;
+    std::vector<Found> found;
     double sum = 0;
     int photons = 0, useful = 0;
-    const bool by_importance = options_.importance && !camera_points_.empty();
     do {
-        std::vector<VirtualLight> found;
-        for (const int end = photons + kPilotPhotons; photons < end; ++photons) {
-            Sampler sampler(mix_bits(key_ ^ kOfPilot), static_cast<std::uint32_t>(photons));
-            follow_photon(0.0F, sampler, found);
+        for (const Found& light : lights_of(kOfPilot, photons, kPilotPhotons, 0.0F)) {
+            sum += static_cast<double>(light.importance);
+            useful += light.importance > 0.0F;
+            found.push_back(light);
         }
-        for (const VirtualLight& light : found) {
-            importance.push_back(by_importance ? importance_of(light, scratch) : 0.0F);
-            sum += static_cast<double>(importance.back());
-            useful += importance.back() > 0.0F;
-        }
-    } while (by_importance && useful < kPilotLights && photons < kMostPhotons);
+        photons += kPilotPhotons;
+    } while (by_importance() && useful < kPilotLights && photons < kMostPhotons);
 
-    double kept = static_cast<double>(importance.size());
+    double kept = static_cast<double>(found.size());
     if (sum > 0) {
-        mean_importance_ = static_cast<float>(sum / static_cast<double>(importance.size()));
+        mean_importance_ = static_cast<float>(sum / static_cast<double>(found.size()));
         kept = 0;
-        for (const float c : importance) kept += std::min(static_cast<double>(c / mean_importance_ + kLeastKept), 1.0);
+        for (const Found& light : found) {
+            kept += std::min(static_cast<double>(light.importance / mean_importance_ + kLeastKept), 1.0);
+        }
     }
     const double wanted = options_.lights_of_group * photons / std::max(kept, 1.0);
     photons_ = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(kMostPhotons)));
+}
+
+std::vector<VirtualLights::Found> VirtualLights::lights_of(std::uint64_t sequence, std::int64_t first, int count,
+                                                           float time) const {
+    constexpr int kAtOnce = 32;
+    const int chunks = (count + kAtOnce - 1) / kAtOnce;
+    std::vector<std::vector<Found>> of_chunk(static_cast<std::size_t>(chunks));
+    for_each_index(chunks, 0, [&](std::int64_t chunk) {
+        PacketLight scratch(transport_.rays(), materials_);
+        std::vector<VirtualLight> lights;
+        for (std::int64_t i = chunk * kAtOnce; i < std::min<std::int64_t>((chunk + 1) * kAtOnce, count); ++i) {
+            Sampler sampler(mix_bits(key_ ^ sequence), static_cast<std::uint32_t>(first + i));
+            lights.clear();
+            follow_photon(time, sampler, lights);
+            for (const VirtualLight& light : lights) {
+                const float importance = by_importance() ? importance_of(light, scratch) : 0.0F;
+                of_chunk[static_cast<std::size_t>(chunk)].push_back({light, importance, sampler.next_2d().x});
+            }
+        }
+    });
+    std::vector<Found> all;
+    for (const auto& found : of_chunk) all.insert(all.end(), found.begin(), found.end());
+    return all;
 }
 
 void VirtualLights::follow_photon(float time, Sampler& sampler, std::vector<VirtualLight>& lights) const {
@@ -162,22 +183,15 @@ void VirtualLights::follow_photon(float time, Sampler& sampler, std::vector<Virt
 std::vector<VirtualLight> VirtualLights::group(int number, float time) const {
     std::vector<VirtualLight> kept;
     if (transport_.lights().empty()) return kept;
-    PacketLight scratch(transport_.rays(), materials_);
-    for (int i = 0; i < photons_; ++i) {
-        // One sequence for all groups, so that their photons are stratified together.
-        Sampler sampler(mix_bits(key_ ^ kOfGroups), static_cast<std::uint32_t>(number * photons_ + i));
-        std::vector<VirtualLight> found;
-        follow_photon(time, sampler, found);
-        for (VirtualLight& light : found) {
-            if (mean_importance_ > 0.0F) {
-                const float importance = importance_of(light, scratch);
-                const float chance = std::min(importance / mean_importance_ + kLeastKept, 1.0F);
-                if (!(sampler.next_2d().x < chance)) continue;
-                light.flux /= chance;
-            }
-            light.flux /= static_cast<float>(photons_);
-            kept.push_back(light);
+    // One sequence for all groups, so that their photons are stratified together.
+    for (Found& found : lights_of(kOfGroups, static_cast<std::int64_t>(number) * photons_, photons_, time)) {
+        if (mean_importance_ > 0.0F) {
+            const float chance = std::min(found.importance / mean_importance_ + kLeastKept, 1.0F);
+            if (!(found.chosen < chance)) continue;
+            found.light.flux /= chance;
         }
+        found.light.flux /= static_cast<float>(photons_);
+        kept.push_back(found.light);
     }
     return kept;
 }

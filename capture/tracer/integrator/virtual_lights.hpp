@@ -47,8 +47,16 @@ private:
     void find_bound(std::vector<float> distances);
     void plan_photons();
     void follow_photon(float time, Sampler& sampler, std::vector<VirtualLight>& lights) const;
+    // Of the photons first <= i < first + count of a sequence, in their order; in parallel.
+    struct Found {
+        VirtualLight light;
+        float importance = 0.0F;  // where it counts
+        float chosen = 0.0F;      // a random number for whether it is kept
+    };
+    [[nodiscard]] std::vector<Found> lights_of(std::uint64_t sequence, std::int64_t first, int count, float time) const;
     // What the camera points get, visibility included; luminance.
     [[nodiscard]] float importance_of(const VirtualLight& light, PacketLight& scratch) const;
+    [[nodiscard]] bool by_importance() const { return options_.importance && !camera_points_.empty(); }
 
     const LightTransport& transport_;
     const PacketMaterials& materials_;

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <thread>
 
 namespace rs::compositor {
@@ -40,6 +41,28 @@ TEST(Refinement, GoesFromCoarseToFineAndBeginsAnew) {
     EXPECT_EQ(other->width(), 20);
     refinement.end();
     EXPECT_FALSE(refinement.failure());
+}
+
+TEST(Refinement, WaitsWhileTheFirstPictureIsDrawn) {
+    Refinement refinement([] { return renderer_of(small_room()); });
+    refinement.begin(looking_from({3, 2, 4}, {0, 0.4, 0}, 50));
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    const auto next = [&] {
+        std::optional<Refinement::Step> step;
+        while (!step && std::chrono::steady_clock::now() < patience) step = refinement.take();
+        return step;
+    };
+    ASSERT_TRUE(next());
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // it is drawn
+    EXPECT_FALSE(refinement.take());
+    EXPECT_TRUE(next());
+    // Another view, and the end, need not wait for that.
+    refinement.begin(looking_from({0, 5, 0.1}, {0, 0, 0}, 20));
+    ASSERT_TRUE(next());
+    refinement.begin(looking_from({0, 5, 0.1}, {0, 0, 0}, 30));
+    std::optional<Refinement::Step> step = next();
+    while (step && step->camera.width != 30) step = next();
+    EXPECT_TRUE(step);
 }
 
 TEST(Refinement, ChangesItsLightWithoutANewTracer) {
