@@ -1,7 +1,7 @@
 #include "compositor/traced/traced_renderer.hpp"
 
-#include "capture/tracer/integrator/discontinuity_filter.hpp"
 #include "capture/tracer/integrator/light_probe.hpp"
+#include "capture/tracer/picture/discontinuity_filter.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "compositor/scene/light/raster_lights.hpp"
 #include "compositor/traced/object_rays.hpp"

@@ -18,9 +18,9 @@
 
 #include "capture/tracer/integrator/gather_packet.hpp"
 #include "capture/tracer/integrator/packet_materials.hpp"
-#include "capture/tracer/integrator/ray_picture.hpp"
 #include "capture/tracer/integrator/transport.hpp"
 #include "capture/tracer/integrator/virtual_lights.hpp"
+#include "capture/tracer/picture/ray_picture.hpp"
 
 #include <array>
 #include <cstdint>

@@ -6,8 +6,8 @@
 // The same scene, camera and options give the same bytes, whatever the number of threads. Source: J. Kajiya, "The
 // Rendering Equation", 1986; E. Veach's thesis, 1997, for multiple importance sampling.
 
-#include "capture/tracer/integrator/accumulation.hpp"
-#include "capture/tracer/integrator/ray_picture.hpp"
+#include "capture/tracer/picture/accumulation.hpp"
+#include "capture/tracer/picture/ray_picture.hpp"
 #include "capture/tracer/scene/scene.hpp"
 #include "capture/tracer/scene/toon_style.hpp"
 #include "rayspace/base/progress.hpp"

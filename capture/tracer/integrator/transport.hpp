@@ -4,12 +4,12 @@
 //
 // Radiance is not scaled by the squared index of refraction inside glass: all lights are outside, where it cancels.
 
-#include "capture/tracer/integrator/accumulation.hpp"
 #include "capture/tracer/integrator/medium_stack.hpp"
 #include "capture/tracer/integrator/sampler.hpp"
 #include "capture/tracer/integrator/surface.hpp"
 #include "capture/tracer/light/directions.hpp"
 #include "capture/tracer/light/light_set.hpp"
+#include "capture/tracer/picture/accumulation.hpp"
 #include "capture/tracer/rays/ray_scene.hpp"
 
 #include <cstddef>

@@ -7,8 +7,8 @@
 // Iterative Importance Sampling of Virtual Point Lights", Eurographics 2010).
 
 #include "capture/tracer/integrator/gather_packet.hpp"
-#include "capture/tracer/integrator/ray_picture.hpp"
 #include "capture/tracer/integrator/transport.hpp"
+#include "capture/tracer/picture/ray_picture.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 // How much of each pixel a scene's surfaces cover: the true alpha of a picture, finer than a picture's own samples.
 
-#include "capture/tracer/integrator/ray_picture.hpp"
+#include "capture/tracer/picture/ray_picture.hpp"
 #include "capture/tracer/rays/ray_scene.hpp"
 
 namespace rs::capture {

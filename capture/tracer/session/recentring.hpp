@@ -3,7 +3,7 @@
 // middle.
 
 #include "capture/calibration/model/picture_place.hpp"
-#include "capture/tracer/integrator/ray_picture.hpp"
+#include "capture/tracer/picture/ray_picture.hpp"
 #include "rayspace/image/image.hpp"
 
 namespace rs::capture {

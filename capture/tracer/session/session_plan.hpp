@@ -6,7 +6,7 @@
 // (0, camera_height, 0) in the scene's coordinates as they are at angle 0.
 
 #include "capture/calibration/model/turntable_model.hpp"
-#include "capture/tracer/integrator/ray_picture.hpp"
+#include "capture/tracer/picture/ray_picture.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
 

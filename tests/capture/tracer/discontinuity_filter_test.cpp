@@ -1,6 +1,6 @@
 // What the filter takes away, what it leaves, and where it goes as samples are added.
 
-#include "capture/tracer/integrator/discontinuity_filter.hpp"
+#include "capture/tracer/picture/discontinuity_filter.hpp"
 #include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>

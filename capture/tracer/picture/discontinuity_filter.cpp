@@ -1,4 +1,4 @@
-#include "capture/tracer/integrator/discontinuity_filter.hpp"
+#include "capture/tracer/picture/discontinuity_filter.hpp"
 
 #include "capture/tracer/light/directions.hpp"
 #include "rayspace/base/parallel.hpp"

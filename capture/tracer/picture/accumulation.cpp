@@ -1,4 +1,4 @@
-#include "capture/tracer/integrator/accumulation.hpp"
+#include "capture/tracer/picture/accumulation.hpp"
 
 #include "capture/tracer/light/directions.hpp"
 

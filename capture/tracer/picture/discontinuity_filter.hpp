@@ -10,7 +10,7 @@
 // before and multiplied by it afterwards. As samples are added the noise falls and less is averaged: pictures go to
 // where their mean goes.
 
-#include "capture/tracer/integrator/accumulation.hpp"
+#include "capture/tracer/picture/accumulation.hpp"
 
 namespace rs::capture {
 
