@@ -25,7 +25,7 @@ static_assert((1 << kLevels) - 1 + kPatternLevels * (static_cast<int>(kPattern.s
               kFilterReach_px);
 // Differences that count as much as one another.
 constexpr float kNormal = 0.3F;      // length
-constexpr float kColour = 0.1F;      // likewise
+constexpr float kColour = 0.4F;      // likewise
 constexpr float kPlane = 0.012F;     // distance from the plane, of that from the camera
 constexpr float kDeviations = 8.0F;  // of the light
 constexpr float kFewSamples = 8.0F;  // where there are more, fewer deviations: noise matters less than what it hides
