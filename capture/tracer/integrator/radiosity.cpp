@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace rs::capture {
@@ -117,25 +116,17 @@ void RadiosityTracer::follow_to_surfaces(Packet& packet, int bounce) const {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const Way& way = packet.ways[lane];
         packet.asked[lane] = way.ray != nullptr ? -1 : 0;
-        packet.met.ray.origin.set(lane, way.segment.origin);
-        packet.met.ray.direction.set(lane, way.segment.direction);
-        packet.met.ray.nearest[lane] = 0.0F;
-        packet.met.ray.time[lane] = way.segment.time;
-        packet.met.ray.reach[lane] = std::numeric_limits<float>::infinity();
-        packet.met.ray.mask[lane] = ~0U;
-        packet.met.hit.mesh[lane] = packet.met.hit.instance[lane] = ~0U;
+        packet.met.begin(lane, way.segment.origin, way.segment.direction, way.segment.time);
     }
     transport_.rays().intersect(packet.asked, packet.met);
-    const HitLanes& hit = packet.met.hit;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         Way& way = packet.ways[lane];
         if (way.ray == nullptr) continue;
-        const bool met = hit.mesh[lane] != ~0U;
+        const bool met = packet.met.has_met(lane);
         SurfacePoint point{};
         if (met) {
-            transport_.rays().surface_at({packet.met.ray.reach[lane], hit.u[lane], hit.v[lane], hit.mesh[lane],
-                                          hit.triangle[lane], hit.instance[lane]},
-                                         way.segment.direction, way.segment.time, point);
+            transport_.rays().surface_at(RayScene::hit_of(packet.met, lane), way.segment.direction, way.segment.time,
+                                         point);
         }
         meet(way, met, point, bounce);
     }

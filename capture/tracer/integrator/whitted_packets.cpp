@@ -6,18 +6,8 @@
 #include "capture/tracer/scene/texture_lookup.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace rs::capture {
-
-namespace {
-
-RayScene::Hit hit_of(const MetLanes& met, std::size_t lane) {
-    const HitLanes& hit = met.hit;
-    return {met.ray.reach[lane], hit.u[lane], hit.v[lane], hit.mesh[lane], hit.triangle[lane], hit.instance[lane]};
-}
-
-}  // namespace
 
 struct WhittedTracer::Packet {
     MaskLanes asked;  // lanes that have a ray
@@ -39,13 +29,9 @@ void WhittedTracer::Packet::take(std::span<const CameraRay> rays) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const CameraRay& from = rays[std::min(lane, rays.size() - 1)];
         asked[lane] = lane < rays.size() ? -1 : 0;
-        met.ray.origin.set(lane, from.origin);
-        met.ray.direction.set(lane, from.direction);
-        met.ray.nearest[lane] = 0.0F;
-        met.ray.time[lane] = shadows.ray.time[lane] = from.time;
-        met.ray.reach[lane] = std::numeric_limits<float>::infinity();
-        met.ray.mask[lane] = shadows.ray.mask[lane] = ~0U;
-        met.hit.mesh[lane] = met.hit.instance[lane] = ~0U;
+        met.begin(lane, from.origin, from.direction, from.time);
+        shadows.ray.time[lane] = from.time;
+        shadows.ray.mask[lane] = ~0U;
         lit[lane] = 0;
     }
     material = {};
@@ -80,7 +66,7 @@ void WhittedTracer::meet(std::span<const CameraRay> rays, std::span<Arrived> arr
     transport_.rays().intersect(packet.asked, packet.met);
     for (std::size_t lane = 0; lane < rays.size(); ++lane) {
         arrived[lane] = {};
-        if (hit.mesh[lane] == ~0U) {
+        if (!packet.met.has_met(lane)) {
             Ray followed{LightTransport::camera_segment(rays[lane].origin, rays[lane].direction, rays[lane].time)};
             arrived[lane].met = transport_.arrive(followed.segment, false, followed.media, followed.throughput,
                                                   arrived[lane].radiance, {}) != LightTransport::Met::kNothing;
@@ -137,7 +123,7 @@ void WhittedTracer::make_ready(Packet& packet) const {
         textured = textured || material.texture != nullptr;
         if (!material.relief) continue;
         SurfacePoint point;
-        transport_.rays().surface_at(hit_of(packet.met, lane), ray.direction.at(lane), ray.time[lane], point);
+        transport_.rays().surface_at(RayScene::hit_of(packet.met, lane), ray.direction.at(lane), ray.time[lane], point);
         surfaces.normal.set(lane, transport_.normal_in_relief(point));
     }
     if (textured) texture_surfaces(textures, surfaces);
@@ -184,7 +170,7 @@ void WhittedTracer::go_on(std::span<CameraRay> rays, std::span<Arrived> arrived,
         if (!packet.goes_on[lane]) continue;
         CameraRay& from = rays[lane];
         SurfacePoint point;
-        transport_.rays().surface_at(hit_of(packet.met, lane), from.direction, from.time, point);
+        transport_.rays().surface_at(RayScene::hit_of(packet.met, lane), from.direction, from.time, point);
         const LightTransport::Vertex vertex = transport_.vertex_at(point, from.direction);
         follow_mirrors({LightTransport::camera_segment(from.origin, from.direction, from.time)}, vertex, from.sampler,
                        arrived[lane].radiance);

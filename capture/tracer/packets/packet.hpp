@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace rs::capture {
 
@@ -64,6 +65,18 @@ struct HitLanes {
 struct MetLanes {
     RayLanes ray;  // `reach` becomes the distance of what is met
     HitLanes hit;
+
+    // A ray that has met nothing yet.
+    void begin(std::size_t lane, const glm::vec3& origin, const glm::vec3& direction, float time) {
+        ray.origin.set(lane, origin);
+        ray.direction.set(lane, direction);
+        ray.nearest[lane] = 0.0F;
+        ray.time[lane] = time;
+        ray.reach[lane] = std::numeric_limits<float>::infinity();
+        ray.mask[lane] = ~0U;
+        hit.mesh[lane] = hit.instance[lane] = ~0U;
+    }
+    [[nodiscard]] bool has_met(std::size_t lane) const { return hit.mesh[lane] != ~0U; }
 };
 
 // The triangles that rays have met, in the world.

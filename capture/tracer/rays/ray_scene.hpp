@@ -75,10 +75,14 @@ public:
         unsigned instance = ~0U;  // ~0: a mesh that stands still
         [[nodiscard]] bool met() const { return distance >= 0.0F; }
     };
+    [[nodiscard]] static Hit hit_of(const MetLanes& met, std::size_t lane) {
+        const HitLanes& hit = met.hit;
+        return {met.ray.reach[lane], hit.u[lane], hit.v[lane], hit.mesh[lane], hit.triangle[lane], hit.instance[lane]};
+    }
     void intersect_many(std::span<const Ray> rays, std::span<Hit> hits) const;
     // 1 where something is in the way, primitives included; else 0.
     void occluded_many(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
-    // The same for the lanes `asked` of a packet; the others are left as they are. `met.hit.mesh` must be ~0 before.
+    // The same for the lanes `asked` of a packet; the others are left as they are. MetLanes::begin() comes before.
     void intersect(const MaskLanes& asked, MetLanes& met) const;
     void occluded(const MaskLanes& asked, RayLanes& rays) const;
     // The triangle that a lane has met, and its mesh.
