@@ -57,12 +57,13 @@ Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
     return made;
 }
 
-void Framebuffer::begin(const glm::vec3& background) const {
+void Framebuffer::begin(const glm::vec3& background, bool keep_depth) const {
     glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
     glViewport(0, 0, width_, height_);
     glDepthMask(GL_TRUE);  // it holds for clears too
     const float colour[] = {background.r, background.g, background.b, 1.0F};
     glClearNamedFramebufferfv(handle_.name(), GL_COLOR, 0, colour);
+    if (keep_depth) return;
     const float infinity = 0;
     glClearNamedFramebufferfv(handle_.name(), GL_DEPTH, 0, &infinity);
 }

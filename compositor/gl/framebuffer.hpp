@@ -20,8 +20,8 @@ public:
     [[nodiscard]] int height() const { return height_; }
     [[nodiscard]] int samples() const { return samples_; }
 
-    // Draws go here from now on. Clears colour (linear light) and depth (to infinity).
-    void begin(const glm::vec3& background) const;
+    // Draws go here from now on. Clears colour (linear light) and, unless it is kept, depth (to infinity).
+    void begin(const glm::vec3& background, bool keep_depth = false) const;
     // Averages the samples into `target`, which has the same size and one sample.
     void resolve_to(const Framebuffer& target) const;
     // The depth at a pixel (column, row): near plane over distance, 0 where nothing was drawn. `scratch` has the same

@@ -154,11 +154,15 @@ Status FrameCompositor::draw(const Camera& camera) {
     const bool lights_something = !traced_ || renderers_.lit.surfaces().has_transparent();
     if (shadows() && lights_something) statistics_.shadow_maps_drawn = renderers_.lit.draw_shadows(throwing_objects());
     statistics_.shadows_s = clock.lap();
-    renderers_.frame.drawn.begin(renderers_.background.zenith());
-    const auto transparent =
-        renderers_.lit.surfaces().draw_opaque(view, wire_frame_, traced_ ? OpaquePass::kDepthOnly : OpaquePass::kLit);
+    const bool depth_is_there = traced_ && depth_from_ == view.clip_from_world;
+    renderers_.frame.drawn.begin(renderers_.background.zenith(), depth_is_there);
+    const OpaquePass pass = depth_is_there ? OpaquePass::kNone : traced_ ? OpaquePass::kDepthOnly : OpaquePass::kLit;
+    const auto transparent = renderers_.lit.surfaces().draw_opaque(view, wire_frame_, pass);
     statistics_.geometry_in_view = renderers_.lit.surfaces().nodes_in_view();
-    if (const FloorRenderer* floor = renderers_.lit.floor()) floor->draw(view);
+    const FloorRenderer* const floor = renderers_.lit.floor();
+    if (floor != nullptr && !depth_is_there) floor->draw(view);
+    depth_from_.reset();
+    if (traced_ && object_depth_ == ObjectDepth::kPlane) depth_from_ = view.clip_from_world;
     if (traced_) {
         draw_traced(camera);
         renderers_.lit.surfaces().draw_veil(view);
@@ -225,6 +229,7 @@ Status FrameCompositor::resize(int width, int height) {
     if (!frame) return frame.error();
     renderers_.frame = std::move(*frame);
     camera_.reset();
+    depth_from_.reset();
     return {};
 }
 

@@ -111,6 +111,7 @@ public:
     // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Its mesh stays where it
     // is.
     Status move_geometry(std::size_t index, const std::optional<glm::dmat4>& world_from_node) {
+        depth_from_.reset();
         return renderers_.lit.move(index, world_from_node);
     }
     // Meshes and pictures of geometry given to the driver since create() began: none after it.
@@ -123,7 +124,8 @@ public:
     }
 
     // From now on `picture`, of the frame's size, stands for the background and all geometry that is not blended, which
-    // give their depth only; where its alpha is below 1, the background shows. nullptr: they are drawn again.
+    // give their depth only, once for each view; where its alpha is below 1, the background shows. nullptr: they are
+    // drawn again.
     void set_traced(std::shared_ptr<const Image<Rgba8>> picture) { traced_ = std::move(picture); }
 
     // Of the last draw() or compose().
@@ -139,7 +141,10 @@ public:
     [[nodiscard]] int height() const { return renderers_.frame.drawn.height(); }
     // Frames of another size from now on. Fails, with nothing changed, where the driver cannot.
     Status resize(int width, int height);
-    void set_wire_frame(bool wire_frame) { wire_frame_ = wire_frame; }
+    void set_wire_frame(bool wire_frame) {
+        if (wire_frame != wire_frame_) depth_from_.reset();
+        wire_frame_ = wire_frame;
+    }
     // Fails, with nothing changed, where the driver cannot. Some tenths of a second.
     Status set_shadows(bool shadows) { return renderers_.lit.set_shadows(shadows, *nodes_); }
     [[nodiscard]] bool shadows() const { return renderers_.lit.shadows(); }
@@ -187,6 +192,8 @@ private:
     std::shared_ptr<const ShownNodes> nodes_;
     std::vector<double> turns_rad_;  // [node]: by which the visitor has turned it
     std::optional<Camera> camera_;   // of the last frame
+    // How the geometry was seen whose depths the frame holds, and no others.
+    std::optional<glm::dmat4> depth_from_;
     Renderers renderers_;
     bool wire_frame_;
     bool time_parts_;

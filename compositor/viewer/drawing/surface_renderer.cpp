@@ -301,6 +301,7 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
                                                                        OpaquePass pass) {
     set_frame(view);
     InView seen = in_view(view);
+    if (pass == OpaquePass::kNone) seen.opaque.clear();
     for (const std::size_t i : seen.opaque) {
         const Item& item = items_[i];
         draw(item, pass == OpaquePass::kDepthOnly ? *item.veil : *item.program, view,

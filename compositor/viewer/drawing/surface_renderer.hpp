@@ -26,6 +26,7 @@ namespace rs::compositor {
 enum class OpaquePass {
     kLit,
     kDepthOnly,  // the same depths, and colours that mean nothing: quick
+    kNone,       // the frame holds their depths already
 };
 
 // Needs a gl::Context that is current, and outlives it; one thread. Move-only.

@@ -332,8 +332,12 @@ TEST_F(Compositing, ATracedPictureHasTheDepthsOfTheGeometry) {
         const Result<Image<Rgba8>> traced = frames->compose(kFront);
         ASSERT_TRUE(traced.ok());
         EXPECT_EQ(depths(), lit_depths);
-        int of_picture = 0;
-        int of_object = 0;
+        Camera aside = kFront;
+        aside.world_from_camera[3].x += 0.5;
+        EXPECT_EQ(*frames->compose(kFront), *traced);  // finds the depths there
+        EXPECT_NE(*frames->compose(aside), *traced);
+        EXPECT_EQ(*frames->compose(kFront), *traced);
+        int of_picture = 0, of_object = 0;
         for (int y = 0; y < kFrameHeight; ++y) {
             for (int x = 0; x < kFrameWidth; ++x) {
                 const bool object = is_colour((*lit)(x, y), kRed);
