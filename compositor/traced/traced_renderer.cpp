@@ -127,14 +127,7 @@ void TracedRenderer::begin(const Camera& camera) {
 capture::RenderOptions TracedRenderer::render_options(const Camera& camera) const {
     capture::RenderOptions render = render_;
     if (options_.lens) render.lens = options_.lens->of(camera);
-    if (render.part && render.method == TracedMethod::kRadiosity) {
-        // What the filter takes into account beyond its edges.
-        auto& [x0, y0, x1, y1] = *render.part;
-        x0 -= capture::kFilterReach_px;
-        y0 -= capture::kFilterReach_px;
-        x1 += capture::kFilterReach_px;
-        y1 += capture::kFilterReach_px;
-    }
+    if (render.part && render.method == TracedMethod::kRadiosity) render.part = capture::within_reach(*render.part);
     return render;
 }
 
@@ -190,7 +183,7 @@ Image<RgbaF> TracedRenderer::probe(const glm::dvec3& place, int samples, Progres
 }
 
 Image<Rgba8> TracedRenderer::picture() const {
-    return shown(capture::filtered_mean(sum_));
+    return shown(render_.part ? capture::filtered_mean(sum_, *render_.part) : capture::filtered_mean(sum_));
 }
 
 Image<Rgba8> TracedRenderer::shown(Image<RgbaF> radiance) const {

@@ -29,10 +29,6 @@ int tiles_along(int pixels) {
     return (pixels + kTileSide_px - 1) / kTileSide_px;
 }
 
-PixelRectangle overlap(const PixelRectangle& a, const PixelRectangle& b) {
-    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
-
 PixelRectangle visible_rectangle(const Camera& camera, const RayScene& rays) {
     const PixelRectangle whole{0, 0, camera.width, camera.height};
     if (rays.empty()) return {0, 0, 0, 0};

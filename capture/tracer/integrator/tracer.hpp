@@ -29,11 +29,6 @@ enum class RenderMethod {
     kToon,       // toon.hpp
 };
 
-// Pixels [x0, x1) x [y0, y1).
-struct PixelRectangle {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
-
 struct RenderOptions {
     RenderMethod method = RenderMethod::kPath;
     int samples_per_pixel = 64;  // 1..65536; powers of two are stratified best

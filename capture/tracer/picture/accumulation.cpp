@@ -2,9 +2,31 @@
 
 #include "capture/tracer/light/directions.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace rs::capture {
+
+namespace {
+
+template <class Pixel>
+Image<Pixel> part_of(const Image<Pixel>& picture, const PixelRectangle& part) {
+    Image<Pixel> result(part.x1 - part.x0, part.y1 - part.y0);
+    for (int y = part.y0; y < part.y1; ++y) {
+        for (int x = part.x0; x < part.x1; ++x) result(x - part.x0, y - part.y0) = picture(x, y);
+    }
+    return result;
+}
+
+}  // namespace
+
+PixelRectangle overlap(const PixelRectangle& a, const PixelRectangle& b) {
+    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+Accumulation Accumulation::cut_out(const PixelRectangle& part) const {
+    return {part_of(sum, part), samples, guides.empty() ? Image<GuideSum>() : part_of(guides, part)};
+}
 
 void Accumulation::add(int x, int y, const Arrived& arrived) {
     RgbaF& pixel = sum(x, y);

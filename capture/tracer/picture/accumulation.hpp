@@ -7,6 +7,12 @@
 
 namespace rs::capture {
 
+// Pixels [x0, x1) x [y0, y1).
+struct PixelRectangle {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+PixelRectangle overlap(const PixelRectangle& a, const PixelRectangle& b);
+
 // The first surface on a ray's way that is no mirror and no glass.
 struct Guide {
     glm::vec3 place, normal, colour;
@@ -35,6 +41,8 @@ struct Accumulation {
 
     // Of a ray that met something. Not from several threads for one pixel.
     void add(int x, int y, const Arrived& arrived);
+    // As far as it lies in a part of the picture, which is not empty and not larger than it.
+    [[nodiscard]] Accumulation cut_out(const PixelRectangle& part) const;
     // Linear light, straight alpha = share of camera rays that hit a surface.
     [[nodiscard]] Image<RgbaF> mean() const&;
     [[nodiscard]] Image<RgbaF> mean() &&;

@@ -248,4 +248,21 @@ Image<RgbaF> filtered_mean(const Accumulation& accumulation) {
     return picture;
 }
 
+PixelRectangle within_reach(const PixelRectangle& part) {
+    return {part.x0 - kFilterReach_px, part.y0 - kFilterReach_px, part.x1 + kFilterReach_px, part.y1 + kFilterReach_px};
+}
+
+Image<RgbaF> filtered_mean(const Accumulation& accumulation, const PixelRectangle& part) {
+    Image<RgbaF> picture = accumulation.mean();
+    const PixelRectangle whole{0, 0, picture.width(), picture.height()};
+    const PixelRectangle shown = overlap(whole, part);
+    if (accumulation.guides.empty() || shown.x0 >= shown.x1 || shown.y0 >= shown.y1) return picture;
+    const PixelRectangle around = overlap(whole, within_reach(part));
+    const Image<RgbaF> filtered = filtered_mean(accumulation.cut_out(around));
+    for (int y = shown.y0; y < shown.y1; ++y) {
+        for (int x = shown.x0; x < shown.x1; ++x) picture(x, y) = filtered(x - around.x0, y - around.y0);
+    }
+    return picture;
+}
+
 }  // namespace rs::capture

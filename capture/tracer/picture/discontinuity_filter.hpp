@@ -19,5 +19,10 @@ inline constexpr int kFilterReach_px = 40;
 
 // As Accumulation::mean(), smoothed where the accumulation has guides. The same bits with any number of threads.
 Image<RgbaF> filtered_mean(const Accumulation& accumulation);
+// Only this part of the picture is smoothed; it has the bits that it has in the whole one. There must be samples as far
+// around it as the filter reaches.
+Image<RgbaF> filtered_mean(const Accumulation& accumulation, const PixelRectangle& part);
+// A part and what the filter takes into account around it.
+PixelRectangle within_reach(const PixelRectangle& part);
 
 }  // namespace rs::capture
