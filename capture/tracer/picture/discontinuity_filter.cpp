@@ -38,7 +38,7 @@ struct Guides {
     int width, height, samples;
     std::array<Plane, 3> normal, place, colour;
     Plane nearness;  // 1 / tolerated distance from the plane
-    Plane known;     // 1: there is a surface; 0: the pixel is left alone
+    Plane known;     // 1: there is a surface; 0: the pixel is left alone and counts for none
 };
 
 struct Estimates {
@@ -133,6 +133,7 @@ void find_variance(const Accumulation& from, const Image<RgbaF>& mean, const Gui
         const float of_all = luminance({m.r, m.g, m.b}) * m.a;
         const glm::vec3 colour(guides.colour[0][i], guides.colour[1][i], guides.colour[2][i]);
         const float by = luminance(divisor(colour));
+        if (!(guides.known[i] > 0.0F)) continue;
         const float variance = std::max(from.guides.pixels()[i].squares / samples - of_all * of_all, 0.0F);
         squares[i] = variance / ((samples - 1.0F) * by * by);
     }
@@ -202,7 +203,7 @@ Estimates smoothed(const Estimates& light, const Guides& guides, int level) {
             for (int dx = -step; dx <= step; dx += step) {
                 const float weight = (dy == 0 ? 0.5F : 0.25F) * (dx == 0 ? 0.5F : 0.25F);
                 add_neighbours(guides, light, brightness, sharpness, row, static_cast<std::ptrdiff_t>(dy) * width + dx,
-                               weight, std::max(0, -dx), std::min(width, width - dx), sums);
+                               weight, std::max(0, -dx), std::clamp(width - dx, 0, width), sums);
             }
         }
         for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
@@ -220,7 +221,7 @@ Estimates smoothed(const Estimates& light, const Guides& guides, int level) {
 Image<RgbaF> filtered_mean(const Accumulation& accumulation) {
     Image<RgbaF> picture = accumulation.mean();
     if (accumulation.guides.empty() || accumulation.samples < 1) return picture;
-    const Guides guides = guides_of(accumulation);
+    Guides guides = guides_of(accumulation);
     const std::size_t size = guides.known.size();
     Estimates light;
     light.variance.resize(size);
@@ -230,6 +231,10 @@ Image<RgbaF> filtered_mean(const Accumulation& accumulation) {
     };
     for (std::size_t i = 0; i < size; ++i) {
         const RgbaF& p = picture.pixels()[i];
+        if (!std::isfinite(p.r + p.g + p.b)) {
+            guides.known[i] = 0.0F;
+            continue;
+        }
         const glm::vec3 by = divisor_at(i);
         light.colour[0][i] = p.r / by.r;
         light.colour[1][i] = p.g / by.g;

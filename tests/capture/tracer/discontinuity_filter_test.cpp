@@ -135,6 +135,25 @@ TEST(DiscontinuityFilter, LeavesWhatHasNoSurfaceAndPicturesWithoutGuides) {
     }
 }
 
+TEST(DiscontinuityFilter, TakesPicturesOfAnySizeAndSamplesThatAreNoNumbers) {
+    const Accumulation all = samples_of({plain, even}, 3);
+    const Image<RgbaF> narrow = filtered_mean(all.cut_out({20, 30, 27, 31}));
+    EXPECT_EQ(narrow.width(), 7);
+    EXPECT_EQ(narrow.height(), 1);
+    for (const RgbaF& p : narrow.pixels()) EXPECT_NEAR(p.g, 0.5F, 0.35F);
+    Accumulation broken = all;
+    broken.sum(40, 40).g = std::nanf("");
+    broken.guides(40, 40).squares = std::nanf("");
+    const Image<RgbaF> filtered = filtered_mean(broken);
+    EXPECT_TRUE(std::isnan(filtered(40, 40).g));
+    for (int x = 30; x < 50; ++x) EXPECT_NEAR(filtered(x, 41).g, 0.5F, 0.1F);
+    // A part is what it is in the whole.
+    const Image<RgbaF> whole = filtered_mean(all), part = filtered_mean(all, {60, 50, 90, 200});
+    for (int y = 50; y < kSide; ++y) {
+        for (int x = 60; x < 90; ++x) ASSERT_EQ(whole(x, y), part(x, y));
+    }
+}
+
 TEST(DiscontinuityFilter, LooksNoFartherThanItSaysAndNeedsNoThreads) {
     const Accumulation samples = samples_of({plain, even}, 2);
     Accumulation changed = samples;
