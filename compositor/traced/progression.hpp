@@ -6,7 +6,7 @@
 //     first grid (32x32 cells and up) -> twice as fine -> ... -> pass 1 -> pass 2 -> ...
 //
 // Only where this begins hangs on the time that pictures take. What they show does not: pass k is the mean of the
-// samples 1..k, whatever was shown before it.
+// samples 1..k (of radiosity: filtered), whatever was shown before it.
 
 #include "compositor/traced/traced_renderer.hpp"
 #include "rayspace/geometry/camera.hpp"

@@ -89,9 +89,9 @@ public:
     // What reaches a place, as capture::light_probe() has it, with the scene's background behind all.
     [[nodiscard]] Image<RgbaF> probe(const glm::dvec3& place, int samples, Progress& progress) const;
 
-    // Linear light without exposure, straight alpha. There must have been a pass.
+    // The mean of all passes: linear light without exposure, straight alpha. There must have been a pass.
     [[nodiscard]] Image<RgbaF> radiance() const { return sum_.mean(); }
-    // What a screen shows of it.
+    // What a screen shows of it; of radiosity, filtered (discontinuity_filter.hpp).
     [[nodiscard]] Image<Rgba8> picture() const;
 
     // What could not be taken along, for people.

@@ -5,7 +5,7 @@
 //
 // The reference is traced first, with random numbers of its own. Then each renderer gets S seconds, and if asked N
 // passes. "mean" is over that of the reference, "error" the root of the mean squared difference of luminance over the
-// reference's mean, "dB" the PSNR of the 8-bit pictures, "cpu" the processor
+// reference's mean, "dB" the PSNR of the 8-bit pictures (of radiosity: filtered), "cpu" the processor
 // time of all threads: on a machine that does other things, too, seconds should be chosen so that it is what they stand
 // for.
 

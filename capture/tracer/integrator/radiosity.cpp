@@ -1,5 +1,6 @@
 #include "capture/tracer/integrator/radiosity.hpp"
 
+#include "rayspace/base/check.hpp"
 #include "rayspace/base/parallel.hpp"
 
 #include <algorithm>
@@ -61,7 +62,7 @@ float RadiosityTracer::time_of(int pass) const {
 const std::vector<VirtualLight>& RadiosityTracer::lights_for(const CameraRay& ray) const {
     const auto pass = static_cast<std::size_t>(ray.sampler.sample()) - static_cast<std::size_t>(first_);
     const auto groups = static_cast<std::size_t>(groups_);
-    return lights_[pass * groups + ray.place % groups];
+    return lights_[pass * groups + ray.in_square % groups];
 }
 
 bool RadiosityTracer::trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
@@ -88,7 +89,9 @@ void RadiosityTracer::Way::begin(CameraRay& from, Arrived& into, float at) {
 void RadiosityTracer::trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
     Packet packet(transport_.rays(), materials_);
     std::array<std::vector<std::size_t>, kLanes> of_group;
-    for (std::size_t i = 0; i < rays.size(); ++i) of_group[rays[i].place % static_cast<unsigned>(groups_)].push_back(i);
+    for (const CameraRay& ray : rays) RS_CHECK(ray.sampler.sample() == rays.front().sampler.sample());
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        of_group[rays[i].in_square % static_cast<unsigned>(groups_)].push_back(i);
     for (const auto& all : of_group) {
         for (std::size_t first = 0; first < all.size(); first += kLanes) {
             for (std::size_t lane = 0; lane < kLanes && first + lane < all.size(); ++lane) {

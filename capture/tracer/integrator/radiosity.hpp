@@ -4,10 +4,10 @@
 //     photons from the lights -> virtual lights (virtual_lights.hpp)
 //     camera ray -> mirrors, glass -> surface: a sample of each light for direct light, virtual lights for the rest
 //
-// Virtual lights are interleaved: of the pixels of each square of 4 x 4 every one has a group of its own, so that
-// neighbours together see sixteen times as many (I. Wald et al., "Interactive Global Illumination using Fast Ray
-// Tracing", Eurographics Rendering Workshop 2002); discontinuity_filter.hpp brings them together. Sixteen pixels that
-// have the same group go together as a packet.
+// In pictures of 65,536 pixels and more virtual lights are interleaved: of the pixels of each square of 4 x 4 every one
+// has a group of its own, so that neighbours together see sixteen times as many (I. Wald et al., "Interactive Global
+// Illumination using Fast Ray Tracing", Eurographics Rendering Workshop 2002); discontinuity_filter.hpp brings them
+// together. Sixteen pixels that have the same group go together as a packet.
 //
 // Near a virtual light the geometry term is bounded, so that no bright spots stand in corners. What that cuts off is
 // found by paths, which go on from a surface only where the term exceeds the bound (T. Kollig, A. Keller, "Illumination
@@ -39,7 +39,8 @@ public:
     RadiosityTracer& operator=(const RadiosityTracer&) = delete;
     ~RadiosityTracer() override = default;
 
-    // At the time of the sampler's pass, whatever `time` is.
+    // At the time of the sampler's pass, whatever `time` is. All rays of a call are of one pass. One ray alone counts
+    // as the first pixel of its square.
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
     void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override;

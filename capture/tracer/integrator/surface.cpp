@@ -80,15 +80,6 @@ Surface::Value Surface::evaluate(const glm::vec3& wi) const {
     return {};
 }
 
-glm::vec3 Surface::sent(const glm::vec3& out) const {
-    if (is_specular()) return glm::vec3(0.0F);
-    if (model_.kind == SurfaceKind::diffuse) {
-        return colour_ * ((out.z > 0.0F ? 1.0F - model_.translucency : model_.translucency) / kPiF);
-    }
-    if (out.z <= 0.0F) return glm::vec3(0.0F);
-    return Surface(model_, colour_, out, leaving_).evaluate(wo_).f_cos / std::max(wo_.z, 1e-4F);
-}
-
 bool Surface::sample(float u_lobe, const glm::vec2& u, SurfaceSample& drawn) const {
     if (is_specular()) return sample_specular(u_lobe, drawn);
     if (model_.kind == SurfaceKind::diffuse) {

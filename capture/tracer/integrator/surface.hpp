@@ -65,9 +65,6 @@ public:
     [[nodiscard]] float albedo() const { return albedo_; }
     [[nodiscard]] float lambda() const { return lambda_; }
 
-    // Light that came from wo and goes to `out` instead: f, without a cosine, as a viewer at `out` has it.
-    [[nodiscard]] glm::vec3 sent(const glm::vec3& out) const;
-
     // False where the path ends here.
     [[nodiscard]] bool sample(float u_lobe, const glm::vec2& u, SurfaceSample& drawn) const;
 

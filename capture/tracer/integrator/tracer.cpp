@@ -193,7 +193,14 @@ Rendering Tracer::render(const RayPicture& rays, const Frame& frame, const Rende
                          Progress* progress) const {
     RS_CHECK(options.samples_per_pixel >= 1 && options.samples_per_pixel <= 65536);
     Accumulation sum;
-    accumulate(rays, frame, options, options.samples_per_pixel, sum, progress, nullptr);
+    // Virtual lights of many passes would take much memory; passes have the same bits however they are grouped.
+    constexpr int kPassesAtOnce = 64;
+    const int at_once = options.method == RenderMethod::kRadiosity ? kPassesAtOnce : options.samples_per_pixel;
+    while (sum.samples < options.samples_per_pixel) {
+        const int count = std::min(at_once, options.samples_per_pixel - sum.samples);
+        const bool last = sum.samples + count == options.samples_per_pixel;
+        accumulate(rays, frame, options, count, sum, last ? progress : nullptr, nullptr);
+    }
     Rendering rendering;
     rendering.picture = std::move(sum).mean();
     if (options.depth) rendering.depth = first_depths(rays, frame.visible, *state_->rays, options.threads);
@@ -232,8 +239,8 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
         if (options.lens.aperture > 0) {
             ray = options.lens.through(ray.origin, rays.forward, ray.direction, sampler.next_2d());
         }
-        const auto place = static_cast<unsigned>(y % kSquare_px * kSquare_px + x % kSquare_px);
-        return CameraRay{glm::vec3(ray.origin), glm::vec3(glm::normalize(ray.direction)), time, sampler, place};
+        const auto in_square = static_cast<unsigned>(y % kSquare_px * kSquare_px + x % kSquare_px);
+        return CameraRay{glm::vec3(ray.origin), glm::vec3(glm::normalize(ray.direction)), time, sampler, in_square};
     };
     const auto add_tile = [&](std::int64_t tile) {
         if (stop != nullptr && *stop) return;

@@ -77,7 +77,8 @@ public:
 
     // Adds `count` samples to each pixel, those that come after the ones it has; an empty accumulation begins anew. Of
     // the options samples_per_pixel and depth count nothing. Advances `progress` by step_count(camera) steps. Once
-    // `stop` is true no further tile is begun and false is returned: the accumulation then is as it was.
+    // `stop` is true no further tile is begun (virtual lights are finished first) and false is returned: the
+    // accumulation then is as it was.
     bool accumulate(const Camera& camera, const RenderOptions& options, int count, Accumulation& into,
                     Progress* progress = nullptr, const std::atomic<bool>* stop = nullptr) const;
 

@@ -30,7 +30,7 @@ struct CameraRay {
     glm::vec3 direction;  // unit length
     float time;           // 0..1 as ray_scene.hpp has it
     Sampler sampler;
-    unsigned place = 0;  // of its pixel within a square of 4 x 4, row by row
+    unsigned in_square = 0;  // number of its pixel within a square of 4 x 4, row by row
 };
 // The light that arrives along one ray of a picture.
 class Integrator {

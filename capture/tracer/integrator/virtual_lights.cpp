@@ -1,6 +1,6 @@
 #include "capture/tracer/integrator/virtual_lights.hpp"
 
-#include "rayspace/base/parallel.hpp"
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -124,10 +124,10 @@ std::vector<VirtualLights::Found> VirtualLights::lights_of(std::uint64_t sequenc
     constexpr int kAtOnce = 32;
     const int chunks = (count + kAtOnce - 1) / kAtOnce;
     std::vector<std::vector<Found>> of_chunk(static_cast<std::size_t>(chunks));
-    for_each_index(chunks, 0, [&](std::int64_t chunk) {
+    tbb::parallel_for(0, chunks, [&](int chunk) {
         PacketLight scratch(transport_.rays(), materials_);
         std::vector<VirtualLight> lights;
-        for (std::int64_t i = chunk * kAtOnce; i < std::min<std::int64_t>((chunk + 1) * kAtOnce, count); ++i) {
+        for (int i = chunk * kAtOnce; i < std::min((chunk + 1) * kAtOnce, count); ++i) {
             Sampler sampler(mix_bits(key_ ^ sequence), static_cast<std::uint32_t>(first + i));
             lights.clear();
             follow_photon(time, sampler, lights);

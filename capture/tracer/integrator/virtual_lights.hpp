@@ -10,6 +10,7 @@
 #include "capture/tracer/integrator/transport.hpp"
 #include "capture/tracer/picture/ray_picture.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -32,8 +33,8 @@ public:
 
     // Each stands for all light that has met a surface; their mean is it. At a time (RayScene).
     [[nodiscard]] std::vector<VirtualLight> group(int number, float time) const;
-    // Of the geometry term, cosines over squared distance: that of surfaces as far apart as those that the camera sees
-    // are from what is around them.
+    // Of the geometry term, cosines over squared distance: that of surfaces half as far apart as those that the camera
+    // sees are from what is around them (median), and at most a quarter of the scene's diagonal.
     [[nodiscard]] float bound() const { return bound_; }
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
 // One light that falls on sixteen surfaces. The twins are LightSet::middle(), Surface::evaluate() and what Whitted's
-// ray tracing does between them.
+// ray tracing does between them; that of virtual lights stands beside its test (tests/capture/tracer/packets_test.cpp).
 
 #include "capture/tracer/packets/surface_lanes.hpp"
 
@@ -40,8 +40,8 @@ struct AreaLight {
     float power = 0;  // what LightSet estimates by
 };
 
-// A surface that light has fallen on and that lights others (integrator/radiosity.hpp), as SurfaceLanes has one. Its
-// viewer is where the light came from.
+// A surface that light has fallen on and that lights others (integrator/virtual_lights.hpp), as SurfaceLanes has one.
+// Its viewer is where the light came from.
 struct VirtualLight {
     SurfaceKind kind = SurfaceKind::diffuse;
     float alpha = 1, ior = 1, translucency = 0, base = 1;
@@ -70,8 +70,7 @@ bool light_from_point(const PointLight& light, const Lanes3& places, const MaskL
 // That of an area.
 bool light_from_area(const AreaLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives);
 
-// That of a virtual light: the geometry term, both cosines over squared distance, is cut down to `bound`. The twin
-// stands beside its test.
+// That of a virtual light: the geometry term, both cosines over squared distance, is cut down to `bound`.
 bool light_from_virtual(const VirtualLight& light, float bound, const float* tables, const SurfaceLanes& surfaces,
                         const MaskLanes& wanted, LightLanes& arrives);
 

@@ -3,8 +3,9 @@
 //
 //     RayLanes -> HitLanes -> TriangleLanes   Embree; gathered lane by lane (rays/ray_scene.hpp)
 //     TriangleLanes -> SurfaceLanes           place_surfaces(), texture_surfaces(), face_viewers()
-//     SurfaceLanes, a light -> LightLanes     light_from_afar(), _point(), _area(); or lane by lane (LightSet)
-//     SurfaceLanes, LightLanes -> RayLanes    send_light(): the rays to the light, and what it makes the surfaces send
+//     SurfaceLanes, a light -> LightLanes     light_from_afar(), _point(), _area(), _virtual(); or lane by lane
+//     (LightSet) SurfaceLanes, LightLanes -> RayLanes    send_light(): the rays to the light, and what it makes the
+//     surfaces send
 //
 // Every function gives the bits of its plain twin, which takes one ray at a time and which it names; so a picture is
 // the same whether its rays go together or alone. Lanes that a mask leaves out may hold anything afterwards. No

@@ -36,7 +36,7 @@ HWY_INLINE Facets evaluate_facets(const Floats3& wo, const Floats3& wi, Floats a
 }
 
 // A surface as one viewer sees it: what SurfaceLanes has of it.
-struct Seen {
+struct SeenSurface {
     Floats3 colour;
     Floats3 viewer;
     Floats albedo, lambda;
@@ -44,13 +44,13 @@ struct Seen {
     Ints table;
 };
 
-HWY_INLINE Floats3 of_matte(const Seen& s, const Floats3& wi) {
+HWY_INLINE Floats3 of_matte(const SeenSurface& s, const Floats3& wi) {
     const Mask above = hn::Gt(wi.z, number(0.0F));
     const Floats share = hn::IfThenElse(above, number(1.0F) - s.translucency, s.translucency);
     return s.colour * (share * hn::Abs(wi.z) / number(kPiF));
 }
 
-HWY_INLINE Floats3 of_coated(const Seen& s, const Floats3& wi, const float* tables) {
+HWY_INLINE Floats3 of_coated(const SeenSurface& s, const Floats3& wi, const float* tables) {
     const Floats one = number(1.0F);
     const Facets coat = evaluate_facets(s.viewer, wi, s.alpha, s.lambda);
     const Floats reflected = fresnel_dielectric(coat.cos_facet, s.ior);
@@ -59,7 +59,7 @@ HWY_INLINE Floats3 of_coated(const Seen& s, const Floats3& wi, const float* tabl
     return Floats3{coated, coated, coated} + s.colour * (through * wi.z / number(kPiF));
 }
 
-HWY_INLINE Floats3 of_metal(const Seen& s, const Floats3& wi) {
+HWY_INLINE Floats3 of_metal(const SeenSurface& s, const Floats3& wi) {
     const Floats one = number(1.0F);
     const Floats3 ones = {one, one, one};
     const Facets metal = evaluate_facets(s.viewer, wi, s.alpha, s.lambda);

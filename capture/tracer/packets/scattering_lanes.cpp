@@ -44,7 +44,7 @@ public:
 private:
     Floats kind_;
     const float* tables_;
-    Seen seen_;
+    SeenSurface seen_;
 };
 
 bool send(const SurfaceLanes& surfaces, const LightLanes& arrives, const float* tables, SentLanes& sent) {

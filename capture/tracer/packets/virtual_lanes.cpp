@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace rs::capture::HWY_NAMESPACE {
 
-// The twin of Surface::sent().
+// f of light that came from the viewer and goes to `out`, without a cosine.
 HWY_INLINE Floats3 sent_by(const VirtualLight& light, const Floats3& out, const float* tables) {
     const Floats zero = number(0.0F);
     if (light.kind == SurfaceKind::diffuse) {
@@ -19,7 +19,7 @@ HWY_INLINE Floats3 sent_by(const VirtualLight& light, const Floats3& out, const 
             hn::IfThenElse(hn::Gt(out.z, zero), number(1.0F - light.translucency), number(light.translucency));
         return broadcast(light.colour) * (share / number(kPiF));
     }
-    Seen seen;
+    SeenSurface seen;
     seen.colour = broadcast(light.colour);
     seen.viewer = out;
     seen.table = hn::Set(IntTag(), light.table);
@@ -42,7 +42,12 @@ bool from_virtual(const VirtualLight& light, float bound, const float* tables, c
     const bool thin = light.translucency > 0.0F;
     bool some = false;
     for (std::size_t i = 0; i < kLanes; i += lanes_at_once()) {
-        const Floats3 places = load(surfaces.near_start, i);
+        const Floats3 near_start = load(surfaces.near_start, i);
+        const Mask open = hn::Gt(load(surfaces.material.translucency, i), zero);
+        const Mask before =
+            hn::Gt(dot(broadcast(light.position) - near_start, load(surfaces.geometric_normal, i)), zero);
+        // From where the ray will start.
+        const Floats3 places = either(hn::AndNot(before, open), load(surfaces.far_start, i), near_start);
         Floats3 target = broadcast(light.near_start);
         if (thin) {
             const Floats side = dot(places - broadcast(light.position), facet);
@@ -58,7 +63,7 @@ bool from_virtual(const VirtualLight& light, float bound, const float* tables, c
         const Floats cosine = dot(direction, load(surfaces.normal, i));
         Mask lit = hn::And(load_mask(wanted, i), hn::Gt(distance2, zero));
         if (!thin) lit = hn::And(lit, hn::Gt(cos_facet, zero));
-        lit = hn::And(lit, hn::Or(hn::Gt(cosine, zero), hn::Gt(load(surfaces.material.translucency, i), zero)));
+        lit = hn::And(lit, hn::Or(hn::Gt(cosine, zero), open));
         if (!any(lit)) {
             store_mask(lit, arrives.lit, i);
             continue;

@@ -47,7 +47,7 @@ void Accumulation::add(int x, int y, const Arrived& arrived) {
 }
 
 Image<RgbaF> Accumulation::mean() const& {
-    return Accumulation(*this).mean();
+    return Accumulation{sum, samples, {}}.mean();  // without the guides, which are large
 }
 
 Image<RgbaF> Accumulation::mean() && {

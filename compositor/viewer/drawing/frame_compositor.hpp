@@ -69,7 +69,7 @@ struct FrameStatistics {
     int nodes_not_seen = 0;            // off the screen, too small, or not there
     int nodes_missing = 0;             // placeholders in view
     std::int64_t pixels_rendered = 0;  // by the engine
-    int geometry_in_view = 0;          // geometry nodes that were drawn
+    int geometry_in_view = 0;          // geometry nodes that were drawn, now or for the depths that were kept
     int shadow_maps_drawn = 0;         // because something in them has changed
     double shadows_s = 0;              // of drawing them
     double geometry_s = 0;             // background, geometry, floor
@@ -124,8 +124,8 @@ public:
     }
 
     // From now on `picture`, of the frame's size, stands for the background and all geometry that is not blended, which
-    // give their depth only, once for each view; where its alpha is below 1, the background shows. nullptr: they are
-    // drawn again.
+    // give their depth only, once for each view unless objects have depth; where its alpha is below 1, the background
+    // shows. nullptr: they are drawn again.
     void set_traced(std::shared_ptr<const Image<Rgba8>> picture) { traced_ = std::move(picture); }
 
     // Of the last draw() or compose().

@@ -150,6 +150,53 @@ TEST(Radiosity, GoesByEverySurfaceAsPathsDo) {
     }
 }
 
+// A curtain a little before a wall, far from the origin, so that rays step off it by more than light has to go.
+TEST(Radiosity, GoesThroughWhatHangsBeforeAWall) {
+    Material cloth = material_of(SurfaceKind::diffuse, glm::vec3(0.9F));
+    cloth.translucency = 0.7F;
+    Scene scene = room_with_ball(material_of(SurfaceKind::diffuse, {0.2F, 0.5F, 0.7F}));
+    add_quad(scene, add_material(scene, cloth), {-0.9F, -0.9F, -0.95F}, {1.8F, 0, 0}, {0, 1.8F, 0});
+    scene.lights.push_back(point_light({-0.2, 0.6, 0.2}, glm::vec3(1.0F)));
+    scene.lights.push_back(point_light({0.95, 0.95, -0.97}, glm::vec3(0.5F)));
+    constexpr float kAway = 30;
+    for (Mesh& mesh : scene.meshes) {
+        for (glm::vec3& p : mesh.positions) p.x += kAway;
+    }
+    for (Light& light : scene.lights) light.location.x += kAway;
+    const auto picture = [&](RenderMethod method, int samples) {
+        RenderOptions options;
+        options.method = method;
+        options.samples_per_pixel = samples;
+        return render(Scene(scene), look_at_camera({kAway, 0, 3.5}, {kAway, 0, 0}, radians(38), 16, 16), options)
+            .picture;
+    };
+    const Image<RgbaF> path = picture(RenderMethod::kPath, 8192), radiosity = picture(RenderMethod::kRadiosity, 1024);
+    // Where the curtain is seen, the ball left out.
+    const glm::dvec3 expected = mean_of(path, 4, 3, 12, 7), found = mean_of(radiosity, 4, 3, 12, 7);
+    EXPECT_NEAR(found.g, expected.g, 0.04 * expected.g);
+}
+
+// Larger pictures are interleaved: each pixel of a square has virtual lights of its own.
+TEST(Radiosity, InterleavedPicturesHaveTheLightOfPaths) {
+    Scene scene = room_with_ball(material_of(SurfaceKind::glossy, {0.2F, 0.5F, 0.7F}, 0.4F));
+    scene.lights.push_back(ceiling_area());
+    const auto picture = [&](RenderMethod method, int side, int samples) {
+        RenderOptions options;
+        options.method = method;
+        options.samples_per_pixel = samples;
+        return render(Scene(scene), look_at_camera({0, 0, 3.5}, {0, 0, 0}, radians(38), side, side), options).picture;
+    };
+    const Image<RgbaF> path = picture(RenderMethod::kPath, 16, 2048);
+    const Image<RgbaF> radiosity = picture(RenderMethod::kRadiosity, 256, 12);
+    for (int quarter = 0; quarter < 4; ++quarter) {
+        const int x = quarter % 2, y = quarter / 2;
+        const glm::dvec3 expected = mean_of(path, 8 * x, 8 * y, 8 * x + 8, 8 * y + 8);
+        const glm::dvec3 found = mean_of(radiosity, 128 * x, 128 * y, 128 * x + 128, 128 * y + 128);
+        EXPECT_NEAR(found.r, expected.r, 0.03 * expected.r);
+        EXPECT_NEAR(found.b, expected.b, 0.03 * expected.b);
+    }
+}
+
 TEST(Radiosity, PassesGiveTheSameBitsHoweverGrouped) {
     Scene scene = room_with_ball(material_of(SurfaceKind::glossy));
     scene.lights.push_back(ceiling_area());
