@@ -261,6 +261,11 @@ Status synthesise(const Options& options) {
     }
     Result<SceneFile> file = load_scene_file(options.scene, synthetic::generate);
     if (!file) return file.error();
+    if (options.as_photos.asked && file->scene.has_surroundings()) {
+        return Error{
+            options.scene.string() +
+            ": photographs are taken in a studio of their own; leave out the recipe's \"room\", or --as-photos"};
+    }
     const std::string scene_name = file->scene.name;
     ProgressBar progress(options.quiet);
     const Result<Made> made = options.as_photos.asked ? make_photos(options, *file, progress)

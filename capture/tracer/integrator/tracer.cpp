@@ -109,7 +109,7 @@ Image<float> first_depths(const RayPicture& rays, const PixelRectangle& visible,
         for (int x = visible.x0; x < visible.x1; ++x) {
             const glm::dvec3 ray = glm::normalize(rays.ray(x + 0.5, y + 0.5));
             SurfacePoint point;
-            if (!scene.intersect(glm::vec3(rays.centre), glm::vec3(ray), 0.0F, point)) continue;
+            if (!scene.intersect_seen(glm::vec3(rays.centre), glm::vec3(ray), 0.0F, point)) continue;
             depths(x, y) = static_cast<float>(glm::dot(glm::dvec3(point.position) - rays.centre, rays.forward));
         }
     });
@@ -162,6 +162,7 @@ std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& 
                                                           std::uint64_t key, const RenderOptions& options, int first,
                                                           int count) const {
     constexpr int kWhittedDepth = 8;
+    RS_CHECK(options.method == RenderMethod::kPath || !state_->scene.has_surroundings());
     switch (options.method) {
         case RenderMethod::kRadiosity:
             return std::make_unique<RadiosityTracer>(transport, VirtualLightOptions{.max_bounces = options.max_bounces},

@@ -23,7 +23,7 @@
 namespace rs::capture {
 
 enum class RenderMethod {
-    kPath,       // path.hpp
+    kPath,       // path.hpp; the only one for objects with surroundings
     kRadiosity,  // radiosity.hpp; each sample of all pixels is a pass
     kWhitted,    // whitted.hpp
     kToon,       // toon.hpp

@@ -57,7 +57,8 @@ LightTransport::Vertex LightTransport::vertex_at(const SurfacePoint& point, cons
 
 LightTransport::Met LightTransport::meet(const Segment& segment, const MediumStack& media, glm::vec3& throughput,
                                          glm::vec3& radiance, SurfacePoint& point) const {
-    const bool hit = rays_.intersect(segment.origin, segment.direction, segment.time, point);
+    const bool hit = segment.of_camera ? rays_.intersect_seen(segment.origin, segment.direction, segment.time, point)
+                                       : rays_.intersect(segment.origin, segment.direction, segment.time, point);
     return arrive(segment, hit, media, throughput, radiance, point);
 }
 

@@ -159,6 +159,17 @@ RayScene::Builds RayScene::builds() const {
     return {1 + static_cast<std::int64_t>(moving_ ? scene_->parts.size() : 0), moving_ ? moving_->top_builds() : 0};
 }
 
+bool RayScene::intersect_seen(const glm::vec3& origin, const glm::vec3& direction, float time,
+                              SurfacePoint& point) const {
+    float passed = 0.0F;
+    while (intersect(origin + direction * passed, direction, time, point)) {
+        point.distance += passed;
+        if (!scene_->surrounds(point.material)) return true;
+        passed = point.distance + step_off_;
+    }
+    return false;
+}
+
 bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

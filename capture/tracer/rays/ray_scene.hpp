@@ -54,6 +54,8 @@ public:
 
     // The nearest hit beyond `origin`; `direction` has unit length, `time` is 0..1. Thread-safe, as is occluded().
     bool intersect(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const;
+    // The nearest hit that is not of what surrounds the object (Scene).
+    bool intersect_seen(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const;
     // How far it is to the nearest hits of kBundle rays of one direction, which are near to each other; infinity where
     // a ray meets nothing.
     static constexpr int kBundle = 8;

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -112,6 +113,9 @@ struct Scene {
     std::vector<Part> parts;
     std::vector<Instance> instances;
     std::vector<Material> materials;
+    // From this number on they are of what surrounds the object: it lights and shades, and is seen in reflections and
+    // through glass, but rays of the camera pass it (surroundings.hpp).
+    int first_surrounding_material = std::numeric_limits<int>::max();
     std::vector<Texture> textures;
     // Normal maps: a texel's r, g, b are a direction of any length along u, v and the normal; (0, 0, 1) leaves the
     // normal as it is.
@@ -119,6 +123,9 @@ struct Scene {
     std::vector<Light> lights;  // ambient parts count nothing here; areas are not seen by the camera
     Environment environment;
     std::vector<std::shared_ptr<const RayPrimitive>> primitives;  // not seen by the camera itself
+
+    [[nodiscard]] bool surrounds(int material) const { return material >= first_surrounding_material; }
+    [[nodiscard]] bool has_surroundings() const { return surrounds(static_cast<int>(materials.size()) - 1); }
 };
 
 }  // namespace rs::capture

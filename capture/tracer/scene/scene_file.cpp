@@ -4,10 +4,15 @@
 #include "capture/tracer/scene/normalise.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "capture/tracer/scene/studio.hpp"
+#include "capture/tracer/scene/surroundings.hpp"
+#include "rayspace/base/conventions.hpp"
 #include "rayspace/base/json_text.hpp"
 #include "rayspace/file/file_output.hpp"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace rs::capture {
@@ -111,8 +116,46 @@ void read_look(RecipeReader& reader, SceneFile& file) {
     if (style != nullptr) read_toon(*style, reader.errors(), *file.toon);
 }
 
-Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path, ObjectCentre centre) {
-    if (!is_lit(file.scene)) file.scene.environment = make_studio_environment(default_studio());
+// What is to stand around the object.
+struct Room {
+    Scene scene;
+    glm::vec3 at{0.0F};  // of it, where the object's axis meets the ground that it stands on
+    double turn_deg = 0;
+    double radius = 0;  // of the object, in its units
+
+    [[nodiscard]] glm::dmat4 object_from_room(double foot_height) const {
+        glm::dmat4 matrix = glm::translate(glm::dmat4(1), {0, foot_height, 0});
+        matrix = glm::rotate(matrix, radians(-turn_deg), {0, 1, 0});
+        matrix = glm::scale(matrix, glm::dvec3(1 / radius));
+        return glm::translate(matrix, -glm::dvec3(at));
+    }
+};
+
+Room read_room(const nlohmann::json& json, const std::filesystem::path& folder, RecipeErrors& errors) {
+    RecipeReader reader(json, "room", errors);
+    Room room;
+    std::string name;
+    reader.read("file", name);
+    reader.read("at", room.at);
+    reader.read("turn_deg", room.turn_deg, -360, 360);
+    reader.read("radius", room.radius, 1e-6, RecipeReader::kHuge);
+    reader.finish();
+    if (name.empty()) reader.complain("file", "is missing; name the room's mesh (.obj, .ply, .gltf, .glb)");
+    if (room.radius == 0) reader.complain("radius", "is missing; give the object's, in the room's units");
+    if (errors.first) return room;
+    Result<Scene> loaded = read_mesh_file(folder / name);
+    if (!loaded) {
+        reader.complain("file", loaded.error().message);
+    } else {
+        room.scene = std::move(*loaded);
+    }
+    return room;
+}
+
+Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path, ObjectCentre centre,
+                               std::optional<Room> room = {}) {
+    if (!is_lit(file.scene) && !(room && is_lit(room->scene)))
+        file.scene.environment = make_studio_environment(default_studio());
     // First the check: normalisation relies on valid indices.
     if (Status checked = check_scene(file.scene); !checked)
         return Error{path.string() + ": " + checked.error().message};
@@ -120,6 +163,10 @@ Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path
     if (!radius) return Error{path.string() + ": " + radius.error().message};
     file.object_radius = *radius;
     file.foot_height = foot_height(file.scene);
+    if (!room) return file;
+    surround(file.scene, std::move(room->scene), room->object_from_room(file.foot_height));
+    if (Status checked = check_scene(file.scene); !checked)
+        return Error{path.string() + ": with its room: " + checked.error().message};
     return file;
 }
 
@@ -140,7 +187,9 @@ Result<SceneFile> load_recipe(const std::filesystem::path& path, const Generator
     const nlohmann::json* camera = reader.child("camera");
     const nlohmann::json* environment = reader.child("environment");
     const nlohmann::json* lights = reader.child("lights");
+    const nlohmann::json* room = reader.child("room");
     read_look(reader, file);
+    if (room != nullptr && file.toon) reader.complain("room", "does not go with \"look\": \"toon\"; leave out one");
     reader.finish();
     if (object == nullptr) errors.add("object", "is missing; give {\"mesh\": ...} or {\"generator\": ...}");
     ObjectCentre centre = ObjectCentre::bounding_box;
@@ -155,8 +204,10 @@ Result<SceneFile> load_recipe(const std::filesystem::path& path, const Generator
         read_lights(*lights, errors, file.scene);
     }
     if (environment != nullptr) read_environment(*environment, path.parent_path(), errors, file.scene.environment);
+    std::optional<Room> around;
+    if (room != nullptr) around = read_room(*room, path.parent_path(), errors);
     if (errors.first) return *errors.first;
-    return finish_scene(std::move(file), path, centre);
+    return finish_scene(std::move(file), path, centre, std::move(around));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// SCENE arguments: a mesh file, or a recipe (.json) that says object, materials, camera, lights and environment. The
+// SCENE arguments: a mesh file, or a recipe (.json) that says object, materials, camera, lights, environment, room. The
 // recipe's schema is in capture/README.md.
 
 #include "capture/tracer/scene/recipe_parts.hpp"

@@ -1,11 +1,13 @@
 // The white furnace: where the same light comes from everywhere, a surface that absorbs nothing cannot be told from it.
 
 #include "capture/tracer/integrator/microfacet.hpp"
+#include "capture/tracer/scene/surroundings.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 namespace rs::capture::test {
 namespace {
@@ -48,6 +50,37 @@ TEST(Furnace, HalfReflectingSurfaceReflectsHalf) {
     // Convex, so that nothing is reflected twice.
     EXPECT_NEAR(furnace_mean(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.5F))), 0.5, 0.0025);
     EXPECT_NEAR(furnace_mean(make_sphere(5), material_of(SurfaceKind::mirror, glm::vec3(0.5F))), 0.5, 0.0025);
+}
+
+// The camera stands outside of a room whose walls shine, and sees only what is within.
+TEST(Furnace, CamerasSeeThroughRooms) {
+    Scene object, room;
+    object.materials = {material_of(SurfaceKind::diffuse)};
+    object.meshes = {make_sphere(4)};
+    room.materials = {material_of(SurfaceKind::diffuse, glm::vec3(0.0F))};
+    room.materials[0].emission = glm::vec3(1.0F);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::vec3 u(0), v(0), corner(-2);
+        u[(axis + 1) % 3] = v[(axis + 2) % 3] = 4;
+        room.meshes.push_back(make_quad(corner, u, v));
+        corner[axis] = 2;
+        room.meshes.push_back(make_quad(corner, u, v));
+    }
+    Scene within = object;
+    surround(within, std::move(room), glm::dmat4(1));
+    RenderOptions options;
+    options.samples_per_pixel = 64;
+    options.depth = true;
+    const Camera camera = front_camera(3.5, 36.0, 48);
+    const Rendering alone = render(std::move(object), camera, options);
+    const Rendering lit = render(std::move(within), camera, options);
+    EXPECT_NEAR(mean_radiance(lit.picture).g, 1.0, 0.005);
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 48; ++x) {
+            ASSERT_EQ(lit.picture(x, y).a, alone.picture(x, y).a) << x << " " << y;
+            ASSERT_NEAR(lit.depth(x, y), alone.depth(x, y), 1e-5F) << x << " " << y;
+        }
+    }
 }
 
 class RoughFurnace : public testing::TestWithParam<float> {};

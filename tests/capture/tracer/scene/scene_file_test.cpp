@@ -165,6 +165,43 @@ TEST_F(SceneFileTest, GeneratorGetsNameParametersAndSeed) {
                 HasSubstr("object.generator: there are no generators here"));
 }
 
+TEST_F(SceneFileTest, ARoomStandsAroundTheObject) {
+    std::ofstream(folder_ / "room.mtl") << "newmtl lamp\nKd 0 0 0\nKe 2 2 2\n";
+    std::ofstream(folder_ / "room.obj") << "mtllib room.mtl\nusemtl lamp\nv 10 3 4\nv 12 3 4\nv 10 3 6\nf 1 2 3\n";
+    // The quad is 4 x 2, so its radius is half of the root of 20; it stands at its middle's foot.
+    const Result<SceneFile> file = load(R"({"object": {"mesh": "quad.obj", "texture": "red.png"},
+        "room": {"file": "room.obj", "at": [10, 1, 4], "turn_deg": 90, "radius": 2}})");
+    ASSERT_TRUE(file) << file.error().message;
+    const Scene& scene = file->scene;
+    ASSERT_EQ(scene.meshes.size(), 2U);
+    EXPECT_TRUE(scene.has_surroundings());
+    EXPECT_FALSE(scene.surrounds(scene.meshes[0].material));
+    EXPECT_TRUE(scene.surrounds(scene.meshes[1].material));
+    EXPECT_EQ(scene.materials[static_cast<std::size_t>(scene.meshes[1].material)].emission, glm::vec3(2));
+    EXPECT_EQ(scene.materials[0].texture, 0);
+    EXPECT_TRUE(scene.environment.pixels.empty()) << "the lamp is light enough";
+    // 2 above the ground, and what is 2 along +X of the room lies to the turned object's side.
+    const float foot = static_cast<float>(file->foot_height);
+    EXPECT_NEAR(foot, -1 / std::sqrt(5.0F), 1e-6F);
+    const glm::vec3 above = scene.meshes[1].positions[0], beside = scene.meshes[1].positions[1];
+    EXPECT_LT(glm::distance(above, glm::vec3(0, foot + 1, 0)), 1e-5F);
+    EXPECT_LT(glm::distance(beside, glm::vec3(0, foot + 1, 1)), 1e-5F);
+    EXPECT_FALSE(load(R"({"object": {"mesh": "bare.obj"}})")->scene.has_surroundings());
+}
+
+TEST_F(SceneFileTest, WrongRoomsAreErrorsThatNameThePlace) {
+    const auto with = [](const std::string& room) {
+        return R"({"object": {"mesh": "quad.obj"}, "room": )" + room + "}";
+    };
+    EXPECT_THAT(error(with(R"({"file": "none.obj", "radius": 1})")), HasSubstr("room.file"));
+    EXPECT_THAT(error(with(R"({"file": "bare.obj"})")), HasSubstr("room.radius: is missing"));
+    EXPECT_THAT(error(with(R"({"radius": 1})")), HasSubstr("room.file: is missing"));
+    EXPECT_THAT(error(with(R"({"file": "bare.obj", "radius": 0})")), HasSubstr("room.radius"));
+    EXPECT_THAT(error(with(R"({"file": "bare.obj", "radius": 1, "scale": 2})")), HasSubstr("unknown key \"scale\""));
+    EXPECT_THAT(error(R"({"object": {"mesh": "quad.obj"}, "look": "toon", "room": {"file": "bare.obj", "radius": 1}})"),
+                HasSubstr("room: does not go with"));
+}
+
 TEST_F(SceneFileTest, UnknownKeysAreErrorsThatNameThem) {
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "camra": {}})"),
                 HasSubstr("unknown key \"camra\"; known keys are"));
