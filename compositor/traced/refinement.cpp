@@ -26,7 +26,7 @@ double Refinement::steady_clock_s() {
 // What is under way ends, after its first picture.
 void Refinement::drop_view() {
     if (newest_) newest_->passes = 0;
-    if (first_is_out_) stop_ = true;
+    if (first_ != First::kNotThere) stop_ = true;
 }
 
 void Refinement::begin(const Camera& camera, TracedMethod method) {
@@ -62,11 +62,11 @@ std::optional<Refinement::Step> Refinement::take() {
     {
         const std::lock_guard lock(mutex_);
         if (newest_) {
-            first_is_taken_ = true;
+            if (first_ == First::kThere) first_ = First::kTaken;
             return std::exchange(newest_, std::nullopt);
         }
-        if (!first_is_taken_ || first_is_drawn_) return std::nullopt;
-        first_is_drawn_ = true;
+        if (first_ != First::kTaken) return std::nullopt;
+        first_ = First::kDrawn;
     }
     changed_.notify_all();
     return std::nullopt;
@@ -82,11 +82,10 @@ void Refinement::publish(Image<Rgba8> picture, const Camera& camera, int passes)
     std::unique_lock lock(mutex_);
     const bool outdated = wanted_ || lighting_;
     if (!stop_) newest_ = Step{std::move(shared), camera, outdated ? 0 : passes};
-    const bool first = !std::exchange(first_is_out_, true);
     if (outdated) stop_ = true;
-    if (!first) return;
-    first_is_taken_ = first_is_drawn_ = false;
-    changed_.wait(lock, [this] { return stop_ || leaving_ || wanted_ || lighting_ || first_is_drawn_; });
+    if (first_ != First::kNotThere) return;
+    first_ = First::kThere;
+    changed_.wait(lock, [this] { return stop_ || leaving_ || wanted_ || lighting_ || first_ == First::kDrawn; });
 }
 
 void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
@@ -107,7 +106,7 @@ void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
                 view = *std::exchange(wanted_, std::nullopt);
                 lighting = std::exchange(lighting_, std::nullopt);
                 stop_ = false;
-                first_is_out_ = false;
+                first_ = First::kNotThere;
             }
             if (lighting) made->set_lights(*lighting->scene, lighting->exposure_ev);
             made->set_method(view.method);

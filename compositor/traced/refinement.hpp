@@ -66,9 +66,9 @@ private:
     std::optional<Step> newest_;
     std::optional<Error> failure_;
     bool leaving_ = false;
-    bool first_is_out_ = true;  // the first picture of what is under way,
-    bool first_is_taken_ = true;
-    bool first_is_drawn_ = true;
+    // How far the first picture of what is under way has come.
+    enum class First { kNotThere, kThere, kTaken, kDrawn };
+    First first_ = First::kDrawn;
     Clock clock_;
     FirstGrid grid_;  // of the thread
     std::atomic<bool> stop_{false};

@@ -32,6 +32,7 @@ struct CameraRay {
     Sampler sampler;
     unsigned in_square = 0;  // number of its pixel within a square of 4 x 4, row by row
 };
+
 // The light that arrives along one ray of a picture.
 class Integrator {
 public:
