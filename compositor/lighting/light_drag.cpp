@@ -1,5 +1,7 @@
 #include "compositor/lighting/light_drag.hpp"
 
+#include "rayspace/light/light_model.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -51,8 +53,8 @@ LightEntry LightDrag::to(const glm::dvec2& at_px, const Camera& camera, const Su
     if (part_ == HandlePart::kAim) return aimed(at_px + grasped_beside_px_, camera, surface);
     if (part_ == HandlePart::kBody) {
         const glm::dvec2 place_px = at_px + grasped_beside_px_;
-        return entry_.kind == LightKind::kDirectional ? about_dome(place_px, camera)
-                                                      : over_surfaces(place_px, camera, surface);
+        return model_of(entry_).words.has_place ? over_surfaces(place_px, camera, surface)
+                                                : about_dome(place_px, camera);
     }
     LightEntry dragged = entry_;
     if (const auto along = along_axis(at_px, camera)) dragged.location += (*along - grasped_at_) * direction_of(part_);
@@ -64,7 +66,7 @@ LightEntry LightDrag::over_surfaces(const glm::dvec2& at_px, const Camera& camer
     LightEntry dragged = entry_;
     if (const auto hit = surface(at_px)) {
         dragged.location = hit->place + lift_ * hit->normal;
-        if (dragged.kind != LightKind::kPoint) dragged.aim = tidy(hit->normal);
+        if (model_of(dragged).words.has_aim) dragged.aim = tidy(hit->normal);
     } else {
         dragged.location = at_depth_of(entry_.location, at_px, camera);
     }

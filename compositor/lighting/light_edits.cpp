@@ -1,5 +1,7 @@
 #include "compositor/lighting/light_edits.hpp"
 
+#include "rayspace/light/light_model.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -62,7 +64,7 @@ void LightEdits::add(LightEntry entry) {
 void LightEdits::duplicate(const glm::dvec3& beside) {
     if (!now_.selected) return;
     LightEntry copy = now_.state.entries[*now_.selected];
-    if (copy.kind != LightKind::kDirectional) copy.location += beside;
+    if (model_of(copy).words.has_place) copy.location += beside;
     if (!copy.name.empty()) copy.name = free_light_name(now_.state, copy.name);
     add(std::move(copy));
 }
@@ -111,32 +113,10 @@ bool LightEdits::redo() {
     return travel(after_, before_);
 }
 
-LightEntry new_light(LightKind kind, const glm::dvec3& location, const glm::dvec3& aim) {
-    LightEntry entry;
+LightEntry new_light(LightKind kind, const glm::dvec3& location) {
+    LightEntry entry = model_of(kind).example();
     entry.kind = kind;
-    entry.location = location;
-    entry.aim = aim;
-    switch (kind) {
-        case LightKind::kDirectional:
-            entry.power = 1000;
-            break;
-        case LightKind::kPoint:
-            entry.power = 100;
-            break;
-        case LightKind::kSpot:
-            entry.power = 500;
-            break;
-        case LightKind::kRectangle:
-            entry.power = 2000;
-            entry.size = {0.6, 0.3};
-            break;
-        case LightKind::kDisc:
-            entry.power = 1000;
-            entry.size = glm::dvec2(0.3);
-            break;
-        case LightKind::kLuminaire:
-            break;
-    }
+    if (model_of(kind).words.has_place) entry.location = location;
     return entry;
 }
 

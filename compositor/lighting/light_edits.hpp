@@ -7,8 +7,8 @@
 //     edits.set_light(3, moved);
 //     edits.end_gesture();
 
-#include "compositor/scene/light/light_entry.hpp"
 #include "compositor/scene/light/scene_lights.hpp"
+#include "rayspace/light/light_entry.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -79,8 +79,8 @@ private:
     std::uint64_t revision_ = 0;
 };
 
-// A light of the kind that is easily found: at a place, aimed along `aim`; luminaires have no file yet.
-LightEntry new_light(LightKind kind, const glm::dvec3& location, const glm::dvec3& aim);
+// A light of the kind that is easily found at a place; what needs a file has none yet.
+LightEntry new_light(LightKind kind, const glm::dvec3& location);
 
 // "kitchen" -> "kitchen 2" -> "kitchen 3": the first that no light has.
 std::string free_light_name(const LightingState& state, const std::string& like);

@@ -1,5 +1,7 @@
 #include "compositor/lighting/light_handles.hpp"
 
+#include "rayspace/light/light_model.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,8 +13,7 @@ namespace {
 constexpr double kAxis_px = 80;
 constexpr double kAim_px = 120;
 constexpr double kArrow_px = 34;
-constexpr double kCone_px = 46;
-constexpr double kWeb_px = 46;
+constexpr double kShape_px = 46;
 constexpr double kSun_px = 12;
 constexpr double kNearest = 1e-3;  // axial depth: what is nearer is not shown
 
@@ -28,10 +29,6 @@ constexpr std::array kAxisColours = {glm::vec3(0.9F, 0.05F, 0.05F), glm::vec3(0.
 
 double units_per_px(const glm::dvec3& place, const Camera& camera) {
     return std::max(glm::dot(place - camera.centre(), camera.forward()), kNearest) / camera.fl_x;
-}
-
-bool is_area(const LightEntry& entry) {
-    return entry.kind == LightKind::kRectangle || entry.kind == LightKind::kDisc;
 }
 
 // Its own colour, bright enough to be seen.
@@ -52,28 +49,13 @@ public:
           px_(units_per_px(place_, camera)),
           colour_(colour),
           width_px_(width_px) {
-        aim_ = unit_of(entry.aim);
-        axes_ = axes_of(aim_, radians(entry.turn_deg));
         dot(place_, 7);
-        switch (entry.kind) {
-            case LightKind::kDirectional:
-                arrow(dome_of(camera).middle);
-                sun();
-                break;
-            case LightKind::kPoint:
-                sun();
-                break;
-            case LightKind::kSpot:
-                cone();
-                break;
-            case LightKind::kRectangle:
-            case LightKind::kDisc:
-                outline();
-                arrow(place_ + kArrow_px * px_ * aim_);
-                break;
-            case LightKind::kLuminaire:
-                web();
-                break;
+        if (!model_of(entry).words.has_place) arrow(dome_of(camera).middle);
+        const LightOutline outline = model_of(entry).outline(entry);
+        if (outline.lines.empty()) {
+            sun();
+        } else {
+            shape(outline);
         }
     }
 
@@ -100,57 +82,18 @@ private:
         }
     }
 
-    // Points at `angle_rad` from the aim, kCone_px away.
-    void circle(double angle_rad, int sides) {
-        constexpr int kCorners = 32;
-        glm::dvec3 last(0);
-        for (int i = 0; i <= kCorners; ++i) {
-            const double turn = 2 * kPi * i / kCorners;
-            const glm::dvec3 out = std::cos(turn) * axes_.across + std::sin(turn) * axes_.along;
-            const glm::dvec3 here = place_ + kCone_px * px_ * (std::cos(angle_rad) * aim_ + std::sin(angle_rad) * out);
-            if (i > 0) line(last, here);
-            if (sides > 0 && i < kCorners && i % (kCorners / sides) == 0) line(place_, here);
-            last = here;
-        }
-    }
-
-    void cone() {
-        circle(radians(entry_.cut_off_deg / 2), 4);
-        if (entry_.beam_deg > 0 && entry_.beam_deg < entry_.cut_off_deg) circle(radians(entry_.beam_deg / 2), 0);
-    }
-
-    void outline() {
-        const bool round = entry_.kind == LightKind::kDisc;
-        const int corners = round ? 32 : 4;
-        const glm::dvec3 u = 0.5 * entry_.size.x * axes_.across;
-        const glm::dvec3 v = 0.5 * entry_.size.y * axes_.along;
-        const auto corner = [&](int i) {
-            const double turn = 2 * kPi * (i + (round ? 0 : 0.5)) / corners;
-            const double out = round ? 1 : std::sqrt(2.0);
-            return place_ + out * (std::cos(turn) * u + std::sin(turn) * v);
-        };
-        for (int i = 0; i < corners; ++i) line(corner(i), corner(i + 1));
-    }
-
-    void web() {
-        constexpr int kSteps = 48;
-        if (!entry_.luminaire) {
-            sun();
-            return;
-        }
-        const PhotometricWeb& shape = entry_.luminaire->web;
-        for (const int plane : {0, 90}) {
-            const glm::dvec3 out = plane == 0 ? axes_.across : axes_.along;
-            glm::dvec3 last(0);
-            for (int i = 0; i <= kSteps; ++i) {
-                const double angle = 2 * kPi * i / kSteps - kPi;
-                const double reach = candela_in_plane(shape, plane, angle) / shape.peak_candela();
-                const glm::dvec3 here =
-                    place_ + kWeb_px * px_ * reach * (std::cos(angle) * aim_ + std::sin(angle) * out);
-                if (i > 0 && here != last) line(last, here);
-                last = here;
+    void shape(const LightOutline& outline) {
+        const glm::dvec3 aim = unit_of(entry_.aim);
+        const AimedAxes axes = axes_of(aim, radians(entry_.turn_deg));
+        const glm::dmat3 world_from_outline =
+            (outline.to_scale ? 1 : kShape_px * px_) * glm::dmat3(axes.across, axes.along, aim);
+        for (const std::vector<glm::dvec3>& points : outline.lines) {
+            for (std::size_t i = 1; i < points.size(); ++i) {
+                if (points[i] == points[i - 1]) continue;
+                line(place_ + world_from_outline * points[i - 1], place_ + world_from_outline * points[i]);
             }
         }
+        if (outline.to_scale) arrow(place_ + kArrow_px * px_ * aim);
     }
 
     const LightEntry& entry_;
@@ -159,8 +102,6 @@ private:
     double px_;  // scene units
     glm::vec3 colour_;
     float width_px_;
-    glm::dvec3 aim_{0};
-    AimedAxes axes_{};
     std::vector<HandleStroke> strokes_;
 };
 
@@ -184,7 +125,7 @@ std::optional<HandlePart> part_at(const LightEntry& entry, const Camera& camera,
     if (const auto aim = aim_place(entry, camera)) {
         if (distance_px(dot_at(*aim), camera, at_px) <= kDotReach_px) return HandlePart::kAim;
     }
-    if (entry.kind == LightKind::kDirectional) return std::nullopt;
+    if (!model_of(entry).words.has_place) return std::nullopt;
     const glm::dvec3 place = handle_place(entry, camera);
     std::optional<HandlePart> nearest;
     double least = kLineReach_px;
@@ -211,7 +152,7 @@ Dome dome_of(const Camera& camera) {
 }
 
 glm::dvec3 handle_place(const LightEntry& entry, const Camera& camera) {
-    if (entry.kind != LightKind::kDirectional) return entry.location;
+    if (model_of(entry).words.has_place) return entry.location;
     const Dome dome = dome_of(camera);
     return dome.middle - dome.radius * unit_of(entry.aim);
 }
@@ -225,7 +166,7 @@ glm::dvec3 axis_end(const LightEntry& entry, HandlePart axis, const Camera& came
 }
 
 std::optional<glm::dvec3> aim_place(const LightEntry& entry, const Camera& camera) {
-    if (entry.kind == LightKind::kDirectional || entry.kind == LightKind::kPoint) return std::nullopt;
+    if (const LightWords& words = model_of(entry).words; !words.has_place || !words.has_aim) return std::nullopt;
     return entry.location + kAim_px * units_per_px(entry.location, camera) * unit_of(entry.aim);
 }
 
@@ -253,7 +194,7 @@ std::vector<HandleStroke> light_strokes(const LightingState& state, std::optiona
         strokes.push_back({entry.location, *aim, colour, kThin_px});
         strokes.push_back({*aim, *aim, colour, 12});
     }
-    if (entry.kind != LightKind::kDirectional) {
+    if (model_of(entry).words.has_place) {
         for (std::size_t i = 0; i < 3; ++i) {
             const glm::dvec3 end = axis_end(entry, kAxisParts[i], camera);
             const glm::vec3 colour = colour_of_part(kAxisParts[i], kAxisColours[i]);
@@ -283,7 +224,7 @@ std::optional<HandleHit> handle_at(const LightingState& state, std::optional<std
     if (nearest) return nearest;
     least = kLineReach_px;  // the outlines of areas are large
     for (std::size_t i = 0; i < state.entries.size(); ++i) {
-        if (!is_area(state.entries[i])) continue;
+        if (model_of(state.entries[i]).form != LightForm::kArea) continue;
         const Icon icon(state.entries[i], camera, kWhite, 1);
         for (const HandleStroke& stroke : icon.strokes()) offer(i, distance_px(stroke, camera, at_px));
     }

@@ -3,10 +3,9 @@
 // drag it along and a point to aim it by. Icons have the same size on the screen however far the light is; the outlines
 // of areas are their own.
 //
-//     point        a dot with rays               spot         beam and cut-off as circles, and the cone's sides
-//     rectangle,   their outlines, and an        luminaire    its photometric web in planes C0 and C90
-//     disc         arrow to where they shine     directional  an arrow to the middle of a dome that stands in the
-//                                                             picture's upper part, wherever one looks
+//     points       a dot with its outline (LightModel::outline), or with rays
+//     areas        their outlines, and an arrow to where they shine
+//     directional  an arrow to the middle of a dome that stands in the picture's upper part, wherever one looks
 // Pure; thread-safe.
 
 #include "compositor/lighting/light_edits.hpp"

@@ -1,5 +1,7 @@
 #include "compositor/lighting/light_warnings.hpp"
 
+#include "rayspace/light/light_model.hpp"
+
 #include <cmath>
 
 namespace rs::compositor {
@@ -58,7 +60,7 @@ public:
         const Light& light = scene_.lights[i];
         const std::string who = "light " + std::to_string(i + 1) + (light.name.empty() ? "" : " '" + light.name + "'");
         if (!has_power(light)) return who + " has no power; give it some, or leave it out";
-        if (light.kind == LightKind::kDirectional) return "";
+        if (model_of(light).form == LightForm::kDistant) return "";
         for (const auto& [n, box] : boxes_) {
             if (contains(box, light.location) && winding_number(scene_.geometry[n], light.location) > 0.5) {
                 return who + " stands inside of a solid, which keeps its light; move it";

@@ -3,11 +3,11 @@
 // Colours are linear light. Y is up; the unit of length is the scene's own.
 
 #include "compositor/scene/camera_path.hpp"
-#include "compositor/scene/light/light_entry.hpp"
 #include "compositor/scene/material.hpp"
 #include "compositor/scene/mesh.hpp"
 #include "compositor/scene/surroundings.hpp"
 #include "compositor/scene/transform.hpp"
+#include "rayspace/light/light_entry.hpp"
 
 #include <glm/glm.hpp>
 

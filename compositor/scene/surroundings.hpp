@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,17 @@ struct EnvironmentLight {
     float scale = 1;
     float turn_rad = 0;  // about Y
     bool seen = false;   // stands behind everything, where it is traced
+};
+
+// As a list of lights says it.
+struct EnvironmentEntry {
+    std::filesystem::path file{};
+    double scale = 1;  // 0..kStrongest
+    double turn_deg = 0;
+    bool seen = false;
+    std::shared_ptr<const Image<RgbaF>> pixels{};  // what is in the file; not null
+
+    bool operator==(const EnvironmentEntry&) const = default;
 };
 
 enum class FogKind { kLinear, kExponential };

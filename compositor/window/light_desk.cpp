@@ -4,6 +4,7 @@
 #include "compositor/scene/light/scene_lights.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/input_file.hpp"
+#include "rayspace/light/light_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -154,10 +155,10 @@ void LightDesk::add(LightKind kind, const DeskView& view) {
     const glm::dvec3 ahead = camera.ray(middle.x, middle.y);
     // Half-way to what is seen, so that it lights something and can be grasped.
     const glm::dvec3 place = seen ? glm::mix(camera.centre(), seen->place, 0.5) : camera.centre() + kAhead * ahead;
-    LightEntry entry =
-        new_light(kind, place, kind == LightKind::kDirectional ? glm::dvec3(-1, -2, -1) : glm::dvec3(0, -1, 0));
-    entry.name = free_light_name(edits_.state(), name_of(kind));
-    if (kind == LightKind::kLuminaire) {
+    const LightWords& words = model_of(kind).words;
+    LightEntry entry = new_light(kind, place);
+    entry.name = free_light_name(edits_.state(), words.kind);
+    if (words.has_file) {
         if (files_.empty()) {
             tell(folder_.string() + ": holds no .ies or .ldt file; choose another folder");
             return;
@@ -213,7 +214,7 @@ void LightDesk::look_for_files(const std::filesystem::path& folder) {
 
 Status LightDesk::use_file(const std::filesystem::path& file) {
     const auto selected = edits_.selected();
-    if (!selected || edits_.state().entries[*selected].kind != LightKind::kLuminaire) return {};
+    if (!selected || !model_of(edits_.state().entries[*selected]).words.has_file) return {};
     Result<Luminaire> read = read_luminaire(file);
     if (!read) return read.error();
     LightEntry entry = edits_.state().entries[*selected];

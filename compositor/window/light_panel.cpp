@@ -2,6 +2,7 @@
 
 #include "compositor/lighting/number_step.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/light/light_model.hpp"
 
 #include <imgui.h>
 
@@ -20,8 +21,6 @@ constexpr float kField_px = 88;
 constexpr float kButton_px = 44;
 constexpr float kListRows = 7;
 const ImVec4 kWarning{1, 0.6F, 0.3F, 1};
-constexpr std::array kKinds = {LightKind::kPoint,     LightKind::kSpot, LightKind::kLuminaire,
-                               LightKind::kRectangle, LightKind::kDisc, LightKind::kDirectional};
 
 struct Range {
     double lowest;
@@ -96,7 +95,7 @@ void triple_field(const char* what, const std::array<const char*, 3>& labels, gl
 }
 
 std::string label_of(const LightEntry& entry, std::size_t number) {
-    std::string label = std::to_string(number + 1) + "  " + name_of(entry.kind);
+    std::string label = std::to_string(number + 1) + "  " + model_of(entry).words.kind;
     if (!entry.name.empty()) label += "  " + printable(entry.name);
     if (!entry.file.empty()) label += "  (" + printable(entry.file.filename().string()) + ")";
     return label;
@@ -120,8 +119,9 @@ void draw_list(LightDesk& desk) {
 void draw_list_buttons(LightDesk& desk, const DeskView& view) {
     ImGui::SetNextItemWidth(kField_px);
     if (ImGui::BeginCombo("##add", "add ...")) {
-        for (const LightKind kind : kKinds) {
-            if (ImGui::Selectable(name_of(kind))) desk.add(kind, view);
+        for (std::size_t i = 0; i < kLightKinds; ++i) {
+            const auto kind = static_cast<LightKind>(i);
+            if (ImGui::Selectable(model_of(kind).words.kind)) desk.add(kind, view);
         }
         ImGui::EndCombo();
     }
@@ -133,17 +133,18 @@ void draw_list_buttons(LightDesk& desk, const DeskView& view) {
 }
 
 void edit_power(LightEntry& entry) {
-    if (entry.radiance) {
-        const double most = std::max({entry.radiance->x, entry.radiance->y, entry.radiance->z});
-        double changed = most;
-        const bool punctual = entry.kind == LightKind::kPoint || entry.kind == LightKind::kSpot;
-        if (factor_field(punctual ? "intensity" : "radiance, W/(m2 sr)", changed, 1, kPowers)) {
-            *entry.radiance = most > 0 ? *entry.radiance * (changed / most) : glm::dvec3(changed);
-        }
+    const LightWords& words = model_of(entry).words;
+    if (!entry.radiance) {
+        factor_field(words.power, entry.power, words.power_is_factor ? 1 : 10, kPowers);
         return;
     }
-    const bool dimmer = entry.kind == LightKind::kLuminaire;
-    factor_field(dimmer ? "dimmer" : unit_of(entry), entry.power, dimmer ? 1 : 10, kPowers);
+    const double most = std::max({entry.radiance->x, entry.radiance->y, entry.radiance->z});
+    double changed = most;
+    const std::string label =
+        words.radiance + (words.radiance_unit != nullptr ? std::string(", ") + words.radiance_unit : "");
+    if (factor_field(label.c_str(), changed, 1, kPowers)) {
+        *entry.radiance = most > 0 ? *entry.radiance * (changed / most) : glm::dvec3(changed);
+    }
 }
 
 void edit_colour(LightEntry& entry) {
@@ -161,18 +162,18 @@ void edit_aim(LightEntry& entry) {
 }
 
 void edit_shape(LightEntry& entry) {
-    if (entry.kind == LightKind::kDisc) {
-        if (factor_field("diameter", entry.size.x, 0.1, kLengths)) entry.size.y = entry.size.x;
-    } else if (entry.kind == LightKind::kRectangle) {
-        factor_field("across", entry.size.x, 0.1, kLengths);
-        factor_field("along", entry.size.y, 0.1, kLengths);
-    } else if (entry.kind == LightKind::kSpot) {
-        if (step_field("beam, degrees", entry.beam_deg, 0, {0, 180})) {
-            entry.cut_off_deg = std::max(entry.cut_off_deg, entry.beam_deg);
+    const LightWords& words = model_of(entry).words;
+    for (std::size_t i = 0; i < words.sizes.size(); ++i) {
+        factor_field(words.sizes[i], entry.size[static_cast<int>(i)], 0.1, kLengths);
+    }
+    if (words.sizes.size() == 1) entry.size.y = entry.size.x;
+    for (const LightNumber& number : words.numbers) {
+        if (!step_field(number.label, entry.*number.value, 0, {number.lowest, number.highest})) continue;
+        // What was just set stays, and the other gives way.
+        for (const LightNumber& other : words.numbers) {
+            if (other.at_most == number.value) entry.*other.value = std::min(entry.*other.value, entry.*number.value);
         }
-        if (step_field("cut-off, degrees", entry.cut_off_deg, 0, {kLeastCutOff_deg, 180})) {
-            entry.beam_deg = std::min(entry.beam_deg, entry.cut_off_deg);
-        }
+        if (number.at_most != nullptr) entry.*number.at_most = std::max(entry.*number.at_most, entry.*number.value);
     }
 }
 
@@ -184,12 +185,10 @@ void edit_light(LightEntry& entry) {
     if (ImGui::InputText("name", name, sizeof name)) entry.name = name;
     edit_power(entry);
     edit_colour(entry);
-    if (entry.kind != LightKind::kDirectional) triple_field("place", {"x", "y", "z"}, entry.location, -2, kPlaces);
-    if (entry.kind != LightKind::kPoint) edit_aim(entry);
-    const bool punctual = entry.kind == LightKind::kPoint || entry.kind == LightKind::kSpot;
-    if (!punctual && entry.kind != LightKind::kDirectional) {
-        step_field("turn, degrees", entry.turn_deg, 0, {-36000, 36000});
-    }
+    const LightWords& words = model_of(entry).words;
+    if (words.has_place) triple_field("place", {"x", "y", "z"}, entry.location, -2, kPlaces);
+    if (words.has_aim) edit_aim(entry);
+    if (words.turns) step_field("turn, degrees", entry.turn_deg, 0, {-36000, 36000});
     edit_shape(entry);
 }
 
@@ -279,7 +278,7 @@ void LightPanel::draw(LightDesk& desk, const DeskView& view) {
                 edits.set_light(*selected, std::move(entry));
             }
             ImGui::PopButtonRepeat();
-            if (edits.state().entries[*selected].kind == LightKind::kLuminaire) {
+            if (model_of(edits.state().entries[*selected]).words.has_file) {
                 draw_files(desk, edits.state().entries[*selected]);
             }
             ImGui::PopID();

@@ -18,7 +18,9 @@
 
 namespace rs {
 
-enum class LightKind { kDirectional, kPoint, kSpot, kRectangle, kDisc, kLuminaire };
+// In the order in which people are offered them. What each is: light_model.hpp.
+enum class LightKind { kPoint, kSpot, kLuminaire, kRectangle, kDisc, kDirectional };
+inline constexpr std::size_t kLightKinds = 6;
 
 // In scene coordinates. The first block is ISO/IEC 14772-1, 4.6.6 and 4.14.
 struct Light {
@@ -59,18 +61,19 @@ Light point_light(const glm::dvec3& location, const glm::vec3& intensity);
 Light rectangle_light(const glm::dvec3& corner, const glm::dvec3& side_u, const glm::dvec3& side_v,
                       const glm::vec3& radiance);
 
-// Of area lights, in square units.
+// Of area lights, in square units; else 0.
 double area_of(const Light& light);
 
-// Whether a point or spot falls off by the square of the distance, however near, as lights of so many candelas do.
+// Of a point or spot: whether it falls off by the square of the distance, however near, as lights of so many candelas
+// do.
 bool is_inverse_square(const Light& light);
 
-// Of directional lights, points, spots and luminaires: irradiance at `position`, which faces the light, with nothing in
-// between; 0 where none arrives. Areas give 0: they are no point.
+// Irradiance at `position`, which faces the light, with nothing in between; 0 where none arrives. Areas give 0: they
+// are no point.
 glm::vec3 irradiance_at(const Light& light, const glm::dvec3& position);
 
-// What comes nearest to the light among points, spots and directional lights, for renderers that know no others: areas
-// and luminaires become spots of the same intensity along their aim and about the same width, with no light behind.
+// What comes nearest to the light among points, spots and directional lights, for renderers that know no others: what
+// is none of them becomes a spot of the same intensity along its aim and about the same width, with no light behind.
 Light punctual_of(const Light& light);
 
 // The light turned about Y; positive angles take +Z to +X.

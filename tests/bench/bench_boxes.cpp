@@ -7,8 +7,8 @@
 // path-traced picture of as many samples, which is the noise of the reference twice over.
 
 #include "capture/tracer/integrator/tracer.hpp"
-#include "capture/tracer/light/directions.hpp"
 #include "capture/tracer/scene/mesh_file.hpp"
+#include "rayspace/light/directions.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <cmath>

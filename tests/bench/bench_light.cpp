@@ -9,8 +9,8 @@
 // time of all threads: on a machine that does other things, too, seconds should be chosen so that it is what they stand
 // for.
 
-#include "capture/tracer/light/directions.hpp"
 #include "compositor/traced/traced_renderer.hpp"
+#include "rayspace/light/directions.hpp"
 #include "rayspace/tool/tool_main.hpp"
 #include "tests/bench/lit_scene.hpp"
 #include "tests/bench/stopwatch.hpp"
@@ -36,7 +36,7 @@ struct Picture {
 };
 
 double luminance_of(const RgbaF& p) {
-    return p.a > 0 ? static_cast<double>(capture::luminance({p.r, p.g, p.b})) : 0;
+    return p.a > 0 ? static_cast<double>(luminance({p.r, p.g, p.b})) : 0;
 }
 
 struct Taken {

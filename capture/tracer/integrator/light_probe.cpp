@@ -2,6 +2,7 @@
 
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/light/light_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +24,11 @@ double solid_angle(int y, int width) {
 void add_light(const Light& light, const Tracer& tracer, const glm::dvec3& place, Image<RgbaF>& map) {
     const glm::vec3 irradiance = irradiance_at(light, place);
     if (irradiance == glm::vec3(0)) return;
-    const glm::dvec3 way = light.kind == LightKind::kDirectional ? -light.towards : light.location - place;
+    const bool distant = model_of(light).form == LightForm::kDistant;
+    const glm::dvec3 way = distant ? -light.towards : light.location - place;
     const double distance = glm::length(way);
     const glm::dvec3 direction = way / distance;
-    const double reach = light.kind == LightKind::kDirectional ? std::numeric_limits<double>::infinity() : distance;
+    const double reach = distant ? std::numeric_limits<double>::infinity() : distance;
     if (!tracer.sees(place, direction, reach)) return;
     const int width = map.width();
     const double turns = 0.5 + std::atan2(direction.x, -direction.z) / (2 * kPi);

@@ -1,6 +1,6 @@
 #include "capture/tracer/integrator/packet_materials.hpp"
 
-#include "capture/tracer/light/directions.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 #include "capture/tracer/integrator/toon_edges.hpp"
 
-#include "capture/tracer/light/directions.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <algorithm>
 #include <cmath>

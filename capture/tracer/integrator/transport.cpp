@@ -1,7 +1,7 @@
 #include "capture/tracer/integrator/transport.hpp"
 
-#include "capture/tracer/light/directions.hpp"
 #include "capture/tracer/scene/texture_lookup.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,10 +7,10 @@
 #include "capture/tracer/integrator/medium_stack.hpp"
 #include "capture/tracer/integrator/sampler.hpp"
 #include "capture/tracer/integrator/surface.hpp"
-#include "capture/tracer/light/directions.hpp"
 #include "capture/tracer/light/light_set.hpp"
 #include "capture/tracer/picture/accumulation.hpp"
 #include "capture/tracer/rays/ray_scene.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <cstddef>
 #include <span>

@@ -1,32 +1,12 @@
 // The half of LightSet that follows light from its sources.
-#include "capture/tracer/light/directions.hpp"
 #include "capture/tracer/light/light_set.hpp"
 #include "capture/tracer/scene/texture_lookup.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace rs::capture {
-
-namespace {
-
-// Evenly within the cone about +z whose cosine is at least `least_cos`.
-glm::vec3 cone_direction(const glm::vec2& u, float least_cos) {
-    const float z = 1.0F - u.x * (1.0F - least_cos);
-    const float r = std::sqrt(std::max(0.0F, 1.0F - z * z));
-    return {r * std::cos(2.0F * kPiF * u.y), r * std::sin(2.0F * kPiF * u.y), z};
-}
-
-glm::vec2 disc_point(const glm::vec2& u) {
-    const float r = std::sqrt(u.x);
-    return r * glm::vec2(std::cos(2.0F * kPiF * u.y), std::sin(2.0F * kPiF * u.y));
-}
-
-float least_cos_of(const Light& light) {
-    return light.kind == LightKind::kSpot ? static_cast<float>(std::cos(std::min(light.cut_off_rad, kPi))) : -1.0F;
-}
-
-}  // namespace
 
 float LightSet::flux_of(const Source& source) const {
     const float disc = kPiF * extent_.radius * extent_.radius;
@@ -34,22 +14,16 @@ float LightSet::flux_of(const Source& source) const {
         case SourceKind::environment:
         case SourceKind::distant:
             return source.power * disc;
-        case SourceKind::area:
-            return source.power * kPiF;
         case SourceKind::emitters:
             return static_cast<float>(emitter_power_) * kPiF;
+        case SourceKind::area:
         case SourceKind::local:
             break;
     }
-    const Light& light = lights_[source.index];
-    if (light.kind == LightKind::kLuminaire) {
-        return luminance(light.colour) * static_cast<float>(light.luminaire->web.lumens() / kLumensPerWatt);
-    }
-    // Of its axis, at a distance that is usual in the scene.
-    const double d = std::min(static_cast<double>(extent_.radius), light.radius) / 2;
-    const double falloff =
-        std::max(glm::dot(glm::dvec3(light.attenuation), {1, d, d * d}), static_cast<double>(light.least_attenuation));
-    return source.power * (1.0F - least_cos_of(light)) * 2.0F * kPiF * static_cast<float>(d * d / falloff);
+    const Light& light = lights_[source.kind == SourceKind::area ? areas_[source.index].light : source.index];
+    // At a distance that is usual in the scene.
+    const glm::vec3 flux(model_of(light).flux(light, 0.5 * static_cast<double>(extent_.radius)));
+    return luminance(flux);
 }
 
 void LightSet::sum_flux() {
@@ -79,7 +53,7 @@ std::optional<Photon> LightSet::emit(float u_source, const glm::vec2& u_place, c
         }
         case SourceKind::area: {
             const Area& area = areas_[source.index];
-            const glm::vec2 at = area.round ? disc_point(u_place) : 2.0F * u_place - 1.0F;
+            const glm::vec2 at = area.model->point(u_place);
             return Photon{area.middle + area.half_u * at.x + area.half_v * at.y,
                           Frame(area.normal).to_world(cosine_direction(u_direction)), area.normal,
                           area.radiance * (kPiF * area.area / chance)};
@@ -101,21 +75,13 @@ Photon LightSet::emit_distant(const glm::vec3& direction, const glm::vec3& irrad
 }
 
 std::optional<Photon> LightSet::emit_local(const Light& light, float chance, const glm::vec2& u) {
+    const auto drawn = model_of(light).sample(light, u);
+    if (!drawn) return std::nullopt;
     Photon photon{};
     photon.origin = glm::vec3(light.location);
     photon.point = &light;
-    if (light.kind == LightKind::kLuminaire) {
-        const glm::dvec3 direction = light.luminaire->web.sample(glm::dvec2(u));
-        const double pdf = light.luminaire->web.pdf(direction);
-        if (!(pdf > 0)) return std::nullopt;
-        photon.direction = glm::vec3(light.world_from_luminaire * direction);
-        photon.inverse_pdf = static_cast<float>(1 / pdf) / chance;
-        return photon;
-    }
-    const float least_cos = least_cos_of(light);
-    const Frame frame(light.kind == LightKind::kSpot ? glm::vec3(light.towards) : glm::vec3(0, 0, 1));
-    photon.direction = frame.to_world(cone_direction(u, least_cos));
-    photon.inverse_pdf = 2.0F * kPiF * (1.0F - least_cos) / chance;
+    photon.direction = drawn->direction;
+    photon.inverse_pdf = drawn->inverse_pdf / chance;
     return photon;
 }
 

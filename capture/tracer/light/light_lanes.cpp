@@ -1,8 +1,8 @@
 // The part of LightSet that lights sixteen surfaces at a time.
 #include "capture/tracer/packets/light_lanes.hpp"
 
-#include "capture/tracer/light/directions.hpp"
 #include "capture/tracer/light/light_set.hpp"
+#include "rayspace/light/directions.hpp"
 
 namespace rs::capture {
 
@@ -13,24 +13,6 @@ void set_lane(std::size_t lane, const LightSample& sample, LightLanes& arrives) 
     arrives.radiance.set(lane, sample.radiance);
     arrives.pdf[lane] = sample.pdf;
     arrives.delta = sample.delta;
-}
-
-void LightSet::place_points() {
-    points_.clear();
-    for (const Source& source : sources_) {
-        if (source.kind != SourceKind::local) continue;
-        const Light& light = lights_[source.index];
-        points_.resize(lights_.size());
-        points_[source.index] = {light.location,
-                                 light.radius,
-                                 light.attenuation,
-                                 light.least_attenuation,
-                                 kPiF * light.colour,
-                                 source.power,
-                                 cones_[source.index].towards,
-                                 cones_[source.index].least_cos,
-                                 light.kind == LightKind::kLuminaire};
-    }
 }
 
 bool LightSet::middle(std::size_t number, const SurfaceLanes& surfaces, const MaskLanes& wanted,
@@ -51,7 +33,7 @@ bool LightSet::middle(std::size_t number, const SurfaceLanes& surfaces, const Ma
                 return true;
             }
             case SourceKind::local:
-                if (lights_[source.index].kind == LightKind::kPoint) {
+                if (model_of(lights_[source.index]).is_even()) {
                     return light_from_point(points_[source.index], places, wanted, arrives);
                 }
                 if (!reach_of_point(points_[source.index], surfaces, wanted, asked)) return false;

@@ -1,7 +1,7 @@
 // The part of LightSet that takes each source for a point.
-#include "capture/tracer/light/directions.hpp"
 #include "capture/tracer/light/light_set.hpp"
 #include "capture/tracer/scene/texture_lookup.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,8 +42,7 @@ std::optional<LightSample> LightSet::middle(std::size_t number, const glm::vec3&
     // Before a web is asked.
     if (!(estimate(source, position) > 0.0F)) return std::nullopt;
     if (source.kind == SourceKind::local) return sample_light(lights_[source.index], position, 1.0F);
-    const Area& area = areas_[source.index];
-    return sample_area(area, position, 1.0F, area.round ? glm::vec2(0.0F) : glm::vec2(0.5F));
+    return sample_area(areas_[source.index], position, 1.0F, glm::vec2(0.0F));
 }
 
 std::optional<LightSample> LightSet::glow(const Glow& glow, const glm::vec3& position) {
@@ -68,7 +67,10 @@ std::optional<LightSample> LightSet::point(std::size_t number, const glm::vec3& 
     if (number >= sources_.size()) return std::nullopt;
     const Source& source = sources_[number];
     if (source.kind == SourceKind::environment || !(estimate(source, position) > 0.0F)) return std::nullopt;
-    if (source.kind == SourceKind::area) return sample_area(areas_[source.index], position, 1.0F, draw());
+    if (source.kind == SourceKind::area) {
+        const Area& area = areas_[source.index];
+        return sample_area(area, position, 1.0F, area.model->point(draw()));
+    }
     if (source.kind != SourceKind::emitters) return sample_light(lights_[source.index], position, 1.0F);
     const Selection alone{position, source.power, 1.0F};  // drawn for certain
     const float which = draw().x;

@@ -1,8 +1,8 @@
 #include "capture/tracer/light/light_set.hpp"
 
-#include "capture/tracer/light/directions.hpp"
 #include "capture/tracer/scene/flatten.hpp"
 #include "capture/tracer/scene/texture_lookup.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,28 +19,7 @@ float brightness_of(const Material& material, const std::vector<Texture>& textur
     return luminance(material.emission * mean_colour(textures[static_cast<std::size_t>(material.emission_texture)]));
 }
 
-// Of a luminaire, by looking at its web a degree at a time.
-float least_cos_of(const PhotometricWeb& web) {
-    constexpr int kTurns = 48;
-    for (int polar = 179; polar > 0; --polar) {
-        const double p = radians(polar);
-        for (int turn = 0; turn < kTurns; ++turn) {
-            const double t = 2 * kPi * turn / kTurns;
-            if (web.candela({std::sin(p) * std::cos(t), -std::cos(p), std::sin(p) * std::sin(t)}) > 0) {
-                return polar == 179 ? -1.0F : static_cast<float>(std::cos(radians(polar + 1.5)));
-            }
-        }
-    }
-    return -1.0F;
-}
-
 }  // namespace
-
-LightSet::Cone LightSet::cone_of(const Light& light) {
-    if (light.kind == LightKind::kSpot) return {{}, static_cast<float>(std::cos(light.cut_off_rad)) - 1e-4F};
-    if (light.kind == LightKind::kLuminaire) return {{}, least_cos_of(light.luminaire->web)};
-    return {};
-}
 
 LightSet::LightSet(const Scene& scene, Environment environment, const Extent& extent)
     : scene_(scene),
@@ -75,7 +54,7 @@ void LightSet::set_lights(const std::vector<Light>& lights) {
     sources_.clear();
     areas_.clear();
     still_.clear();
-    cones_.clear();
+    points_.clear();
     environment_source_.reset();
     emitter_source_.reset();
     if (!environment_.is_black()) {
@@ -105,27 +84,30 @@ void LightSet::set_environment(float scale, float turn_rad) {
 }
 
 void LightSet::add_light(const Light& light) {
-    const bool area = light.kind == LightKind::kRectangle || light.kind == LightKind::kDisc;
-    float power = luminance(light.colour);
-    if (area) {
-        power *= static_cast<float>(area_of(light));
-    } else if (light.kind == LightKind::kLuminaire) {
-        power *= static_cast<float>(light.luminaire->web.peak_candela() / kLumensPerWatt);
-    } else {
-        power *= kPiF;
-    }
+    const LightModel& model = model_of(light);
+    const float power = luminance(light.colour) * static_cast<float>(model.strength(light));
     if (!(power > 0.0F)) return;
+    const std::size_t index = still_.size();
     still_.push_back(light);
-    cones_.push_back(cone_of(light));
-    if (area) {
-        areas_.emplace_back();
-        areas_.back().light = still_.size() - 1;
-        areas_.back().source = sources_.size();
-        sources_.push_back({SourceKind::area, areas_.size() - 1, power});
-        return;
+    const LightReach reach = model.reach(light);
+    points_.push_back({.radius = reach.radius,
+                       .attenuation = reach.attenuation,
+                       .least_attenuation = reach.least_attenuation,
+                       .colour = kPiF * light.colour,
+                       .power = power,
+                       .least_cos = reach.least_cos});
+    switch (model.form) {
+        case LightForm::kDistant:
+            sources_.push_back({SourceKind::distant, index, power});
+            break;
+        case LightForm::kPoint:
+            sources_.push_back({SourceKind::local, index, power});
+            break;
+        case LightForm::kArea:
+            areas_.push_back({.light = index, .source = sources_.size(), .model = &model});
+            sources_.push_back({SourceKind::area, areas_.size() - 1, power});
+            break;
     }
-    const bool distant = light.kind == LightKind::kDirectional;
-    sources_.push_back({distant ? SourceKind::distant : SourceKind::local, still_.size() - 1, power});
 }
 
 void LightSet::turn(float angle_rad) {
@@ -137,9 +119,8 @@ void LightSet::turn(float angle_rad) {
 void LightSet::place_lights(float turn_rad) {
     for (std::size_t i = 0; i < still_.size(); ++i) {
         lights_[i] = turned_about_y(still_[i], static_cast<double>(turn_rad));
-        cones_[i].towards =
-            glm::vec3(lights_[i].kind == LightKind::kLuminaire ? lights_[i].world_from_luminaire * glm::dvec3(0, -1, 0)
-                                                               : lights_[i].towards);
+        points_[i].location = lights_[i].location;
+        points_[i].towards = glm::vec3(model_of(lights_[i]).axis(lights_[i]));
     }
     for (Area& area : areas_) {
         const Light& light = lights_[area.light];
@@ -150,10 +131,8 @@ void LightSet::place_lights(float turn_rad) {
         area.parallelogram = glm::length(cross);
         area.normal = cross / area.parallelogram;
         area.radiance = light.colour;
-        area.area = static_cast<float>(area_of(light));
-        area.round = light.kind == LightKind::kDisc;
+        area.area = static_cast<float>(area.model->strength(light));
     }
-    place_points();
 }
 
 float LightSet::estimate(const Source& source, const glm::vec3& position) const {
@@ -165,15 +144,13 @@ float LightSet::estimate(const Source& source, const glm::vec3& position) const 
         return source.power / std::max(glm::dot(way, way), area.area);
     }
     if (source.kind != SourceKind::local) return source.power;
-    const Light& light = lights_[source.index];
-    const Cone& cone = cones_[source.index];
+    const PointLight& light = points_[source.index];
     const glm::vec3 way = position - glm::vec3(light.location);
     const float distance2 = glm::dot(way, way);
     const float d = std::sqrt(distance2);
     if (!(d > 0.0F) || d > static_cast<float>(light.radius)) return 0.0F;
-    if (glm::dot(way, cone.towards) < cone.least_cos * d) return 0.0F;
-    if (light.kind == LightKind::kLuminaire) return source.power / distance2;
-    return source.power / std::max(glm::dot(light.attenuation, glm::vec3(1.0F, d, distance2)), light.least_attenuation);
+    if (glm::dot(way, light.towards) < light.least_cos * d) return 0.0F;
+    return light.power / std::max(glm::dot(light.attenuation, glm::vec3(1.0F, d, distance2)), light.least_attenuation);
 }
 
 LightSet::Selection LightSet::select(const glm::vec3& position) const {
@@ -249,7 +226,8 @@ std::optional<LightSample> LightSet::sample(const Selection& selection, float u_
         case SourceKind::local:
             return sample_light(lights_[chosen->index], selection.position, chance);
         case SourceKind::area:
-            return sample_area(areas_[chosen->index], selection.position, chance, u);
+            return sample_area(areas_[chosen->index], selection.position, chance,
+                               areas_[chosen->index].model->point(u));
         case SourceKind::emitters:
             return sample_emitter(selection, std::min(u_source / chance, 0x1.fffffep-1F), u);
     }
@@ -259,7 +237,7 @@ std::optional<LightSample> LightSet::sample(const Selection& selection, float u_
 std::optional<LightSample> LightSet::sample_light(const Light& light, const glm::vec3& position, float probability) {
     const glm::vec3 irradiance = irradiance_at(light, position);
     if (!(max_component(irradiance) > 0.0F)) return std::nullopt;
-    if (light.kind == LightKind::kDirectional) {
+    if (model_of(light).form == LightForm::kDistant) {
         return LightSample{-glm::vec3(light.towards), std::numeric_limits<float>::infinity(), irradiance, probability,
                            true};
     }
@@ -276,12 +254,7 @@ std::optional<LightSample> LightSet::sample_environment(float probability, const
 }
 
 std::optional<LightSample> LightSet::sample_area(const Area& area, const glm::vec3& position, float probability,
-                                                 const glm::vec2& u) {
-    glm::vec2 at = 2.0F * u - 1.0F;
-    if (area.round) {
-        const float radius = std::sqrt(u.x);
-        at = radius * glm::vec2(std::cos(2.0F * kPiF * u.y), std::sin(2.0F * kPiF * u.y));
-    }
+                                                 const glm::vec2& at) {
     const glm::vec3 to_light = area.middle + area.half_u * at.x + area.half_v * at.y - position;
     const float distance2 = glm::dot(to_light, to_light);
     if (!(distance2 > 0.0F)) return std::nullopt;
@@ -359,7 +332,7 @@ std::optional<LightSet::Crossing> LightSet::cross_area(std::size_t index, const 
     // Coordinates along the halves, which need not be perpendicular.
     const float s = glm::dot(glm::cross(p, area.half_v), area.normal) / area.parallelogram;
     const float t = glm::dot(glm::cross(area.half_u, p), area.normal) / area.parallelogram;
-    if (area.round ? s * s + t * t > 1.0F : std::max(std::abs(s), std::abs(t)) > 1.0F) return std::nullopt;
+    if (!area.model->covers({s, t})) return std::nullopt;
     const float chance = probability(selection, estimate(sources_[area.source], selection.position));
     return Crossing{area.radiance, chance * distance * distance / (cos_light * area.area)};
 }

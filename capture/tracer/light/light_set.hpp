@@ -11,7 +11,7 @@
 #include "capture/tracer/light/photon.hpp"
 #include "capture/tracer/packets/light_lanes.hpp"
 #include "capture/tracer/scene/scene.hpp"
-#include "rayspace/light/light.hpp"
+#include "rayspace/light/light_model.hpp"
 
 #include <functional>
 #include <memory>
@@ -130,14 +130,8 @@ private:
         glm::vec3 radiance{0.0F};
         float parallelogram = 0.0F;  // of half_u and half_v
         float area = 0.0F;
-        bool round = false;
+        const LightModel* model = nullptr;
     };
-    // Beyond this cone there is no light.
-    struct Cone {
-        glm::vec3 towards{0.0F};
-        float least_cos = -1.0F;
-    };
-
     // A mesh that shines, for those who take it for a point.
     struct Glow {
         glm::vec3 middle{0.0F};
@@ -160,14 +154,12 @@ private:
         bool hole;
     };
 
-    static Cone cone_of(const Light& light);
     [[nodiscard]] static std::optional<LightSample> glow(const Glow& glow, const glm::vec3& position);
     void gather_emitters();
     void gather_emitter(const Mesh& mesh);
     void gather_glow(const Mesh& mesh);
     void add_light(const Light& light);
     void place_lights(float turn_rad);
-    void place_points();
     [[nodiscard]] float estimate(const Source& source, const glm::vec3& position) const;
     [[nodiscard]] static float probability(const Selection& selection, float estimate) {
         return estimate > 0.0F ? 0.5F * (selection.even + estimate / selection.total) : 0.0F;
@@ -175,8 +167,9 @@ private:
     [[nodiscard]] std::optional<LightSample> sample_environment(float probability, const glm::vec2& u) const;
     [[nodiscard]] static std::optional<LightSample> sample_light(const Light& light, const glm::vec3& position,
                                                                  float probability);
+    // `at` in coordinates along its halves.
     [[nodiscard]] static std::optional<LightSample> sample_area(const Area& area, const glm::vec3& position,
-                                                                float probability, const glm::vec2& u);
+                                                                float probability, const glm::vec2& at);
     [[nodiscard]] std::optional<LightSample> sample_emitter(const Selection& selection, float u_emitter,
                                                             const glm::vec2& u) const;
 
@@ -197,7 +190,6 @@ private:
     Extent extent_;                   // nearer than its radius, surfaces that shine are not thought to be brighter
     std::vector<Light> lights_;       // those of the scene that shine, as they are turned now
     std::vector<Light> still_;        // the same as they were at construction
-    std::vector<Cone> cones_;         // of lights_
     std::vector<PointLight> points_;  // of lights_; those of areas and directional lights are not used
     std::vector<Area> areas_;
     std::vector<std::unique_ptr<const Mesh>> placed_;  // meshes of instances that shine, in the world

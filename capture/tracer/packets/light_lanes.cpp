@@ -17,11 +17,8 @@ HWY_INLINE Mask reached_by(const PointLight& light, const Floats3& way, Floats d
     Mask none = hn::Not(hn::Gt(distance, zero));
     none = hn::Or(none, hn::Gt(distance, number(static_cast<float>(light.radius))));
     none = hn::Or(none, hn::Lt(dot(way, broadcast(light.towards)), number(light.least_cos) * distance));
-    Floats falloff = distance2;
-    if (!light.by_square) {
-        falloff =
-            greater(dot(broadcast(light.attenuation), {one, distance, distance2}), number(light.least_attenuation));
-    }
+    const Floats falloff =
+        greater(dot(broadcast(light.attenuation), {one, distance, distance2}), number(light.least_attenuation));
     return hn::AndNot(none, hn::Gt(number(light.power) / falloff, zero));
 }
 

@@ -29,7 +29,6 @@ struct PointLight {
     float power = 0;
     glm::vec3 towards{0};
     float least_cos = -1;
-    bool by_square = false;  // whatever the attenuation
 };
 
 // A rectangle or a disc, taken for its middle.

@@ -1,6 +1,6 @@
 #include "capture/tracer/picture/accumulation.hpp"
 
-#include "capture/tracer/light/directions.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <algorithm>
 #include <utility>

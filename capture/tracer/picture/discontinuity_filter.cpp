@@ -1,7 +1,7 @@
 #include "capture/tracer/picture/discontinuity_filter.hpp"
 
-#include "capture/tracer/light/directions.hpp"
 #include "rayspace/base/parallel.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <algorithm>
 #include <array>

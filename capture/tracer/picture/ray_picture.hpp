@@ -2,8 +2,8 @@
 // A picture of any projection: which ray each pixel position stands for; for lenses that bend lines. And a lens with an
 // opening, whose pixels have many rays.
 
-#include "capture/tracer/light/directions.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <glm/glm.hpp>
 

@@ -2,6 +2,7 @@
 #include "compositor/scene/light/lights_file.hpp"
 
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/light/light_model.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -37,33 +38,26 @@ std::string name_from(const std::filesystem::path& folder, const std::filesystem
     return (from_there.empty() ? whole(file) : from_there).generic_string();
 }
 
-void write_punctual(const LightEntry& entry, Json& json) {
-    if (entry.radiance) json["attenuation"] = json_of(entry.attenuation);
-    if (std::isfinite(entry.reach)) json["reach"] = json_of(entry.reach);
-    if (entry.kind == LightKind::kPoint) return;
-    json["beam_deg"] = json_of(entry.beam_deg);
-    json["cut_off_deg"] = json_of(entry.cut_off_deg);
-}
-
 Json json_of(const LightEntry& entry, const std::filesystem::path& folder) {
+    const LightWords& words = model_of(entry).words;
     Json json;
-    json["kind"] = name_of(entry.kind);
+    json["kind"] = words.kind;
     if (!entry.name.empty()) json["name"] = entry.name;
-    if (entry.kind == LightKind::kLuminaire) json["file"] = name_from(folder, entry.file);
-    if (entry.kind != LightKind::kDirectional) json["location"] = json_of(entry.location);
-    if (entry.kind != LightKind::kPoint) json["aim"] = json_of(entry.aim);
-    const bool area = entry.kind == LightKind::kRectangle || entry.kind == LightKind::kDisc;
-    const bool turns = area || entry.kind == LightKind::kLuminaire;
-    if (turns && entry.turn_deg != 0) json["turn_deg"] = json_of(entry.turn_deg);
-    if (entry.kind == LightKind::kRectangle) json["size"] = Json::array({json_of(entry.size.x), json_of(entry.size.y)});
-    if (entry.kind == LightKind::kDisc) json["size"] = json_of(entry.size.x);
+    if (words.has_file) json["file"] = name_from(folder, entry.file);
+    if (words.has_place) json["location"] = json_of(entry.location);
+    if (words.has_aim) json["aim"] = json_of(entry.aim);
+    if (words.turns && entry.turn_deg != 0) json["turn_deg"] = json_of(entry.turn_deg);
+    if (words.sizes.size() == 1) json["size"] = json_of(entry.size.x);
+    if (words.sizes.size() == 2) json["size"] = Json::array({json_of(entry.size.x), json_of(entry.size.y)});
     if (entry.radiance) {
-        json[unit_of(entry)] = json_of(*entry.radiance);
-    } else if (entry.kind != LightKind::kLuminaire || entry.power != 1) {
-        json[unit_of(entry)] = json_of(entry.power);
+        json[words.radiance] = json_of(*entry.radiance);
+    } else if (!words.power_is_factor || entry.power != 1) {
+        json[words.power] = json_of(entry.power);
     }
     if (entry.colour != glm::dvec3(1)) json["colour"] = json_of(entry.colour);
-    if (entry.kind == LightKind::kPoint || entry.kind == LightKind::kSpot) write_punctual(entry, json);
+    if (words.falls_off && entry.radiance) json["attenuation"] = json_of(entry.attenuation);
+    if (words.falls_off && std::isfinite(entry.reach)) json["reach"] = json_of(entry.reach);
+    for (const LightNumber& number : words.numbers) json[number.key] = json_of(entry.*number.value);
     if (entry.ambient != glm::dvec3(0)) json["ambient"] = json_of(entry.ambient);
     if (entry.scope) json["scope"] = *entry.scope;
     return json;
@@ -96,7 +90,7 @@ Result<std::string> light_list_to_json(const LightList& list, const std::filesys
     text += " \"lights\": [";
     for (std::size_t i = 0; i < list.entries.size(); ++i) {
         const LightEntry& entry = list.entries[i];
-        if (entry.kind == LightKind::kLuminaire && entry.file.empty()) {
+        if (model_of(entry).words.has_file && entry.file.empty()) {
             return Error{path.string() + ": lights[" + std::to_string(i) +
                          "] shines as no file says; choose a photometric file for it"};
         }

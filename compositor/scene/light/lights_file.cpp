@@ -3,9 +3,10 @@
 #include "compositor/scene/strict_json.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/light/light_model.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
@@ -23,33 +24,18 @@ public:
     explicit ListReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     LightEntry read(JsonObject object) {
-        const JsonValue kind_value = object.take("kind");
-        const std::string kind = kind_value.text();
         LightEntry entry;
-        if (!known_kind(kind, entry.kind)) {
-            throw kind_value.wrong("must be directional, point, spot, rectangle, disc or luminaire");
-        }
+        entry.kind = kind_of(object.take("kind"));
+        const LightWords& words = model_of(entry).words;
         if (object.has("colour")) entry.colour = object.take("colour").triple(0, kStrongest);
-        if (entry.kind != LightKind::kDirectional) {
-            entry.location = object.take("location").triple(-kMostDistant, kMostDistant);
-        }
-        switch (entry.kind) {
-            case LightKind::kDirectional:
-                entry.aim = aim_of(object);
-                entry.power = power_of(object, "lux");
-                break;
-            case LightKind::kPoint:
-            case LightKind::kSpot:
-                read_punctual(object, entry);
-                break;
-            case LightKind::kRectangle:
-            case LightKind::kDisc:
-                read_area(object, entry);
-                break;
-            case LightKind::kLuminaire:
-                read_luminaire_light(object, entry);
-                break;
-        }
+        if (words.has_place) entry.location = object.take("location").triple(-kMostDistant, kMostDistant);
+        if (words.has_aim && (!words.aims_down || object.has("aim"))) entry.aim = aim_of(object);
+        if (words.turns) entry.turn_deg = turn_of(object);
+        read_size(object, words, entry);
+        read_power(object, words, entry);
+        if (words.falls_off && object.has("reach")) entry.reach = object.take("reach").number(kShortest, kMostDistant);
+        read_numbers(object, words, entry);
+        if (words.has_file) read_file(object, entry);
         if (object.has("ambient")) entry.ambient = object.take("ambient").triple(0, kStrongest);
         if (object.has("scope")) {
             entry.scope = static_cast<std::uint32_t>(object.take("scope").whole_number(0, kMostScope));
@@ -75,17 +61,17 @@ public:
     }
 
 private:
-    static bool known_kind(const std::string& word, LightKind& kind) {
-        for (const LightKind known : {LightKind::kDirectional, LightKind::kPoint, LightKind::kSpot,
-                                      LightKind::kRectangle, LightKind::kDisc, LightKind::kLuminaire}) {
-            if (word != name_of(known)) continue;
-            kind = known;
-            return true;
+    static LightKind kind_of(const JsonValue& value) {
+        const std::string word = value.text();
+        std::string known;
+        for (std::size_t i = 0; i < kLightKinds; ++i) {
+            const auto kind = static_cast<LightKind>(i);
+            const char* const name = model_of(kind).words.kind;
+            if (word == name) return kind;
+            known += (i == 0 ? "" : i + 1 < kLightKinds ? ", " : " or ") + std::string(name);
         }
-        return false;
+        throw value.wrong("must be " + known);
     }
-
-    static double power_of(JsonObject& object, const char* key) { return object.take(key).number(0, kStrongest); }
 
     static glm::dvec3 aim_of(JsonObject& object) {
         const JsonValue aim = object.take("aim");
@@ -97,50 +83,52 @@ private:
         return object.has("turn_deg") ? object.take("turn_deg").number(-kMostTurned_deg, kMostTurned_deg) : 0;
     }
 
-    static void read_punctual(JsonObject& object, LightEntry& entry) {
-        if (object.has("intensity")) {
-            entry.radiance = object.take("intensity").triple(0, kStrongest);
-            if (object.has("attenuation")) {
-                const JsonValue attenuation = object.take("attenuation");
-                entry.attenuation = attenuation.triple(0, kStrongest);
-                if (entry.attenuation == glm::dvec3(0)) {
-                    throw attenuation.wrong("is nowhere above 0; give [1, 0, 0]");
-                }
-            }
-        } else {
-            entry.power = power_of(object, "candela");
-        }
-        if (object.has("reach")) entry.reach = object.take("reach").number(kShortest, kMostDistant);
-        if (entry.kind == LightKind::kPoint) return;
-        entry.aim = aim_of(object);
-        const JsonValue cut_off = object.take("cut_off_deg");
-        entry.cut_off_deg = cut_off.number(kLeastCutOff_deg, 180);
-        entry.beam_deg = object.has("beam_deg") ? object.take("beam_deg").number(0, 180) : entry.cut_off_deg;
-        if (entry.beam_deg > entry.cut_off_deg) throw cut_off.wrong("must not be below beam_deg");
-    }
-
-    static void read_area(JsonObject& object, LightEntry& entry) {
-        entry.turn_deg = turn_of(object);
-        entry.aim = aim_of(object);
+    static void read_size(JsonObject& object, const LightWords& words, LightEntry& entry) {
+        if (words.sizes.empty()) return;
         const JsonValue size = object.take("size");
-        if (entry.kind == LightKind::kDisc) {
+        if (words.sizes.size() == 1) {
             entry.size = glm::dvec2(size.number(kShortest, kMostDistant));
         } else {
             size.list_size(2, 2);
             entry.size = {size.item(0).number(kShortest, kMostDistant), size.item(1).number(kShortest, kMostDistant)};
         }
-        if (object.has("lumens") == object.has("radiance")) throw object.wrong("must have either lumens or radiance");
-        if (object.has("radiance")) {
-            entry.radiance = object.take("radiance").triple(0, kStrongest);
-        } else {
-            entry.power = power_of(object, "lumens");
+    }
+
+    static void read_power(JsonObject& object, const LightWords& words, LightEntry& entry) {
+        if (words.power_is_factor && !object.has(words.power)) return;
+        if (words.radiance != nullptr && object.has(words.radiance) == object.has(words.power)) {
+            throw object.wrong(std::string("must have either ") + words.power + " or " + words.radiance);
+        }
+        if (words.radiance == nullptr || object.has(words.power)) {
+            entry.power = object.take(words.power).number(0, kStrongest);
+            return;
+        }
+        entry.radiance = object.take(words.radiance).triple(0, kStrongest);
+        if (!words.falls_off || !object.has("attenuation")) return;
+        const JsonValue attenuation = object.take("attenuation");
+        entry.attenuation = attenuation.triple(0, kStrongest);
+        if (entry.attenuation == glm::dvec3(0)) throw attenuation.wrong("is nowhere above 0; give [1, 0, 0]");
+    }
+
+    // Those that may be left out take the ones that they must not be above.
+    static void read_numbers(JsonObject& object, const LightWords& words, LightEntry& entry) {
+        for (const LightNumber& number : words.numbers) {
+            if (number.at_most != nullptr) continue;
+            entry.*number.value = object.take(number.key).number(number.lowest, number.highest);
+        }
+        for (const LightNumber& number : words.numbers) {
+            if (number.at_most == nullptr) continue;
+            const double most = entry.*number.at_most;
+            entry.*number.value =
+                object.has(number.key) ? object.take(number.key).number(number.lowest, number.highest) : most;
+            if (entry.*number.value > most) {
+                const auto other = std::ranges::find(words.numbers, number.at_most, &LightNumber::value);
+                throw object.take(number.key).wrong(std::string("must not be above ") + other->key);
+            }
         }
     }
 
-    void read_luminaire_light(JsonObject& object, LightEntry& entry) {
-        if (object.has("aim")) entry.aim = aim_of(object);
-        entry.turn_deg = turn_of(object);
-        if (object.has("dimmer")) entry.power = power_of(object, "dimmer");
+    void read_file(JsonObject& object, LightEntry& entry) {
         const JsonValue file = object.take("file");
         entry.file = folder_ / file.text();
         auto& read = luminaires_[entry.file.string()];

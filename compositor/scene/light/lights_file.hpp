@@ -24,10 +24,10 @@
 // for lights that shine on parts of the scene only: the number of the light in the scene's file, from 0, that shone on
 // the same parts. The list itself may say "headlight": true.
 
-#include "compositor/scene/light/light_entry.hpp"
 #include "compositor/scene/surroundings.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/light/light.hpp"
+#include "rayspace/light/light_entry.hpp"
 
 #include <filesystem>
 #include <optional>

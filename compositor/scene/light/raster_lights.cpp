@@ -1,41 +1,22 @@
 #include "compositor/scene/light/raster_lights.hpp"
 
+#include "rayspace/light/light_model.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace rs::compositor {
 namespace {
 
 constexpr double kReflectance = 0.5;
 
-// Times the intensity along the axis, the flux of a point or spot.
-double solid_angle_of(const Light& light) {
-    if (light.kind == LightKind::kPoint) return 4 * kPi;
-    const double cut_off = light.cut_off_rad;
-    const double beam = std::min(light.beam_width_rad, cut_off);
-    // The integral of the straight line from the beam to the cut-off.
-    const double mean_cos =
-        beam < cut_off ? (std::sin(cut_off) - std::sin(beam)) / (cut_off - beam) : std::cos(cut_off);
-    return 2 * kPi * (1 - mean_cos);
-}
-
 // Radiant. Of VRML97's lights 0, for their ambient part is their own; of the sun 0, for it shines from outside.
 glm::dvec3 flux_of(const Light& light) {
-    const glm::dvec3 colour(light.colour);
-    switch (light.kind) {
-        case LightKind::kLuminaire:
-            return colour * (light.luminaire->web.lumens() / kLumensPerWatt);
-        case LightKind::kRectangle:
-        case LightKind::kDisc:
-            return colour * (kPi * area_of(light));
-        case LightKind::kPoint:
-        case LightKind::kSpot:
-            return is_inverse_square(light) ? colour * (kPi * solid_angle_of(light)) : glm::dvec3(0);
-        case LightKind::kDirectional:
-            break;
-    }
-    return glm::dvec3(0);
+    const LightModel& model = model_of(light);
+    if (model.words.falls_off && !is_inverse_square(light)) return glm::dvec3(0);
+    return model.flux(light, 1);
 }
 
 // Radiance, over all directions.
@@ -66,20 +47,21 @@ Light ambient_light(const char* name, const glm::vec3& radiance) {
 class PunctualLights {
 public:
     Light of(const Light& light) {
-        if (light.kind != LightKind::kLuminaire) return punctual_of(light);
-        const auto [known, is_new] = spots_.try_emplace(light.luminaire.get());
+        if (light.luminaire == nullptr) return punctual_of(light);
+        const auto [known, is_new] = spots_.try_emplace({light.kind, light.luminaire.get()});
         if (is_new) known->second = punctual_of(light);
+        const LightModel& model = model_of(light);
         Light spot = known->second;
         spot.name = light.name;
         spot.everywhere = light.everywhere;
         spot.location = light.location;
-        spot.towards = light.world_from_luminaire * glm::dvec3(0, -1, 0);
-        spot.colour = light.colour * static_cast<float>(light.luminaire->web.peak_candela() / (kLumensPerWatt * kPi));
+        spot.towards = model.axis(light);
+        spot.colour = light.colour * static_cast<float>(model.strength(light) / kPi);
         return spot;
     }
 
 private:
-    std::map<const Luminaire*, Light> spots_;
+    std::map<std::pair<LightKind, const Luminaire*>, Light> spots_;
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // What many rays to a pixel give beside smooth edges: depth of field, motion blur and soft shadows, against their
 // formulas.
 
-#include "capture/tracer/light/directions.hpp"
+#include "rayspace/light/directions.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Whitted's ray tracing against formulas.
 
-#include "capture/tracer/light/directions.hpp"
 #include "capture/tracer/light/irradiance_map.hpp"
+#include "rayspace/light/directions.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 
 #include <gtest/gtest.h>

@@ -111,8 +111,8 @@ TEST(LightHandles, AreFoundWhereTheyAreDrawn) {
     LightingState state;
     for (const LightKind kind : {LightKind::kPoint, LightKind::kSpot, LightKind::kRectangle, LightKind::kDisc,
                                  LightKind::kDirectional, LightKind::kLuminaire}) {
-        state.entries.push_back(
-            new_light(kind, {0.8 * static_cast<double>(state.entries.size()) - 1.5, 1, 0}, {0.2, -1, 0.1}));
+        state.entries.push_back(new_light(kind, {0.8 * static_cast<double>(state.entries.size()) - 1.5, 1, 0}));
+        state.entries.back().aim = {0.2, -1, 0.1};
     }
     for (std::size_t i = 0; i < state.entries.size(); ++i) {
         const glm::dvec2 at = seen_at(camera, handle_place(state.entries[i], camera));

@@ -53,7 +53,7 @@ TEST(LightEdits, EveryStepIsUndoneAndDoneAgain) {
     EXPECT_FALSE(edits.redo());
     // A new step forgets what was undone.
     ASSERT_TRUE(edits.undo());
-    edits.add(new_light(LightKind::kSpot, {0, 1, 0}, {0, -1, 0}));
+    edits.add(new_light(LightKind::kSpot, {0, 1, 0}));
     EXPECT_FALSE(edits.can_redo());
 }
 

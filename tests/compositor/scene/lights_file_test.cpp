@@ -142,9 +142,13 @@ TEST(LightList, ErrorsNameFileKeyAndRemedy) {
         return list ? std::string("read") : list.error().message;
     };
     EXPECT_EQ(message(R"({"kind": "candle"})"),
-              "a.json: lights[0].kind: must be directional, point, spot, rectangle, disc or luminaire");
-    EXPECT_NE(message(R"({"kind": "point", "location": [0, 0, 0]})").find("lights[0]: candela is missing"),
+              "a.json: lights[0].kind: must be point, spot, luminaire, rectangle, disc or directional");
+    EXPECT_NE(message(R"({"kind": "directional", "aim": [0, 1, 0]})").find("lights[0]: lux is missing"),
               std::string::npos);
+    for (const char* both_or_none : {"", R"(, "candela": 1, "intensity": [1, 1, 1])"}) {
+        EXPECT_EQ(message(R"({"kind": "point", "location": [0, 0, 0])" + std::string(both_or_none) + "}"),
+                  "a.json: lights[0]: must have either candela or intensity");
+    }
     EXPECT_NE(
         message(R"({"kind": "directional", "aim": [0, 0, 0], "lux": 1})").find("lights[0].aim: must be a direction"),
         std::string::npos);
@@ -157,7 +161,7 @@ TEST(LightList, ErrorsNameFileKeyAndRemedy) {
     EXPECT_NE(
         message(
             R"({"kind": "spot", "location": [0,0,0], "aim": [0,1,0], "candela": 1, "beam_deg": 9, "cut_off_deg": 5})")
-            .find("must not be below beam_deg"),
+            .find("must not be above cut_off_deg"),
         std::string::npos);
     EXPECT_EQ(message(""), "read");
 }

@@ -1,8 +1,8 @@
 #pragma once
-// A light as a list of lights says it (lights_file.hpp): in the units of lamps, with the names of files. This is what
-// is edited and saved. A Light (rayspace/light/light.hpp) is computed from it, from the same entry always the same.
+// A light as a list of lights says it (compositor/scene/light/lights_file.hpp): in the units of lamps, with the names
+// of files. This is what is edited and saved. A Light is computed from it, from the same entry always the same. Which
+// of the numbers a kind has, and what they are called: light_model.hpp.
 
-#include "rayspace/image/image.hpp"
 #include "rayspace/light/light.hpp"
 
 #include <glm/glm.hpp>
@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace rs::compositor {
+namespace rs {
 
 // Limits of numbers in lists.
 inline constexpr double kMostDistant = 1e6;
@@ -26,11 +26,7 @@ struct LightEntry {
     LightKind kind = LightKind::kPoint;
     std::string name{};    // may be empty
     glm::dvec3 colour{1};  // a factor in linear light, 0..kStrongest
-    // directional            lux on a surface that faces it
-    // point, spot            candela    } where there is
-    // rectangle, disc        lumens     } no `radiance`
-    // luminaire              a factor on what its file says: a dimmer
-    double power = 1;
+    double power = 1;      // where there is no `radiance`; directional: lux on a surface that faces it
     // Areas: W / (m^2 sr). Points and spots: VRML97's intensity times colour, what white matter shows that faces the
     // light where 1 / attenuation is 1; it is nowhere more.
     std::optional<glm::dvec3> radiance{};
@@ -51,21 +47,7 @@ struct LightEntry {
     bool operator==(const LightEntry&) const = default;
 };
 
-struct EnvironmentEntry {
-    std::filesystem::path file{};
-    double scale = 1;  // 0..kStrongest
-    double turn_deg = 0;
-    bool seen = false;
-    std::shared_ptr<const Image<RgbaF>> pixels{};  // what is in the file; not null
-
-    bool operator==(const EnvironmentEntry&) const = default;
-};
-
-// The word of a list, and what its `power` counts. All here are pure and thread-safe.
-const char* name_of(LightKind kind);
-const char* unit_of(const LightEntry& entry);
-
-// What the entry says; its numbers within the limits above.
+// What the entry says; its numbers within the limits above. All here are pure and thread-safe.
 Light light_of(const LightEntry& entry);
 
 // An entry for a light that comes from elsewhere. Of it light_of() gives the same colours, places and directions, bit
@@ -84,4 +66,4 @@ AimedAxes axes_of(const glm::dvec3& aim, double turn_rad);
 // v, with unit length; v itself where it has that.
 glm::dvec3 unit_of(const glm::dvec3& v);
 
-}  // namespace rs::compositor
+}  // namespace rs

@@ -1,12 +1,12 @@
 #pragma once
-// Directions on the sphere: frames, the cosine distribution, luminance weights.
+// Directions on the sphere: frames, how they are drawn, luminance weights.
 
 #include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-namespace rs::capture {
+namespace rs {
 
 inline constexpr float kPiF = 3.14159265358979323846F;
 
@@ -41,6 +41,18 @@ struct Frame {
     }
 };
 
+// Evenly within the unit disc.
+inline glm::vec2 disc_point(const glm::vec2& u) {
+    return std::sqrt(u.x) * glm::vec2(std::cos(2.0F * kPiF * u.y), std::sin(2.0F * kPiF * u.y));
+}
+
+// Evenly within the cone about +z whose cosine is at least `least_cos`.
+inline glm::vec3 cone_direction(const glm::vec2& u, float least_cos) {
+    const float z = 1.0F - u.x * (1.0F - least_cos);
+    const float r = std::sqrt(std::max(0.0F, 1.0F - z * z));
+    return {r * std::cos(2.0F * kPiF * u.y), r * std::sin(2.0F * kPiF * u.y), z};
+}
+
 // A direction about +z with density cos / pi.
 inline glm::vec3 cosine_direction(const glm::vec2& u) {
     const float radius = std::sqrt(u.x);
@@ -54,4 +66,4 @@ inline float mis_weight(float pdf, float other_pdf) {
     return 1.0F / (1.0F + ratio * ratio);
 }
 
-}  // namespace rs::capture
+}  // namespace rs
