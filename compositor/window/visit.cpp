@@ -326,6 +326,7 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     if (Status status = showroom_->update(visitor_.eye, passed, destination); !status) return status.error();
     hear_showroom();
     const Camera here = camera();
+    expect_tracing(here, passed);
     // A view that stands still is drawn again when it is better, or something in it may have changed.
     const bool changed = refine(here) || turned || *played || !showroom_->settled();
     if (changed) {

@@ -59,6 +59,8 @@ public:
     [[nodiscard]] Window& window() { return window_; }
     [[nodiscard]] const Visitor& visitor() const { return visitor_; }
     [[nodiscard]] const PanelState& panel() const { return panel_; }
+    // Whether traced light has its trees, or will have them soon: for who has stood still for a second, or traces.
+    [[nodiscard]] bool has_tracer() const { return refinement_.has_value(); }
     // Traced light follows whoever moves, by coarse pictures; else the view stands still.
     void walk_on(bool on) { panel_.walk_on = on; }
     [[nodiscard]] LightDesk& lights() { return desk_; }
@@ -74,12 +76,16 @@ private:
     void begin_travel(const Visitor& to);
     bool move(double seconds);
     void pick(const glm::dvec2& at_px);
-    [[nodiscard]] DeskView desk_view() const;
+    [[nodiscard]] DeskView desk_view();
     // Gives light that was edited to both renderers.
     Status relight();
     Status show(const glm::ivec2& size);
     // As it is lit and stands now.
     [[nodiscard]] std::shared_ptr<const Scene> scene_to_trace() const;
+    // The tracer of what stands there now; ready where it has that already.
+    void make_tracer();
+    // Makes it ahead for whoever stands still, so that it is there when traced light is switched on.
+    void expect_tracing(const Camera& here, double seconds);
     // Whether there is a new picture to show.
     bool refine(const Camera& here);
     Result<bool> play(double seconds);
@@ -111,6 +117,8 @@ private:
     std::vector<double> turns_rad_;  // [object]
     std::vector<double> frame_seconds_;
     std::optional<Refinement> refinement_;
+    Camera still_at_;                // of the last frame
+    double still_s_ = 0;             // for which nobody has moved
     std::optional<Camera> refined_;  // what is traced now
     Camera shown_from_;              // of the traced picture, which is behind where one walks on
     TracedMethod refined_by_ = TracedMethod::kPath;

@@ -6,7 +6,7 @@
 
 namespace rs::compositor {
 
-DeskView Visit::desk_view() const {
+DeskView Visit::desk_view() {
     return {camera(), [this](const glm::dvec2& at) {
                 return compositor_.surface_at(static_cast<int>(at.x), static_cast<int>(at.y));
             }};
@@ -39,6 +39,26 @@ std::shared_ptr<const Scene> Visit::scene_to_trace() const {
     return scene;
 }
 
+void Visit::make_tracer() {
+    // Objects come and go while one walks; what is traced has those that were there when it began.
+    if (refinement_ && traced_objects_ == showroom_->placed().size()) return;
+    std::vector<PlacedObject> objects = showroom_->placed();
+    traced_objects_ = objects.size();
+    TracedOptions tracing = options_.tracing;
+    tracing.exposure_ev = desk_.edits().state().exposure_ev;
+    refinement_.emplace([scene = scene_to_trace(), tracing, there = std::move(objects)] {
+        return TracedRenderer::create(*scene, there, tracing);
+    });
+}
+
+void Visit::expect_tracing(const Camera& here, double seconds) {
+    constexpr double kStill_s = 1;
+    still_s_ = here.world_from_camera == still_at_.world_from_camera ? still_s_ + seconds : 0;
+    still_at_ = here;
+    const bool waits = still_s_ >= kStill_s && showroom_->settled() && !playback_;
+    if (!refinement_ && waits) make_tracer();
+}
+
 bool Visit::refine(const Camera& here) {
     if (!panel_.traced) {
         if (refined_) refinement_->end();
@@ -46,16 +66,7 @@ bool Visit::refine(const Camera& here) {
         if (was_traced) compositor_.set_traced(nullptr);
         return true;
     }
-    // Objects come and go while one walks; what is traced has those that were there when it began.
-    if (!refined_ && (!refinement_ || traced_objects_ != showroom_->placed().size())) {
-        std::vector<PlacedObject> objects = showroom_->placed();
-        traced_objects_ = objects.size();
-        TracedOptions tracing = options_.tracing;
-        tracing.exposure_ev = desk_.edits().state().exposure_ev;
-        refinement_.emplace([scene = scene_to_trace(), tracing, there = std::move(objects)] {
-            return TracedRenderer::create(*scene, there, tracing);
-        });
-    }
+    if (!refined_) make_tracer();
     if (const std::optional<Error> failed = refinement_->failure()) {
         panel_.traced = false;
         refined_.reset();

@@ -132,6 +132,20 @@ std::vector<FrameCompositor::SeenNode> FrameCompositor::seen_nodes(const Camera&
 }
 
 Status FrameCompositor::draw(const Camera& camera) {
+    return draw(camera, TracedDepths::kWhereBlended);
+}
+
+Status FrameCompositor::ensure_depths() {
+    if (!camera_ || statistics_.has_depths) return {};
+    return draw(*camera_, TracedDepths::kAlways);
+}
+
+bool FrameCompositor::blends_something(const std::vector<SeenNode>& seen) const {
+    return !seen.empty() || fog_ || weather_ || renderers_.lit.surfaces().has_transparent() ||
+           std::ranges::any_of(*nodes_, [](const ShownNode& node) { return node.placeholder.has_value(); });
+}
+
+Status FrameCompositor::draw(const Camera& camera, TracedDepths depths) {
     RS_CHECK(camera.width == width() && camera.height == height());
     const FrameView view = view_of_frame(camera);
     statistics_ = {};
@@ -155,14 +169,16 @@ Status FrameCompositor::draw(const Camera& camera) {
     if (shadows() && lights_something) statistics_.shadow_maps_drawn = renderers_.lit.draw_shadows(throwing_objects());
     statistics_.shadows_s = clock.lap();
     const bool depth_is_there = traced_ && depth_from_ == view.clip_from_world;
+    statistics_.has_depths = !traced_ || depth_is_there || depths == TracedDepths::kAlways || blends_something(seen);
     renderers_.frame.drawn.begin(renderers_.background.zenith(), depth_is_there);
-    const OpaquePass pass = depth_is_there ? OpaquePass::kNone : traced_ ? OpaquePass::kDepthOnly : OpaquePass::kLit;
+    const bool draws_geometry = statistics_.has_depths && !depth_is_there;
+    const OpaquePass pass = !draws_geometry ? OpaquePass::kNone : traced_ ? OpaquePass::kDepthOnly : OpaquePass::kLit;
     const auto transparent = renderers_.lit.surfaces().draw_opaque(view, wire_frame_, pass);
     statistics_.geometry_in_view = renderers_.lit.surfaces().nodes_in_view();
     const FloorRenderer* const floor = renderers_.lit.floor();
-    if (floor != nullptr && !depth_is_there) floor->draw(view);
+    if (floor != nullptr && draws_geometry) floor->draw(view);
     depth_from_.reset();
-    if (traced_ && object_depth_ == ObjectDepth::kPlane) depth_from_ = view.clip_from_world;
+    if (traced_ && statistics_.has_depths && object_depth_ == ObjectDepth::kPlane) depth_from_ = view.clip_from_world;
     if (traced_) {
         draw_traced(camera);
         renderers_.lit.surfaces().draw_veil(view);
@@ -239,6 +255,7 @@ void FrameCompositor::turn_object(std::size_t index, double angle_rad) {
 
 Status FrameCompositor::draw_handles(const std::vector<HandleStroke>& strokes) {
     RS_CHECK(camera_.has_value());
+    if (Status there = ensure_depths(); !there) return there;
     if (!handles_) {
         auto made = HandleRenderer::create();
         if (!made) return made.error();
@@ -247,11 +264,12 @@ Status FrameCompositor::draw_handles(const std::vector<HandleStroke>& strokes) {
     return handles_->draw(strokes, *camera_, renderers_.frame.shown(), renderers_.frame.drawn);
 }
 
-std::optional<SurfacePoint> FrameCompositor::surface_at(int x, int y) const {
+std::optional<SurfacePoint> FrameCompositor::surface_at(int x, int y) {
     constexpr int kAround = kDepthsAcross / 2;
     if (!camera_ || x < kAround || y < kAround || x >= width() - kAround || y >= height() - kAround) {
         return std::nullopt;
     }
+    if (!ensure_depths()) return std::nullopt;
     const Frame& frame = renderers_.frame;
     const std::vector<float> depths =
         frame.drawn.depths_at(x - kAround, y - kAround, kDepthsAcross, kDepthsAcross, frame.shown());
@@ -260,7 +278,8 @@ std::optional<SurfacePoint> FrameCompositor::surface_at(int x, int y) const {
     return surface_from_depths(*camera_, x, y, inverse);
 }
 
-std::optional<double> FrameCompositor::distance_ahead() const {
+std::optional<double> FrameCompositor::distance_ahead() {
+    if (!ensure_depths()) return std::nullopt;
     const float depth = renderers_.frame.depth_at(width() / 2, height() / 2);
     if (!(depth > 0)) return std::nullopt;
     return kNear / depth;

@@ -70,6 +70,7 @@ struct FrameStatistics {
     int nodes_missing = 0;             // placeholders in view
     std::int64_t pixels_rendered = 0;  // by the engine
     int geometry_in_view = 0;          // geometry nodes that were drawn, now or for the depths that were kept
+    bool has_depths = true;            // of geometry; under a traced picture only where somebody needed them
     int shadow_maps_drawn = 0;         // because something in them has changed
     double shadows_s = 0;              // of drawing them
     double geometry_s = 0;             // background, geometry, floor
@@ -124,8 +125,8 @@ public:
     }
 
     // From now on `picture`, of the frame's size, stands for the background and all geometry that is not blended, which
-    // give their depth only, once for each view unless objects have depth; where its alpha is below 1, the background
-    // shows. nullptr: they are drawn again.
+    // give their depth only, once for each view unless objects have depth, and not before something is blended or
+    // somebody asks for it; where its alpha is below 1, the background shows. nullptr: they are drawn again.
     void set_traced(std::shared_ptr<const Image<Rgba8>> picture) { traced_ = std::move(picture); }
 
     // Of the last draw() or compose().
@@ -133,9 +134,9 @@ public:
     // Which ray-space node is seen at a pixel of the last frame.
     [[nodiscard]] std::optional<std::size_t> object_at(int x, int y) const;
     // The surface that is seen at a pixel of the last frame: of geometry, and of objects where they have depth.
-    [[nodiscard]] std::optional<SurfacePoint> surface_at(int x, int y) const;
+    [[nodiscard]] std::optional<SurfacePoint> surface_at(int x, int y);
     // How far geometry is along the middle pixel's ray in the last frame, scene units; nothing where there is none.
-    [[nodiscard]] std::optional<double> distance_ahead() const;
+    [[nodiscard]] std::optional<double> distance_ahead();
 
     [[nodiscard]] int width() const { return renderers_.frame.drawn.width(); }
     [[nodiscard]] int height() const { return renderers_.frame.drawn.height(); }
@@ -179,6 +180,11 @@ private:
     };
     [[nodiscard]] std::optional<ObjectView> view_of_node(std::size_t index, const Camera& camera) const;
     [[nodiscard]] std::vector<SeenNode> seen_nodes(const Camera& camera) const;
+    enum class TracedDepths { kWhereBlended, kAlways };
+    Status draw(const Camera& camera, TracedDepths depths);
+    // Of the last frame, where they were left out.
+    Status ensure_depths();
+    [[nodiscard]] bool blends_something(const std::vector<SeenNode>& seen) const;
     void draw_traced(const Camera& camera);
     [[nodiscard]] std::vector<std::optional<PlacedObject>> throwing_objects() const;
     [[nodiscard]] PlacedObject turned(std::size_t index) const;

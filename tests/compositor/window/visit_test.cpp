@@ -169,6 +169,20 @@ TEST_F(VisitInWindow, TTracesTheLightAndHoldsTheViewStill) {
     EXPECT_EQ(visit_->picture(), raster);
 }
 
+TEST_F(VisitInWindow, WhoStandsStillFindsTheTracerMade) {
+    visit_->window().inject(KeyEvent{Key::kForward, true});
+    for (int n = 0; n < 15; ++n) ASSERT_TRUE(step(0.1));
+    EXPECT_FALSE(visit_->has_tracer());
+    visit_->window().inject(KeyEvent{Key::kForward, false});
+    for (int n = 0; n < 8; ++n) ASSERT_TRUE(step(0.1));
+    EXPECT_FALSE(visit_->has_tracer());
+    for (int n = 0; n < 6; ++n) ASSERT_TRUE(step(0.1));
+    EXPECT_TRUE(visit_->has_tracer());
+    const Image<Rgba8> raster = visit_->picture();
+    ASSERT_TRUE(step(0.1));
+    EXPECT_EQ(visit_->picture(), raster) << "nothing is shown of it";
+}
+
 TEST_F(VisitInWindow, WhoWalksOnByTracedLightSeesWhereHeGoes) {
     press(Key::kTrace);
     visit_->walk_on(true);

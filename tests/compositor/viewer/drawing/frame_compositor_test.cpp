@@ -361,6 +361,37 @@ TEST_F(Compositing, ATracedPictureHasTheDepthsOfTheGeometry) {
     }
 }
 
+// Where nothing is blended over a traced picture, nobody needs depths until they are asked for.
+TEST_F(Compositing, ATracedPictureOfGeometryAloneHasDepthsForWhoAsks) {
+    auto frames = FrameCompositor::create(with_box({1, 3, 0.2}, {0.2, 0, 1.5}), {},
+                                          {.width = kFrameWidth, .height = kFrameHeight, .samples = 1});
+    ASSERT_TRUE(frames);
+    ASSERT_TRUE(frames->draw(kFront));
+    const int x = kFrameWidth / 2;
+    const int y = kFrameHeight / 2;
+    const auto lit_surface = frames->surface_at(x, y);
+    const auto lit_ahead = frames->distance_ahead();
+    ASSERT_TRUE(lit_surface && lit_ahead);
+    frames->set_traced(std::make_shared<const Image<Rgba8>>(kFrameWidth, kFrameHeight, kBlue));
+    const auto traced = frames->compose(kFront);
+    ASSERT_TRUE(traced);
+    EXPECT_FALSE(frames->statistics().has_depths);
+    const auto surface = frames->surface_at(x, y);
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(surface->place, lit_surface->place);
+    EXPECT_EQ(frames->distance_ahead(), lit_ahead);
+    EXPECT_TRUE(frames->statistics().has_depths);
+    EXPECT_EQ(frames->picture(), *traced);
+    // They are kept for the view's next picture, and not for another view's.
+    ASSERT_TRUE(frames->draw(kFront));
+    EXPECT_TRUE(frames->statistics().has_depths);
+    Camera aside = kFront;
+    aside.world_from_camera[3].x += 0.5;
+    ASSERT_TRUE(frames->draw(aside));
+    EXPECT_FALSE(frames->statistics().has_depths);
+    EXPECT_NE(frames->distance_ahead(), std::nullopt);
+}
+
 TEST_F(Compositing, ABoardDrawsTheSameBits) {
     const auto config = engine::model::read_board_config("prototype-2000");
     ASSERT_TRUE(config);
