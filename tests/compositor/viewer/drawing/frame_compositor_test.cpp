@@ -1,12 +1,9 @@
 // The pictures of the frame compositor. Skipped where no OpenGL context can be had.
 
-#include "compositor/viewer/drawing/frame_compositor.hpp"
-
 #include "engine/core/definition/view_registers.hpp"
 #include "engine/model/simulated_board.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "tests/compositor/gl_test.hpp"
-#include "tests/compositor/objects.hpp"
+#include "tests/compositor/viewer/drawing/compositing.hpp"
 
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>
@@ -16,59 +13,6 @@
 
 namespace rs::compositor {
 namespace {
-
-constexpr int kFrameWidth = 120;
-constexpr int kFrameHeight = 90;
-constexpr Rgba8 kRed{220, 40, 40, 255};
-constexpr Rgba8 kBlue{40, 40, 220, 255};
-const Camera kFront = look_at_camera({0, 0, 5}, {0, 0, 0}, radians(50), kFrameWidth, kFrameHeight);
-
-// The way through YUV costs a little; anything that is not the colour differs by far more.
-bool is_colour(Rgba8 pixel, Rgba8 colour) {
-    return std::abs(pixel.r - colour.r) < 6 && std::abs(pixel.g - colour.g) < 6 && std::abs(pixel.b - colour.b) < 6;
-}
-
-int difference(Rgba8 a, Rgba8 b) {
-    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
-}
-
-// Pixels that differ by more than `tolerance`.
-int count_different(const Image<Rgba8>& a, const Image<Rgba8>& b, int tolerance) {
-    int count = 0;
-    for (int y = 0; y < a.height(); ++y) {
-        for (int x = 0; x < a.width(); ++x) count += difference(a(x, y), b(x, y)) > tolerance;
-    }
-    return count;
-}
-
-class Compositing : public test::GlTest {
-protected:
-    Image<Rgba8> compose(const Scene& scene, const std::vector<PlacedObject>& objects, const Camera& camera = kFront,
-                         int samples = 4) {
-        Result<FrameCompositor> compositor = FrameCompositor::create(
-            scene, objects, {.width = camera.width, .height = camera.height, .samples = samples});
-        RS_CHECK(compositor.ok());
-        Result<Image<Rgba8>> frame = compositor->compose(camera);
-        RS_CHECK(frame.ok());
-        statistics_ = compositor->statistics();
-        return std::move(*frame);
-    }
-
-    static Rgba8 middle(const Image<Rgba8>& frame) { return frame(frame.width() / 2, frame.height() / 2); }
-
-    FrameStatistics statistics_;
-};
-
-Scene with_box(const glm::dvec3& size, const glm::dvec3& centre) {
-    GeometryNode box;
-    box.mesh = std::make_shared<const Mesh>(box_mesh(size));
-    box.material.diffuse = {0.1F, 0.6F, 0.1F};
-    box.material.ambient = 1;
-    box.world_from_node[3] = glm::dvec4(centre, 1);
-    Scene scene;
-    scene.geometry.push_back(std::move(box));
-    return scene;
-}
 
 TEST_F(Compositing, ErrorsOfOpenGlAreSeen) {
     glEnable(GL_TEXTURE_2D_ARRAY);  // no capability
@@ -305,91 +249,6 @@ TEST_F(Compositing, APlaceholderStandsWhereTheObjectWillBe) {
     node = {};
     ASSERT_TRUE(engine->evict(*handle));
     EXPECT_EQ(*compositor->compose(kFront), empty);
-}
-
-// A traced picture stands for geometry, which still hides objects: it is as far as without.
-TEST_F(Compositing, ATracedPictureHasTheDepthsOfTheGeometry) {
-    for (const bool in_fog : {false, true}) {
-        Scene scene = with_box({1, 3, 0.2}, {0.6, 0, 1.5});
-        if (in_fog) scene.fog = Fog{.colour = {0.5F, 0.5F, 0.5F}, .visibility = 60};
-        auto frames = FrameCompositor::create(scene, {test::placed_at(test::drum(kRed))},
-                                              {.width = kFrameWidth, .height = kFrameHeight, .samples = 1});
-        ASSERT_TRUE(frames);
-        const Result<Image<Rgba8>> lit = frames->compose(kFront);
-        ASSERT_TRUE(lit.ok());
-        const auto depths = [&] {
-            std::vector<double> inverse;
-            for (int y = 0; y < kFrameHeight; ++y) {
-                for (int x = 0; x < kFrameWidth; ++x) {
-                    const auto point = frames->surface_at(x, y);
-                    inverse.push_back(point ? point->place.z : -100);
-                }
-            }
-            return inverse;
-        };
-        const std::vector<double> lit_depths = depths();
-        frames->set_traced(std::make_shared<const Image<Rgba8>>(kFrameWidth, kFrameHeight, kBlue));
-        const Result<Image<Rgba8>> traced = frames->compose(kFront);
-        ASSERT_TRUE(traced.ok());
-        EXPECT_EQ(depths(), lit_depths);
-        Camera aside = kFront;
-        aside.world_from_camera[3].x += 0.5;
-        EXPECT_EQ(*frames->compose(kFront), *traced);  // finds the depths there
-        EXPECT_NE(*frames->compose(aside), *traced);
-        EXPECT_EQ(*frames->compose(kFront), *traced);
-        int of_picture = 0, of_object = 0;
-        for (int y = 0; y < kFrameHeight; ++y) {
-            for (int x = 0; x < kFrameWidth; ++x) {
-                const bool object = is_colour((*lit)(x, y), kRed);
-                of_object += object ? 1 : 0;
-                if (object) {
-                    EXPECT_EQ((*traced)(x, y), (*lit)(x, y));
-                }
-                of_picture += (*traced)(x, y) == kBlue ? 1 : 0;
-            }
-        }
-        if (in_fog) {  // it dims the object and lies over the geometry of the picture
-            EXPECT_GT(of_picture, kFrameWidth * kFrameHeight / 2);
-        } else {
-            EXPECT_GT(of_object, 300);
-            EXPECT_GT(of_picture, kFrameWidth * kFrameHeight - 2500);
-        }
-        frames->set_traced(nullptr);
-        const Result<Image<Rgba8>> again = frames->compose(kFront);
-        ASSERT_TRUE(again.ok());
-        EXPECT_EQ(count_different(*again, *lit, 0), 0);
-    }
-}
-
-// Where nothing is blended over a traced picture, nobody needs depths until they are asked for.
-TEST_F(Compositing, ATracedPictureOfGeometryAloneHasDepthsForWhoAsks) {
-    auto frames = FrameCompositor::create(with_box({1, 3, 0.2}, {0.2, 0, 1.5}), {},
-                                          {.width = kFrameWidth, .height = kFrameHeight, .samples = 1});
-    ASSERT_TRUE(frames);
-    ASSERT_TRUE(frames->draw(kFront));
-    const int x = kFrameWidth / 2;
-    const int y = kFrameHeight / 2;
-    const auto lit_surface = frames->surface_at(x, y);
-    const auto lit_ahead = frames->distance_ahead();
-    ASSERT_TRUE(lit_surface && lit_ahead);
-    frames->set_traced(std::make_shared<const Image<Rgba8>>(kFrameWidth, kFrameHeight, kBlue));
-    const auto traced = frames->compose(kFront);
-    ASSERT_TRUE(traced);
-    EXPECT_FALSE(frames->statistics().has_depths);
-    const auto surface = frames->surface_at(x, y);
-    ASSERT_TRUE(surface);
-    EXPECT_EQ(surface->place, lit_surface->place);
-    EXPECT_EQ(frames->distance_ahead(), lit_ahead);
-    EXPECT_TRUE(frames->statistics().has_depths);
-    EXPECT_EQ(frames->picture(), *traced);
-    // They are kept for the view's next picture, and not for another view's.
-    ASSERT_TRUE(frames->draw(kFront));
-    EXPECT_TRUE(frames->statistics().has_depths);
-    Camera aside = kFront;
-    aside.world_from_camera[3].x += 0.5;
-    ASSERT_TRUE(frames->draw(aside));
-    EXPECT_FALSE(frames->statistics().has_depths);
-    EXPECT_NE(frames->distance_ahead(), std::nullopt);
 }
 
 TEST_F(Compositing, ABoardDrawsTheSameBits) {
