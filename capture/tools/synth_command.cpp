@@ -71,6 +71,7 @@ struct Options {
     std::optional<double> distance_radii;
     std::optional<double> focal_widths;
     std::string format = "png";
+    bool unfiltered = false;
     bool depth = false;
     int threads = 0;
     bool list = false;
@@ -206,6 +207,7 @@ Result<Made> make_set(const Options& options, SceneFile file, Progress& progress
     CaptureSetOptions set;
     set.render.samples_per_pixel = options.samples_per_pixel.value_or(file.camera.samples_per_pixel);
     set.render.seed = options.seed.value_or(file.seed);
+    set.render.filtered = !options.unfiltered;
     set.render.depth = options.depth;
     set.render.threads = options.threads;
     if (file.toon) {
@@ -328,6 +330,9 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     synth->add_option("--format", options->format, "png: 8-bit sRGB; exr: linear float")
         ->check(CLI::IsMember({"png", "exr"}))
         ->capture_default_str();
+    synth->add_flag("--no-filter", options->unfiltered,
+                    "Leave the samples' noise in the pictures (photos: it always is); else it is smoothed where\n"
+                    "surfaces are alike, the less the more samples there are");
     synth->add_flag("--depth", options->depth, "Write true axial depth beside each picture (EXR)");
     synth->add_option("--threads", options->threads, "Threads; the pictures do not depend on it (0 = all)")
         ->check(CLI::Range(0, 1024))

@@ -6,33 +6,50 @@ namespace rs::capture {
 
 bool PathTracer::trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                        glm::vec3& radiance) const {
+    CameraRay ray{origin, direction, time, sampler};
+    const Arrived arrived = follow(ray);
+    sampler = ray.sampler;
+    radiance = arrived.radiance;
+    return arrived.met;
+}
+
+void PathTracer::trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) arrived[i] = follow(rays[i]);
+}
+
+Arrived PathTracer::follow(CameraRay& ray) const {
     constexpr int kRouletteFrom = 3;
     using Met = LightTransport::Met;
-    radiance = glm::vec3(0.0F);
+    Arrived arrived;
+    Sampler& sampler = ray.sampler;
     glm::vec3 throughput(1.0F);
-    LightTransport::Segment segment = LightTransport::camera_segment(origin, direction, time);
+    LightTransport::Segment segment = LightTransport::camera_segment(ray.origin, ray.direction, ray.time);
     MediumStack media;  // that the segment runs in
+    float distance = 0.0F;
 
     for (int bounce = 0;; ++bounce) {
         SurfacePoint point;
-        const Met met = transport_.meet(segment, media, throughput, radiance, point);
-        if (met != Met::kSurface || bounce == max_bounces_) return bounce > 0 || met != Met::kNothing;
+        const Met met = transport_.meet(segment, media, throughput, arrived.radiance, point);
+        arrived.met = bounce > 0 || met != Met::kNothing;
+        if (met != Met::kSurface || bounce == max_bounces_) return arrived;
 
         LightTransport::Vertex vertex = transport_.vertex_at(point, segment.direction);
+        distance += point.distance;
+        if (guides_) vertex.guide(distance, arrived);
         const glm::vec2 choices = sampler.next_2d();
         if (!vertex.surface.is_specular()) {
             transport_.select_lights(vertex);
-            radiance += throughput * transport_.light_sample(vertex, choices.y, sampler.next_2d());
+            arrived.radiance += throughput * transport_.light_sample(vertex, choices.y, sampler.next_2d());
         }
         SurfaceSample drawn;
-        if (!vertex.surface.sample(choices.x, sampler.next_2d(), drawn)) return true;
+        if (!vertex.surface.sample(choices.x, sampler.next_2d(), drawn)) return arrived;
         throughput *= drawn.weight;
         segment = transport_.segment_from(vertex, drawn);
         if (vertex.surface.passes(drawn)) media.cross(transport_.material_of(point), point.front_side);
 
         if (bounce >= kRouletteFrom) {
             const float survival = std::min(1.0F, max_component(throughput));
-            if (!(sampler.next_2d().x < survival)) return true;
+            if (!(sampler.next_2d().x < survival)) return arrived;
             throughput /= survival;
         }
     }

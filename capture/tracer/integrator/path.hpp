@@ -14,14 +14,21 @@ namespace rs::capture {
 
 class PathTracer final : public Integrator {
 public:
-    PathTracer(const LightTransport& transport, int max_bounces) : transport_(transport), max_bounces_(max_bounces) {}
+    // `guides`: it says what surfaces are, for pictures that are filtered.
+    PathTracer(const LightTransport& transport, int max_bounces, bool guides)
+        : transport_(transport), max_bounces_(max_bounces), guides_(guides) {}
 
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
+    void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override;
+    [[nodiscard]] bool gives_guides() const override { return guides_; }
 
 private:
+    [[nodiscard]] Arrived follow(CameraRay& ray) const;
+
     LightTransport transport_;
     int max_bounces_;
+    bool guides_;
 };
 
 }  // namespace rs::capture

@@ -144,10 +144,7 @@ void RadiosityTracer::meet(Way& way, bool hit, const SurfacePoint& point, int bo
     if (met != Met::kSurface || bounce == options_.max_bounces) return;
     way.vertex.emplace(transport_.vertex_at(point, way.segment.direction));
     way.distance += point.distance;
-    if (!way.arrived->guided && !way.vertex->surface.is_specular()) {
-        way.arrived->guided = true;
-        way.arrived->guide = {point.position, way.vertex->frame.normal, way.vertex->surface.colour(), way.distance};
-    }
+    way.vertex->guide(way.distance, *way.arrived);
     if (way.gathered_cos > 0.0F && !way.vertex->surface.is_specular()) {
         // The rest goes on as a path, by roulette.
         const float cos_facet = std::abs(glm::dot(point.geometric_normal, way.segment.direction));

@@ -4,6 +4,7 @@
 #include "capture/tracer/integrator/radiosity.hpp"
 #include "capture/tracer/integrator/toon.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
+#include "capture/tracer/picture/discontinuity_filter.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/parallel.hpp"
@@ -178,7 +179,7 @@ std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& 
         case RenderMethod::kPath:
             break;
     }
-    return std::make_unique<PathTracer>(transport, options.max_bounces);
+    return std::make_unique<PathTracer>(transport, options.max_bounces, options.filtered);
 }
 
 Rendering Tracer::render(const Camera& camera, const RenderOptions& options, Progress* progress) const {
@@ -203,7 +204,7 @@ Rendering Tracer::render(const RayPicture& rays, const Frame& frame, const Rende
         accumulate(rays, frame, options, count, sum, last ? progress : nullptr, nullptr);
     }
     Rendering rendering;
-    rendering.picture = std::move(sum).mean();
+    rendering.picture = options.filtered ? filtered_mean(sum) : std::move(sum).mean();
     if (options.depth) rendering.depth = first_depths(rays, frame.visible, *state_->rays, options.threads);
     return rendering;
 }

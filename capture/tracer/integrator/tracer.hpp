@@ -36,6 +36,9 @@ struct RenderOptions {
     int max_bounces = 16;           // surfaces that a path may visit after the first
     float filter_radius_px = 0.5F;  // box filter, (0, 0.5]: a picture shows no blur of its own
     bool depth = false;
+    // Of render() by paths or radiosity: smoothed where surfaces are alike, as far as there is noise
+    // (discontinuity_filter.hpp). Pictures with more samples are smoothed less; they go to where those without it go.
+    bool filtered = false;
     // What stands in the picture itself; else it is seen in reflections and through glass only.
     bool see_areas = false;
     bool see_environment = false;

@@ -102,6 +102,13 @@ public:
             if (!near_side) return point.position - point.geometric_normal * step_off;
             return (thin ? point.position : point.lifted_position) + point.geometric_normal * step_off;
         }
+
+        // Notes it as what a ray has met after so long a way, where it is the first that is rough.
+        void guide(float distance, Arrived& arrived) const {
+            if (arrived.guided || surface.is_specular()) return;
+            arrived.guided = true;
+            arrived.guide = {point.position, frame.normal, surface.colour(), distance};
+        }
     };
 
     enum class Met {

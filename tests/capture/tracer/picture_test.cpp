@@ -221,5 +221,36 @@ TEST(Tracer, RefusesScenesThatCannotBeRendered) {
     EXPECT_NE(message(bad).find("environment: pixels"), std::string::npos);
 }
 
+TEST(Picture, FilteredIsNearerToTheTruthAndHasTheSameOutline) {
+    const Camera camera = front_camera(4, 40, 96);
+    const auto drawn = [&](int samples, bool filtered) {
+        RenderOptions options = with_depth(samples);
+        options.filtered = filtered;
+        return render(busy_scene(), camera, options);
+    };
+    RenderOptions other_noise = with_depth(1024);
+    other_noise.seed = 7;
+    const Rendering truth = render(busy_scene(), camera, other_noise);
+    const auto error = [&](const Rendering& of) {
+        double squares = 0;
+        for (std::size_t i = 0; i < of.picture.pixels().size(); ++i) {
+            const RgbaF& a = of.picture.pixels()[i];
+            const RgbaF& b = truth.picture.pixels()[i];
+            const double d = static_cast<double>(a.g * a.a - b.g * b.a);
+            squares += d * d;
+        }
+        return std::sqrt(squares);
+    };
+    for (const int samples : {4, 16, 64}) {
+        const Rendering raw = drawn(samples, false);
+        const Rendering filtered = drawn(samples, true);
+        EXPECT_LT(error(filtered), (samples < 64 ? 0.8 : 1.0) * error(raw)) << samples;
+        for (std::size_t i = 0; i < raw.picture.pixels().size(); ++i) {
+            ASSERT_EQ(filtered.picture.pixels()[i].a, raw.picture.pixels()[i].a);
+            ASSERT_EQ(filtered.depth.pixels()[i], raw.depth.pixels()[i]);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace rs::capture::test
