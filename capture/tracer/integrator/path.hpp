@@ -15,7 +15,7 @@ namespace rs::capture {
 class PathTracer final : public Integrator {
 public:
     // `guides`: it says what surfaces are, for pictures that are filtered.
-    PathTracer(const LightTransport& transport, int max_bounces, bool guides)
+    PathTracer(const LightTransport& transport, int max_bounces, bool guides = false)
         : transport_(transport), max_bounces_(max_bounces), guides_(guides) {}
 
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
