@@ -69,12 +69,12 @@ TEST(LuminaireLight, LightsTheFloorByTheInverseSquareLaw) {
 void expect_sphere_is_filled(const std::shared_ptr<const Luminaire>& luminaire, RenderMethod method) {
     SCOPED_TRACE(method == RenderMethod::kPath ? "path" : "radiosity");
     const double albedo = 0.5, radius = 1;
-    Scene scene = scene_of(make_sphere(6), material_of(SurfaceKind::diffuse, glm::vec3(albedo)));
+    Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(albedo)));
     scene.lights.push_back(light_of(luminaire, {0, 0, 0}));
     // All directions alike: equal steps of height and turn.
     // Noise of virtual lights is the same all over a picture, so that passes count there, and pixels elsewhere.
     const bool radiosity = method == RenderMethod::kRadiosity;
-    const int side = radiosity ? 8 : 128;
+    const int side = radiosity ? 8 : 96;
     RayPicture rays{2 * side, side, glm::dvec3(0), {0, 0, -1}, [side](double x, double y) {
                         const double h = 1 - 2 * y / side, turn = kPi * x / side,
                                      across = std::sqrt(std::max(1 - h * h, 0.0));
