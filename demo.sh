@@ -16,7 +16,7 @@ OUT=demo-out
 BIN=build/release/bin
 VIEWS=${RAYSPACE_DEMO_VIEWS:-90}
 SIZE=${RAYSPACE_DEMO_SIZE:-400x400}
-SPP=${RAYSPACE_DEMO_SPP:-24}
+SPP=${RAYSPACE_DEMO_SPP:-12}
 OBJECTS=${RAYSPACE_DEMO_OBJECTS:-vase doll}
 # Of the other objects in the showroom, which are seen from farther away; and of the walk through it.
 ROOM_VIEWS=${RAYSPACE_DEMO_ROOM_VIEWS:-48}
