@@ -244,6 +244,7 @@ Result<Made> make_photos(const Options& options, const SceneFile& file, Progress
     session.look_at_height = file.camera.look_at_height;
     session.seed = options.seed.value_or(file.seed);
     photos.samples_per_pixel = options.samples_per_pixel.value_or(file.camera.samples_per_pixel);
+    photos.filtered = !options.unfiltered;
     photos.threads = options.threads;
     const Result<CaptureSetSummary> summary =
         write_photo_session(file.scene, file.object_radius, photos, options.output, &progress);
@@ -331,8 +332,8 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
         ->check(CLI::IsMember({"png", "exr"}))
         ->capture_default_str();
     synth->add_flag("--no-filter", options->unfiltered,
-                    "Leave the samples' noise in the pictures (photos: it always is); else it is smoothed where\n"
-                    "surfaces are alike, the less the more samples there are");
+                    "Leave the samples' noise in the pictures; else it is smoothed where surfaces are alike,\n"
+                    "the less the more samples there are");
     synth->add_flag("--depth", options->depth, "Write true axial depth beside each picture (EXR)");
     synth->add_option("--threads", options->threads, "Threads; the pictures do not depend on it (0 = all)")
         ->check(CLI::Range(0, 1024))

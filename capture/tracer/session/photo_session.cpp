@@ -212,6 +212,7 @@ View take_photo(Session& session, std::size_t view, const PhotoOptions& options,
     }
     RenderOptions render;
     render.samples_per_pixel = options.samples_per_pixel;
+    render.filtered = options.filtered;
     render.seed = options.session.seed;
     render.threads = options.threads;
     session.tracer.turn_lights(-session.plan.model.angles_rad[view]);

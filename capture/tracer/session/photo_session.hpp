@@ -33,6 +33,7 @@ namespace rs::capture {
 struct PhotoOptions {
     SessionOptions session;
     int samples_per_pixel = 64;
+    bool filtered = false;     // RenderOptions::filtered
     int threads = 0;           // 0 = all
     double noise_codes = 1.5;  // standard deviation, 8-bit sRGB
     int jpeg_quality = 90;     // 1..100; 0 = PNG
