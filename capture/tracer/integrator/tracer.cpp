@@ -204,7 +204,7 @@ Rendering Tracer::render(const RayPicture& rays, const Frame& frame, const Rende
         accumulate(rays, frame, options, count, sum, last ? progress : nullptr, nullptr);
     }
     Rendering rendering;
-    rendering.picture = options.filtered ? filtered_mean(sum) : std::move(sum).mean();
+    rendering.picture = options.filtered ? filtered_mean(sum, frame.visible) : std::move(sum).mean();
     if (options.depth) rendering.depth = first_depths(rays, frame.visible, *state_->rays, options.threads);
     return rendering;
 }

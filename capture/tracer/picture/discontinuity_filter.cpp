@@ -29,6 +29,7 @@ constexpr float kColour = 0.4F;      // likewise
 constexpr float kPlane = 0.012F;     // distance from the plane, of that from the camera
 constexpr float kDeviations = 8.0F;  // of the light
 constexpr float kFewSamples = 8.0F;  // where there are more, fewer deviations: noise matters less than what it hides
+constexpr int kStrip_px = 1 << 20;   // filtered at a time: what is looked up takes some 200 bytes a pixel
 constexpr float kDark = 0.02F;       // added to colours that are divided by
 
 using Plane = std::vector<float>;  // a number for each pixel, row by row
@@ -216,11 +217,9 @@ Estimates smoothed(const Estimates& light, const Guides& guides, int level) {
     return result;
 }
 
-}  // namespace
-
-Image<RgbaF> filtered_mean(const Accumulation& accumulation) {
+// All of it, at once.
+Image<RgbaF> filtered_whole(const Accumulation& accumulation) {
     Image<RgbaF> picture = accumulation.mean();
-    if (accumulation.guides.empty() || accumulation.samples < 1) return picture;
     Guides guides = guides_of(accumulation);
     const std::size_t size = guides.known.size();
     Estimates light;
@@ -253,19 +252,29 @@ Image<RgbaF> filtered_mean(const Accumulation& accumulation) {
     return picture;
 }
 
+}  // namespace
+
 PixelRectangle within_reach(const PixelRectangle& part) {
     return {part.x0 - kFilterReach_px, part.y0 - kFilterReach_px, part.x1 + kFilterReach_px, part.y1 + kFilterReach_px};
+}
+
+Image<RgbaF> filtered_mean(const Accumulation& accumulation) {
+    return filtered_mean(accumulation, {0, 0, accumulation.sum.width(), accumulation.sum.height()});
 }
 
 Image<RgbaF> filtered_mean(const Accumulation& accumulation, const PixelRectangle& part) {
     Image<RgbaF> picture = accumulation.mean();
     const PixelRectangle whole{0, 0, picture.width(), picture.height()};
     const PixelRectangle shown = overlap(whole, part);
-    if (accumulation.guides.empty() || shown.x0 >= shown.x1 || shown.y0 >= shown.y1) return picture;
-    const PixelRectangle around = overlap(whole, within_reach(part));
-    const Image<RgbaF> filtered = filtered_mean(accumulation.cut_out(around));
-    for (int y = shown.y0; y < shown.y1; ++y) {
-        for (int x = shown.x0; x < shown.x1; ++x) picture(x, y) = filtered(x - around.x0, y - around.y0);
+    if (accumulation.guides.empty() || accumulation.samples < 1 || shown.x0 >= shown.x1) return picture;
+    const int rows = std::max(kFilterReach_px, kStrip_px / (shown.x1 - shown.x0));
+    for (int top = shown.y0; top < shown.y1; top += rows) {
+        const PixelRectangle strip{shown.x0, top, shown.x1, std::min(top + rows, shown.y1)};
+        const PixelRectangle around = overlap(whole, within_reach(strip));
+        const Image<RgbaF> filtered = filtered_whole(accumulation.cut_out(around));
+        for (int y = strip.y0; y < strip.y1; ++y) {
+            for (int x = strip.x0; x < strip.x1; ++x) picture(x, y) = filtered(x - around.x0, y - around.y0);
+        }
     }
     return picture;
 }

@@ -172,5 +172,27 @@ TEST(DiscontinuityFilter, LooksNoFartherThanItSaysAndNeedsNoThreads) {
     }
 }
 
+// Strip by strip, and no seams: each part has the bits that it has by itself.
+TEST(DiscontinuityFilter, TakesLargePicturesAStripAtATime) {
+    constexpr int kWidth = 1200, kHeight = 1000;
+    rs::test::Random random(9);
+    Accumulation large;
+    large.sum = Image<RgbaF>(kWidth, kHeight);
+    large.guides = Image<GuideSum>(kWidth, kHeight);
+    large.samples = 1;
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            large.add(x, y, {glm::vec3(random.real(0, 1)), true, true, plain(x, y)});
+        }
+    }
+    const Image<RgbaF> whole = filtered_mean(large);
+    for (const PixelRectangle& part : {PixelRectangle{300, 840, 420, 920}, PixelRectangle{1100, 0, 1200, 1000}}) {
+        const Image<RgbaF> alone = filtered_mean(large, part);
+        for (int y = part.y0; y < part.y1; ++y) {
+            for (int x = part.x0; x < part.x1; ++x) ASSERT_EQ(alone(x, y), whole(x, y)) << x << " " << y;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace rs::capture::test
