@@ -94,7 +94,7 @@ TEST_F(AsPhotos, RecentredOnesFillTheFrameAndTellTheirPlaces) {
 TEST_F(AsPhotos, TheQualityDecidesTheSize) {
     const auto size_at = [&](const std::string& quality, const std::string& file) {
         const test::ToolRun run =
-            synth({"--as-photos", "--views", "1", "--size", "64x48", "--jpeg", quality}, "set" + quality);
+            synth({"--as-photos", "--views", "1", "--size", "160x120", "--jpeg", quality}, "set" + quality);
         EXPECT_EQ(run.exit_code, 0) << run.err;
         return fs::file_size(folder_ / ("set" + quality) / "photos" / file);
     };

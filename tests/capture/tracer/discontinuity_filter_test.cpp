@@ -182,7 +182,7 @@ TEST(DiscontinuityFilter, TakesLargePicturesAStripAtATime) {
     large.samples = 1;
     for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {
-            large.add(x, y, {glm::vec3(random.real(0, 1)), true, true, plain(x, y)});
+            large.add(x, y, {glm::vec3(static_cast<float>(random.real(0, 1))), true, true, plain(x, y)});
         }
     }
     const Image<RgbaF> whole = filtered_mean(large);
