@@ -163,6 +163,27 @@ TEST(Libraries, NeitherPrintNorExit) {
     }
 }
 
+// Names with two underscores, or that begin with one and a capital letter.
+TEST(Names, AreNotTheCompilersOwn) {
+    static const std::regex kReserved(R"(\b(_[A-Z]\w*|\w*__\w*)\b)");
+    const std::set<std::string> kKnown = {"__int128",          "__extension__",        "__builtin_prefetch",
+                                          "__builtin_bswap32", "__SANITIZE_ADDRESS__", "__LINE__",
+                                          "__FILE__",          "_SC_PHYS_PAGES",       "_SC_PAGESIZE",
+                                          "_SC_PAGE_SIZE",     "_SC_NPROCESSORS_ONLN", "__lsan_default_suppressions",
+                                          "_INDEXED"};
+    for (const fs::path& source : sources()) {
+        if (source == "tests/lint/lint_test.cpp") continue;  // the list above
+        const std::vector<std::string> lines = lines_of(source);
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            const std::string code = lines[i].substr(0, lines[i].find("//"));
+            if (code.find('_') == std::string::npos) continue;
+            for (std::sregex_iterator name(code.begin(), code.end(), kReserved), end; name != end; ++name) {
+                EXPECT_TRUE(kKnown.contains(name->str())) << source.string() << ":" << i + 1 << ": " << name->str();
+            }
+        }
+    }
+}
+
 TEST(Files, AreReadInOneSitting) {
     for (const fs::path& source : sources()) {
         EXPECT_LE(lines_of(source).size(), static_cast<std::size_t>(kMostLines)) << source.string();
