@@ -90,7 +90,9 @@ public:
         beside_ = agreeing(rings);
         if (!beside_.empty()) choose_hull(beside_);
         const WorkView& any = views_.front().view;
-        sampled_hull_ = std::make_unique<SampledHull>(*hull_, kHullSpacing_px * glm::length(any.centre) / any.fl_x);
+        sampled_hull_ =
+            std::make_unique<SampledHull>(std::move(*hull_), kHullSpacing_px * glm::length(any.centre) / any.fl_x);
+        hull_.reset();
         return for_each_in_parallel(count(), "depth", progress, [&](int n) -> Status {
             DepthView& view = views_[static_cast<std::size_t>(n)];
             const Neighbours neighbours = neighbours_of(n);
