@@ -112,11 +112,13 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
                                  " rings of different elevation; the nearest ring answers a view");
     }
     object.pictures.resize(object.views.size());
-    if (options.raw_pictures) {
+    const bool has_shape = options.raymap == MapKind::kShape;
+    if (options.raw_pictures && !has_shape) {
         if (const Status status = read_all_pictures(set, object, progress); !status) return status.error();
     }
-    if (options.raymap == MapKind::kShape) {
-        Result<FoundShapes> shapes = add_shape_maps(set, rig, rings, options.shape, object, progress);
+    if (has_shape) {
+        Result<FoundShapes> shapes =
+            add_shape_maps(set, rig, rings, options.shape, options.raw_pictures, object, progress);
         if (!shapes) return shapes.error();
         built.warnings.insert(built.warnings.end(), shapes->warnings.begin(), shapes->warnings.end());
         built.depths = std::move(shapes->samples);

@@ -143,20 +143,12 @@ void compare_depths(const WorkView& view, const FoundSurface& found, const Horiz
                     least);
 }
 
-// `pixel` gets its place behind all that have theirs.
-void append(PixelLevels& pixel, int first, int count, std::uint8_t cost, std::vector<std::uint8_t>& costs) {
-    pixel = {static_cast<std::uint32_t>(costs.size()), static_cast<std::uint16_t>(first),
-             static_cast<std::uint16_t>(count)};
-    costs.resize(costs.size() + static_cast<std::size_t>(count), cost);
-}
-
 // Which levels of a column's pixels the hull allows.
 class AllowedColumn {
 public:
     AllowedColumn(const SampledHull& hull, const WorkView& view, const ObjectBox& box, int column,
                   const DepthRange& range)
-        : first_(static_cast<std::size_t>(box.height()), range.count),
-          last_(static_cast<std::size_t>(box.height()), -1) {
+        : first_(static_cast<std::size_t>(box.height())), last_(first_.size()), allowed_(first_.size()) {
         const HorizontalRay ray = view.ray_of(column + 0.5);
         for (int level = 0; level < range.count; ++level) {
             const double depth = range.at(level);
@@ -169,23 +161,26 @@ public:
                 const Run run{level, {row_of(heights.high), row_of(heights.low)}};
                 if (run.rows.count() <= 0) continue;
                 runs_.push_back(run);
-                for (int row = run.rows.begin; row < run.rows.end; ++row) {
-                    first_[static_cast<std::size_t>(row)] = std::min(first_[static_cast<std::size_t>(row)], level);
-                    last_[static_cast<std::size_t>(row)] = level;
-                }
+                allow(static_cast<std::uint16_t>(level), run.rows);
             }
         }
     }
 
+    [[nodiscard]] bool meets(int row) const { return allowed(row) > 0; }
     [[nodiscard]] int first(int row) const { return first_[static_cast<std::size_t>(row)]; }
     [[nodiscard]] int count(int row) const { return last_[static_cast<std::size_t>(row)] - first(row) + 1; }
 
     // Of the pixels that have any.
     void clear(std::span<const PixelLevels> pixels, std::vector<std::uint8_t>& costs) const {
+        for (std::size_t row = 0; row < pixels.size(); ++row) {
+            const PixelLevels& pixel = pixels[row];
+            if (pixel.count == allowed_[row]) std::fill_n(costs.data() + pixel.begin, pixel.count, 0);
+        }
         for (const Run& run : runs_) {
             for (int row = run.rows.begin; row < run.rows.end; ++row) {
                 const PixelLevels& pixel = pixels[static_cast<std::size_t>(row)];
-                if (pixel.count != 0) costs[pixel.begin + static_cast<std::uint32_t>(run.level - pixel.first)] = 0;
+                if (pixel.count == 0 || pixel.count == allowed(row)) continue;
+                costs[pixel.begin + static_cast<std::uint32_t>(run.level - pixel.first)] = 0;
             }
         }
     }
@@ -195,8 +190,21 @@ private:
         int level = 0;
         Rows rows;
     };
+    [[nodiscard]] int allowed(int row) const { return allowed_[static_cast<std::size_t>(row)]; }
+
+    // Levels come in their order. Plain loops that the compiler makes vectors of.
+    void allow(std::uint16_t level, const Rows& rows) {
+        std::uint16_t* const first = first_.data();
+        std::uint16_t* const last = last_.data();
+        std::uint16_t* const allowed = allowed_.data();
+        for (int row = rows.begin; row < rows.end; ++row) first[row] = allowed[row] == 0 ? level : first[row];
+        for (int row = rows.begin; row < rows.end; ++row) ++allowed[row];
+        std::fill(last + rows.begin, last + rows.end, level);
+    }
+
     std::vector<Run> runs_;
-    std::vector<int> first_, last_;
+    std::vector<std::uint16_t> first_, last_;  // [row]
+    std::vector<std::uint16_t> allowed_;       // [row], levels from the first to the last
 };
 
 }  // namespace
@@ -221,19 +229,30 @@ CostVolume levels_within(const SampledHull& hull, const WorkView& view, const De
     const ObjectBox& box = volume.box;
     if (box.empty()) return volume;
     volume.pixels.resize(static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()));
+    const auto pixels_of = [&](int column) {
+        return std::span(volume.pixels)
+            .subspan(static_cast<std::size_t>(column - box.left) * static_cast<std::size_t>(box.height()),
+                     static_cast<std::size_t>(box.height()));
+    };
+    std::vector<AllowedColumn> columns;
+    columns.reserve(static_cast<std::size_t>(box.width()));
+    std::uint32_t costs = 0;
     for (int column = box.left; column < box.right; ++column) {
-        const AllowedColumn allowed(hull, view, box, column, range);
-        const std::span<PixelLevels> pixels(
-            &volume.pixels[static_cast<std::size_t>(column - box.left) * static_cast<std::size_t>(box.height())],
-            static_cast<std::size_t>(box.height()));
+        const AllowedColumn& allowed = columns.emplace_back(hull, view, box, column, range);
+        const std::span<PixelLevels> pixels = pixels_of(column);
         for (int row = 0; row < box.height(); ++row) {
             if (view.at(column, box.top + row).a == 0) continue;
             if (only != nullptr && (*only)(box.top + row, column) == 0) continue;
-            const bool meets = allowed.count(row) > 0;
-            append(pixels[static_cast<std::size_t>(row)], meets ? allowed.first(row) : 0,
-                   meets ? allowed.count(row) : range.count, kOutsideCost, volume.costs);
+            const bool meets = allowed.meets(row);
+            PixelLevels& pixel = pixels[static_cast<std::size_t>(row)];
+            pixel = {costs, static_cast<std::uint16_t>(meets ? allowed.first(row) : 0),
+                     static_cast<std::uint16_t>(meets ? allowed.count(row) : range.count)};
+            costs += pixel.count;
         }
-        allowed.clear(pixels, volume.costs);
+    }
+    volume.costs.assign(costs, kOutsideCost);
+    for (int column = box.left; column < box.right; ++column) {
+        columns[static_cast<std::size_t>(column - box.left)].clear(pixels_of(column), volume.costs);
     }
     return volume;
 }

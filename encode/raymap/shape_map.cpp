@@ -5,9 +5,11 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/ray_space.hpp"
+#include "rayspace/object/yuv.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -65,7 +67,8 @@ public:
           soft_(ring.views.size()),
           kept_costs_(ring.views.size()) {}
 
-    Status read(Progress* progress) {
+    // Each picture is passed to `keep`, with its number in the set, from any thread.
+    Status read(Progress* progress, const std::function<void(int, const Image<Rgba8>&)>& keep) {
         const int longest = std::max(set_.width, set_.height);
         const int reduction = (longest + options_.working_size_px - 1) / options_.working_size_px;
         return for_each_in_parallel(static_cast<int>(views_.size()), "pictures for depth", progress,
@@ -73,6 +76,7 @@ public:
                                         const int v = ring_.views[static_cast<std::size_t>(n)];
                                         const Result<Image<Rgba8>> picture = read_upright_picture(set_, v);
                                         if (!picture) return picture.error();
+                                        keep(v, *picture);
                                         const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
                                         WorkView& view = views_[static_cast<std::size_t>(n)].view;
                                         view = make_work_view(camera, *picture, reduction);
@@ -90,7 +94,9 @@ public:
         beside_ = agreeing(rings);
         if (!beside_.empty()) choose_hull(beside_);
         const WorkView& any = views_.front().view;
-        sampled_hull_ = std::make_unique<SampledHull>(*hull_, kHullSpacing_px * glm::length(any.centre) / any.fl_x);
+        sampled_hull_ =
+            std::make_unique<SampledHull>(std::move(*hull_), kHullSpacing_px * glm::length(any.centre) / any.fl_x);
+        hull_.reset();
         return for_each_in_parallel(count(), "depth", progress, [&](int n) -> Status {
             DepthView& view = views_[static_cast<std::size_t>(n)];
             const Neighbours neighbours = neighbours_of(n);
@@ -323,13 +329,17 @@ private:
 }  // namespace
 
 Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
-                                   const ShapeOptions& options, RaySpaceObject& object, Progress* progress) {
+                                   const ShapeOptions& options, bool keep_pictures, RaySpaceObject& object,
+                                   Progress* progress) {
     FoundShapes found;
+    const auto keep = [&](int v, const Image<Rgba8>& picture) {
+        if (keep_pictures) object.pictures[static_cast<std::size_t>(v)] = planar_from_rgba(picture);
+    };
     std::vector<RingSearch> searches;
     searches.reserve(rings.size());
     for (const ViewRing& ring : rings) {
         searches.emplace_back(set, rig, ring, options);
-        if (const Status status = searches.back().read(progress); !status) return status.error();
+        if (const Status status = searches.back().read(progress, keep); !status) return status.error();
     }
     for (std::size_t r = 0; r < rings.size(); ++r) {
         std::vector<const RingSearch*> beside;
@@ -344,7 +354,8 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
         RingSearch soft(set, rig, rings[r], options, Layer::kSoft);
         if (searches[r].shows_soft()) {
             std::vector<FoundDepth> unused;
-            if (const Status status = soft.read(progress); !status) return status.error();
+            if (const Status status = soft.read(progress, [](int, const Image<Rgba8>&) {}); !status)
+                return status.error();
             if (const Status status = soft.match({}, progress); !status) return status.error();
             if (const Status status = soft.agree(progress, unused); !status) return status.error();
             layers.push_back(soft.surfaces());

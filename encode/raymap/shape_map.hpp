@@ -46,9 +46,10 @@ struct FoundShapes {
 };
 
 // `object` has its views and rings but their shapes; rig is set.upright in object radii, rings as find_rings() gave
-// them. Pictures are read from the set. Memory: at the working size 8 bytes a pixel and picture, and for each thread
-// about 5 bytes per object pixel and depth level. Deterministic.
+// them. Pictures are read from the set, and stored in the object where `keep_pictures`. Memory: at the working size 8
+// bytes a pixel and picture, and for each thread about 3 bytes per object pixel and depth level. Deterministic.
 Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
-                                   const ShapeOptions& options, RaySpaceObject& object, Progress* progress = nullptr);
+                                   const ShapeOptions& options, bool keep_pictures, RaySpaceObject& object,
+                                   Progress* progress = nullptr);
 
 }  // namespace rs::encode

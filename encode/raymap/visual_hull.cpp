@@ -10,27 +10,26 @@
 namespace rs::encode {
 namespace {
 
-constexpr int kInside = 128;  // alpha
-constexpr double kEverywhere = 1e6;
-constexpr int kTileSide = 32;  // points of a sampled hull
+constexpr int kInside = 128;                      // alpha
+const double kReach = kDeepest * std::sqrt(2.0);  // of a sampled hull
 
-// is_object[row] of a column with the columns `margin` to either side.
-std::vector<char> widened_column(const WorkView& view, int column, int margin) {
-    std::vector<char> near_object(static_cast<std::size_t>(view.height), 0);
+// near_object[row]: whether the column, or one at most `margin` to either side, shows the object there.
+void widen_column(const WorkView& view, int column, int margin, std::vector<std::uint8_t>& near_object) {
+    near_object.assign(static_cast<std::size_t>(view.height), 0);
     for (int c = std::max(0, column - margin); c <= std::min(view.width - 1, column + margin); ++c) {
         const Rgba8* const pixels = view.columns.row(c);
+        std::uint8_t* const near = near_object.data();
         for (int row = 0; row < view.height; ++row) {
-            if (pixels[row].a < kInside) continue;
-            near_object[static_cast<std::size_t>(row)] = 1;
+            near[row] = std::max<std::uint8_t>(near[row], pixels[row].a >= kInside ? 1 : 0);
         }
     }
-    return near_object;
 }
 
-std::vector<Interval> forbidden_slopes(const WorkView& view, int column, int margin) {
-    const std::vector<char> near_object = widened_column(view, column, margin);
+// Appends those of a column that widen_column() gave.
+void forbid_slopes(const WorkView& view, const std::vector<std::uint8_t>& near_object, int margin,
+                   std::vector<Interval>& forbidden) {
     const auto slope_of = [&](double row) { return (view.cy - row) / view.fl_y; };
-    std::vector<Interval> forbidden;
+    const std::size_t first = forbidden.size();
     int begin = 0;
     for (int row = 0; row <= view.height; ++row) {
         const bool ends = row == view.height || near_object[static_cast<std::size_t>(row)] != 0;
@@ -41,8 +40,7 @@ std::vector<Interval> forbidden_slopes(const WorkView& view, int column, int mar
         if (high > low) forbidden.push_back({slope_of(high), slope_of(low)});
         begin = row + 1;
     }
-    std::ranges::reverse(forbidden);  // rows count downwards
-    return forbidden;
+    std::reverse(forbidden.begin() + static_cast<std::ptrdiff_t>(first), forbidden.end());  // rows count downwards
 }
 
 bool has_object(const WorkView& view) {
@@ -50,29 +48,30 @@ bool has_object(const WorkView& view) {
     return std::any_of(pixels.begin(), pixels.end(), [](const Rgba8& pixel) { return pixel.a >= kInside; });
 }
 
-// Takes [low, high] out of ascending, disjoint intervals.
-void remove(std::vector<Interval>& from, const Interval& hole) {
-    for (std::size_t n = 0; n < from.size();) {
+// Takes [low, high] out of ascending, disjoint intervals, of which those before `first` lie below it. The first of
+// those that do not lie below high.
+std::size_t remove(std::vector<Interval>& from, std::size_t first, const Interval& hole) {
+    std::size_t n = first;
+    while (n < from.size() && from[n].high <= hole.low) ++n;
+    while (n < from.size() && from[n].low < hole.high) {
         const Interval whole = from[n];
-        if (whole.high <= hole.low || whole.low >= hole.high) {
-            ++n;
-            continue;
-        }
         const bool below = whole.low < hole.low;
         const bool above = whole.high > hole.high;
         if (below && above) {
             from[n].high = hole.low;
             from.insert(from.begin() + static_cast<std::ptrdiff_t>(n) + 1, {hole.high, whole.high});
-            return;
+            return n + 1;
         }
         if (below) {
             from[n++].high = hole.low;
         } else if (above) {
-            from[n++].low = hole.high;
+            from[n].low = hole.high;
+            return n;
         } else {
             from.erase(from.begin() + static_cast<std::ptrdiff_t>(n));
         }
     }
+    return n;
 }
 
 // Neighbours say nearly the same. In this order most places outside of the object are ruled out by the first few.
@@ -96,28 +95,37 @@ void spread_out(std::vector<T>& in_turning_order) {
 
 VisualHull::VisualHull(const std::vector<const WorkView*>& views, int margin_px, int tolerated)
     : tolerated_(tolerated) {
-    for (const WorkView* view : views) {
-        if (!has_object(*view)) continue;
-        Silhouette silhouette{view, {}};
-        for (int column = 0; column < view->width; ++column) {
-            silhouette.forbidden_slopes.push_back(forbidden_slopes(*view, column, margin_px));
+    silhouettes_.resize(views.size());
+    tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t n) {
+        const WorkView& view = *views[n];
+        if (!has_object(view)) return;
+        Silhouette& silhouette = silhouettes_[n];
+        silhouette.view = &view;
+        std::vector<std::uint8_t> near_object;
+        for (int column = 0; column < view.width; ++column) {
+            widen_column(view, column, margin_px, near_object);
+            forbid_slopes(view, near_object, margin_px, silhouette.forbidden);
+            silhouette.ends.push_back(static_cast<std::uint32_t>(silhouette.forbidden.size()));
         }
-        silhouettes_.push_back(std::move(silhouette));
-    }
+    });
+    std::erase_if(silhouettes_, [](const Silhouette& silhouette) { return silhouette.view == nullptr; });
     spread_out(silhouettes_);
 }
 
-void VisualHull::heights_above(const glm::dvec2& place, std::vector<Interval>& heights) const {
+void VisualHull::heights_above(const glm::dvec2& place, std::vector<Interval>& heights, const Interval& within) const {
     if (tolerated_ > 0) {
         tolerant_heights(place, heights);
+        for (Interval& each : heights) each = {std::max(each.low, within.low), std::min(each.high, within.high)};
+        std::erase_if(heights, [](const Interval& each) { return each.low >= each.high; });
         return;
     }
-    heights.assign(1, {-kEverywhere, kEverywhere});
+    heights.assign(1, within);
     for (const Silhouette& silhouette : silhouettes_) {
         const SeenColumn seen = silhouette.view->see(place);
         if (seen.axial <= 0 || seen.column < 0 || seen.column >= silhouette.view->width) continue;
-        for (const Interval& slopes : silhouette.forbidden_slopes[static_cast<std::size_t>(seen.column)]) {
-            remove(heights, silhouette.forbidden_heights(slopes, seen.axial));
+        std::size_t first = 0;
+        for (const Interval& slopes : silhouette.forbidden_slopes(static_cast<int>(seen.column))) {
+            first = remove(heights, first, silhouette.forbidden_heights(slopes, seen.axial));
         }
         if (heights.empty()) return;
     }
@@ -133,7 +141,7 @@ void VisualHull::tolerant_heights(const glm::dvec2& place, std::vector<Interval>
     for (const Silhouette& silhouette : silhouettes_) {
         const SeenColumn seen = silhouette.view->see(place);
         if (seen.axial <= 0 || seen.column < 0 || seen.column >= silhouette.view->width) continue;
-        for (const Interval& slopes : silhouette.forbidden_slopes[static_cast<std::size_t>(seen.column)]) {
+        for (const Interval& slopes : silhouette.forbidden_slopes(static_cast<int>(seen.column))) {
             const Interval forbidden = silhouette.forbidden_heights(slopes, seen.axial);
             events.push_back({forbidden.low, 1});
             events.push_back({forbidden.high, -1});
@@ -141,7 +149,7 @@ void VisualHull::tolerant_heights(const glm::dvec2& place, std::vector<Interval>
     }
     std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.height < b.height; });
     heights.clear();
-    double begin = -kEverywhere;
+    double begin = kAnyHeight.low;
     int forbid = 0;
     for (const Event& event : events) {
         const bool was_allowed = forbid <= tolerated_;
@@ -150,41 +158,33 @@ void VisualHull::tolerant_heights(const glm::dvec2& place, std::vector<Interval>
         if (was_allowed && !is_allowed && event.height > begin) heights.push_back({begin, event.height});
         if (!was_allowed && is_allowed) begin = event.height;
     }
-    heights.push_back({begin, kEverywhere});
+    heights.push_back({begin, kAnyHeight.high});
 }
 
-SampledHull::SampledHull(const VisualHull& hull, double spacing) : points_per_unit_(1 / spacing) {
-    const double reach = kDeepest * std::sqrt(2.0);
-    side_ = 2 * static_cast<int>(std::ceil(reach * points_per_unit_)) + 1;
+SampledHull::SampledHull(VisualHull hull, double spacing)
+    : hull_(std::move(hull)), spacing_(spacing), points_per_unit_(1 / spacing) {
+    side_ = 2 * static_cast<int>(std::ceil(kReach * points_per_unit_)) + 1;
     across_ = (side_ + kTileSide - 1) / kTileSide;
-    tiles_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(across_));
-    const int middle = side_ / 2;
-    tbb::parallel_for(0, across_ * across_, [&](int t) {
-        Tile& tile = tiles_[static_cast<std::size_t>(t)];
+    tiles_ = std::vector<Tile>(static_cast<std::size_t>(across_) * static_cast<std::size_t>(across_));
+}
+
+void SampledHull::sample(int t) const {
+    Tile& tile = tiles_[static_cast<std::size_t>(t)];
+    std::call_once(tile.once, [&] {
+        const int middle = side_ / 2;
         tile.ends.reserve(static_cast<std::size_t>(kTileSide * kTileSide));
         std::vector<Interval> heights;
         for (int n = 0; n < kTileSide * kTileSide; ++n) {
             const int x = t % across_ * kTileSide + n % kTileSide;
             const int y = t / across_ * kTileSide + n / kTileSide;
-            const glm::dvec2 place = glm::dvec2(x - middle, y - middle) * spacing;
+            const glm::dvec2 place = glm::dvec2(x - middle, y - middle) * spacing_;
             heights.clear();
-            if (glm::length(place) <= reach + spacing) hull.heights_above(place, heights);
+            if (glm::length(place) <= kReach + spacing_) hull_.heights_above(place, heights);
             tile.intervals.insert(tile.intervals.end(), heights.begin(), heights.end());
             tile.ends.push_back(static_cast<std::uint32_t>(tile.intervals.size()));
         }
+        tile.sampled.store(true, std::memory_order_release);
     });
-}
-
-std::span<const Interval> SampledHull::heights_above(const glm::dvec2& place) const {
-    const auto point = [&](double along) {
-        return std::clamp(static_cast<int>(std::lround(along * points_per_unit_)) + side_ / 2, 0, side_ - 1);
-    };
-    const int x = point(place.x);
-    const int y = point(place.y);
-    const Tile& tile = tiles_[static_cast<std::size_t>(y / kTileSide * across_ + x / kTileSide)];
-    const auto n = static_cast<std::size_t>(y % kTileSide * kTileSide + x % kTileSide);
-    const std::uint32_t begin = n == 0 ? 0 : tile.ends[n - 1];
-    return std::span(tile.intervals).subspan(begin, tile.ends[n] - begin);
 }
 
 double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range) {
@@ -208,7 +208,10 @@ double contradicted_share(const std::vector<const WorkView*>& views, const Visua
                 const double depth = range.at(level);
                 const double axial = ray.axial_at(depth);
                 if (axial <= 0) continue;
-                hull.heights_above(ray.place_at(depth), heights);
+                // Those of other rows, with one to spare, would be found for nothing.
+                const Interval within = {view.height_of(unseen.back() + 2, axial),
+                                         view.height_of(unseen.front() - 1, axial)};
+                hull.heights_above(ray.place_at(depth), heights, within);
                 for (const Interval& interval : heights) {
                     const auto row_of = [&](double height) {
                         return static_cast<int>(std::clamp(view.row_of(height, axial), 0.0, double(view.height)));

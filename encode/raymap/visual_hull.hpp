@@ -8,7 +8,11 @@
 #include "encode/raymap/depth_range.hpp"
 #include "encode/raymap/work_view.hpp"
 
+#include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -20,6 +24,8 @@ struct Interval {
     double high = 0;
 };
 
+inline constexpr Interval kAnyHeight = {-1e6, 1e6};
+
 class VisualHull {
 public:
     // Silhouettes are widened by `margin_px` pixels of the working pictures on every side, for what calibration and
@@ -29,44 +35,73 @@ public:
     // pictures, or cameras that stand elsewhere than the rig says, else leave nothing.
     VisualHull(const std::vector<const WorkView*>& views, int margin_px, int tolerated = 0);
 
-    // The heights above a place that the silhouettes allow, ascending and disjoint.
-    void heights_above(const glm::dvec2& place, std::vector<Interval>& heights) const;
+    // The heights above a place that the silhouettes allow, ascending and disjoint; of `within` only.
+    void heights_above(const glm::dvec2& place, std::vector<Interval>& heights,
+                       const Interval& within = kAnyHeight) const;
 
 private:
     struct Silhouette {
         const WorkView* view = nullptr;
-        // [column], ascending: heights above the camera's centre per axial depth.
-        std::vector<std::vector<Interval>> forbidden_slopes;
+        // Heights above the camera's centre per axial depth, ascending within a column, column after column; and where
+        // each column's end. Many places are asked for: they lie close together in memory.
+        std::vector<Interval> forbidden;
+        std::vector<std::uint32_t> ends;
+        [[nodiscard]] std::span<const Interval> forbidden_slopes(int column) const {
+            const auto n = static_cast<std::size_t>(column);
+            const std::uint32_t begin = n == 0 ? 0 : ends[n - 1];
+            return std::span(forbidden).subspan(begin, ends[n] - begin);
+        }
         [[nodiscard]] Interval forbidden_heights(const Interval& slopes, double axial) const {
             return {view->centre_y + axial * slopes.low, view->centre_y + axial * slopes.high};
         }
     };
-    void tolerant_heights(const glm::dvec2& place, std::vector<Interval>& heights) const;
+    void tolerant_heights(const glm::dvec2& place, std::vector<Interval>& heights) const;  // of all
 
     std::vector<Silhouette> silhouettes_;
     int tolerated_ = 0;
 };
 
 // A hull above the points of a square grid, for the many places that are asked for: a tenth of the time of asking every
-// silhouette for each. Immutable; thread-safe.
+// silhouette for each. Thread-safe.
 class SampledHull {
 public:
     // Of all places up to kDeepest along every ray that passes the axis within kDeepest, `spacing` radii apart.
-    SampledHull(const VisualHull& hull, double spacing);
+    SampledHull(VisualHull hull, double spacing);
 
     // VisualHull::heights_above the point of the grid that is next to `place`.
-    [[nodiscard]] std::span<const Interval> heights_above(const glm::dvec2& place) const;
+    [[nodiscard]] std::span<const Interval> heights_above(const glm::dvec2& place) const {
+        const int x = point(place.x);
+        const int y = point(place.y);
+        const int t = y / kTileSide * across_ + x / kTileSide;
+        const Tile& tile = tiles_[static_cast<std::size_t>(t)];
+        if (!tile.sampled.load(std::memory_order_acquire)) sample(t);
+        const auto n = static_cast<std::size_t>(y % kTileSide * kTileSide + x % kTileSide);
+        const std::uint32_t begin = n == 0 ? 0 : tile.ends[n - 1];
+        return std::span(tile.intervals).subspan(begin, tile.ends[n] - begin);
+    }
 
 private:
-    // A square of points: what is asked for along a ray, and along the next one, lies close together in memory.
+    static constexpr int kTileSide = 32;  // points
+
+    // A square of points: what is asked for along a ray, and along the next one, lies close together in memory. Many
+    // are never asked for: each is sampled when it is.
     struct Tile {
+        std::atomic<bool> sampled = false;
+        std::once_flag once;
         std::vector<Interval> intervals;
         std::vector<std::uint32_t> ends;  // of each point's intervals, along x first
     };
-    double points_per_unit_ = 1;
+    [[nodiscard]] int point(double along) const {
+        return std::clamp(static_cast<int>(std::lround(along * points_per_unit_)) + side_ / 2, 0, side_ - 1);
+    }
+    void sample(int t) const;
+
+    VisualHull hull_;
+    double spacing_;
+    double points_per_unit_;
     int side_ = 1;    // points
     int across_ = 1;  // tiles
-    std::vector<Tile> tiles_;
+    mutable std::vector<Tile> tiles_;
 };
 
 // The share of object pixels (0..1, sampled) whose rays the hull rules out entirely: what the silhouettes contradict

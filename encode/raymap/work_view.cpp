@@ -37,12 +37,6 @@ HorizontalRay WorkView::ray_of(double column) const {
     return ray;
 }
 
-SeenColumn WorkView::see(const glm::dvec2& place) const {
-    const glm::dvec2 from_centre = place - centre;
-    const double axial = glm::dot(from_centre, forward);
-    return {axial, cx + fl_x * glm::dot(from_centre, right) / axial};
-}
-
 WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int reduction) {
     WorkView view;
     view.width = picture.width() / reduction;
@@ -92,8 +86,9 @@ void weaken_shading(WorkView& view) {
     constexpr int kKept = 4;  // one part in so many of the mean's distance from grey
     const int width = view.columns.width();
     const int height = view.columns.height();
-    // Sums over all pixels above and to the left: of red, green and blue times alpha, and of alpha.
-    using Sums = std::array<std::int64_t, 4>;
+    // Sums over all pixels above and to the left: of red, green and blue times alpha, and of alpha. They may wrap
+    // around: the sums over 9x9 pixels that they are for fit.
+    using Sums = std::array<std::uint32_t, 4>;
     Image<Sums> sums(width + 1, height + 1, Sums{});
     for (int y = 0; y < height; ++y) {
         Sums row{};
@@ -101,7 +96,7 @@ void weaken_shading(WorkView& view) {
             const Rgba8 c = view.columns(x, y);
             const std::array<int, 4> weighted = {c.r * c.a, c.g * c.a, c.b * c.a, c.a};
             for (std::size_t k = 0; k < row.size(); ++k) {
-                row[k] += weighted[k];
+                row[k] += static_cast<std::uint32_t>(weighted[k]);
                 sums(x + 1, y + 1)[k] = sums(x + 1, y)[k] + row[k];
             }
         }
@@ -114,14 +109,15 @@ void weaken_shading(WorkView& view) {
             const int top = std::max(y - kRadius_px, 0);
             const int right = std::min(x + kRadius_px + 1, width);
             const int bottom = std::min(y + kRadius_px + 1, height);
-            const auto around = [&](std::size_t k) {
-                return sums(right, bottom)[k] - sums(left, bottom)[k] - sums(right, top)[k] + sums(left, top)[k];
+            const auto around = [&](std::size_t k) -> int {
+                return static_cast<int>(sums(right, bottom)[k] - sums(left, bottom)[k] - sums(right, top)[k] +
+                                        sums(left, top)[k]);
             };
-            const std::int64_t weight = around(3);  // at least this pixel's alpha
+            const int weight = around(3);  // at least this pixel's alpha
             const auto weakened = [&](std::uint8_t value, std::size_t k) {
-                const std::int64_t mean = (around(k) + weight / 2) / weight;
-                const std::int64_t result = value - mean + kGrey + (mean - kGrey) / kKept;
-                return static_cast<std::uint8_t>(std::clamp<std::int64_t>(result, 0, 255));
+                const int mean = (around(k) + weight / 2) / weight;
+                const int result = value - mean + kGrey + (mean - kGrey) / kKept;
+                return static_cast<std::uint8_t>(std::clamp(result, 0, 255));
             };
             pixel = {weakened(pixel.r, 0), weakened(pixel.g, 1), weakened(pixel.b, 2), pixel.a};
         }

@@ -46,7 +46,11 @@ struct WorkView {
     [[nodiscard]] glm::dvec3 place() const { return {centre, centre_y}; }
     // Through the middle of a column.
     [[nodiscard]] HorizontalRay ray_of(double column) const;
-    [[nodiscard]] SeenColumn see(const glm::dvec2& place) const;
+    [[nodiscard]] SeenColumn see(const glm::dvec2& place) const {
+        const glm::dvec2 from_centre = place - centre;
+        const double axial = glm::dot(from_centre, forward);
+        return {axial, cx + fl_x * glm::dot(from_centre, right) / axial};
+    }
     // Row of height y at an axial depth, and back.
     [[nodiscard]] double row_of(double y, double axial) const { return cy - fl_y * (y - centre_y) / axial; }
     [[nodiscard]] double height_of(double row, double axial) const { return centre_y + axial * (cy - row) / fl_y; }

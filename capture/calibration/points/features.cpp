@@ -213,6 +213,7 @@ std::vector<FeatureMatch> alike(const ViewFeatures& first, const ViewFeatures& s
 
 std::vector<FeatureMatch> alike_near(const ViewFeatures& first, const ViewFeatures& second, double ratio,
                                      const MayAppear& may_appear, double band_px) {
+    constexpr double kRounding_px = 1e-3;
     const std::size_t rows = first.positions.size(), columns = second.positions.size();
     if (rows < 2 || columns < 2) return {};
     // From left to right, so that few are looked at.
@@ -232,10 +233,14 @@ std::vector<FeatureMatch> alike_near(const ViewFeatures& first, const ViewFeatur
         near.clear();
         const double left = std::min(where->from.x, where->to.x) - band_px;
         const double right = std::max(where->from.x, where->to.x) + band_px;
+        // Most lie above or below the whole piece: of those no distance need be found.
+        const double highest = std::min(where->from.y, where->to.y) - band_px - kRounding_px;
+        const double lowest = std::max(where->from.y, where->to.y) + band_px + kRounding_px;
         auto at = std::lower_bound(order.begin(), order.end(), left,
                                    [&](std::size_t j, double x) { return second.positions[j].x < x; });
         for (; at != order.end() && second.positions[*at].x <= right; ++at) {
-            if (where->distance(second.positions[*at]) > band_px) continue;
+            const glm::dvec2& there = second.positions[*at];
+            if (there.y < highest || there.y > lowest || where->distance(there) > band_px) continue;
             near.emplace_back(*at, descriptor_product(descriptor(first, i), descriptor(second, *at)));
         }
         std::sort(near.begin(), near.end());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace rs::capture {
 namespace {
@@ -18,15 +19,17 @@ struct SolidBox {
 };
 
 SolidBox box_around_solid(const Image<std::uint8_t>& alpha) {
+    const auto solid = [](std::uint8_t code) { return code > kSolid_code; };
     int left = alpha.width(), right = 0, top = alpha.height(), bottom = 0;
     for (int y = 0; y < alpha.height(); ++y) {
-        for (int x = 0; x < alpha.width(); ++x) {
-            if (alpha(x, y) <= kSolid_code) continue;
-            left = std::min(left, x);
-            right = std::max(right, x + 1);
-            top = std::min(top, y);
-            bottom = std::max(bottom, y + 1);
-        }
+        const std::span<const std::uint8_t> row = alpha.view().row_span(y);
+        const auto first = std::find_if(row.begin(), row.end(), solid);
+        if (first == row.end()) continue;
+        const auto last = std::find_if(row.rbegin(), row.rend(), solid);
+        left = std::min(left, static_cast<int>(first - row.begin()));
+        right = std::max(right, static_cast<int>(row.rend() - last));
+        top = std::min(top, y);
+        bottom = y + 1;
     }
     if (left >= right) return {};
     left = std::max(0, left - kAround_px);
@@ -41,9 +44,10 @@ Image<float> smoothed(ConstImageView<std::uint8_t> grey) {
     std::vector<float> padded(static_cast<std::size_t>(width) + 4);
     Image<float> across(width, height), result(width, height);
     for (int y = 0; y < height; ++y) {
-        for (int x = -2; x < width + 2; ++x) {
-            padded[static_cast<std::size_t>(x + 2)] = static_cast<float>(grey(std::clamp(x, 0, width - 1), y));
-        }
+        const std::span<const std::uint8_t> row = grey.row_span(y);
+        std::copy(row.begin(), row.end(), padded.begin() + 2);
+        std::fill_n(padded.begin(), 2, static_cast<float>(row.front()));
+        std::fill_n(padded.end() - 2, 2, static_cast<float>(row.back()));
         const float* const in = padded.data();
         float* const out = across.row(y);
         for (int x = 0; x < width; ++x) {
@@ -75,17 +79,23 @@ PatchPicture::PatchPicture(const CalibrationPicture& picture) {
     };
     const Image<float> grey = smoothed(crop(picture.grey));
     const ConstImageView<std::uint8_t> alpha = crop(picture.alpha);
-    const auto inner = [](int at, int count) { return at >= kBorder_px && at < count - kBorder_px; };
+    const auto inner = [](int at, int count) { return (at >= kBorder_px) & (at < count - kBorder_px); };
     for (int y = 0; y < box.height; ++y) {
         const float* const here = grey.row(y);
         const float* const above = grey.row(std::max(0, y - 1));
         const float* const below = grey.row(std::min(box.height - 1, y + 1));
         const bool row_is_inner = inner(top_ + y, picture.alpha.height());
-        for (int x = 0; x < box.width; ++x) {
-            const float before = here[std::max(0, x - 1)], behind = here[std::min(box.width - 1, x + 1)];
-            const bool solid = row_is_inner && inner(left_ + x, picture.alpha.width()) && alpha(x, y) > kSolid_code;
-            texels_(x, y) = {here[x], 0.5F * (behind - before), 0.5F * (below[x] - above[x]), solid ? 1.0F : 0.0F};
-        }
+        const std::uint8_t* const codes = alpha.row(y);
+        Texel* const texels = texels_.row(y);
+        const auto put = [&](int x, int before, int behind) {
+            const bool solid = row_is_inner & inner(left_ + x, picture.alpha.width()) & (codes[x] > kSolid_code);
+            texels[x] = {here[x], 0.5F * (here[behind] - here[before]), 0.5F * (below[x] - above[x]),
+                         solid ? 1.0F : 0.0F};
+        };
+        const int last = box.width - 1;
+        put(0, 0, std::min(1, last));
+        for (int x = 1; x < last; ++x) put(x, x - 1, x + 1);
+        put(last, std::max(0, last - 1), last);
     }
 }
 

@@ -5,6 +5,8 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -160,15 +162,15 @@ double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covarian
 
 std::vector<OutlineHull> outline_hulls(std::span<const CalibrationPicture> turn, int reduction,
                                        const TurntableModel& model) {
-    std::vector<OutlineHull> hulls;
-    for (const CalibrationPicture& picture : turn) {
+    std::vector<OutlineHull> hulls(turn.size());
+    tbb::parallel_for(std::size_t{0}, turn.size(), [&](std::size_t view) {
         std::vector<HullPoint> points;
-        for (const glm::dvec2& p : outermost(picture.alpha)) {
+        for (const glm::dvec2& p : outermost(turn[view].alpha)) {
             const glm::dvec2 in_photo = p * static_cast<double>(reduction);
             if (const auto plane = undistorted(model.lens, in_photo)) points.push_back({*plane, in_photo});
         }
-        hulls.push_back(points.size() < 3 ? OutlineHull{} : convex_hull(std::move(points)));
-    }
+        if (points.size() >= 3) hulls[view] = convex_hull(std::move(points));
+    });
     return hulls;
 }
 
@@ -195,19 +197,25 @@ std::vector<double> tangency_residuals(const TurntableModel& model, std::span<co
             if (const auto ray = table_ray(model.lens, model.pose, p)) rays[view].push_back(turned(*ray, back));
         }
     }
-    std::vector<double> residuals;
-    for (const auto& [i, j] : pairs) {
+    std::vector<double> residuals(2 * pairs.size());
+    constexpr std::size_t kGrain = 16;
+    const auto compare = [&](std::size_t n) {
+        const auto& [i, j] = pairs[n];
         Pencil pencil;
         pencil.axis = glm::normalize(centres[j] - centres[i]);
         const glm::dvec3 inwards = -(centres[i] + centres[j]);
         pencil.middle = glm::normalize(inwards - pencil.axis * glm::dot(inwards, pencil.axis));
         pencil.across = glm::cross(pencil.axis, pencil.middle);
-        for (const double side : {-1.0, 1.0}) {
+        for (const std::size_t is_second : {0, 1}) {
+            const double side = is_second != 0 ? 1 : -1;
             const auto a = tangent(rays[i], pencil, side), b = tangent(rays[j], pencil, side);
             const double px_per_rad = a && b ? model.lens.f_px * 0.5 * (a->sine + b->sine) : 0;
-            residuals.push_back(a && b ? (std::atan(a->slope) - std::atan(b->slope)) * px_per_rad : 0);
+            residuals[2 * n + is_second] = a && b ? (std::atan(a->slope) - std::atan(b->slope)) * px_per_rad : 0;
         }
-    }
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pairs.size(), kGrain), [&](const auto& range) {
+        for (std::size_t n = range.begin(); n < range.end(); ++n) compare(n);
+    });
     return residuals;
 }
 

@@ -18,7 +18,6 @@ constexpr int kNearDepths = 2;         // tried on either side of a depth that i
 // straight ones, and edge pixels add up to half a pixel of their own.
 constexpr float kSteepest = 1.06F;
 constexpr float kEdgeJump_px = 1;
-constexpr float kBehind = std::numeric_limits<float>::lowest();
 
 }  // namespace
 
@@ -127,22 +126,6 @@ std::vector<std::size_t> RayProbe::strongest(const glm::dvec3& direction, double
         strong.push_back(view);
     }
     return strong;
-}
-
-RayProbe::Seen RayProbe::seen(std::size_t j, double depth) const {
-    const glm::vec3 p(sights_[j].centre + depth * directions_[j]);
-    if (!(p.z < -1e-6F)) return {};
-    const float x = p.x / -p.z;
-    const float y = -p.y / -p.z;
-    const float r2 = x * x + y * y;
-    const float scale = lens_.f * (1 + r2 * (lens_.k1 + r2 * lens_.k2));
-    return {lens_.cx + scale * x, lens_.cy + scale * y, true};
-}
-
-// Of the ray's point at `depth` from the outline in a view, positive inside.
-float RayProbe::distance(std::size_t j, double depth) const {
-    const Seen p = seen(j, depth);
-    return p.before_camera ? turn_.distance(sights_[j].view, p.x, p.y) : kBehind;
 }
 
 // May stop at the first value below `floor`.

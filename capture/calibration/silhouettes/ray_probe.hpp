@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,8 @@ public:
     std::vector<std::size_t> strongest(const glm::dvec3& direction, double depth, double margin_px, std::size_t most);
 
 private:
+    static constexpr float kBehind = std::numeric_limits<float>::lowest();
+
     struct FloatLens {
         float f, cx, cy, k1, k2;
     };
@@ -55,8 +58,21 @@ private:
     };
     static float apart_px(const Seen& a, const Seen& b);
     void aim(const glm::dvec3& direction);
-    [[nodiscard]] Seen seen(std::size_t j, double depth) const;
-    [[nodiscard]] float distance(std::size_t j, double depth) const;
+    // Inline: what follows does not wait for one view's memory before it asks the next one.
+    [[nodiscard]] Seen seen(std::size_t j, double depth) const {
+        const glm::vec3 p(sights_[j].centre + depth * directions_[j]);
+        if (!(p.z < -1e-6F)) return {};
+        const float x = p.x / -p.z;
+        const float y = -p.y / -p.z;
+        const float r2 = x * x + y * y;
+        const float scale = lens_.f * (1 + r2 * (lens_.k1 + r2 * lens_.k2));
+        return {lens_.cx + scale * x, lens_.cy + scale * y, true};
+    }
+    // Of the ray's point at `depth` from the outline in a view, positive inside.
+    [[nodiscard]] float distance(std::size_t j, double depth) const {
+        const Seen p = seen(j, depth);
+        return p.before_camera ? turn_.distance(sights_[j].view, p.x, p.y) : kBehind;
+    }
     float least_over_views(double depth, float floor);
     void keep_deciding(double low, double high);
     std::pair<float, double> refined(double low, double high, int rounds);

@@ -1,10 +1,13 @@
 #include "capture/calibration/silhouettes/silhouette_turn.hpp"
 
+#include <tbb/parallel_for.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -156,23 +159,31 @@ Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> m
     turn.box_low_ = glm::dvec2(whole.left, whole.top) / static_cast<double>(n);
     turn.box_high_ = glm::dvec2(whole.right, whole.bottom) / static_cast<double>(n);
 
-    for (std::size_t i = 0; i < masks.size(); ++i) {
+    turn.edges_.resize(masks.size());
+    std::vector<std::optional<DistanceField>> distances(masks.size());
+    std::vector<Status> found(masks.size());
+    const int left = std::max(0, whole.left / n - kMargin_px);
+    const int top = std::max(0, whole.top / n - kMargin_px);
+    turn.origin_ = glm::vec2(left, top);
+    tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
         const Image<float> coverage = reduced(masks[i], n);
-        const int left = std::max(0, whole.left / n - kMargin_px);
-        const int top = std::max(0, whole.top / n - kMargin_px);
         const int right = std::min(coverage.width(), whole.right / n + 1 + kMargin_px);
         const int bottom = std::min(coverage.height(), whole.bottom / n + 1 + kMargin_px);
         const ConstImageView<float> part = coverage.view().crop(left, top, right - left, bottom - top);
-        turn.origin_ = glm::vec2(left, top);
-        turn.edges_.push_back(edge_points(part, {left, top}, detail.edges_per_view));
-        if (part.width() < 2 || part.height() < 2 || turn.edges_.back().size() < kFewestOutlines) {
-            return Error{view_name(i) + " has hardly any outline; check its cut-out"};
+        turn.edges_[i] = edge_points(part, {left, top}, detail.edges_per_view);
+        if (part.width() < 2 || part.height() < 2 || turn.edges_[i].size() < kFewestOutlines) {
+            found[i] = Error{view_name(i) + " has hardly any outline; check its cut-out"};
+            return;
         }
         try {
-            turn.distances_.emplace_back(signed_distance(part).view());
+            distances[i].emplace(signed_distance(part).view());
         } catch (const cv::Exception& problem) {
-            return Error{view_name(i) + ": " + problem.err};
+            found[i] = Error{view_name(i) + ": " + problem.err};
         }
+    });
+    for (std::size_t i = 0; i < masks.size(); ++i) {
+        if (!found[i]) return found[i].error();
+        turn.distances_.push_back(*std::move(distances[i]));
     }
     return turn;
 }

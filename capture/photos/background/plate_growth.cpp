@@ -82,14 +82,19 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
         plate.witnesses(x, y) = witnesses;
         open[static_cast<std::size_t>(std::popcount(witnesses))].emplace_back(x, y);
     };
-    for (int y = 0; y < height; ++y) {
+    GrownPlate seeded{Image<Rgba8>(width, height), Image<std::uint64_t>(width, height)};
+    tbb::parallel_for(0, height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             if (seeds(x, y) == 0 || plate.witnesses(x, y) != 0) continue;
-            std::uint64_t witnesses = witnesses_of(samples, guess(x, y), x, y, kExpected_codes);
+            const std::uint64_t witnesses = witnesses_of(samples, guess(x, y), x, y, kExpected_codes);
             if (witnesses == 0) continue;
-            const Rgba8 colour = smooth_mean(samples, witnesses, x, y);
-            witnesses = witnesses_of(samples, colour, x, y);
-            if (witnesses != 0) accept(x, y, colour, witnesses);
+            seeded.colour(x, y) = smooth_mean(samples, witnesses, x, y);
+            seeded.witnesses(x, y) = witnesses_of(samples, seeded.colour(x, y), x, y);
+        }
+    });
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (seeded.witnesses(x, y) != 0) accept(x, y, seeded.colour(x, y), seeded.witnesses(x, y));
         }
     }
     // Pixels of the plate around (u, v) that show the same in the same pictures.
@@ -139,13 +144,13 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
 
 Image<Rgba8> sharp_colours(const EvenedSamples& samples, const GrownPlate& plate) {
     Image<Rgba8> sharp(plate.colour.width(), plate.colour.height(), Rgba8{0, 0, 0, 255});
-    for (int y = 0; y < sharp.height(); ++y) {
+    tbb::parallel_for(0, sharp.height(), [&](int y) {
         for (int x = 0; x < sharp.width(); ++x) {
             const std::uint64_t witnesses = plate.witnesses(x, y);
             if (witnesses == 0) continue;
             sharp(x, y) = mean_of(witnesses, [&](std::size_t i) { return samples(i, x, y); });
         }
-    }
+    });
     return sharp;
 }
 

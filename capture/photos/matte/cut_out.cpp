@@ -50,29 +50,43 @@ Image<Rgba8> unmix(ConstImageView<Rgba8> photo, const SoftEdge& edge) {
 
 void bleed_colours(Image<Rgba8>& picture) {
     if (picture.empty()) return;
-    cv::Mat1b bare(picture.height(), picture.width());
+    cv::Mat1b covered(picture.height(), picture.width());
     for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) bare(y, x) = picture(x, y).a >= kHalfCovered ? 0 : 255;
+        for (int x = 0; x < picture.width(); ++x) covered(y, x) = picture(x, y).a >= kHalfCovered ? 255 : 0;
     }
+    // Only so far around what is covered colours are looked for.
+    const int beside = static_cast<int>(kBleed_px) + 1;
+    const cv::Rect box = cv::boundingRect(covered);
+    const cv::Rect near =
+        box.empty() ? box
+                    : cv::Rect(box.x - beside, box.y - beside, box.width + 2 * beside, box.height + 2 * beside) &
+                          cv::Rect({0, 0}, covered.size());
+    cv::Mat1b bare;
     cv::Mat1f distance;
     cv::Mat1i nearest;
-    cv::distanceTransform(bare, distance, nearest, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
+    if (!near.empty()) {
+        cv::bitwise_not(covered(near), bare);
+        cv::distanceTransform(bare, distance, nearest, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
+    }
     std::vector<Rgba8> colour_of(1);  // label 0 is never given
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
+    for (int y = 0; y < near.height; ++y) {
+        for (int x = 0; x < near.width; ++x) {
             if (bare(y, x) != 0) continue;
             const auto label = static_cast<std::size_t>(nearest(y, x));
             if (label >= colour_of.size()) colour_of.resize(label + 1);
-            colour_of[label] = picture(x, y);
+            colour_of[label] = picture(near.x + x, near.y + y);
         }
     }
     for (int y = 0; y < picture.height(); ++y) {
         for (int x = 0; x < picture.width(); ++x) {
             Rgba8& pixel = picture(x, y);
             if (pixel.a != 0) continue;
-            const auto label = static_cast<std::size_t>(nearest(y, x));
-            const bool near = distance(y, x) <= kBleed_px && label < colour_of.size();
-            pixel = near ? colour_of[label] : Rgba8{};
+            pixel = {};
+            const int u = x - near.x, v = y - near.y;
+            if (u < 0 || v < 0 || u >= near.width || v >= near.height || distance(v, u) > kBleed_px) continue;
+            const auto label = static_cast<std::size_t>(nearest(v, u));
+            if (label >= colour_of.size()) continue;
+            pixel = colour_of[label];
             pixel.a = 0;
         }
     }

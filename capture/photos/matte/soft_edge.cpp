@@ -30,18 +30,25 @@ constexpr float kAlphaPerPx = 0.75F;
 // distance says are taken for so many times what they are where edges are clear.
 constexpr std::array<float, 2> kLeeway{3.0F, 1.5F};
 
-// In px from the border, which runs half a pixel before the first pixel of either side; positive inside.
-cv::Mat1f signed_distance(const cv::Mat1b& inside) {
-    cv::Mat1f distance;  // to the nearest pixel of the other side
-    cv::distanceTransform(inside, distance, cv::DIST_L2, cv::DIST_MASK_5);
+// In px from the border, which runs half a pixel before the first pixel of either side; positive inside. Exact to
+// `farthest_px`, beyond that any number beyond.
+cv::Mat1f signed_distance(const cv::Mat1b& inside, int farthest_px) {
+    cv::Mat1f distance(inside.size(), -static_cast<float>(farthest_px + 1));
+    const int beside = farthest_px + 2;
+    const cv::Rect box = cv::boundingRect(inside);
+    const cv::Rect near = cv::Rect(box.x - beside, box.y - beside, box.width + 2 * beside, box.height + 2 * beside) &
+                          cv::Rect({0, 0}, inside.size());
+    if (box.empty()) return distance;
+    const cv::Mat1b part = inside(near);
     cv::Mat1b outside;
-    cv::bitwise_not(inside, outside);
-    cv::Mat1f beyond;
+    cv::bitwise_not(part, outside);
+    cv::Mat1f within, beyond;  // to the nearest pixel of the other side
+    cv::distanceTransform(part, within, cv::DIST_L2, cv::DIST_MASK_5);
     cv::distanceTransform(outside, beyond, cv::DIST_L2, cv::DIST_MASK_5);
-    for (int y = 0; y < inside.rows; ++y) {
-        for (int x = 0; x < inside.cols; ++x) {
-            distance(y, x) =
-                inside(y, x) != 0 ? std::max(0.5F, distance(y, x) - 0.5F) : -std::max(0.5F, beyond(y, x) - 0.5F);
+    for (int y = 0; y < near.height; ++y) {
+        for (int x = 0; x < near.width; ++x) {
+            distance(near.y + y, near.x + x) =
+                part(y, x) != 0 ? std::max(0.5F, within(y, x) - 0.5F) : -std::max(0.5F, beyond(y, x) - 0.5F);
         }
     }
     return distance;
@@ -133,7 +140,7 @@ struct InBand {
 SoftEdge softened(const cv::Mat3f& light, const cv::Mat1b& inside, int band_px, float leeway) {
     SoftEdge edge{Image<float>(light.cols, light.rows), Image<LinearRgb>(light.cols, light.rows),
                   Image<LinearRgb>(light.cols, light.rows)};
-    const cv::Mat1f distance = signed_distance(inside);
+    const cv::Mat1f distance = signed_distance(inside, band_px + 1);
     for (int y = 0; y < light.rows; ++y) {
         for (int x = 0; x < light.cols; ++x) edge.alpha(x, y) = distance(y, x) > 0 ? 1.0F : 0.0F;
     }

@@ -60,6 +60,36 @@ TEST(VisualHull, RulesOutWhatMoreSilhouettesForbidThanAreTolerated) {
     }
 }
 
+TEST(VisualHull, TheHeightsWithinBoundsAreThoseOfAllCutToThem) {
+    const std::vector<WorkView> views = drawn_views(drawn_ring(12, 3));
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> across(-1.1, 1.1);
+    for (const int tolerated : {0, 2}) {
+        const VisualHull hull(pointers(views), 1, tolerated);
+        std::vector<Interval> all, some;
+        int cut = 0;
+        for (int n = 0; n < 2000; ++n) {
+            const glm::dvec2 place(across(random), across(random));
+            Interval within{across(random), across(random)};
+            if (within.low > within.high) std::swap(within.low, within.high);
+            hull.heights_above(place, all);
+            hull.heights_above(place, some, within);
+            std::vector<Interval> wanted;
+            for (const Interval& each : all) {
+                const Interval both{std::max(each.low, within.low), std::min(each.high, within.high)};
+                if (both.low < both.high) wanted.push_back(both);
+            }
+            ASSERT_EQ(some.size(), wanted.size()) << tolerated << " tolerated, point " << n;
+            for (std::size_t i = 0; i < wanted.size(); ++i) {
+                ASSERT_EQ(some[i].low, wanted[i].low);
+                ASSERT_EQ(some[i].high, wanted[i].high);
+            }
+            cut += wanted.empty() ? 0 : 1;
+        }
+        EXPECT_GT(cut, 100);
+    }
+}
+
 TEST(VisualHull, APartThatOneCutOutLacksIsKeptWhereThatIsTolerated) {
     std::vector<WorkView> views = drawn_views(drawn_ring(12));
     const DepthRange range;
