@@ -86,7 +86,7 @@ if [ "$SANITIZE" != none ]; then
   cmake --build build/asan -j "$JOBS" --target "${TARGETS[@]}"
   say "Testing under the sanitizers"
   # Leaks inside of the drivers and libraries that we load are not ours to report.
-  ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 RAYSPACE_RANDOM_STREAMS=300 \
+  ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 RAYSPACE_RANDOM_STREAMS="${RAYSPACE_RANDOM_STREAMS:-300}" \
     ctest --test-dir build/asan --output-on-failure -j "$JOBS" "${SELECTED[@]}" "$@"
 fi
 

@@ -333,7 +333,7 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
         ->capture_default_str();
     synth->add_flag("--no-filter", options->unfiltered,
                     "Leave the samples' noise in the pictures; else it is smoothed where surfaces are alike,\n"
-                    "the less the more samples there are");
+                    "the less the more samples there are (cartoons never are)");
     synth->add_flag("--depth", options->depth, "Write true axial depth beside each picture (EXR)");
     synth->add_option("--threads", options->threads, "Threads; the pictures do not depend on it (0 = all)")
         ->check(CLI::Range(0, 1024))

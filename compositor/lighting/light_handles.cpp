@@ -93,7 +93,7 @@ private:
                 line(place_ + world_from_outline * points[i - 1], place_ + world_from_outline * points[i]);
             }
         }
-        if (outline.to_scale) arrow(place_ + kArrow_px * px_ * aim);
+        if (model_of(entry_).form == LightForm::kArea) arrow(place_ + kArrow_px * px_ * aim);
     }
 
     const LightEntry& entry_;

@@ -26,7 +26,7 @@ public:
     explicit Refinement(std::function<Result<TracedRenderer>()> make, Clock clock = steady_clock_s);
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
-    ~Refinement();  // waits for what is under way: a tile or two, a pass's virtual lights
+    ~Refinement();  // waits for what is under way: the making, a tile or two, a pass's virtual lights
 
     // Drops what was begun before, but for its first picture.
     void begin(const Camera& camera, TracedMethod method = TracedMethod::kPath);

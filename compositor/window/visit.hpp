@@ -82,9 +82,9 @@ private:
     Status show(const glm::ivec2& size);
     // As it is lit and stands now.
     [[nodiscard]] std::shared_ptr<const Scene> scene_to_trace() const;
-    // The tracer of what stands there now; ready where it has that already.
+    // Makes the tracer of what stands there now, if there is none or it has another number of objects.
     void make_tracer();
-    // Makes it ahead for whoever stands still, so that it is there when traced light is switched on.
+    // Makes it ahead for whoever stands still, so that it is there, or soon will be, when traced light is switched on.
     void expect_tracing(const Camera& here, double seconds);
     // Whether there is a new picture to show.
     bool refine(const Camera& here);

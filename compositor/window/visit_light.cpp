@@ -55,8 +55,9 @@ void Visit::expect_tracing(const Camera& here, double seconds) {
     constexpr double kStill_s = 1;
     still_s_ = here.world_from_camera == still_at_.world_from_camera ? still_s_ + seconds : 0;
     still_at_ = here;
-    const bool waits = still_s_ >= kStill_s && showroom_->settled() && !playback_;
-    if (!refinement_ && waits) make_tracer();
+    if (refinement_ || playback_ || still_s_ < kStill_s || !showroom_->settled()) return;
+    // Where all objects fit into memory: else others would have come by the time that it is wanted.
+    if (showroom_->placed().size() == names_.size()) make_tracer();
 }
 
 bool Visit::refine(const Camera& here) {

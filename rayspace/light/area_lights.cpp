@@ -59,8 +59,7 @@ public:
         const AimedAxes axes = axes_of(unit_of(entry.aim), radians(entry.turn_deg));
         light.half_u = 0.5 * entry.size.y * axes.along;
         light.half_v = 0.5 * entry.size.x * axes.across;
-        light.colour = entry.radiance ? rounded(1, *entry.radiance * entry.colour)
-                                      : rounded(entry.power / (kLuxOfWhite * strength(light)), entry.colour);
+        light.colour = colour_of(entry, kLuxOfWhite * strength(light));
     }
     void describe(const Light& light, LightEntry& entry) const override {
         set_colour(light.colour, kLuxOfWhite * strength(light), entry);

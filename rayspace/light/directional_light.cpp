@@ -13,7 +13,7 @@ public:
         return static_cast<float>(kPi) * light.colour;
     }
     void describe(const LightEntry& entry, Light& light) const override {
-        light.colour = rounded(entry.power / kLuxOfWhite, entry.colour);
+        light.colour = colour_of(entry, kLuxOfWhite);
         light.towards = unit_of(entry.aim);
     }
     void describe(const Light& light, LightEntry& entry) const override {

@@ -20,7 +20,7 @@ namespace rs {
 
 // In the order in which people are offered them. What each is: light_model.hpp.
 enum class LightKind { kPoint, kSpot, kLuminaire, kRectangle, kDisc, kDirectional };
-inline constexpr std::size_t kLightKinds = 6;
+inline constexpr std::size_t kLightKinds = static_cast<std::size_t>(LightKind::kDirectional) + 1;  // the last of them
 
 // In scene coordinates. The first block is ISO/IEC 14772-1, 4.6.6 and 4.14.
 struct Light {

@@ -5,9 +5,9 @@
 
 namespace rs {
 
-// One rounding, so that entry_of() finds the numbers that give back the same ones.
-glm::vec3 rounded(double factor, const glm::dvec3& colour) {
-    return glm::vec3(factor * colour);
+// Rounded once, so that entry_of() finds the numbers that give back the same ones.
+glm::vec3 colour_of(const LightEntry& entry, double unit) {
+    return glm::vec3(entry.radiance ? *entry.radiance * entry.colour : entry.power / unit * entry.colour);
 }
 
 void set_colour(const glm::vec3& colour, double unit, LightEntry& entry) {

@@ -26,7 +26,9 @@ struct LightEntry {
     LightKind kind = LightKind::kPoint;
     std::string name{};    // may be empty
     glm::dvec3 colour{1};  // a factor in linear light, 0..kStrongest
-    double power = 1;      // where there is no `radiance`; directional: lux on a surface that faces it
+    // Where there is no `radiance`. Directional: lux on a surface that faces it; points and spots: candela; areas:
+    // lumens; luminaires: a factor on what the file says, a dimmer.
+    double power = 1;
     // Areas: W / (m^2 sr). Points and spots: VRML97's intensity times colour, what white matter shows that faces the
     // light where 1 / attenuation is 1; it is nowhere more.
     std::optional<glm::dvec3> radiance{};

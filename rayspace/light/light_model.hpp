@@ -88,7 +88,7 @@ public:
     // not fallen off, kArea as from afar, times the squared distance: its area.
     [[nodiscard]] virtual double strength(const Light& light) const = 0;
     // What the whole light sends, W; of points as if they fell off by the square, and were as strong as they are at
-    // `distance`. kDistant: 0.
+    // `distance`, or at their radius where that is less. kDistant: 0.
     [[nodiscard]] virtual glm::dvec3 flux(const Light& light, double distance) const;
     // rs::punctual_of().
     [[nodiscard]] virtual Light punctual(const Light& light) const { return light; }
@@ -125,10 +125,9 @@ inline const LightModel& model_of(const LightEntry& entry) {
 
 // What models share. An error where a direction has not unit length.
 Status check_direction(const glm::dvec3& towards);
-// For descriptions: kLuxOfWhite lux on white matter make it show radiance 1. `factor` times colour, rounded once.
-inline constexpr double kLuxOfWhite = kPi * kLumensPerWatt;
-glm::vec3 rounded(double factor, const glm::dvec3& colour);
-// Power and colour of an entry whose light has this colour, `unit` being the power of a colour of 1.
+inline constexpr double kLuxOfWhite = kPi * kLumensPerWatt;  // lux on white matter that make it show radiance 1
+// The colour of an entry's light, and an entry's power and colour for a light's; `unit`: the power of a colour of 1.
+glm::vec3 colour_of(const LightEntry& entry, double unit);
 void set_colour(const glm::vec3& colour, double unit, LightEntry& entry);
 // Of an entry with this aim, the turn that brings AimedAxes::across here.
 double turn_of(const glm::dvec3& aim, const glm::dvec3& across);

@@ -78,7 +78,7 @@ public:
     }
 
     void describe(const LightEntry& entry, Light& light) const override {
-        light.colour = rounded(entry.power, entry.colour);
+        light.colour = colour_of(entry, 1);
         light.luminaire = entry.luminaire;
         const glm::dvec3 aim = unit_of(entry.aim);
         const AimedAxes axes = axes_of(aim, radians(entry.turn_deg));

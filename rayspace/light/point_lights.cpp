@@ -65,8 +65,7 @@ public:
     }
 
     void describe(const LightEntry& entry, Light& light) const override {
-        light.colour = entry.radiance ? rounded(1, *entry.radiance * entry.colour)
-                                      : rounded(entry.power / kLuxOfWhite, entry.colour);
+        light.colour = colour_of(entry, kLuxOfWhite);
         light.attenuation = entry.radiance ? glm::vec3(entry.attenuation) : glm::vec3(0, 0, 1);
         light.least_attenuation = entry.radiance ? 1 : 0;
         light.radius = entry.reach;

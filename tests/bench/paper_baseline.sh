@@ -24,8 +24,8 @@ for light in ${LIGHTS:-white bright courtyard}; do
  "object": {"mesh": "$DATA/meshes/spot/spot_triangulated.obj", "texture": "$DATA/meshes/spot/spot_texture.png"},
  "camera": {"distance_radii": 2.81, "focal_widths": 1.4}, "environment": $environment}
 JSON
-  "$BIN/rs-capture" synth "$WORK/spot.json" -o "$WORK/set" --views 90 --size 512x512 --spp "$SPP" -q >/dev/null
-  "$BIN/rs-capture" synth "$WORK/spot.json" -o "$WORK/halfway" --views 90 --size 512x512 --spp "$SPP" --first-angle 2 -q >/dev/null
+  "$BIN/rs-capture" synth "$WORK/spot.json" -o "$WORK/set" --views 90 --size 512x512 --spp "$SPP" --no-filter -q >/dev/null
+  "$BIN/rs-capture" synth "$WORK/spot.json" -o "$WORK/halfway" --views 90 --size 512x512 --spp "$SPP" --no-filter --first-angle 2 -q >/dev/null
   "$BIN/rs-encode" build "$WORK/set" -o "$WORK/spot.rso" --raymap plane --planes 12 -q >/dev/null
   # The pictures of the halfway set, claimed to be taken at the captured poses: what flipping photographs costs.
   cp -r "$WORK/halfway" "$WORK/flipped"

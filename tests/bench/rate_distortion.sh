@@ -28,7 +28,7 @@ for name in vase doll flower; do
   SETS+=("$OUT/sets/$name")
   if [ ! -e "$OUT/sets/$name" ]; then
     "$BIN/rs-capture" synth "$ROOT/datasets-synthetic/recipes/$name.json" -o "$OUT/sets/$name" \
-      --views 90 --size 512x512 --spp "$SPP" >&2
+      --views 90 --size 512x512 --spp "$SPP" --no-filter >&2
   fi
 done
 exec "$BIN/bench_rd" --work "$OUT/work" --csv "$OUT/rd.csv" --svg "$OUT/rd.svg" "$@" "${SETS[@]}"

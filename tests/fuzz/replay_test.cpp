@@ -40,7 +40,7 @@ std::vector<std::uint8_t> contents(const fs::path& path) {
     return {first, first + bytes->size()};
 }
 
-constexpr int kTrialsOfModels = 50;  // Assimp's readers take long to begin under the sanitizers
+constexpr int kTrialsOfModels = 50;  // Assimp's readers take long to begin, most under the sanitizers
 
 void replay(const std::string& name, Entry entry, int trials = 200) {
     const auto files = corpus(name);

@@ -3,6 +3,8 @@
 // buffer of interleaved instant radiosity (A. Keller, W. Heidrich, "Interleaved Sampling", Eurographics Rendering
 // Workshop 2001; I. Wald et al. 2002).
 //
+// Paths, whose samples have no such pattern, gain as much: their noise is averaged likewise.
+//
 // Pixels are averaged as far as their surfaces lie in one plane, face one way and have one colour, and as far as their
 // light differs by no more than its noise: the edge-avoiding wavelets of H. Dammertz et al. ("Edge-Avoiding A-Trous
 // Wavelet Transform for fast Global Illumination Filtering", HPG 2010) with the noise's variance as a measure

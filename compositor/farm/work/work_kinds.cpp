@@ -89,7 +89,7 @@ fs::path whole_path(const std::string& given) {
 const std::array<WorkKind, 3> kWorkKinds = {{
     {"encode", "rs-encode", "build", "capture sets", ".rso", true, extent_of_set, 150 * kMega, 14, 0},
     {"import", "rs-capture", "import", "folders of photographs", "", true, extent_of_photos, 200 * kMega, 8, 312},
-    {"synth", "rs-capture", "synth", "recipes or meshes", "", false, extent_of_recipe, 150 * kMega, 0, 100},
+    {"synth", "rs-capture", "synth", "recipes or meshes", "", false, extent_of_recipe, 150 * kMega, 0, 160},
 }};
 
 fs::path state_folder(const fs::path& output) {

@@ -25,6 +25,10 @@ float kept_in_fog(const std::optional<Fog>& fog, double distance) {
     return static_cast<float>(fog->kind == FogKind::kLinear ? left / fog->visibility : std::exp(-distance / left));
 }
 
+bool placeholder_in_view(const ShownNode& node, const FrameView& view) {
+    return node.placeholder && !node.hidden && may_be_seen(bounds_of(*node.placeholder), view.clip_from_world);
+}
+
 // Seconds from lap to lap; of all that was drawn until then if `waits`, else of giving it to the driver.
 class PartClock {
 public:
@@ -140,9 +144,9 @@ Status FrameCompositor::ensure_depths() {
     return draw(*camera_, TracedDepths::kAlways);
 }
 
-bool FrameCompositor::blends_something(const std::vector<SeenNode>& seen) const {
+bool FrameCompositor::blends_something(const std::vector<SeenNode>& seen, const FrameView& view) const {
     return !seen.empty() || fog_ || weather_ || renderers_.lit.surfaces().has_transparent() ||
-           std::ranges::any_of(*nodes_, [](const ShownNode& node) { return node.placeholder.has_value(); });
+           std::ranges::any_of(*nodes_, [&](const ShownNode& node) { return placeholder_in_view(node, view); });
 }
 
 Status FrameCompositor::draw(const Camera& camera, TracedDepths depths) {
@@ -169,7 +173,8 @@ Status FrameCompositor::draw(const Camera& camera, TracedDepths depths) {
     if (shadows() && lights_something) statistics_.shadow_maps_drawn = renderers_.lit.draw_shadows(throwing_objects());
     statistics_.shadows_s = clock.lap();
     const bool depth_is_there = traced_ && depth_from_ == view.clip_from_world;
-    statistics_.has_depths = !traced_ || depth_is_there || depths == TracedDepths::kAlways || blends_something(seen);
+    statistics_.has_depths =
+        !traced_ || depth_is_there || depths == TracedDepths::kAlways || blends_something(seen, view);
     renderers_.frame.drawn.begin(renderers_.background.zenith(), depth_is_there);
     const bool draws_geometry = statistics_.has_depths && !depth_is_there;
     const OpaquePass pass = !draws_geometry ? OpaquePass::kNone : traced_ ? OpaquePass::kDepthOnly : OpaquePass::kLit;
@@ -215,9 +220,8 @@ void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparen
     for (const auto& surface : surfaces) blended.push_back({surface.distance, &surface, nullptr, nullptr});
     for (const SeenNode& node : nodes) blended.push_back({node.view.plane_distance, nullptr, &node, nullptr});
     for (std::size_t i = 0; i < nodes_->size(); ++i) {
+        if (!placeholder_in_view((*nodes_)[i], view)) continue;
         const auto& placeholder = (*nodes_)[i].placeholder;
-        if (!placeholder || (*nodes_)[i].hidden || !may_be_seen(bounds_of(*placeholder), view.clip_from_world))
-            continue;
         statistics_.nodes[i].missing = !(*nodes_)[i].object;
         statistics_.nodes_missing += statistics_.nodes[i].missing ? 1 : 0;
         const double distance = glm::distance(placeholder->world_from_object.translation, view.camera.centre());

@@ -69,7 +69,7 @@ struct FrameStatistics {
     int nodes_not_seen = 0;            // off the screen, too small, or not there
     int nodes_missing = 0;             // placeholders in view
     std::int64_t pixels_rendered = 0;  // by the engine
-    int geometry_in_view = 0;          // geometry nodes that were drawn, now or for the depths that were kept
+    int geometry_in_view = 0;          // geometry nodes that the frustum lets pass
     bool has_depths = true;            // of geometry; under a traced picture only where somebody needed them
     int shadow_maps_drawn = 0;         // because something in them has changed
     double shadows_s = 0;              // of drawing them
@@ -129,7 +129,8 @@ public:
     // somebody asks for it; where its alpha is below 1, the background shows. nullptr: they are drawn again.
     void set_traced(std::shared_ptr<const Image<Rgba8>> picture) { traced_ = std::move(picture); }
 
-    // Of the last draw() or compose().
+    // Of the last draw() or compose(). Who asks it for geometry (surface_at, distance_ahead, draw_handles) after a
+    // traced frame without depths has it drawn again, as it would be drawn now.
     [[nodiscard]] const FrameStatistics& statistics() const { return statistics_; }
     // Which ray-space node is seen at a pixel of the last frame.
     [[nodiscard]] std::optional<std::size_t> object_at(int x, int y) const;
@@ -184,7 +185,7 @@ private:
     Status draw(const Camera& camera, TracedDepths depths);
     // Of the last frame, where they were left out.
     Status ensure_depths();
-    [[nodiscard]] bool blends_something(const std::vector<SeenNode>& seen) const;
+    [[nodiscard]] bool blends_something(const std::vector<SeenNode>& seen, const FrameView& view) const;
     void draw_traced(const Camera& camera);
     [[nodiscard]] std::vector<std::optional<PlacedObject>> throwing_objects() const;
     [[nodiscard]] PlacedObject turned(std::size_t index) const;

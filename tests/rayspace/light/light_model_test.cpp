@@ -13,8 +13,14 @@ namespace {
 
 constexpr const char* kIes = "TILT=NONE\n1 -1 1 4 2 1 2 0 0 0 1 1 9\n0 45 70 80\n0 90\n179 150 40 0\n179 160 80 0\n";
 
-std::string name_of_kind(const testing::TestParamInfo<LightKind>& info) {
-    return model_of(info.param).words.kind;
+// By its power, or by its radiance, where there is that: then with what else comes with it.
+struct Example {
+    LightKind kind;
+    bool by_radiance;
+};
+
+std::string name_of_example(const testing::TestParamInfo<Example>& info) {
+    return model_of(info.param.kind).words.kind + std::string(info.param.by_radiance ? "_by_radiance" : "");
 }
 
 std::vector<LightKind> all_kinds() {
@@ -23,11 +29,25 @@ std::vector<LightKind> all_kinds() {
     return kinds;
 }
 
+std::vector<Example> all_examples() {
+    std::vector<Example> examples;
+    for (const LightKind kind : all_kinds()) {
+        examples.push_back({kind, false});
+        if (model_of(kind).words.radiance != nullptr) examples.push_back({kind, true});
+    }
+    return examples;
+}
+
 // One in general position.
-LightEntry entry_of_kind(LightKind kind) {
-    const LightModel& model = model_of(kind);
+LightEntry entry_of_example(const Example& example) {
+    const LightModel& model = model_of(example.kind);
     LightEntry entry = model.example();
-    entry.kind = kind;
+    entry.kind = example.kind;
+    if (example.by_radiance) entry.radiance = {3, 2, 1};
+    if (example.by_radiance && model.words.falls_off) {
+        entry.attenuation = {1, 0.5, 0.25};
+        entry.reach = 2;
+    }
     entry.name = "this";
     entry.colour = {1, 0.5, 0.25};
     entry.ambient = {0.1, 0.2, 0.3};
@@ -41,10 +61,10 @@ LightEntry entry_of_kind(LightKind kind) {
     return entry;
 }
 
-class EveryLight : public testing::TestWithParam<LightKind> {
+class EveryLight : public testing::TestWithParam<Example> {
 protected:
-    const LightModel& model_ = model_of(GetParam());
-    const LightEntry entry_ = entry_of_kind(GetParam());
+    const LightModel& model_ = model_of(GetParam().kind);
+    const LightEntry entry_ = entry_of_example(GetParam());
     const Light light_ = light_of(entry_);
 
     // Of a sphere, by u in [0, 1)^2.
@@ -59,7 +79,7 @@ protected:
 };
 
 TEST_P(EveryLight, IsItself) {
-    EXPECT_EQ(light_.kind, GetParam());
+    EXPECT_EQ(light_.kind, GetParam().kind);
     EXPECT_TRUE(check_light(light_)) << check_light(light_).error().message;
     EXPECT_FALSE(std::string(model_.words.kind).empty());
     EXPECT_TRUE(entry_.power == 1 || !model_.words.power_is_factor);
@@ -70,7 +90,10 @@ TEST_P(EveryLight, EntriesComeBack) {
     EXPECT_EQ(again.name, entry_.name);
     EXPECT_EQ(again.ambient, glm::dvec3(light_.ambient));
     EXPECT_EQ(again.location, entry_.location);
+    EXPECT_EQ(again.reach, entry_.reach);
+    EXPECT_EQ(again.attenuation, entry_.attenuation);
     const Light same = light_of(again);
+    EXPECT_EQ(same.radius, light_.radius);
     EXPECT_LT(glm::distance(same.colour, light_.colour), 1e-5F * glm::length(light_.colour));
     if (!model_.words.has_aim) return;
     EXPECT_LT(glm::distance(model_.axis(light_), unit_of(entry_.aim)), 1e-12);
@@ -84,14 +107,21 @@ TEST_P(EveryLight, EntriesComeBack) {
     }
 }
 
+// One thing wrong at a time.
 TEST_P(EveryLight, RefusesWhatCannotBe) {
-    Light dark = light_;
-    dark.colour.y = -1;
-    EXPECT_FALSE(check_light(dark));
-    Light astray = light_;
-    astray.location = astray.towards = astray.half_u = glm::dvec3(std::nan(""));
-    astray.luminaire = nullptr;
-    EXPECT_FALSE(check_light(astray));
+    const auto refuses = [&](const auto& change) {
+        Light wrong = light_;
+        change(wrong);
+        return !check_light(wrong);
+    };
+    EXPECT_TRUE(refuses([](Light& light) { light.colour.y = -1; }));
+    EXPECT_TRUE(refuses([](Light& light) { light.colour.y = std::nanf(""); }));
+    EXPECT_EQ(refuses([](Light& light) { light.location.z = std::nan(""); }), model_.words.has_place);
+    EXPECT_EQ(refuses([](Light& light) { light.luminaire = nullptr; }), model_.words.has_file);
+    const bool is_area = model_.form == LightForm::kArea;
+    EXPECT_EQ(refuses([](Light& light) { light.half_u = light.half_v; }), is_area);
+    const bool has_direction = model_.words.has_aim && !is_area && !model_.words.has_file;
+    EXPECT_EQ(refuses([](Light& light) { light.towards = glm::dvec3(0); }), has_direction);
 }
 
 TEST_P(EveryLight, TurnsAboutY) {
@@ -110,6 +140,10 @@ TEST_P(EveryLight, ForRasterIsPunctual) {
     EXPECT_TRUE(check_light(punctual));
     EXPECT_EQ(punctual.name, light_.name);
     EXPECT_EQ(punctual.everywhere, light_.everywhere);
+    if (entry_.reach < 50) {
+        EXPECT_EQ(punctual.radius, light_.radius);
+        return;
+    }
     // As bright, far away on the axis.
     const double far = 50;
     const glm::vec3 seen = irradiance_at(punctual, light_.location + far * model_.axis(light_));
@@ -164,6 +198,21 @@ TEST_P(EveryLight, GoesNoFartherThanItSays) {
     }
 }
 
+TEST_P(EveryLight, IsEvenWhereItSaysSo) {
+    if (model_.form != LightForm::kPoint) return;
+    const float on_axis = irradiance_at(light_, light_.location + model_.axis(light_)).x;
+    float least = on_axis;
+    double widest = 1;  // cosine
+    for (int i = 0; i < 20'000; ++i) {
+        const glm::dvec3 direction = on_sphere({any_(random_), any_(random_)});
+        const float arrives = irradiance_at(light_, light_.location + direction).x;
+        least = std::min(least, arrives);
+        if (arrives > 0) widest = std::min(widest, glm::dot(direction, model_.axis(light_)));
+    }
+    EXPECT_EQ(least > 0.99F * on_axis, model_.is_even());
+    EXPECT_NEAR(widest, static_cast<double>(model_.reach(light_).least_cos), 0.06) << "no wider than need be";
+}
+
 TEST_P(EveryLight, CoversItsArea) {
     if (model_.form != LightForm::kArea) return;
     constexpr int kSteps = 512;
@@ -192,6 +241,7 @@ TEST_P(EveryLight, CoversItsArea) {
 }
 
 TEST_P(EveryLight, HasAnOutlineThatCanBeSeen) {
+    EXPECT_EQ(model_.outline(entry_).lines.empty(), model_.form == LightForm::kDistant || model_.is_even());
     for (const std::vector<glm::dvec3>& line : model_.outline(entry_).lines) {
         EXPECT_GE(line.size(), 2U);
         for (const glm::dvec3& point : line) EXPECT_LT(glm::length(point), 2);
@@ -204,7 +254,7 @@ TEST(LightKinds, HaveWordsOfTheirOwn) {
     EXPECT_EQ(words.size(), kLightKinds);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, EveryLight, testing::ValuesIn(all_kinds()), name_of_kind);
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryLight, testing::ValuesIn(all_examples()), name_of_example);
 
 }  // namespace
 }  // namespace rs
