@@ -99,6 +99,11 @@ TEST_P(EveryLight, EntriesComeBack) {
     EXPECT_LT(glm::distance(model_.axis(light_), unit_of(entry_.aim)), 1e-12);
     EXPECT_LT(glm::distance(model_.axis(same), model_.axis(light_)), 1e-9);
     EXPECT_NEAR(again.turn_deg, entry_.turn_deg, 1e-9);
+    if (model_.words.turns) {
+        LightEntry turned = entry_;
+        turned.turn_deg = -70;
+        EXPECT_NEAR(entry_of(light_of(turned)).turn_deg, -70, 1e-9);
+    }
     for (std::size_t i = 0; i < model_.words.sizes.size(); ++i) {
         EXPECT_NEAR(again.size[static_cast<int>(i)], entry_.size[static_cast<int>(i)], 1e-12);
     }
