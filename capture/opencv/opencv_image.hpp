@@ -7,6 +7,7 @@
 #include "rayspace/image/srgb_codes.hpp"
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,14 @@ inline cv::Mat mat_over(ConstImageView<Rgba8> picture) {
 inline cv::Mat1b mat_over(ConstImageView<std::uint8_t> mask) {
     return {mask.height(), mask.width(), const_cast<std::uint8_t*>(mask.data()),
             static_cast<std::size_t>(mask.stride())};
+}
+
+// Where a mask is set, and so far beside that, as far as the mask reaches; empty where it is set nowhere.
+inline cv::Rect box_around(const cv::Mat1b& mask, int beside_px) {
+    const cv::Rect box = cv::boundingRect(mask);
+    if (box.empty()) return box;
+    return cv::Rect(box.x - beside_px, box.y - beside_px, box.width + 2 * beside_px, box.height + 2 * beside_px) &
+           cv::Rect({0, 0}, mask.size());
 }
 
 // Linear-light RGB, CV_32FC3.

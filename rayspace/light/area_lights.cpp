@@ -7,26 +7,20 @@
 namespace rs {
 namespace {
 
-constexpr const char* kLabels[] = {"across", "along"};
-constexpr LightWords kRectangleWords{.kind = "rectangle",
-                                     .power = "lumens",
-                                     .radiance = "radiance",
-                                     .radiance_unit = "W/(m2 sr)",
-                                     .turns = true,
-                                     .sizes = kLabels};
-
+constexpr const char* kTwoSides[] = {"across", "along"};
 constexpr const char* kDiameter[] = {"diameter"};
-constexpr LightWords kDiscWords{.kind = "disc",
-                                .power = "lumens",
-                                .radiance = "radiance",
-                                .radiance_unit = "W/(m2 sr)",
-                                .turns = true,
-                                .sizes = kDiameter};
 
 class AreaModel : public LightModel {
 public:
     // `share`: area of a light whose halves are perpendicular and 1 long.
-    AreaModel(const LightWords& said, double share) : LightModel(LightForm::kArea, said), share_(share) {}
+    AreaModel(const char* kind, std::span<const char* const> sizes, double share)
+        : LightModel(LightForm::kArea, {.kind = kind,
+                                        .power = "lumens",
+                                        .radiance = "radiance",
+                                        .radiance_unit = "W/(m2 sr)",
+                                        .turns = true,
+                                        .sizes = sizes}),
+          share_(share) {}
 
     [[nodiscard]] Status check(const Light& light) const override {
         const double area = strength(light);
@@ -87,7 +81,7 @@ private:
 
 class RectangleModel final : public AreaModel {
 public:
-    RectangleModel() : AreaModel(kRectangleWords, 4) {}
+    RectangleModel() : AreaModel("rectangle", kTwoSides, 4) {}
 
     [[nodiscard]] bool covers(const glm::vec2& at) const override {
         return std::max(std::abs(at.x), std::abs(at.y)) <= 1.0F;
@@ -106,7 +100,7 @@ private:
 
 class DiscModel final : public AreaModel {
 public:
-    DiscModel() : AreaModel(kDiscWords, kPi) {}
+    DiscModel() : AreaModel("disc", kDiameter, kPi) {}
 
     [[nodiscard]] bool covers(const glm::vec2& at) const override { return glm::dot(at, at) <= 1.0F; }
     [[nodiscard]] glm::vec2 point(const glm::vec2& u) const override { return disc_point(u); }

@@ -55,12 +55,7 @@ void bleed_colours(Image<Rgba8>& picture) {
         for (int x = 0; x < picture.width(); ++x) covered(y, x) = picture(x, y).a >= kHalfCovered ? 255 : 0;
     }
     // Only so far around what is covered colours are looked for.
-    const int beside = static_cast<int>(kBleed_px) + 1;
-    const cv::Rect box = cv::boundingRect(covered);
-    const cv::Rect near =
-        box.empty() ? box
-                    : cv::Rect(box.x - beside, box.y - beside, box.width + 2 * beside, box.height + 2 * beside) &
-                          cv::Rect({0, 0}, covered.size());
+    const cv::Rect near = box_around(covered, static_cast<int>(kBleed_px) + 1);
     cv::Mat1b bare;
     cv::Mat1f distance;
     cv::Mat1i nearest;

@@ -34,11 +34,8 @@ constexpr std::array<float, 2> kLeeway{3.0F, 1.5F};
 // `farthest_px`, beyond that any number beyond.
 cv::Mat1f signed_distance(const cv::Mat1b& inside, int farthest_px) {
     cv::Mat1f distance(inside.size(), -static_cast<float>(farthest_px + 1));
-    const int beside = farthest_px + 2;
-    const cv::Rect box = cv::boundingRect(inside);
-    const cv::Rect near = cv::Rect(box.x - beside, box.y - beside, box.width + 2 * beside, box.height + 2 * beside) &
-                          cv::Rect({0, 0}, inside.size());
-    if (box.empty()) return distance;
+    const cv::Rect near = box_around(inside, farthest_px + 2);
+    if (near.empty()) return distance;
     const cv::Mat1b part = inside(near);
     cv::Mat1b outside;
     cv::bitwise_not(part, outside);
