@@ -112,7 +112,7 @@ show_room() {
   step "showroom: quilt" "$OUT/showroom_qs5x9a0.75.png" "$BIN/rs-view" "$world/showroom.wrl" --viewpoint table --quilt 5x9 \
     -o "$OUT/showroom.png"
   step "showroom: walk" "$OUT/showroom-walk.mp4" "$BIN/rs-view" "$world/showroom.wrl" \
-    --path "$world/showroom-walk.json" --size "$WALK_SIZE" -o "$OUT/showroom-walk.mp4"
+    --path "$world/showroom-walk.json" --size "$WALK_SIZE" --upright -o "$OUT/showroom-walk.mp4"
 }
 
 # show_street: ten seconds of traffic, and one moment by day, by night and in every weather.
@@ -120,7 +120,7 @@ show_street() {
   local look pictures=() picture folder
   step "street: by day" "$OUT/town" "$BIN/rs-street" -o "$OUT/town" --objects ..
   step "street: by night" "$OUT/town-night" "$BIN/rs-street" -o "$OUT/town-night" --time night --objects ..
-  step "street: ten seconds" "$OUT/street.mp4" "$BIN/rs-view" --sequence "$OUT/town" --size "$STREET_SIZE" -o "$OUT/street.mp4"
+  step "street: ten seconds" "$OUT/street.mp4" "$BIN/rs-view" --sequence "$OUT/town" --size "$STREET_SIZE" --upright -o "$OUT/street.mp4"
   for look in town:fair town:rain town:snow town:fog town-night:fair town-night:rain; do
     folder=${look%%:*}
     picture=$OUT/street-${look/:/-}.png

@@ -40,7 +40,7 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
       "capture/calibration/silhouettes"}},
     {"capture/calibration/tracks",
      {"rayspace/*", "capture/calibration/model", "capture/calibration/points", "capture/calibration/silhouettes"}},
-    {"capture/calibration/known", {"rayspace/*", "capture/calibration/model", "capture/calibration/silhouettes"}},
+    {"capture/calibration/known", {"rayspace/*", "capture/calibration/model"}},
     {"capture/photos/intake", {"rayspace/*"}},
     {"capture/photos/background", {"rayspace/*", "capture/opencv", "capture/photos/intake"}},
     {"capture/photos/matte", {"rayspace/*", "capture/opencv", "capture/photos/intake", "capture/photos/background"}},

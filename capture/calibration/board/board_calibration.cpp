@@ -1,7 +1,6 @@
 #include "capture/calibration/board/board_calibration.hpp"
 
 #include "capture/calibration/board/board_bundle.hpp"
-#include "capture/calibration/silhouettes/turn_diagnosis.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 

@@ -1,7 +1,7 @@
 #include "capture/calibration/known/known_files.hpp"
 
 #include "capture/calibration/model/turn_of_cameras.hpp"
-#include "capture/calibration/silhouettes/turn_diagnosis.hpp"
+#include "capture/calibration/model/turntable_model.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"

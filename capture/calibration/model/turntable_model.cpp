@@ -1,9 +1,12 @@
 #include "capture/calibration/model/turntable_model.hpp"
 
 #include "capture/calibration/model/projection.hpp"
+#include "rayspace/base/median.hpp"
 
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace rs::capture {
 namespace {
@@ -104,6 +107,12 @@ bool lies_sideways(const CameraPose& pose) {
 
 std::optional<double> axis_position(const Lens& lens, const CameraPose& pose, double at_px) {
     return lies_sideways(pose) ? axis_row(lens, pose, at_px) : axis_column(lens, pose, at_px);
+}
+
+double median_step(std::span<const double> angles_rad) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < angles_rad.size(); ++i) steps.push_back(angles_rad[i] - angles_rad[i - 1]);
+    return median(std::move(steps));
 }
 
 }  // namespace rs::capture

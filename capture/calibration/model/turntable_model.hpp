@@ -20,6 +20,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace rs::capture {
@@ -77,5 +78,8 @@ bool lies_sideways(const CameraPose& pose);
 
 // axis_column at row at_px; axis_row at column at_px for an axis that lies sideways.
 std::optional<double> axis_position(const Lens& lens, const CameraPose& pose, double at_px);
+
+// The median step from view to view, signed; 0 of fewer than two.
+double median_step(std::span<const double> angles_rad);
 
 }  // namespace rs::capture

@@ -84,12 +84,6 @@ std::optional<std::size_t> moment_of_change(std::span<const double> shares) {
 
 }  // namespace
 
-double median_step(std::span<const double> angles_rad) {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < angles_rad.size(); ++i) steps.push_back(angles_rad[i] - angles_rad[i - 1]);
-    return median(std::move(steps));
-}
-
 std::vector<int> repeated_views(std::span<const double> angles_rad) {
     const double usual = std::abs(median_step(angles_rad));
     std::vector<int> repeated;

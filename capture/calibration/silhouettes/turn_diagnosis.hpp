@@ -17,9 +17,6 @@ namespace rs::capture {
 // A view with fewer observations has no angle of its own.
 inline constexpr int kFewestObservations = 6;
 
-// The median step from view to view.
-double median_step(std::span<const double> angles_rad);
-
 // An error where no rig should be made of these pictures: most observations disagree with any single turn, too many
 // views stand apart, the angles make no turn, or the lens is left open. `candidates` are the observations of each view
 // that were offered to the bundle, wrong matches among them.

@@ -1,7 +1,6 @@
 #include "capture/photos/rig/photo_calibration.hpp"
 
 #include "capture/calibration/silhouettes/silhouettes.hpp"
-#include "capture/calibration/silhouettes/turn_diagnosis.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/bounded_work.hpp"
 #include "rayspace/pictures/picture_io.hpp"

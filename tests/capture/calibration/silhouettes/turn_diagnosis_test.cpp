@@ -176,11 +176,6 @@ TEST(TurnDiagnosis, TooShortATurnIsAnError) {
     EXPECT_THAT(judged.accepted.error().message, HasSubstr("degrees of turn; 15 to 400"));
 }
 
-TEST(TurnDiagnosis, MedianStepIsSigned) {
-    EXPECT_DOUBLE_EQ(median_step(std::vector<double>{0, -0.1, -0.2, -0.9}), -0.1);
-    EXPECT_EQ(median_step(std::vector<double>{0}), 0);
-}
-
 TEST(TurnDiagnosis, SaysWhereTextureAndOutlinesDisagreeAboutTheAxis) {
     const auto warning = axis_warning({300, 102.1, 0.2}, {300, 100, 0.2}, 1);
     ASSERT_TRUE(warning);
