@@ -71,7 +71,7 @@ if [ $# -eq 0 ]; then
 fi
 
 say "Testing (release)"
-ctest --test-dir build/release --output-on-failure -j "$JOBS" "$@"
+ctest --test-dir build/release --output-on-failure -j $((JOBS + 1)) "$@"
 
 if [ "$SANITIZE" != none ]; then
   if [ "$SANITIZE" = all ]; then
@@ -87,7 +87,7 @@ if [ "$SANITIZE" != none ]; then
   say "Testing under the sanitizers"
   # Leaks inside of the drivers and libraries that we load are not ours to report.
   ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 RAYSPACE_RANDOM_STREAMS="${RAYSPACE_RANDOM_STREAMS:-300}" \
-    ctest --test-dir build/asan --output-on-failure -j "$JOBS" "${SELECTED[@]}" "$@"
+    ctest --test-dir build/asan --output-on-failure -j $((JOBS + 1)) "${SELECTED[@]}" "$@"
 fi
 
 say "All tests passed in $((SECONDS - BEGUN)) s"

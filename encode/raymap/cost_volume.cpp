@@ -257,6 +257,18 @@ CostVolume levels_within(const SampledHull& hull, const WorkView& view, const De
     return volume;
 }
 
+Image<float> first_allowed(const WorkView& view, const CostVolume& costs, const DepthRange& range) {
+    Image<float> depth(view.height, view.width, kNoDepth);
+    for (int column = costs.box.left; column < costs.box.right; ++column) {
+        for (int row = costs.box.top; row < costs.box.bottom; ++row) {
+            const PixelLevels& pixel = costs.of(column, row);
+            if (pixel.count == 0 || costs.costs[pixel.begin] == kOutsideCost) continue;
+            depth(row, column) = static_cast<float>(range.at(pixel.first));
+        }
+    }
+    return depth;
+}
+
 void match_colours(CostVolume& volume, const WorkView& view, const Neighbours& neighbours, const DepthRange& range) {
     const ObjectBox& box = volume.box;
     if (box.empty()) return;

@@ -48,6 +48,9 @@ struct CostVolume {
 CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range,
                          const Image<std::uint8_t>* only = nullptr);
 
+// The depths of the first levels that the hull allows, as DepthView::depth.
+Image<float> first_allowed(const WorkView& view, const CostVolume& costs, const DepthRange& range);
+
 // The pictures that one is compared with, at most two of a kind, each with what it was found to show, if anything.
 struct Neighbours {
     std::vector<const DepthView*> beside;  // of its ring

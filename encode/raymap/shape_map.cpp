@@ -1,11 +1,15 @@
 #include "encode/raymap/shape_map.hpp"
 
+#include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/cost_volume.hpp"
+#include "encode/raymap/silhouette_repair.hpp"
 #include "encode/set/soft_coverage.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 #include "rayspace/object/yuv.hpp"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,16 +28,15 @@ constexpr int kHullLevels = 128;                // of depth, where silhouettes a
 constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of the set
 constexpr int kOverruledMargin_px = 4;
 constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
+constexpr int kRepairMargin_px = 4;  // of pictures of half the working size, in which lost parts are looked for
 constexpr double kWidestBetweenRings_deg = 20;
 constexpr int kNearSoft_px = 8;  // what is soft is told from what is around it, too
 
 NormalLine normal_line(const Camera& camera, const ReferencePlane& plane) {
-    const auto fixed = [](double value, int bits) {
-        return static_cast<std::int32_t>(std::lround(std::ldexp(value, bits)));
-    };
     const ViewpointLine line = viewpoint_line(camera.centre(), plane);
-    return {fixed(glm::dot(plane.normal, camera.forward()), 30),
-            fixed(glm::dot(plane.normal, camera.right()) * camera.fl_x, 16), fixed(line.a, 20), fixed(line.c, 20)};
+    return {fixed_point(glm::dot(plane.normal, camera.forward()), 30),
+            fixed_point(glm::dot(plane.normal, camera.right()) * camera.fl_x, 16), fixed_point(line.a, 20),
+            fixed_point(line.c, 20)};
 }
 
 // Seen from the middle of the object, in radians.
@@ -64,6 +67,7 @@ public:
           options_(options),
           layer_(layer),
           views_(ring.views.size()),
+          mended_(ring.views.size()),
           soft_(ring.views.size()),
           kept_costs_(ring.views.size()) {}
 
@@ -93,21 +97,10 @@ public:
         choose_hull({});
         beside_ = agreeing(rings);
         if (!beside_.empty()) choose_hull(beside_);
-        const WorkView& any = views_.front().view;
-        sampled_hull_ =
-            std::make_unique<SampledHull>(std::move(*hull_), kHullSpacing_px * glm::length(any.centre) / any.fl_x);
+        if (const Status status = mend_silhouettes(progress); !status) return status;
+        sampled_hull_ = sampled(std::move(*hull_));
         hull_.reset();
-        return for_each_in_parallel(count(), "depth", progress, [&](int n) -> Status {
-            DepthView& view = views_[static_cast<std::size_t>(n)];
-            const Neighbours neighbours = neighbours_of(n);
-            const DepthRange range = range_of(n, neighbours);
-            CostVolume costs = colour_costs(n, neighbours, range);
-            view.depth = depths_at(semi_global_levels(view.view, costs, options_.smoothness), range);
-            if (costs.costs.size() <= kKeptCosts / rig_.views.size()) {
-                kept_costs_[static_cast<std::size_t>(n)] = std::move(costs);
-            }
-            return {};
-        });
+        return search("depth", progress);
     }
 
     // The same again, now that there are depths that pictures can agree about: every second picture with what the
@@ -213,11 +206,61 @@ private:
     // Of this ring and the others.
     [[nodiscard]] std::vector<const WorkView*> work_views(const std::vector<const RingSearch*>& others) const {
         std::vector<const WorkView*> all;
-        for (const DepthView& view : views_) all.push_back(&view.view);
-        for (const RingSearch* const ring : others) {
-            for (const DepthView& view : ring->views_) all.push_back(&view.view);
-        }
+        const auto add = [&](const RingSearch& ring) {
+            for (std::size_t n = 0; n < ring.views_.size(); ++n) {
+                all.push_back(ring.mended_[n] ? &*ring.mended_[n] : &ring.views_[n].view);
+            }
+        };
+        add(*this);
+        for (const RingSearch* const ring : others) add(*ring);
         return all;
+    }
+
+    [[nodiscard]] std::unique_ptr<SampledHull> sampled(VisualHull hull) const {
+        const WorkView& any = views_.front().view;
+        return std::make_unique<SampledHull>(std::move(hull), kHullSpacing_px * glm::length(any.centre) / any.fl_x);
+    }
+
+    // Where silhouettes agree but for parts that some lack, those are added for the hull: what the colours of pictures
+    // of half the size say, in a wider hull, lies outside of them.
+    Status mend_silhouettes(Progress* progress) {
+        if (layer_ != Layer::kSolid || !silhouettes_agree_) return {};
+        RingSearch half(set_, rig_, ring_, options_);
+        for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
+        const std::vector<const WorkView*> silhouettes = half.work_views({});
+        half.sampled_hull_ = half.sampled(VisualHull(silhouettes, std::max(kRepairMargin_px, margin_px_)));
+        if (const Status status = half.search("silhouettes", progress); !status) return status;
+        const auto hull = half.sampled(VisualHull(silhouettes, (margin_px_ + 1) / 2));
+        std::vector<std::vector<RuledOut>> points(views_.size());
+        tbb::parallel_for(0, count(), [&](int n) {
+            const Neighbours neighbours = half.neighbours_of(n);
+            if (neighbours.beside.size() < 2) return;
+            const auto view = static_cast<std::size_t>(n);
+            points[view] = ruled_out(half.views_[view], neighbours.beside, half.range_of(n, neighbours).step, *hull);
+        });
+        tbb::parallel_for(std::size_t{0}, views_.size(), [&](std::size_t n) {
+            const Image<std::uint8_t> missing = missing_pixels(half.views_[n].view, points);
+            if (std::ranges::all_of(missing.pixels(), [](int pixel) { return pixel == 0; })) return;
+            mended_[n] = views_[n].view;
+            fill_missing(*mended_[n], missing);
+        });
+        hull_ = std::make_unique<VisualHull>(work_views(beside_), margin_px_);
+        return {};
+    }
+
+    // What the colours say.
+    Status search(const char* label, Progress* progress) {
+        return for_each_in_parallel(count(), label, progress, [&](int n) -> Status {
+            DepthView& view = views_[static_cast<std::size_t>(n)];
+            const Neighbours neighbours = neighbours_of(n);
+            const DepthRange range = range_of(n, neighbours);
+            CostVolume costs = colour_costs(n, neighbours, range);
+            view.depth = depths_at(semi_global_levels(view.view, costs, options_.smoothness), range);
+            if (costs.costs.size() <= kKeptCosts / rig_.views.size()) {
+                kept_costs_[static_cast<std::size_t>(n)] = std::move(costs);
+            }
+            return {};
+        });
     }
 
     [[nodiscard]] bool silhouettes_agree(const std::vector<const WorkView*>& views, const VisualHull& hull) const {
@@ -293,21 +336,8 @@ private:
                 most_moved = std::max(most_moved, std::sin(angle_between(view, neighbour->view)));
             }
         }
-        const double moved_px = most_moved * view.fl_x / glm::length(view.place());
-        return range_of(std::clamp(static_cast<int>(2 * kDeepest * moved_px / options_.level_px),
-                                   options_.fewest_levels, options_.most_levels));
-    }
-
-    static Image<float> first_allowed(const WorkView& view, const CostVolume& costs, const DepthRange& range) {
-        Image<float> depth(view.height, view.width, kNoDepth);
-        for (int column = costs.box.left; column < costs.box.right; ++column) {
-            for (int row = costs.box.top; row < costs.box.bottom; ++row) {
-                const PixelLevels& pixel = costs.of(column, row);
-                if (pixel.count == 0 || costs.costs[pixel.begin] == kOutsideCost) continue;
-                depth(row, column) = static_cast<float>(range.at(pixel.first));
-            }
-        }
-        return depth;
+        const double levels = 2 * kDeepest * most_moved * view.fl_x / glm::length(view.place()) / options_.level_px;
+        return range_of(std::clamp(static_cast<int>(levels), options_.fewest_levels, options_.most_levels));
     }
 
     const CaptureSet& set_;
@@ -316,6 +346,7 @@ private:
     const ShapeOptions& options_;
     Layer layer_;
     std::vector<DepthView> views_;
+    std::vector<std::optional<WorkView>> mended_;        // silhouettes that lacked something
     std::vector<Image<std::uint8_t>> soft_;              // of each view
     std::vector<std::optional<CostVolume>> kept_costs_;  // of each view, from match() to agree()
     std::vector<const RingSearch*> beside_;

@@ -10,7 +10,6 @@
 namespace rs::encode {
 namespace {
 
-constexpr int kInside = 128;                      // alpha
 const double kReach = kDeepest * std::sqrt(2.0);  // of a sampled hull
 
 // near_object[row]: whether the column, or one at most `margin` to either side, shows the object there.

@@ -58,6 +58,20 @@ WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int
     return view;
 }
 
+WorkView halved(const WorkView& view) {
+    WorkView half = view;
+    half.width = view.width / 2;
+    half.height = view.height / 2;
+    for (double* const number : {&half.fl_x, &half.fl_y, &half.cx, &half.cy}) *number /= 2;
+    half.columns = Image<Rgba8>(half.height, half.width);
+    for (int column = 0; column < half.width; ++column) {
+        for (int row = 0; row < half.height; ++row) {
+            half.columns(row, column) = block_mean(view.columns.view(), 2 * row, 2 * column, 2);
+        }
+    }
+    return half;
+}
+
 Image<std::uint8_t> soft_pixels(const WorkView& view) {
     constexpr int kRadius_px = 2;
     constexpr int kHalf = 128;

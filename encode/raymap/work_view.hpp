@@ -11,6 +11,7 @@
 
 namespace rs::encode {
 
+inline constexpr int kInside = 128;  // the least alpha of what is within a silhouette
 inline constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
 
 // Where a ray of vertical planes runs, seen from above: through its foot (nearest to the axis) in direction `along`
@@ -66,6 +67,9 @@ struct DepthView {
 // `camera` is upright and in object radii. `picture` is averaged over blocks of `reduction` x `reduction` pixels
 // (colour weighted by alpha); what is left over at the right and lower edges is dropped.
 WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int reduction);
+
+// The same, reduced by two once more.
+WorkView halved(const WorkView& view);
 
 // 255 where something soft is (soft_coverage.hpp, patches of 5x5 pixels) that covers less than half, else 0; transposed
 // as WorkView::columns is. A shadow that was cut out along with the object is a surface, too.

@@ -107,6 +107,23 @@ TEST(ShapeMap, ARingThatContradictsIsLeftOut) {
               psnr_of(build(folder / "one"), folder / "between") - 0.5);
 }
 
+TEST(ShapeMap, APartThatOneCutOutLacksIsNotLostSeenFromElsewhere) {
+    const test::TemporaryFolder folder;
+    test::write_drawn_set(folder / "set", drawn_ring(24), striped_ball);
+    Rig halfway = drawn_ring(24, 7.5);
+    halfway.views.erase(halfway.views.begin() + 6, halfway.views.begin() + 18);
+    test::write_drawn_set(folder / "halfway", halfway, striped_ball);
+    const double whole_db = psnr_of(build(folder / "set"), folder / "halfway");
+    const std::filesystem::path lacking = folder / "set" / "12.png";
+    Result<Image<Rgba8>> picture = read_picture(lacking);
+    ASSERT_TRUE(picture.ok());
+    for (int y = 20; y < 44; ++y) {
+        for (int x = 52; x < 76; ++x) (*picture)(x, y) = {};
+    }
+    ASSERT_TRUE(write_png(lacking, *picture).ok());
+    EXPECT_GT(psnr_of(build(folder / "set"), folder / "halfway"), whole_db - 0.02);  // .06 less where it is lost
+}
+
 TEST(ShapeMap, IsTheSameEveryTime) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", drawn_ring(10));

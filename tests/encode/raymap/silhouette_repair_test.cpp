@@ -1,0 +1,175 @@
+// Parts that cut-outs lack, found from a ball whose depths are known.
+
+#include "encode/raymap/silhouette_repair.hpp"
+
+#include "tests/encode/raymap/drawn_views.hpp"
+#include "tests/encode/raymap/striped_ball.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rs::encode {
+namespace {
+
+constexpr int kViews = 12;
+constexpr double kTolerance = 0.02;
+
+// A ring about the ball with true depths, in pictures of which one lacks a part.
+class SilhouetteRepair : public testing::Test {
+protected:
+    static constexpr int kBitten = 6;
+    // Of the bitten picture: a strip at the ball's left rim.
+    static constexpr int kLeft = 20, kRight = 32, kTop = 40, kBottom = 64;
+
+    SilhouetteRepair() {
+        Rig rig = drawn_ring(kViews);
+        rig.object_radius = 1;
+        for (const RigView& each : rig.views) {
+            DepthView view{make_work_view(each.camera, striped_ball(each.camera), 1), {}};
+            view.depth = Image<float>(view.view.height, view.view.width, kNoDepth);
+            for (int column = 0; column < view.view.width; ++column) {
+                for (int row = 0; row < view.view.height; ++row) {
+                    if (view.view.at(column, row).a == 0) continue;
+                    view.depth(row, column) = static_cast<float>(ball_depth(view.view, column, row));
+                }
+            }
+            ring_.push_back(std::move(view));
+        }
+    }
+
+    void bite() {
+        WorkView& view = ring_[kBitten].view;
+        for (int column = kLeft; column < kRight; ++column) {
+            for (int row = kTop; row < kBottom; ++row) {
+                bitten_ += view.at(column, row).a >= kInside ? 1 : 0;
+                view.columns(row, column) = {};
+                ring_[kBitten].depth(row, column) = kNoDepth;
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<const WorkView*> silhouettes() const {
+        std::vector<const WorkView*> views;
+        for (const DepthView& each : ring_) views.push_back(&each.view);
+        return views;
+    }
+
+    [[nodiscard]] std::vector<const DepthView*> beside(int n) const {
+        return {&ring_[static_cast<std::size_t>((n + kViews - 1) % kViews)],
+                &ring_[static_cast<std::size_t>((n + 1) % kViews)]};
+    }
+
+    [[nodiscard]] std::vector<std::vector<RuledOut>> points() const {
+        const SampledHull hull(VisualHull(silhouettes(), 1), 0.01);
+        std::vector<std::vector<RuledOut>> found;
+        for (int n = 0; n < kViews; ++n) {
+            found.push_back(ruled_out(ring_[static_cast<std::size_t>(n)], beside(n), kTolerance, hull));
+        }
+        return found;
+    }
+
+    static std::size_t count_of(const std::vector<std::vector<RuledOut>>& points) {
+        std::size_t count = 0;
+        for (const auto& each : points) count += each.size();
+        return count;
+    }
+
+    static int count_of(const Image<std::uint8_t>& missing) {
+        return static_cast<int>(std::ranges::count(missing.pixels(), 1));
+    }
+
+    std::vector<DepthView> ring_;
+    int bitten_ = 0;
+};
+
+TEST_F(SilhouetteRepair, NothingIsMissingWhereSilhouettesAreWhole) {
+    EXPECT_EQ(count_of(points()), 0U);
+}
+
+TEST_F(SilhouetteRepair, WhatOnePictureLacksIsFoundThereAlone) {
+    bite();
+    ASSERT_GT(bitten_, 100);
+    const auto found = points();
+    for (std::size_t n = 0; n < kViews; ++n) {
+        const Image<std::uint8_t> missing = missing_pixels(ring_[n].view, found);
+        if (n != kBitten) {
+            EXPECT_EQ(count_of(missing), 0) << "picture " << n;
+            continue;
+        }
+        // What is next to the object may be its rim.
+        EXPECT_GT(count_of(missing), bitten_ / 2);
+        for (int column = 0; column < missing.height(); ++column) {
+            for (int row = 0; row < missing.width(); ++row) {
+                if (missing(row, column) == 0) continue;
+                EXPECT_TRUE(column >= kLeft && column < kRight && row >= kTop && row < kBottom)
+                    << column << ", " << row;
+            }
+        }
+    }
+}
+
+TEST_F(SilhouetteRepair, PointsThatOneNeighbourDoesNotShowSayNothing) {
+    bite();
+    const std::size_t agreed = count_of(points());
+    ASSERT_GT(agreed, 100U);
+    for (std::size_t n = 0; n < kViews; n += 2) {
+        for (float& depth : ring_[n].depth.pixels()) depth += static_cast<float>(2 * kTolerance);
+    }
+    EXPECT_LT(count_of(points()), agreed / 20);
+}
+
+TEST_F(SilhouetteRepair, SoftPixelsSayNothing) {
+    bite();
+    for (DepthView& each : ring_) {
+        for (Rgba8& pixel : each.view.columns.pixels()) pixel.a = std::min<std::uint8_t>(pixel.a, 200);
+    }
+    EXPECT_EQ(count_of(points()), 0U);
+}
+
+TEST_F(SilhouetteRepair, WhatMayLieBeforeTheObjectIsNotMissing) {
+    const WorkView& view = ring_[0].view;
+    const PlaceInSpace beside{{1.05, 0}, 0}, before{{0, 0}, 0};
+    const auto missing = [&](const RuledOut& point) {
+        return count_of(missing_pixels(view, std::vector<std::vector<RuledOut>>{{point}}));
+    };
+    EXPECT_EQ(missing({beside, beside, beside}), 1);
+    EXPECT_EQ(missing({before, beside, beside}), 0);
+    EXPECT_EQ(missing({beside, before, beside}), 0);
+    EXPECT_EQ(missing({beside, beside, before}), 0);
+}
+
+TEST_F(SilhouetteRepair, FillsBlocksOfTwoAndWhatIsNextToThem) {
+    WorkView& view = ring_[0].view;
+    Image<std::uint8_t> missing(view.height / 2, view.width / 2, 0);
+    missing(3, 4) = 1;  // row 3, column 4
+    fill_missing(view, missing);
+    for (int column = 0; column < 16; ++column) {
+        for (int row = 0; row < 16; ++row) {
+            const bool filled = column >= 7 && column <= 10 && row >= 5 && row <= 8;
+            EXPECT_EQ(view.at(column, row).a, filled ? 255 : 0) << column << ", " << row;
+        }
+    }
+}
+
+TEST(HalvedView, SeesPointsAtHalfTheirPlaceInMeansOfFourPixels) {
+    const Camera camera = drawn_ring(8).views[1].camera;
+    Image<Rgba8> picture(camera.width, camera.height, {40, 80, 120, 255});
+    picture(10, 21) = {80, 80, 120, 255};
+    picture(11, 20) = {0, 0, 0, 0};
+    const WorkView whole = make_work_view(camera, picture, 1);
+    const WorkView half = halved(whole);
+    EXPECT_EQ(half.width, 64);
+    EXPECT_EQ(half.height, 56);
+    const glm::dvec2 place(0.3, -0.2);
+    EXPECT_NEAR(half.see(place).column, whole.see(place).column / 2, 1e-9);
+    EXPECT_NEAR(half.row_of(0.4, 3), whole.row_of(0.4, 3) / 2, 1e-9);
+    EXPECT_EQ(half.at(5, 10).r, 53);  // of three
+    EXPECT_EQ(half.at(5, 10).a, 191);
+    EXPECT_EQ(half.at(6, 10).r, 40);
+}
+
+}  // namespace
+}  // namespace rs::encode
