@@ -1,7 +1,5 @@
 #include "encode/raymap/captured_view.hpp"
 
-#include "rayspace/geometry/ray_space.hpp"
-
 #include <cmath>
 
 namespace rs::encode {
@@ -47,6 +45,13 @@ Result<CapturedView> captured_view(const Camera& camera, int planes) {
         view.lines.push_back(line);
     }
     return view;
+}
+
+NormalLine normal_line(const Camera& camera, const ReferencePlane& plane) {
+    const ViewpointLine line = viewpoint_line(camera.centre(), plane);
+    return {fixed_point(glm::dot(plane.normal, camera.forward()), 30),
+            fixed_point(glm::dot(plane.normal, camera.right()) * camera.fl_x, 16), fixed_point(line.a, 20),
+            fixed_point(line.c, 20)};
 }
 
 }  // namespace rs::encode

@@ -3,6 +3,7 @@
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
+#include "rayspace/geometry/ray_space.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
 #include <cmath>
@@ -23,5 +24,8 @@ inline std::int32_t fixed_point(double value, int fractional_bits) {
 // Fails where a number leaves the range that the format gives it (encode/FORMAT.md, "Ranges"), such as a focal length
 // of 16384 px or a picture that is very far off the axis.
 Result<CapturedView> captured_view(const Camera& camera, int planes);
+
+// How a picture of an upright camera in object radii sees the points of a reference plane (encode/FORMAT.md).
+NormalLine normal_line(const Camera& camera, const ReferencePlane& plane);
 
 }  // namespace rs::encode

@@ -22,10 +22,6 @@
 namespace rs::encode {
 namespace {
 
-double azimuth(const WorkView& view) {
-    return std::atan2(view.centre.x, view.centre.y);
-}
-
 // The surfaces of one picture seen from a line's viewpoint: nearest depths on the fine raster.
 class LineRaster {
 public:
@@ -250,7 +246,7 @@ int settled_steps(const std::vector<DepthView>& ring, const ShapeMap& map, doubl
 }  // namespace
 
 double gap_width(const std::vector<DepthView>& ring, std::size_t n) {
-    const double width = azimuth(ring[(n + 1) % ring.size()].view) - azimuth(ring[n].view);
+    const double width = ring[(n + 1) % ring.size()].view.azimuth() - ring[n].view.azimuth();
     return width > 0 ? width : width + 2 * kPi;
 }
 

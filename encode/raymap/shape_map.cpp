@@ -28,16 +28,9 @@ constexpr int kHullLevels = 128;                // of depth, where silhouettes a
 constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of the set
 constexpr int kOverruledMargin_px = 4;
 constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
-constexpr int kRepairMargin_px = 4;  // of pictures of half the working size, in which lost parts are looked for
+constexpr int kRepairMargin_px = 4;  // of pictures of half the working size: lost parts are looked for so far away
 constexpr double kWidestBetweenRings_deg = 20;
 constexpr int kNearSoft_px = 8;  // what is soft is told from what is around it, too
-
-NormalLine normal_line(const Camera& camera, const ReferencePlane& plane) {
-    const ViewpointLine line = viewpoint_line(camera.centre(), plane);
-    return {fixed_point(glm::dot(plane.normal, camera.forward()), 30),
-            fixed_point(glm::dot(plane.normal, camera.right()) * camera.fl_x, 16), fixed_point(line.a, 20),
-            fixed_point(line.c, 20)};
-}
 
 // Seen from the middle of the object, in radians.
 double angle_between(const WorkView& a, const WorkView& b) {
@@ -46,8 +39,7 @@ double angle_between(const WorkView& a, const WorkView& b) {
 
 std::string sector_text(const DepthView& from, const DepthView& to) {
     const auto azimuth_deg = [](const WorkView& view) {
-        const double angle = degrees(std::atan2(view.centre.x, view.centre.y));
-        return static_cast<int>(std::lround(angle < 0 ? angle + 360 : angle));
+        return static_cast<int>(std::lround(std::fmod(degrees(view.azimuth()) + 360, 360)));
     };
     return std::to_string(azimuth_deg(from.view)) + " and " + std::to_string(azimuth_deg(to.view)) + " degrees";
 }
@@ -92,15 +84,45 @@ public:
                                     });
     }
 
-    // The hull, and the depths that the colours say. `rings` are those next below and above, where there are such.
-    Status match(const std::vector<const RingSearch*>& rings, Progress* progress) {
-        choose_hull({});
+    // The hull; `rings` are those next below and above, where there are such.
+    void choose_hull(const std::vector<const RingSearch*>& rings) {
+        find_margin({});
         beside_ = agreeing(rings);
-        if (!beside_.empty()) choose_hull(beside_);
-        if (const Status status = mend_silhouettes(progress); !status) return status;
-        sampled_hull_ = sampled(std::move(*hull_));
+        if (!beside_.empty()) find_margin(beside_);
+    }
+
+    // Where silhouettes agree, but some lack a part: points that the object's pictures of half the size show in a wider
+    // hull, outside of those silhouettes, are added to them. Before any ring's match().
+    Status mend_silhouettes(Progress* progress) {
+        if (!silhouettes_agree_ || count() < 3) return {};
+        RingSearch half(set_, rig_, ring_, options_);
+        for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
+        const std::vector<const WorkView*> silhouettes = half.work_views({});
+        half.sampled_hull_ = half.sampled(VisualHull(silhouettes, std::max(kRepairMargin_px, margin_px_)));
+        if (const Status status = half.search("depth at half size", progress, false); !status) return status;
+        const auto hull = half.sampled(VisualHull(silhouettes, (margin_px_ + 1) / 2));
+        std::vector<std::vector<RuledOutPoint>> points(views_.size());
+        tbb::parallel_for(0, count(), [&](int n) {
+            const Neighbours neighbours = half.neighbours_of(n);
+            if (neighbours.beside.size() < 2) return;
+            const auto v = static_cast<std::size_t>(n);
+            points[v] = ruled_out(half.views_[v], neighbours.beside, half.range_of(n, neighbours).step,
+                                  *half.sampled_hull_, *hull);
+        });
+        tbb::parallel_for(std::size_t{0}, views_.size(), [&](std::size_t n) {
+            const Image<std::uint8_t> missing = missing_pixels(half.views_[n].view, points);
+            if (std::ranges::all_of(missing.pixels(), [](int pixel) { return pixel == 0; })) return;
+            mended_[n] = views_[n].view;
+            fill_missing(*mended_[n], missing);
+        });
+        return {};
+    }
+
+    // The depths that the colours say.
+    Status match(Progress* progress) {
+        sampled_hull_ = sampled(silhouettes_agree_ ? VisualHull(work_views(beside_), margin_px_) : std::move(*hull_));
         hull_.reset();
-        return search("depth", progress);
+        return search("depth", progress, true);
     }
 
     // The same again, now that there are depths that pictures can agree about: every second picture with what the
@@ -217,46 +239,18 @@ private:
     }
 
     [[nodiscard]] std::unique_ptr<SampledHull> sampled(VisualHull hull) const {
-        const WorkView& any = views_.front().view;
-        return std::make_unique<SampledHull>(std::move(hull), kHullSpacing_px * glm::length(any.centre) / any.fl_x);
+        const double px = glm::length(views_.front().view.centre) / views_.front().view.fl_x;  // object radii
+        return std::make_unique<SampledHull>(std::move(hull), kHullSpacing_px * px);
     }
 
-    // Where silhouettes agree but for parts that some lack, those are added for the hull: what the colours of pictures
-    // of half the size say, in a wider hull, lies outside of them.
-    Status mend_silhouettes(Progress* progress) {
-        if (layer_ != Layer::kSolid || !silhouettes_agree_) return {};
-        RingSearch half(set_, rig_, ring_, options_);
-        for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
-        const std::vector<const WorkView*> silhouettes = half.work_views({});
-        half.sampled_hull_ = half.sampled(VisualHull(silhouettes, std::max(kRepairMargin_px, margin_px_)));
-        if (const Status status = half.search("silhouettes", progress); !status) return status;
-        const auto hull = half.sampled(VisualHull(silhouettes, (margin_px_ + 1) / 2));
-        std::vector<std::vector<RuledOut>> points(views_.size());
-        tbb::parallel_for(0, count(), [&](int n) {
-            const Neighbours neighbours = half.neighbours_of(n);
-            if (neighbours.beside.size() < 2) return;
-            const auto view = static_cast<std::size_t>(n);
-            points[view] = ruled_out(half.views_[view], neighbours.beside, half.range_of(n, neighbours).step, *hull);
-        });
-        tbb::parallel_for(std::size_t{0}, views_.size(), [&](std::size_t n) {
-            const Image<std::uint8_t> missing = missing_pixels(half.views_[n].view, points);
-            if (std::ranges::all_of(missing.pixels(), [](int pixel) { return pixel == 0; })) return;
-            mended_[n] = views_[n].view;
-            fill_missing(*mended_[n], missing);
-        });
-        hull_ = std::make_unique<VisualHull>(work_views(beside_), margin_px_);
-        return {};
-    }
-
-    // What the colours say.
-    Status search(const char* label, Progress* progress) {
+    Status search(const char* label, Progress* progress, bool keep_costs) {
         return for_each_in_parallel(count(), label, progress, [&](int n) -> Status {
             DepthView& view = views_[static_cast<std::size_t>(n)];
             const Neighbours neighbours = neighbours_of(n);
             const DepthRange range = range_of(n, neighbours);
             CostVolume costs = colour_costs(n, neighbours, range);
             view.depth = depths_at(semi_global_levels(view.view, costs, options_.smoothness), range);
-            if (costs.costs.size() <= kKeptCosts / rig_.views.size()) {
+            if (keep_costs && costs.costs.size() <= kKeptCosts / rig_.views.size()) {
                 kept_costs_[static_cast<std::size_t>(n)] = std::move(costs);
             }
             return {};
@@ -270,7 +264,7 @@ private:
     // The narrowest margin at which the silhouettes agree. Where none does, since cameras do not stand where the rig
     // has them or cut-outs lack parts, the fewest silhouettes that must be overruled to leave the object whole: a hull
     // that cuts into it puts surfaces where no picture sees them.
-    void choose_hull(const std::vector<const RingSearch*>& beside) {
+    void find_margin(const std::vector<const RingSearch*>& beside) {
         const std::vector<const WorkView*> all = work_views(beside);
         overruled_share_ = 0;
         for (margin_px_ = 1; margin_px_ <= options_.widest_hull_margin_px; margin_px_ *= 2) {
@@ -376,7 +370,12 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
         std::vector<const RingSearch*> beside;
         if (r > 0) beside.push_back(&searches[r - 1]);
         if (r + 1 < rings.size()) beside.push_back(&searches[r + 1]);
-        if (const Status status = searches[r].match(beside, progress); !status) return status.error();
+        searches[r].choose_hull(beside);
+    }
+    for (const auto step : {&RingSearch::mend_silhouettes, &RingSearch::match}) {
+        for (RingSearch& search : searches) {
+            if (const Status status = (search.*step)(progress); !status) return status.error();
+        }
     }
     for (std::size_t r = 0; r < rings.size(); ++r) {
         if (const Status status = searches[r].agree(progress, found.samples); !status) return status.error();
@@ -387,7 +386,8 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
             std::vector<FoundDepth> unused;
             if (const Status status = soft.read(progress, [](int, const Image<Rgba8>&) {}); !status)
                 return status.error();
-            if (const Status status = soft.match({}, progress); !status) return status.error();
+            soft.choose_hull({});
+            if (const Status status = soft.match(progress); !status) return status.error();
             if (const Status status = soft.agree(progress, unused); !status) return status.error();
             layers.push_back(soft.surfaces());
         }

@@ -57,9 +57,9 @@ std::optional<Pixel> pixel_beside(const WorkView& view, const PlaceInSpace& poin
 
 }  // namespace
 
-std::vector<RuledOut> ruled_out(const DepthView& picture, std::span<const DepthView* const> beside, double tolerance,
-                                const SampledHull& hull) {
-    std::vector<RuledOut> points;
+std::vector<RuledOutPoint> ruled_out(const DepthView& picture, std::span<const DepthView* const> beside,
+                                     double tolerance, const SampledHull& searched, const SampledHull& hull) {
+    std::vector<RuledOutPoint> points;
     const WorkView& view = picture.view;
     for (int column = 0; column < view.width; ++column) {
         const HorizontalRay ray = view.ray_of(column + 0.5);
@@ -69,10 +69,11 @@ std::vector<RuledOut> ruled_out(const DepthView& picture, std::span<const DepthV
             const auto at = [&](double d) {
                 return PlaceInSpace{ray.place_at(d), view.height_of(row + 0.5, ray.axial_at(d))};
             };
-            const RuledOut point{at(depth - tolerance), at(depth), at(depth + tolerance)};
+            const RuledOutPoint point{at(depth - tolerance), at(depth), at(depth + tolerance)};
             if (!rules_out(hull, point.found) || !rules_out(hull, point.nearest) || !rules_out(hull, point.farthest)) {
                 continue;
             }
+            if (rules_out(searched, point.found)) continue;
             const auto shows_it = [&](const DepthView* other) { return shows(*other, point.found, tolerance); };
             if (std::ranges::all_of(beside, shows_it)) points.push_back(point);
         }
@@ -80,10 +81,12 @@ std::vector<RuledOut> ruled_out(const DepthView& picture, std::span<const DepthV
     return points;
 }
 
-Image<std::uint8_t> missing_pixels(const WorkView& view, std::span<const std::vector<RuledOut>> points) {
+Image<std::uint8_t> missing_pixels(const WorkView& view, std::span<const std::vector<RuledOutPoint>> points) {
     Image<std::uint8_t> missing(view.height, view.width, 0);
-    for (const std::vector<RuledOut>& of_picture : points) {
-        for (const RuledOut& point : of_picture) {
+    const auto pixels = view.columns.pixels();
+    if (std::ranges::none_of(pixels, [](const Rgba8& pixel) { return pixel.a >= kInside; })) return missing;
+    for (const std::vector<RuledOutPoint>& of_picture : points) {
+        for (const RuledOutPoint& point : of_picture) {
             const std::optional<Pixel> at = pixel_beside(view, point.found);
             if (!at || !pixel_beside(view, point.nearest) || !pixel_beside(view, point.farthest)) continue;
             missing(at->row, at->column) = 1;

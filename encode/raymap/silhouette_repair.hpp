@@ -1,7 +1,8 @@
 #pragma once
 // Parts that cut-outs lack. A point of the surface that a picture and those beside it agree about lies within every
-// true silhouette, whatever hides it there; where it appears beside one, that cut-out lacks a part. One that is lost in
-// a view from behind would take the surface away from views of the front.
+// true silhouette, whatever hides it there; where it appears beside one, that cut-out lacks a part. A part lost in a
+// view from behind would take the surface away from views of the front. What is found so lies within the hull that was
+// searched: of a larger part the rim.
 
 #include "encode/raymap/visual_hull.hpp"
 #include "encode/raymap/work_view.hpp"
@@ -20,19 +21,20 @@ struct PlaceInSpace {
     double y = 0;
 };
 
-// Where a picture shows a point, and as far nearer and farther as it may lie, too.
-struct RuledOut {
+// Where a picture shows a point, and as far nearer and farther as it may lie.
+struct RuledOutPoint {
     PlaceInSpace nearest, found, farthest;
 };
 
-// The points of a picture's depths that each picture of `beside` shows, too, but the hull rules out wherever they lie
-// within `tolerance` object radii. Of opaque pixels only.
-std::vector<RuledOut> ruled_out(const DepthView& picture, std::span<const DepthView* const> beside, double tolerance,
-                                const SampledHull& hull);
+// The points of a picture's depths, of opaque pixels only, that each picture of `beside` shows, too, but the hull rules
+// out: there, and `tolerance` object radii nearer and farther. `searched` is the hull that the depths were searched in:
+// what lies outside of it has no colours to speak for it.
+std::vector<RuledOutPoint> ruled_out(const DepthView& picture, std::span<const DepthView* const> beside,
+                                     double tolerance, const SampledHull& searched, const SampledHull& hull);
 
-// 1 for pixels of the view (as WorkView::columns) where a point appears that, wherever it lies, appears in a pixel that
-// is not of the object, nor next to it. `points` are of several pictures.
-Image<std::uint8_t> missing_pixels(const WorkView& view, std::span<const std::vector<RuledOut>> points);
+// 1 for pixels of the view (as WorkView::columns) where a point appears that, in all three places, appears in a pixel
+// that is not of the object, nor next to it. `points` are of several pictures. None where the view shows no object.
+Image<std::uint8_t> missing_pixels(const WorkView& view, std::span<const std::vector<RuledOutPoint>> points);
 
 // Makes the pixels object, and those next to them. `missing` is of a view of half the size (halved).
 void fill_missing(WorkView& view, const Image<std::uint8_t>& missing);

@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <limits>
 
 namespace rs::encode {
@@ -43,6 +44,8 @@ struct WorkView {
     glm::dvec2 forward{0, -1};
 
     [[nodiscard]] const Rgba8& at(int column, int row) const { return columns(row, column); }
+    // Of the camera about the axis, radians, -pi .. pi.
+    [[nodiscard]] double azimuth() const { return std::atan2(centre.x, centre.y); }
     // Of the camera: x and z, then y.
     [[nodiscard]] glm::dvec3 place() const { return {centre, centre_y}; }
     // Through the middle of a column.
