@@ -99,7 +99,7 @@ public:
         for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
         const std::vector<const WorkView*> silhouettes = half.work_views({});
         half.sampled_hull_ = half.sampled(VisualHull(silhouettes, std::max(kRepairMargin_px, margin_px_)));
-        if (const Status status = half.search("depth at half size", progress, false); !status) return status;
+        if (Status status = half.search("depth at half size", progress, false); !status) return status;
         const auto hull = half.sampled(VisualHull(silhouettes, (margin_px_ + 1) / 2));
         std::vector<std::vector<RuledOutPoint>> points(views_.size());
         tbb::parallel_for(0, count(), [&](int n) {
