@@ -74,12 +74,11 @@ WorkView halved(const WorkView& view) {
 
 Image<std::uint8_t> soft_pixels(const WorkView& view) {
     constexpr int kRadius_px = 2;
-    constexpr int kHalf = 128;
     Image<std::uint8_t> alpha(view.columns.width(), view.columns.height());
     std::ranges::transform(view.columns.pixels(), alpha.pixels().begin(), &Rgba8::a);
     Image<std::uint8_t> soft = soft_patches(alpha, kRadius_px);
     std::ranges::transform(soft.pixels(), alpha.pixels(), soft.pixels().begin(),
-                           [](std::uint8_t patch, int a) { return a < kHalf ? patch : std::uint8_t{0}; });
+                           [](std::uint8_t patch, int a) { return a < kInside ? patch : std::uint8_t{0}; });
     return soft;
 }
 
