@@ -122,6 +122,7 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
         if (!shapes) return shapes.error();
         built.warnings.insert(built.warnings.end(), shapes->warnings.begin(), shapes->warnings.end());
         built.depths = std::move(shapes->samples);
+        built.completed = std::move(shapes->completed);
     }
     return built;
 }

@@ -39,6 +39,7 @@ struct BuiltObject {
     RaySpaceObject object;
     std::vector<std::string> warnings;  // one line each: what a user may want to change
     std::vector<FoundDepth> depths;     // of a few views, where there is a shape map
+    CompletedPictures completed;        // for CaptureSet::completed before encode_pictures()
 };
 
 // Memory: the stored pictures (2.5 bytes a pixel), the map (2 bytes a cell), and one decoded picture per thread.

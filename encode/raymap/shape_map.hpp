@@ -2,11 +2,12 @@
 // Finds the shape maps of an object (rayspace/object/shape_map.hpp) from its pictures.
 //
 // For every picture of a ring: the visual hull of all silhouettes, those of the rings next below and above among them,
-// bounds the depths, with what single cut-outs lack given back to them (silhouette_repair.hpp); the colours of the
-// pictures to either side and below and above say which depth agrees (cost_volume.hpp); smoothness decides where colour
-// does not (semi_global.hpp). Then all is searched again with what the neighbours were found to show, so that pictures
-// agree about surfaces. A ring whose silhouettes contradict this one's, because only each for itself is calibrated, is
-// left out. Then every line between two pictures takes over what both have found (shape_lines.hpp).
+// bounds the depths, with what single cut-outs lack given back to them (silhouette_repair.hpp, lost_parts.hpp); the
+// colours of the pictures to either side and below and above say which depth agrees (cost_volume.hpp); smoothness
+// decides where colour does not (semi_global.hpp). Then all is searched again with what the neighbours were found to
+// show, so that pictures agree about surfaces. A ring whose silhouettes contradict this one's, because only each for
+// itself is calibrated, is left out. Then every line between two pictures takes over what both have found
+// (shape_lines.hpp).
 
 #include "encode/raymap/rings.hpp"
 #include "encode/raymap/semi_global.hpp"
@@ -41,13 +42,15 @@ struct FoundDepth {
 };
 
 struct FoundShapes {
-    std::vector<FoundDepth> samples;    // of a few views
+    std::vector<FoundDepth> samples;  // of a few views
+    CompletedPictures completed;
     std::vector<std::string> warnings;  // one line each
 };
 
 // `object` has its views and rings but their shapes; rig is set.upright in object radii, rings as find_rings() gave
-// them. Pictures are read from the set, and stored in the object where `keep_pictures`. Memory: at the working size 8
-// bytes a pixel and picture, and for each thread about 3 bytes per object pixel and depth level. Deterministic.
+// them. Pictures are read from the set, and stored in the object where `keep_pictures`; so are those of `completed`.
+// Memory: at the working size 8 bytes a pixel and picture, and for each thread about 3 bytes per object pixel and depth
+// level. Deterministic.
 Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
                                    const ShapeOptions& options, bool keep_pictures, RaySpaceObject& object,
                                    Progress* progress = nullptr);

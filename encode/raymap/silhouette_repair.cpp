@@ -7,8 +7,6 @@
 namespace rs::encode {
 namespace {
 
-constexpr int kOpaque = 250;  // alpha
-
 struct Pixel {
     int column = 0, row = 0;
 };
@@ -81,24 +79,31 @@ std::vector<RuledOutPoint> ruled_out(const DepthView& picture, std::span<const D
     return points;
 }
 
-Image<std::uint8_t> missing_pixels(const WorkView& view, std::span<const std::vector<RuledOutPoint>> points) {
-    Image<std::uint8_t> missing(view.height, view.width, 0);
+Image<float> missing_depths(const WorkView& view, std::span<const std::vector<RuledOutPoint>> points) {
+    Image<float> missing(view.height, view.width, kNoDepth);
     const auto pixels = view.columns.pixels();
     if (std::ranges::none_of(pixels, [](const Rgba8& pixel) { return pixel.a >= kInside; })) return missing;
     for (const std::vector<RuledOutPoint>& of_picture : points) {
         for (const RuledOutPoint& point : of_picture) {
             const std::optional<Pixel> at = pixel_beside(view, point.found);
             if (!at || !pixel_beside(view, point.nearest) || !pixel_beside(view, point.farthest)) continue;
-            missing(at->row, at->column) = 1;
+            const HorizontalRay ray = view.ray_of(at->column + 0.5);
+            const auto depth = static_cast<float>(glm::dot(point.found.place - ray.foot, ray.along));
+            float& nearest = missing(at->row, at->column);
+            if (!(nearest <= depth)) nearest = depth;
         }
     }
     return missing;
 }
 
-void fill_missing(WorkView& view, const Image<std::uint8_t>& missing) {
+bool shows_nothing(const Image<float>& depths) {
+    return std::ranges::all_of(depths.pixels(), [](float depth) { return std::isnan(depth); });
+}
+
+void fill_missing(WorkView& view, const Image<float>& missing) {
     for (int column = 0; column < missing.height(); ++column) {
         for (int row = 0; row < missing.width(); ++row) {
-            if (missing(row, column) == 0) continue;
+            if (std::isnan(missing(row, column))) continue;
             for (int part = 0; part < 4; ++part) {
                 for_each_around(view, {2 * column + part / 2, 2 * row + part % 2},
                                 [&](int c, int r) { view.columns(r, c).a = 255; });

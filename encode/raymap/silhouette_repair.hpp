@@ -10,7 +10,6 @@
 
 #include <glm/vec2.hpp>
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -32,11 +31,14 @@ struct RuledOutPoint {
 std::vector<RuledOutPoint> ruled_out(const DepthView& picture, std::span<const DepthView* const> beside,
                                      double tolerance, const SampledHull& searched, const SampledHull& hull);
 
-// 1 for pixels of the view (as WorkView::columns) where a point appears that, in all three places, appears in a pixel
-// that is not of the object, nor next to it. `points` are of several pictures. None where the view shows no object.
-Image<std::uint8_t> missing_pixels(const WorkView& view, std::span<const std::vector<RuledOutPoint>> points);
+// The nearest depths of points (as DepthView::depth) in pixels of the view where one appears that, in all three places,
+// appears in a pixel that is not of the object, nor next to it; kNoDepth elsewhere. `points` are of several pictures.
+// None where the view shows no object.
+Image<float> missing_depths(const WorkView& view, std::span<const std::vector<RuledOutPoint>> points);
 
-// Makes the pixels object, and those next to them. `missing` is of a view of half the size (halved).
-void fill_missing(WorkView& view, const Image<std::uint8_t>& missing);
+bool shows_nothing(const Image<float>& depths);
+
+// Makes the pixels with a depth object, and those next to them. `missing` is of a view of half the size (halved).
+void fill_missing(WorkView& view, const Image<float>& missing);
 
 }  // namespace rs::encode

@@ -13,6 +13,7 @@
 namespace rs::encode {
 
 inline constexpr int kInside = 128;  // the least alpha of what is within a silhouette
+inline constexpr int kOpaque = 250;  // and of what nothing shines through
 inline constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
 
 // Where a ray of vertical planes runs, seen from above: through its foot (nearest to the axis) in direction `along`

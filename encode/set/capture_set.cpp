@@ -234,6 +234,7 @@ std::string name_of(const CaptureSet& set) {
 }
 
 Result<Image<Rgba8>> read_upright_picture(const CaptureSet& set, int view) {
+    if (const auto found = set.completed.find(view); found != set.completed.end()) return Image<Rgba8>(found->second);
     Result<Image<Rgba8>> picture = read_captured_picture(set, view);
     if (!picture || !set.resampled) return picture;
     const auto i = static_cast<std::size_t>(view);
@@ -252,6 +253,11 @@ CaptureSet with_views(const CaptureSet& set, std::span<const int> views) {
     };
     choose(set.captured, chosen.captured);
     choose(set.upright, chosen.upright);
+    chosen.completed.clear();
+    for (std::size_t n = 0; n < views.size(); ++n) {
+        const auto found = set.completed.find(views[n]);
+        if (found != set.completed.end()) chosen.completed.emplace(static_cast<int>(n), found->second);
+    }
     return chosen;
 }
 

@@ -13,10 +13,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 
 namespace rs::encode {
+
+// By their number in the set: pictures that cut-outs lack a part of, with it.
+using CompletedPictures = std::map<int, Image<Rgba8>>;
 
 struct CaptureSet {
     std::filesystem::path folder;
@@ -25,6 +29,7 @@ struct CaptureSet {
     bool resampled = false;
     int width = 0;  // px, of the upright pictures
     int height = 0;
+    CompletedPictures completed = {};  // that read_upright_picture() gives in place of what the files show
 };
 
 // Reads transforms.json, plans the upright cameras, and measures the object radius from the silhouettes where the rig

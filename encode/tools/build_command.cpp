@@ -151,6 +151,7 @@ Status run_build(const BuildArguments& arguments) {
     if (set->resampled) std::cerr << "rs-encode: the cameras look up or down; their pictures are made upright\n";
     Result<BuiltObject> built = build_object(*set, *options, &progress);
     if (!built) return built.error();
+    set->completed = std::move(built->completed);
     BuildSummary summary;
     if (*goal) {
         Result<EncodedPictures> encoded =

@@ -106,6 +106,13 @@ TEST(WithViews, KeepsWhatTheWholeSetHas) {
     const auto same = read_upright_picture(*all, 6);
     ASSERT_TRUE(picture.ok() && same.ok());
     EXPECT_EQ(*picture, *same);
+    CaptureSet completed = *all;
+    completed.completed = {{3, Image<Rgba8>(2, 2)}, {6, Image<Rgba8>(1, 1)}};
+    EXPECT_EQ(read_upright_picture(completed, 6)->width(), 1);
+    const CaptureSet some_completed = with_views(completed, std::vector<int>{1, 6});
+    EXPECT_EQ(some_completed.completed.size(), 1U);
+    EXPECT_EQ(read_upright_picture(some_completed, 1)->width(), 1);
+    EXPECT_EQ(read_upright_picture(some_completed, 0)->width(), all->width);
     EXPECT_TRUE(build_object(some, {.map = {}, .name = "two"}).ok());
 }
 

@@ -124,6 +124,52 @@ TEST(ShapeMap, APartThatOneCutOutLacksIsNotLostSeenFromElsewhere) {
     EXPECT_GT(psnr_of(build(folder / "set"), folder / "halfway"), whole_db - 0.02);  // .06 less where it is lost
 }
 
+// Makes everything transparent in a square of a picture of a set.
+void cut_away(const std::filesystem::path& picture_file, int left, int top, int side) {
+    Result<Image<Rgba8>> picture = read_picture(picture_file);
+    ASSERT_TRUE(picture.ok());
+    for (int y = top; y < top + side; ++y) {
+        for (int x = left; x < left + side; ++x) (*picture)(x, y) = {};
+    }
+    ASSERT_TRUE(write_png(picture_file, *picture).ok());
+}
+
+TEST(ShapeMap, ALargePartThatFewCutOutsLackIsPaintedFromThoseBeside) {
+    const test::TemporaryFolder folder;
+    test::write_drawn_set(folder / "set", drawn_ring(24), mottled_ball);
+    test::write_drawn_set(folder / "whole", drawn_ring(24), mottled_ball);
+    for (const char* const lacking : {"7.png", "15.png"}) cut_away(folder / "set" / lacking, 48, 40, 32);
+    const BuiltObject built = build(folder / "set");
+    std::vector<int> completed;
+    for (const auto& [view, picture] : built.completed) completed.push_back(view);
+    EXPECT_EQ(completed, (std::vector<int>{7, 15}));
+    EXPECT_THAT(built.warnings, Contains(HasSubstr("2 cut-outs lack a large part")));
+    EXPECT_GT(psnr_of(built, folder / "whole"), psnr_of(built, folder / "set"));
+    const Result<CaptureSet> whole = open_capture_set(folder / "whole");
+    ASSERT_TRUE(whole.ok());
+    const Result<Image<Rgba8>> truth = read_upright_picture(*whole, 7);
+    ASSERT_TRUE(truth.ok());
+    int lost = 0, back = 0;
+    for (int y = 40; y < 72; ++y) {
+        for (int x = 48; x < 80; ++x) {
+            if ((*truth)(x, y).a < 255) continue;
+            ++lost;
+            back += built.completed.at(7)(x, y).a >= 128 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(lost, 400);
+    EXPECT_GT(back, lost * 3 / 4);  // its corners are rounded
+}
+
+TEST(ShapeMap, WhereManyCutOutsSeemToLackAPartTheRigIsAtFault) {
+    const test::TemporaryFolder folder;
+    test::write_drawn_set(folder / "set", drawn_ring(24), mottled_ball);
+    for (const int view : {2, 8, 13, 19}) {
+        cut_away(folder / "set" / (std::to_string(view) + ".png"), 48, 40, 32);
+    }
+    EXPECT_TRUE(build(folder / "set").completed.empty());
+}
+
 TEST(ShapeMap, IsTheSameEveryTime) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", drawn_ring(10));

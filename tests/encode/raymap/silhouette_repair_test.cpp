@@ -78,8 +78,9 @@ protected:
         return count;
     }
 
-    static int count_of(const Image<std::uint8_t>& missing) {
-        return static_cast<int>(std::ranges::count(missing.pixels(), 1));
+    static int count_of(const Image<float>& missing) {
+        return static_cast<int>(
+            std::ranges::count_if(missing.pixels(), [](float depth) { return !std::isnan(depth); }));
     }
 
     std::vector<DepthView> ring_;
@@ -95,20 +96,24 @@ TEST_F(SilhouetteRepair, WhatOnePictureLacksIsFoundThereAlone) {
     ASSERT_GT(bitten_, 100);
     const auto found = points();
     for (std::size_t n = 0; n < kViews; ++n) {
-        const Image<std::uint8_t> missing = missing_pixels(ring_[n].view, found);
+        const Image<float> missing = missing_depths(ring_[n].view, found);
         if (n != kBitten) {
             EXPECT_EQ(count_of(missing), 0) << "picture " << n;
             continue;
         }
+        int near = 0;  // a few pixels meet no point of the near side
         // What is next to the object may be its rim.
         EXPECT_GT(count_of(missing), bitten_ / 2);
         for (int column = 0; column < missing.height(); ++column) {
             for (int row = 0; row < missing.width(); ++row) {
-                if (missing(row, column) == 0) continue;
+                if (std::isnan(missing(row, column))) continue;
                 EXPECT_TRUE(column >= kLeft && column < kRight && row >= kTop && row < kBottom)
                     << column << ", " << row;
+                const double near_side = ball_depth(ring_[n].view, column, row);
+                near += std::abs(static_cast<double>(missing(row, column)) - near_side) < 0.1 ? 1 : 0;
             }
         }
+        EXPECT_GT(near, count_of(missing) * 3 / 4);
     }
 }
 
@@ -140,7 +145,7 @@ TEST_F(SilhouetteRepair, APictureWithoutAnObjectLacksNothing) {
     const auto found = points();
     WorkView empty = ring_[kBitten].view;
     for (Rgba8& pixel : empty.columns.pixels()) pixel.a = std::min<std::uint8_t>(pixel.a, kInside - 1);
-    EXPECT_EQ(count_of(missing_pixels(empty, found)), 0);
+    EXPECT_EQ(count_of(missing_depths(empty, found)), 0);
 }
 
 TEST_F(SilhouetteRepair, SoftPixelsSayNothing) {
@@ -155,7 +160,7 @@ TEST_F(SilhouetteRepair, WhatMayLieBeforeTheObjectIsNotMissing) {
     const WorkView& view = ring_[0].view;
     const PlaceInSpace beside{{1.05, 0}, 0}, before{{0, 0}, 0};
     const auto missing = [&](const RuledOutPoint& point) {
-        return count_of(missing_pixels(view, std::vector<std::vector<RuledOutPoint>>{{point}}));
+        return count_of(missing_depths(view, std::vector<std::vector<RuledOutPoint>>{{point}}));
     };
     EXPECT_EQ(missing({beside, beside, beside}), 1);
     EXPECT_EQ(missing({before, beside, beside}), 0);
@@ -168,7 +173,7 @@ TEST_F(SilhouetteRepair, WhatLeavesTheFrameMayBeObject) {
     const auto missing_at = [&](double column) {
         const HorizontalRay ray = view.ray_of(column);
         const PlaceInSpace point{ray.place_at(0), 0};
-        return count_of(missing_pixels(view, std::vector<std::vector<RuledOutPoint>>{{{point, point, point}}}));
+        return count_of(missing_depths(view, std::vector<std::vector<RuledOutPoint>>{{{point, point, point}}}));
     };
     EXPECT_EQ(missing_at(1.5), 1);
     EXPECT_EQ(missing_at(0.5), 0);
@@ -178,8 +183,8 @@ TEST_F(SilhouetteRepair, WhatLeavesTheFrameMayBeObject) {
 
 TEST_F(SilhouetteRepair, FillsBlocksOfTwoAndWhatIsNextToThem) {
     WorkView& view = ring_[0].view;
-    Image<std::uint8_t> missing(view.height / 2, view.width / 2, 0);
-    missing(3, 4) = 1;  // row 3, column 4
+    Image<float> missing(view.height / 2, view.width / 2, kNoDepth);
+    missing(3, 4) = 0;  // row 3, column 4
     fill_missing(view, missing);
     for (int column = 0; column < 16; ++column) {
         for (int row = 0; row < 16; ++row) {
@@ -196,7 +201,7 @@ TEST(HalvedView, DropsWhatIsLeftOverAndFillsUpToTheEdge) {
     EXPECT_EQ(half.width, 3);
     EXPECT_EQ(half.height, 2);
     for (Rgba8& pixel : odd.columns.pixels()) pixel.a = 0;
-    fill_missing(odd, Image<std::uint8_t>(2, 3, 1));
+    fill_missing(odd, Image<float>(2, 3, 0.0F));
     EXPECT_TRUE(std::ranges::all_of(odd.columns.pixels(), [](const Rgba8& pixel) { return pixel.a == 255; }));
     EXPECT_EQ(halved(make_work_view(camera, Image<Rgba8>(1, 1), 1)).width, 0);
 }

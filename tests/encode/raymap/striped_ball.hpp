@@ -1,5 +1,5 @@
 #pragma once
-// A ball about the origin whose colour depends on height alone.
+// Balls about the origin: one whose colour depends on height alone, and one without stripes.
 
 #include "encode/raymap/work_view.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -12,7 +12,9 @@ namespace rs::encode {
 
 inline constexpr double kBallRadius = 0.8;
 
-inline Image<Rgba8> striped_ball(const Camera& camera) {
+// Opaque, in the colour of the place that a ray meets; transparent beside it.
+template <class Colour>
+Image<Rgba8> drawn_ball(const Camera& camera, const Colour& colour) {
     Image<Rgba8> picture(camera.width, camera.height);
     const glm::dvec3 eye = camera.centre();
     for (int y = 0; y < picture.height(); ++y) {
@@ -21,12 +23,25 @@ inline Image<Rgba8> striped_ball(const Camera& camera) {
             const double along = -glm::dot(ray, eye);
             const double inside = kBallRadius * kBallRadius + along * along - glm::dot(eye, eye);
             if (inside < 0) continue;
-            const double height = eye.y + (along - std::sqrt(inside)) * ray.y;
+            const glm::dvec3 found = colour(eye + (along - std::sqrt(inside)) * ray);
             const auto code = [](double wave) { return static_cast<std::uint8_t>(128 + std::lround(100 * wave)); };
-            picture(x, y) = {code(std::sin(35 * height)), code(std::cos(35 * height)), 128, 255};
+            picture(x, y) = {code(found.r), code(found.g), code(found.b), 255};
         }
     }
     return picture;
+}
+
+inline Image<Rgba8> striped_ball(const Camera& camera) {
+    return drawn_ball(
+        camera, [](const glm::dvec3& place) { return glm::dvec3(std::sin(35 * place.y), std::cos(35 * place.y), 0); });
+}
+
+// Whose colour is another one everywhere.
+inline Image<Rgba8> mottled_ball(const Camera& camera) {
+    return drawn_ball(camera, [](const glm::dvec3& place) {
+        return glm::dvec3(std::sin(21 * place.x + 5 * place.y), std::sin(19 * place.y - 4 * place.z),
+                          std::sin(23 * place.z + 3 * place.x));
+    });
 }
 
 // Where the ray of a pixel meets it, as DepthView::depth has it; NaN where it does not.

@@ -1,0 +1,248 @@
+#include "encode/raymap/lost_parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace rs::encode {
+namespace {
+
+constexpr int kDense_px = 2;     // to each side, of the square in which half of what is not object must be missing
+constexpr int kClosed_px = 3;    // half of the widest gap that is closed
+constexpr int kStraight_px = 4;  // to each side, of the square that outlines are straightened by
+constexpr int kStraightenings = 4;
+constexpr int kRadius_px = 5;    // half of the least part's side
+constexpr double kMost = 0.7;    // of what a picture has there, if it is not hidden
+constexpr double kHidden = 0.1;  // object radii: so much nearer is what hides a point
+constexpr int kSmooth_px = 5;    // depths are medians of squares of so much to each side
+
+bool is_object(const WorkView& view, int column, int row) {
+    return view.at(column, row).a >= kInside;
+}
+
+bool is_lost(const Image<float>& part, int column, int row) {
+    return !std::isnan(part(row, column));
+}
+
+template <class Each>
+void for_each_pixel(const WorkView& view, const Each& each) {
+    for (int column = 0; column < view.width; ++column) {
+        for (int row = 0; row < view.height; ++row) each(column, row);
+    }
+}
+
+// Of a square that far to each side, as far as it lies in the frame.
+template <class Each>
+void for_each_around(const WorkView& view, int column, int row, int radius, const Each& each) {
+    for (int c = std::max(column - radius, 0); c <= std::min(column + radius, view.width - 1); ++c) {
+        for (int r = std::max(row - radius, 0); r <= std::min(row + radius, view.height - 1); ++r) each(c, r);
+    }
+}
+
+// 1 where a square around the pixel has one that is `wanted` (255: any that is not 0) in the mask.
+Image<std::uint8_t> dilated(const WorkView& view, const Image<std::uint8_t>& mask, int radius) {
+    Image<std::uint8_t> wide(mask.width(), mask.height(), 0);
+    for_each_pixel(view, [&](int column, int row) {
+        if (mask(row, column) == 0) return;
+        for_each_around(view, column, row, radius, [&](int c, int r) { wide(r, c) = 1; });
+    });
+    return wide;
+}
+
+// The median of the depths around each pixel of `mask`; kNoDepth elsewhere.
+Image<float> smoothed(const WorkView& view, const Image<float>& depths, const Image<std::uint8_t>& mask) {
+    Image<float> smooth(depths.width(), depths.height(), kNoDepth);
+    std::vector<float> near;
+    for_each_pixel(view, [&](int column, int row) {
+        if (mask(row, column) == 0) return;
+        for (int radius = kSmooth_px; radius <= 2 * kSmooth_px && near.empty(); ++radius) {
+            for_each_around(view, column, row, radius, [&](int c, int r) {
+                if (is_lost(depths, c, r)) near.push_back(depths(r, c));
+            });
+        }
+        if (near.empty()) return;
+        const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+        std::nth_element(near.begin(), middle, near.end());
+        smooth(row, column) = *middle;
+        near.clear();
+    });
+    return smooth;
+}
+
+// Of a mask, the connected parts with a pixel of `middles` that have half of their border at the object, or more:
+// others float.
+Image<std::uint8_t> beside_object(const WorkView& view, const Image<std::uint8_t>& mask,
+                                  const Image<std::uint8_t>& middles) {
+    Image<std::uint8_t> left = mask, kept(mask.width(), mask.height(), 0);
+    std::vector<glm::ivec2> pixels;
+    for_each_pixel(view, [&](int column, int row) {
+        if (left(row, column) == 0) return;
+        int border = 0, at_object = 0;
+        bool has_middle = false;
+        left(row, column) = 0;
+        pixels.assign(1, {column, row});
+        for (std::size_t n = 0; n < pixels.size(); ++n) {
+            has_middle = has_middle || middles(pixels[n].y, pixels[n].x) != 0;
+            for (const glm::ivec2& step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+                const glm::ivec2 at = pixels[n] + step;
+                const bool in_frame = at.x >= 0 && at.y >= 0 && at.x < view.width && at.y < view.height;
+                if (!in_frame || mask(at.y, at.x) == 0) {
+                    ++border;
+                    at_object += in_frame && is_object(view, at.x, at.y) ? 1 : 0;
+                } else if (left(at.y, at.x) != 0) {
+                    left(at.y, at.x) = 0;
+                    pixels.push_back(at);
+                }
+            }
+        }
+        if (!has_middle || 2 * at_object < border) return;
+        for (const glm::ivec2& at : pixels) kept(at.y, at.x) = 1;
+    });
+    return kept;
+}
+
+// With an outline without notches: a pixel goes with most of the square around it.
+Image<std::uint8_t> straightened(const WorkView& view, Image<std::uint8_t> mask) {
+    for (int round = 0; round < kStraightenings; ++round) {
+        const Image<std::uint8_t> near = dilated(view, mask, 1);
+        Image<std::uint8_t> straight(mask.width(), mask.height(), 0);
+        for_each_pixel(view, [&](int column, int row) {
+            if (near(row, column) == 0 || is_object(view, column, row)) return;
+            int all = 0, there = 0;
+            for_each_around(view, column, row, kStraight_px, [&](int c, int r) {
+                ++all;
+                there += mask(r, c) != 0 || is_object(view, c, r) ? 1 : 0;
+            });
+            straight(row, column) = 2 * there > all ? 1 : 0;
+        });
+        mask = std::move(straight);
+    }
+    return mask;
+}
+
+std::uint8_t mixed(std::uint8_t own, double other, int alpha) {
+    return static_cast<std::uint8_t>(std::lround((own * alpha + other * (255 - alpha)) / 255));
+}
+
+// Between the four pixels around a place of the picture; nothing where one of them is not opaque.
+std::optional<glm::dvec3> colour_at(const Image<Rgba8>& picture, double x, double y) {
+    const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
+    if (!(left >= 0 && top >= 0 && left + 1 < picture.width() && top + 1 < picture.height())) return std::nullopt;
+    glm::dvec3 sum(0);
+    for (int corner = 0; corner < 4; ++corner) {
+        const int dx = corner % 2, dy = corner / 2;
+        const Rgba8& pixel = picture(static_cast<int>(left) + dx, static_cast<int>(top) + dy);
+        if (pixel.a < kOpaque) return std::nullopt;
+        const double right = x - 0.5 - left, down = y - 0.5 - top;
+        sum += glm::dvec3(pixel.r, pixel.g, pixel.b) * ((dx == 1 ? right : 1 - right) * (dy == 1 ? down : 1 - down));
+    }
+    return sum;
+}
+
+}  // namespace
+
+Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
+    // Half of a square, and that densely: nothing is looked for where there are fewer.
+    constexpr int kFewest = (2 * kRadius_px + 1) * (2 * kRadius_px + 1) / 4;
+    if (std::ranges::count_if(missing.pixels(), [](float depth) { return !std::isnan(depth); }) < kFewest) {
+        return Image<float>(missing.width(), missing.height(), kNoDepth);
+    }
+    const auto mask_of = [&](const auto& belongs) {
+        Image<std::uint8_t> mask(missing.width(), missing.height(), 0);
+        for_each_pixel(view, [&](int column, int row) { mask(row, column) = belongs(column, row) ? 1 : 0; });
+        return mask;
+    };
+    const auto dense = mask_of([&](int column, int row) {
+        int beside = 0, gone = 0;
+        for_each_around(view, column, row, kDense_px, [&](int c, int r) {
+            beside += is_object(view, c, r) ? 0 : 1;
+            gone += is_lost(missing, c, r) ? 1 : 0;
+        });
+        return !is_object(view, column, row) && 2 * gone >= beside;
+    });
+    // Gaps within, and between that and the object.
+    const auto wide =
+        dilated(view, mask_of([&](int c, int r) { return dense(r, c) != 0 || is_object(view, c, r); }), kClosed_px);
+    const auto outside = dilated(view, mask_of([&](int c, int r) { return wide(r, c) == 0; }), kClosed_px);
+    const auto near = dilated(view, dense, kClosed_px);
+    const auto lost =
+        mask_of([&](int c, int r) { return !is_object(view, c, r) && outside(r, c) == 0 && near(r, c) != 0; });
+    // Of squares that are lost, at least half of them, or object.
+    const auto middles = mask_of([&](int column, int row) {
+        int all = 0, object = 0, gone = 0;
+        for_each_around(view, column, row, kRadius_px, [&](int c, int r) {
+            ++all;
+            gone += lost(r, c);
+            object += is_object(view, c, r) ? 1 : 0;
+        });
+        return lost(row, column) != 0 && gone + object == all && 2 * gone >= all;
+    });
+    const auto large = dilated(view, middles, 2 * kRadius_px);
+    const auto part = mask_of([&](int c, int r) { return large(r, c) != 0 && lost(r, c) != 0; });
+    return smoothed(view, missing, straightened(view, beside_object(view, part, middles)));
+}
+
+LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part, int scale, Image<Rgba8> picture)
+    : picture_(std::move(picture)), scale_(scale) {
+    for (int y = 0; y < picture_.height(); ++y) {
+        for (int x = 0; x < picture_.width(); ++x) {
+            if (picture_(x, y).a == 255) continue;
+            // Between the four pixels around it: how much of them is object or lost, and how deep what is lost is.
+            const double column = (x + 0.5) / scale, row = (y + 0.5) / scale;
+            const int left = static_cast<int>(std::floor(column - 0.5)), top = static_cast<int>(std::floor(row - 0.5));
+            double there = 0, lost = 0, depth = 0;
+            for (int corner = 0; corner < 4; ++corner) {
+                const int c = left + corner % 2, r = top + corner / 2;
+                if (c < 0 || r < 0 || c >= view.width || r >= view.height) continue;
+                const double weight = (1 - std::abs(column - 0.5 - c)) * (1 - std::abs(row - 0.5 - r));
+                if (is_lost(part, c, r)) {
+                    lost += weight;
+                    depth += weight * static_cast<double>(part(r, c));
+                }
+                if (is_lost(part, c, r) || is_object(view, c, r)) there += weight;
+            }
+            // The border between pixels that are lost and those that are not, as a soft edge.
+            const double cover = std::clamp(2 * there - 0.5, 0.0, 1.0);
+            if (!(lost > 0) || cover * 255 <= picture_(x, y).a) continue;
+            const HorizontalRay ray = view.ray_of(column);
+            depth /= lost;
+            left_.push_back({x, y, cover, ray.place_at(depth), view.height_of(row, ray.axial_at(depth))});
+        }
+    }
+}
+
+std::optional<glm::dvec3> LostPartPainter::seen_by(const Painter& from, const Spot& spot, bool hidden) const {
+    const WorkView& view = from.seen->view;
+    const SeenColumn seen = view.see(spot.place);
+    if (seen.axial <= 0) return std::nullopt;
+    const double row = view.row_of(spot.height, seen.axial);
+    if (!(seen.column >= 0 && seen.column < view.width && row >= 0 && row < view.height)) return std::nullopt;
+    if (!hidden) {
+        const int c = static_cast<int>(seen.column), r = static_cast<int>(row);
+        const HorizontalRay ray = view.ray_of(c + 0.5);
+        const double depth = glm::dot(spot.place - ray.foot, ray.along);
+        if (!(depth - static_cast<double>(from.seen->depth(r, c)) < kHidden)) return std::nullopt;  // or nothing there
+    }
+    return colour_at(*from.picture, seen.column * scale_, row * scale_);
+}
+
+std::size_t LostPartPainter::shown_by(const Painter& from, bool hidden) const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(left_, [&](const Spot& spot) { return seen_by(from, spot, hidden).has_value(); }));
+}
+
+void LostPartPainter::paint_from(const Painter& from) {
+    const bool most = static_cast<double>(shown_by(from, false)) >= kMost * static_cast<double>(shown_by(from, true));
+    std::erase_if(left_, [&](const Spot& spot) {
+        const auto colour = seen_by(from, spot, most);
+        if (!colour) return false;
+        Rgba8& pixel = picture_(spot.x, spot.y);
+        pixel = {mixed(pixel.r, colour->r, pixel.a), mixed(pixel.g, colour->g, pixel.a),
+                 mixed(pixel.b, colour->b, pixel.a), static_cast<std::uint8_t>(std::lround(255 * spot.cover))};
+        return true;
+    });
+}
+
+}  // namespace rs::encode

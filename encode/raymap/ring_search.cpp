@@ -1,0 +1,363 @@
+#include "encode/raymap/ring_search.hpp"
+
+#include "encode/raymap/captured_view.hpp"
+#include "encode/raymap/lost_parts.hpp"
+#include "encode/set/soft_coverage.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/parallel.hpp"
+#include "rayspace/geometry/ray_space.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace rs::encode {
+namespace {
+
+constexpr int kSampleViews = 4;
+constexpr double kMostContradicted = 0.01;
+constexpr double kHullSpacing_px = 0.5;         // of the working pictures
+constexpr double kRepairSpacing_px = 1;         // of those of half the size
+constexpr int kHullLevels = 128;                // of depth, where silhouettes are asked whether they agree
+constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of the set
+constexpr int kOverruledMargin_px = 4;
+constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
+constexpr int kRepairMargin_px = 4;   // of pictures of half the working size: lost parts are looked for so far away
+constexpr double kMostLacking = 0.1;  // of the pictures lack a part; else cameras do not stand where the rig has them
+constexpr double kWidestBetweenRings_deg = 20;
+constexpr int kNearSoft_px = 8;  // what is soft is told from what is around it, too
+
+// Seen from the middle of the object, in radians.
+double angle_between(const WorkView& a, const WorkView& b) {
+    return std::acos(std::clamp(glm::dot(glm::normalize(a.place()), glm::normalize(b.place())), -1.0, 1.0));
+}
+
+std::string sector_text(const DepthView& from, const DepthView& to) {
+    const auto azimuth_deg = [](const WorkView& view) {
+        return static_cast<int>(std::lround(std::fmod(degrees(view.azimuth()) + 360, 360)));
+    };
+    return std::to_string(azimuth_deg(from.view)) + " and " + std::to_string(azimuth_deg(to.view)) + " degrees";
+}
+
+DepthRange range_of(int levels) {
+    return {-kDeepest, 2 * kDeepest / (levels - 1), levels};
+}
+
+Image<float> depths_at(Image<float> levels, const DepthRange& range) {
+    for (float& depth : levels.pixels()) depth = static_cast<float>(range.at(static_cast<double>(depth)));
+    return levels;
+}
+
+bool agree_with(const std::vector<const WorkView*>& views, const VisualHull& hull) {
+    return contradicted_share(views, hull, range_of(kHullLevels)) <= kMostContradicted;
+}
+
+}  // namespace
+
+RingSearch::RingSearch(const CaptureSet& set, const Rig& rig, const ViewRing& ring, const ShapeOptions& options,
+                       Layer layer)
+    : set_(set),
+      rig_(rig),
+      ring_(ring),
+      options_(options),
+      layer_(layer),
+      views_(ring.views.size()),
+      mended_(ring.views.size()),
+      soft_(ring.views.size()),
+      kept_costs_(ring.views.size()) {
+    const int longest = std::max(set.width, set.height);
+    reduction_ = (longest + options.working_size_px - 1) / options.working_size_px;
+}
+
+void RingSearch::take(std::size_t n, const Image<Rgba8>& picture) {
+    const Camera& camera = rig_.views[static_cast<std::size_t>(ring_.views[n])].camera;
+    WorkView& view = views_[n].view;
+    view = make_work_view(camera, picture, reduction_);
+    soft_[n] = soft_pixels(view);
+    if (layer_ == Layer::kSoft) cover_soft(view, soft_[n]);
+    weaken_shading(view);
+}
+
+Status RingSearch::read(Progress* progress, const Keep& keep) {
+    return for_each_in_parallel(count(), "pictures for depth", progress, [&](int n) -> Status {
+        const int v = ring_.views[static_cast<std::size_t>(n)];
+        const Result<Image<Rgba8>> picture = read_upright_picture(set_, v);
+        if (!picture) return picture.error();
+        keep(v, *picture);
+        take(static_cast<std::size_t>(n), *picture);
+        return {};
+    });
+}
+
+void RingSearch::choose_hull(const std::vector<const RingSearch*>& rings) {
+    find_margin({});
+    beside_ = agreeing(rings);
+    if (!beside_.empty()) find_margin(beside_);
+}
+
+Status RingSearch::complete_cut_outs(Progress* progress, const Keep& keep) {
+    if (count() < 3) return {};
+    RingSearch half(set_, rig_, ring_, options_);
+    half.reduction_ = 2 * reduction_;
+    for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
+    const Result<std::vector<Image<float>>> missing = half.missing_depths(margin_px_, progress);
+    if (!missing) return missing.error();
+
+    std::vector<Image<float>> parts(views_.size());
+    tbb::parallel_for(std::size_t{0}, views_.size(),
+                      [&](std::size_t n) { parts[n] = lost_part(half.views_[n].view, (*missing)[n]); });
+    const auto lacking = std::ranges::count_if(parts, [](const Image<float>& part) { return !shows_nothing(part); });
+    const bool few = static_cast<double>(lacking) <= kMostLacking * static_cast<double>(views_.size());
+    for (std::size_t n = 0; n < views_.size(); ++n) {
+        if (few && !shows_nothing(parts[n])) {
+            const Result<Image<Rgba8>> picture = completed(n, half, parts[n]);
+            if (!picture) return picture.error();
+            keep(ring_.views[n], *picture);
+            take(n, *picture);
+        }
+        if (!silhouettes_agree_ || shows_nothing((*missing)[n])) continue;
+        mended_[n] = views_[n].view;
+        fill_missing(*mended_[n], (*missing)[n]);
+    }
+    return {};
+}
+
+// Of each picture of half the size: what the others show of the object where it has none.
+Result<std::vector<Image<float>>> RingSearch::missing_depths(int whole_margin_px, Progress* progress) {
+    const std::vector<const WorkView*> silhouettes = work_views({});
+    const auto tolerated = static_cast<int>(kMostLacking * static_cast<double>(silhouettes.size()));
+    sampled_hull_ =
+        sampled(VisualHull(silhouettes, std::max(kRepairMargin_px, whole_margin_px), tolerated), kRepairSpacing_px);
+    if (Status status = search("depth at half size", progress, false); !status) return status.error();
+    const auto hull = sampled(VisualHull(silhouettes, (whole_margin_px + 1) / 2), kHullSpacing_px);
+    std::vector<std::vector<RuledOutPoint>> points(views_.size());
+    tbb::parallel_for(0, count(), [&](int n) {
+        const Neighbours neighbours = neighbours_of(n);
+        if (neighbours.beside.size() < 2) return;
+        const auto v = static_cast<std::size_t>(n);
+        points[v] = ruled_out(views_[v], neighbours.beside, range_of(n, neighbours).step, *sampled_hull_, *hull);
+    });
+    std::vector<Image<float>> missing(views_.size());
+    tbb::parallel_for(std::size_t{0}, views_.size(),
+                      [&](std::size_t n) { missing[n] = rs::encode::missing_depths(views_[n].view, points); });
+    return missing;
+}
+
+// Painted by the pictures that are nearest, of two as near by the one that shows more of it first.
+Result<Image<Rgba8>> RingSearch::completed(std::size_t n, const RingSearch& half, const Image<float>& part) const {
+    constexpr int kFarthestPainter = 3;  // pictures away
+    Result<Image<Rgba8>> picture = read_upright_picture(set_, ring_.views[n]);
+    if (!picture) return picture;
+    LostPartPainter painter(half.views_[n].view, part, half.reduction_, std::move(*picture));
+    for (int away = 1; away <= std::min(kFarthestPainter, count() / 2) && !painter.done(); ++away) {
+        std::array<Image<Rgba8>, 2> pictures;
+        std::array<LostPartPainter::Painter, 2> painters;
+        for (const std::size_t side : {0U, 1U}) {
+            const int sense = side == 0 ? -away : away;
+            const auto from = static_cast<std::size_t>((static_cast<int>(n) + sense + count()) % count());
+            Result<Image<Rgba8>> other = read_upright_picture(set_, ring_.views[from]);
+            if (!other) return other.error();
+            pictures[side] = std::move(*other);
+            painters[side] = {&half.views_[from], &pictures[side]};
+        }
+        if (painter.shown_by(painters[0]) < painter.shown_by(painters[1])) std::swap(painters[0], painters[1]);
+        for (const LostPartPainter::Painter& from : painters) painter.paint_from(from);
+    }
+    return std::move(painter).picture();
+}
+
+Status RingSearch::match(Progress* progress) {
+    sampled_hull_ =
+        sampled(silhouettes_agree_ ? VisualHull(work_views(beside_), margin_px_) : std::move(*hull_), kHullSpacing_px);
+    hull_.reset();
+    return search("depth", progress, true);
+}
+
+Status RingSearch::agree(Progress* progress, std::vector<FoundDepth>& samples) {
+    const int every = std::max(1, (count() + kSampleViews - 1) / kSampleViews);
+    const std::size_t first_sample = samples.size();
+    samples.resize(first_sample + static_cast<std::size_t>((count() + every - 1) / every));
+    std::vector<Image<float>> agreed(views_.size());
+    for (const int first : {0, 1}) {
+        const int of_these = (count() + 1 - first) / 2;
+        Status status = for_each_in_parallel(of_these, "depth that agrees", progress, [&](int m) -> Status {
+            const int n = first + 2 * m;
+            const WorkView& view = views_[static_cast<std::size_t>(n)].view;
+            const Neighbours neighbours = neighbours_of(n);
+            const DepthRange range = range_of(n, neighbours);
+            std::optional<CostVolume> kept = std::exchange(kept_costs_[static_cast<std::size_t>(n)], {});
+            CostVolume costs = kept ? std::move(*kept) : colour_costs(n, neighbours, range);
+            add_inconsistency(costs, view, neighbours, range);
+            Image<float>& depth = agreed[static_cast<std::size_t>(n)];
+            depth = depths_at(semi_global_levels(view, costs, options_.smoothness), range);
+            if (n % every == 0) {
+                samples[first_sample + static_cast<std::size_t>(n / every)] = {
+                    ring_.views[static_cast<std::size_t>(n)],
+                    first_allowed(view, levels_within(*sampled_hull_, view, range), range), depth};
+            }
+            return {};
+        });
+        if (!status) return status;
+        for (std::size_t n = static_cast<std::size_t>(first); n < views_.size(); n += 2) {
+            views_[n].depth = std::move(agreed[n]);
+        }
+    }
+    for (std::size_t n = 0; n < views_.size(); ++n) keep_layer(views_[n].depth, soft_[n]);
+    return {};
+}
+
+bool RingSearch::shows_soft() const {
+    return std::ranges::any_of(soft_, [](const Image<std::uint8_t>& soft) {
+        return std::ranges::any_of(soft.pixels(), [](int pixel) { return pixel != 0; });
+    });
+}
+
+ShapeMap RingSearch::lines(const std::vector<SurfaceLayer>& layers, int planes) const {
+    ShapeMap shape = make_shape_lines(layers, options_.lines);
+    for (const int v : ring_.views) {
+        for (int k = 0; k < planes; ++k) {
+            const Camera& camera = rig_.views[static_cast<std::size_t>(v)].camera;
+            shape.normal_lines.push_back(normal_line(camera, reference_plane(k, planes)));
+        }
+    }
+    return shape;
+}
+
+void RingSearch::warn(const ShapeMap& shape, std::vector<std::string>& warnings) const {
+    std::string missing;
+    for (std::size_t n = 0; n < views_.size(); ++n) {
+        const DepthView& view = views_[n];
+        const std::string& name = rig_.views[static_cast<std::size_t>(ring_.views[n])].file_path;
+        if (object_box(view.view).empty()) {
+            warnings.push_back(name + " shows no object at all (its alpha is 0 everywhere)");
+        }
+        if (shape.gaps[n].lines != 0) continue;
+        missing += (missing.empty() ? "" : ", ") + sector_text(view, views_[(n + 1) % views_.size()]);
+    }
+    if (views_.size() == 1) {
+        warnings.push_back("there is one picture; it is shown as it is from everywhere");
+    } else if (!missing.empty()) {
+        warnings.push_back("there are no pictures between " + missing +
+                           "; from there the nearest picture is shown as it is");
+    }
+}
+
+CostVolume RingSearch::colour_costs(int n, const Neighbours& neighbours, const DepthRange& range) const {
+    const WorkView& view = views_[static_cast<std::size_t>(n)].view;
+    std::optional<Image<std::uint8_t>> near_soft;
+    if (layer_ == Layer::kSoft) near_soft = dilated(soft_[static_cast<std::size_t>(n)], kNearSoft_px);
+    CostVolume costs = levels_within(*sampled_hull_, view, range, near_soft ? &*near_soft : nullptr);
+    match_colours(costs, view, neighbours, range);
+    return costs;
+}
+
+void RingSearch::keep_layer(Image<float>& depth, const Image<std::uint8_t>& soft) const {
+    std::ranges::transform(depth.pixels(), soft.pixels(), depth.pixels().begin(), [&](float value, int pixel) {
+        return (pixel != 0) == (layer_ == Layer::kSoft) ? value : kNoDepth;
+    });
+}
+
+std::vector<const WorkView*> RingSearch::work_views(const std::vector<const RingSearch*>& others) const {
+    std::vector<const WorkView*> all;
+    const auto add = [&](const RingSearch& ring) {
+        for (std::size_t n = 0; n < ring.views_.size(); ++n) {
+            all.push_back(ring.mended_[n] ? &*ring.mended_[n] : &ring.views_[n].view);
+        }
+    };
+    add(*this);
+    for (const RingSearch* const ring : others) add(*ring);
+    return all;
+}
+
+std::unique_ptr<SampledHull> RingSearch::sampled(VisualHull hull, double spacing_px) const {
+    const double px = glm::length(views_.front().view.centre) / views_.front().view.fl_x;  // object radii
+    return std::make_unique<SampledHull>(std::move(hull), spacing_px * px);
+}
+
+Status RingSearch::search(const char* label, Progress* progress, bool keep_costs) {
+    return for_each_in_parallel(count(), label, progress, [&](int n) -> Status {
+        DepthView& view = views_[static_cast<std::size_t>(n)];
+        const Neighbours neighbours = neighbours_of(n);
+        const DepthRange range = range_of(n, neighbours);
+        CostVolume costs = colour_costs(n, neighbours, range);
+        view.depth = depths_at(semi_global_levels(view.view, costs, options_.smoothness), range);
+        if (keep_costs && costs.costs.size() <= kKeptCosts / rig_.views.size()) {
+            kept_costs_[static_cast<std::size_t>(n)] = std::move(costs);
+        }
+        return {};
+    });
+}
+
+// The narrowest margin at which the silhouettes agree. Where none does, since cameras do not stand where the rig
+// has them or cut-outs lack parts, the fewest silhouettes that must be overruled to leave the object whole: a hull
+// that cuts into it puts surfaces where no picture sees them.
+void RingSearch::find_margin(const std::vector<const RingSearch*>& beside) {
+    const std::vector<const WorkView*> all = work_views(beside);
+    overruled_share_ = 0;
+    for (margin_px_ = 1; margin_px_ <= options_.widest_hull_margin_px; margin_px_ *= 2) {
+        hull_ = std::make_unique<VisualHull>(all, margin_px_);
+        silhouettes_agree_ = agree_with(all, *hull_);
+        if (silhouettes_agree_) return;
+    }
+    margin_px_ = kOverruledMargin_px;
+    for (const double share : kOverruledShares) {
+        overruled_share_ = share;
+        hull_ = std::make_unique<VisualHull>(all, margin_px_, overruled(all));
+        if (agree_with(all, *hull_)) return;
+    }
+}
+
+// The rings whose silhouettes this one's, with the margin that these need among themselves, do not contradict:
+// rings may be calibrated each for itself only.
+std::vector<const RingSearch*> RingSearch::agreeing(const std::vector<const RingSearch*>& rings) const {
+    std::vector<const RingSearch*> found;
+    for (const RingSearch* const ring : rings) {
+        const std::vector<const WorkView*> both = work_views({ring});
+        if (agree_with(both, VisualHull(both, margin_px_, overruled(both)))) found.push_back(ring);
+    }
+    return found;
+}
+
+double RingSearch::gap_deg(int n) const {
+    return degrees(gap_width(views_, static_cast<std::size_t>(n)));
+}
+
+// The pictures to either side and the nearest one of each ring beside this one, unless they are too far away to
+// compare.
+Neighbours RingSearch::neighbours_of(int n) const {
+    const int before = (n + count() - 1) % count();
+    const int after = (n + 1) % count();
+    Neighbours found;
+    if (before != n && gap_deg(before) <= options_.lines.widest_gap_deg) {
+        found.beside.push_back(&views_[static_cast<std::size_t>(before)]);
+    }
+    if (after != n && after != before && gap_deg(n) <= options_.lines.widest_gap_deg) {
+        found.beside.push_back(&views_[static_cast<std::size_t>(after)]);
+    }
+    const WorkView& view = views_[static_cast<std::size_t>(n)].view;
+    const auto angle_to = [&](const DepthView& other) { return angle_between(view, other.view); };
+    for (const RingSearch* const ring : beside_) {
+        const auto nearest =
+            std::min_element(ring->views_.begin(), ring->views_.end(),
+                             [&](const DepthView& a, const DepthView& b) { return angle_to(a) < angle_to(b); });
+        if (angle_to(*nearest) < radians(kWidestBetweenRings_deg)) found.across.push_back(&*nearest);
+    }
+    return found;
+}
+
+DepthRange RingSearch::range_of(int n, const Neighbours& neighbours) const {
+    const WorkView& view = views_[static_cast<std::size_t>(n)].view;
+    double most_moved = 0;  // by a change of depth of one, in object radii
+    for (const auto* const kind : {&neighbours.beside, &neighbours.across}) {
+        for (const DepthView* const neighbour : *kind) {
+            most_moved = std::max(most_moved, std::sin(angle_between(view, neighbour->view)));
+        }
+    }
+    const double levels = 2 * kDeepest * most_moved * view.fl_x / glm::length(view.place()) / options_.level_px;
+    return rs::encode::range_of(std::clamp(static_cast<int>(levels), options_.fewest_levels, options_.most_levels));
+}
+
+}  // namespace rs::encode
