@@ -3,7 +3,6 @@
 // that these were found to show.
 
 #include "encode/raymap/column_match.hpp"
-#include "encode/raymap/depth_range.hpp"
 #include "encode/raymap/visual_hull.hpp"
 #include "encode/raymap/work_view.hpp"
 

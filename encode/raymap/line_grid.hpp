@@ -1,7 +1,6 @@
 #pragma once
 // The cells of a shape map's line (rayspace/object/shape_map.hpp) and its rays, in object radii.
 
-#include "encode/raymap/depth_range.hpp"
 #include "encode/raymap/visual_hull.hpp"
 #include "encode/raymap/work_view.hpp"
 #include "rayspace/object/shape_map.hpp"

@@ -184,6 +184,13 @@ Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
     return smoothed(view, missing, straightened(view, beside_object(view, part, middles)));
 }
 
+double share_of(const Image<float>& part, const WorkView& view) {
+    const auto lost = std::ranges::count_if(part.pixels(), [](float depth) { return !std::isnan(depth); });
+    const auto object =
+        std::ranges::count_if(view.columns.pixels(), [](const Rgba8& pixel) { return pixel.a >= kInside; });
+    return static_cast<double>(lost) / static_cast<double>(std::max(object, decltype(object){1}));
+}
+
 LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part, int scale, Image<Rgba8> picture)
     : picture_(std::move(picture)), scale_(scale) {
     for (int y = 0; y < picture_.height(); ++y) {

@@ -21,6 +21,9 @@ namespace rs::encode {
 // the object, closed; kNoDepth elsewhere. Narrow strips along a rim are a rig that is not exact.
 Image<float> lost_part(const WorkView& view, const Image<float>& missing);
 
+// How large it is beside what the view has of the object.
+double share_of(const Image<float>& part, const WorkView& view);
+
 class LostPartPainter {
 public:
     // `view` and `part` are `scale` times as small as `picture` on each side.

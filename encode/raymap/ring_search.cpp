@@ -26,7 +26,9 @@ constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of the
 constexpr int kOverruledMargin_px = 4;
 constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
 constexpr int kRepairMargin_px = 4;   // of pictures of half the working size: lost parts are looked for so far away
-constexpr double kMostLacking = 0.1;  // of the pictures lack a part; else cameras do not stand where the rig has them
+constexpr double kTolerated = 0.1;    // of the silhouettes, where large parts are looked for
+constexpr double kLargePart = 0.1;    // of what there is of the object
+constexpr double kMostLacking = 0.2;  // of the pictures lack a part; else cameras do not stand where the rig has them
 constexpr double kWidestBetweenRings_deg = 20;
 constexpr int kNearSoft_px = 8;  // what is soft is told from what is around it, too
 
@@ -103,22 +105,26 @@ Status RingSearch::complete_cut_outs(Progress* progress, const Keep& keep) {
     RingSearch half(set_, rig_, ring_, options_);
     half.reduction_ = 2 * reduction_;
     for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
-    const Result<std::vector<Image<float>>> missing = half.missing_depths(margin_px_, progress);
+    const Result<std::vector<Image<float>>> missing = half.missing_depths(*this, progress);
     if (!missing) return missing.error();
 
     std::vector<Image<float>> parts(views_.size());
     tbb::parallel_for(std::size_t{0}, views_.size(),
                       [&](std::size_t n) { parts[n] = lost_part(half.views_[n].view, (*missing)[n]); });
-    const auto lacking = std::ranges::count_if(parts, [](const Image<float>& part) { return !shows_nothing(part); });
-    const bool few = static_cast<double>(lacking) <= kMostLacking * static_cast<double>(views_.size());
+    std::vector<std::size_t> lacking;
     for (std::size_t n = 0; n < views_.size(); ++n) {
-        if (few && !shows_nothing(parts[n])) {
-            const Result<Image<Rgba8>> picture = completed(n, half, parts[n]);
-            if (!picture) return picture.error();
-            keep(ring_.views[n], *picture);
-            take(n, *picture);
-        }
-        if (!silhouettes_agree_ || shows_nothing((*missing)[n])) continue;
+        if (share_of(parts[n], half.views_[n].view) >= kLargePart) lacking.push_back(n);
+    }
+    if (static_cast<double>(lacking.size()) > kMostLacking * static_cast<double>(views_.size())) lacking.clear();
+    for (const std::size_t n : lacking) {
+        const Result<Image<Rgba8>> picture = completed(n, half, parts[n]);
+        if (!picture) return picture.error();
+        keep(ring_.views[n], *picture);
+        take(n, *picture);
+    }
+    if (!silhouettes_agree_) return {};
+    for (std::size_t n = 0; n < views_.size(); ++n) {
+        if (shows_nothing((*missing)[n])) continue;
         mended_[n] = views_[n].view;
         fill_missing(*mended_[n], (*missing)[n]);
     }
@@ -126,13 +132,14 @@ Status RingSearch::complete_cut_outs(Progress* progress, const Keep& keep) {
 }
 
 // Of each picture of half the size: what the others show of the object where it has none.
-Result<std::vector<Image<float>>> RingSearch::missing_depths(int whole_margin_px, Progress* progress) {
+Result<std::vector<Image<float>>> RingSearch::missing_depths(const RingSearch& whole, Progress* progress) {
     const std::vector<const WorkView*> silhouettes = work_views({});
-    const auto tolerated = static_cast<int>(kMostLacking * static_cast<double>(silhouettes.size()));
-    sampled_hull_ =
-        sampled(VisualHull(silhouettes, std::max(kRepairMargin_px, whole_margin_px), tolerated), kRepairSpacing_px);
+    const auto tolerated = static_cast<int>(kTolerated * static_cast<double>(silhouettes.size()));
+    const int narrow_px = (whole.margin_px_ + 1) / 2;
+    const int searched_px = whole.silhouettes_agree_ ? std::max(kRepairMargin_px, whole.margin_px_) : narrow_px;
+    sampled_hull_ = sampled(VisualHull(silhouettes, searched_px, tolerated), kRepairSpacing_px);
     if (Status status = search("depth at half size", progress, false); !status) return status.error();
-    const auto hull = sampled(VisualHull(silhouettes, (whole_margin_px + 1) / 2), kHullSpacing_px);
+    const auto hull = sampled(VisualHull(silhouettes, narrow_px), kHullSpacing_px);
     std::vector<std::vector<RuledOutPoint>> points(views_.size());
     tbb::parallel_for(0, count(), [&](int n) {
         const Neighbours neighbours = neighbours_of(n);

@@ -59,7 +59,7 @@ public:
 private:
     [[nodiscard]] int count() const { return static_cast<int>(views_.size()); }
     void take(std::size_t n, const Image<Rgba8>& picture);
-    Result<std::vector<Image<float>>> missing_depths(int whole_margin_px, Progress* progress);
+    Result<std::vector<Image<float>>> missing_depths(const RingSearch& whole, Progress* progress);
     Result<Image<Rgba8>> completed(std::size_t n, const RingSearch& half, const Image<float>& part) const;
 
     // What the colours say of each level that the hull allows.

@@ -28,6 +28,18 @@ struct HorizontalRay {
     [[nodiscard]] double axial_at(double depth) const { return (to_foot + depth) / horizontal_per_axial; }
 };
 
+// To either side of the foot; a little beyond the object radius.
+inline constexpr double kDeepest = 1 + 1.0 / 32;
+
+// The depths that a search tries: level n of 0..count-1 is low + n * step object radii along a ray from its foot.
+struct DepthRange {
+    double low = -1;
+    double step = 2.0 / 127;
+    int count = 128;
+    [[nodiscard]] double at(double level) const { return low + level * step; }
+    [[nodiscard]] double level_of(double depth) const { return (depth - low) / step; }
+};
+
 // A place seen from above by a camera: all points above each other share it.
 struct SeenColumn {
     double axial = 0;   // depth; not seen where <= 0
