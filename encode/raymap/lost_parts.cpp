@@ -1,7 +1,8 @@
 #include "encode/raymap/lost_parts.hpp"
 
+#include "encode/set/soft_coverage.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -39,16 +40,6 @@ void for_each_around(const WorkView& view, int column, int row, int radius, cons
     for (int c = std::max(column - radius, 0); c <= std::min(column + radius, view.width - 1); ++c) {
         for (int r = std::max(row - radius, 0); r <= std::min(row + radius, view.height - 1); ++r) each(c, r);
     }
-}
-
-// 1 where a square around the pixel has one that is `wanted` (255: any that is not 0) in the mask.
-Image<std::uint8_t> dilated(const WorkView& view, const Image<std::uint8_t>& mask, int radius) {
-    Image<std::uint8_t> wide(mask.width(), mask.height(), 0);
-    for_each_pixel(view, [&](int column, int row) {
-        if (mask(row, column) == 0) return;
-        for_each_around(view, column, row, radius, [&](int c, int r) { wide(r, c) = 1; });
-    });
-    return wide;
 }
 
 // The median of the depths around each pixel of `mask`; kNoDepth elsewhere.
@@ -106,7 +97,7 @@ Image<std::uint8_t> beside_object(const WorkView& view, const Image<std::uint8_t
 // With an outline without notches: a pixel goes with most of the square around it.
 Image<std::uint8_t> straightened(const WorkView& view, Image<std::uint8_t> mask) {
     for (int round = 0; round < kStraightenings; ++round) {
-        const Image<std::uint8_t> near = dilated(view, mask, 1);
+        const Image<std::uint8_t> near = dilated(mask, 1);
         Image<std::uint8_t> straight(mask.width(), mask.height(), 0);
         for_each_pixel(view, [&](int column, int row) {
             if (near(row, column) == 0 || is_object(view, column, row)) return;
@@ -122,8 +113,9 @@ Image<std::uint8_t> straightened(const WorkView& view, Image<std::uint8_t> mask)
     return mask;
 }
 
-std::uint8_t mixed(std::uint8_t own, double other, int alpha) {
-    return static_cast<std::uint8_t>(std::lround((own * alpha + other * (255 - alpha)) / 255));
+// What a pixel shows of its own, and of the other beside it.
+std::uint8_t mixed(std::uint8_t own, double other, double share_of_own) {
+    return static_cast<std::uint8_t>(std::lround(own * share_of_own + other * (1 - share_of_own)));
 }
 
 // Between the four pixels around a place of the picture; nothing where one of them is not opaque.
@@ -164,9 +156,9 @@ Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
     });
     // Gaps within, and between that and the object.
     const auto wide =
-        dilated(view, mask_of([&](int c, int r) { return dense(r, c) != 0 || is_object(view, c, r); }), kClosed_px);
-    const auto outside = dilated(view, mask_of([&](int c, int r) { return wide(r, c) == 0; }), kClosed_px);
-    const auto near = dilated(view, dense, kClosed_px);
+        dilated(mask_of([&](int c, int r) { return dense(r, c) != 0 || is_object(view, c, r); }), kClosed_px);
+    const auto outside = dilated(mask_of([&](int c, int r) { return wide(r, c) == 0; }), kClosed_px);
+    const auto near = dilated(dense, kClosed_px);
     const auto lost =
         mask_of([&](int c, int r) { return !is_object(view, c, r) && outside(r, c) == 0 && near(r, c) != 0; });
     // Of squares that are lost, at least half of them, or object.
@@ -179,7 +171,7 @@ Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
         });
         return lost(row, column) != 0 && gone + object == all && 2 * gone >= all;
     });
-    const auto large = dilated(view, middles, 2 * kRadius_px);
+    const auto large = dilated(middles, 2 * kRadius_px);
     const auto part = mask_of([&](int c, int r) { return large(r, c) != 0 && lost(r, c) != 0; });
     return smoothed(view, missing, straightened(view, beside_object(view, part, middles)));
 }
@@ -218,6 +210,7 @@ LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part,
             left_.push_back({x, y, cover, ray.place_at(depth), view.height_of(row, ray.axial_at(depth))});
         }
     }
+    all_ = left_.size();
 }
 
 std::optional<glm::dvec3> LostPartPainter::seen_by(const Painter& from, const Spot& spot, bool hidden) const {
@@ -246,8 +239,9 @@ void LostPartPainter::paint_from(const Painter& from) {
         const auto colour = seen_by(from, spot, most);
         if (!colour) return false;
         Rgba8& pixel = picture_(spot.x, spot.y);
-        pixel = {mixed(pixel.r, colour->r, pixel.a), mixed(pixel.g, colour->g, pixel.a),
-                 mixed(pixel.b, colour->b, pixel.a), static_cast<std::uint8_t>(std::lround(255 * spot.cover))};
+        const double share = pixel.a / (255 * spot.cover);
+        pixel = {mixed(pixel.r, colour->r, share), mixed(pixel.g, colour->g, share), mixed(pixel.b, colour->b, share),
+                 static_cast<std::uint8_t>(std::lround(255 * spot.cover))};
         return true;
     });
 }

@@ -17,8 +17,10 @@
 
 namespace rs::encode {
 
-// What of `missing` (silhouette_repair.hpp) is a part of at least 7 x 7 pixels, with its gaps, and those between it and
-// the object, closed; kNoDepth elsewhere. Narrow strips along a rim are a rig that is not exact.
+// What of `missing` (silhouette_repair.hpp) is a part: dense, with a square of 11 x 11 pixels that is lost, at least
+// half of it, or object, and with half of its border at the object; its gaps, and those between it and the object, are
+// closed. kNoDepth elsewhere. Narrow strips along a rim are a rig that is not exact, and what floats is none of the
+// object.
 Image<float> lost_part(const WorkView& view, const Image<float>& missing);
 
 // How large it is beside what the view has of the object.
@@ -36,12 +38,13 @@ public:
     };
     // How many pixels of what is left it shows; of `hidden`, also where it seems to be hidden there.
     [[nodiscard]] std::size_t shown_by(const Painter& from, bool hidden = false) const;
-    // Paints what another picture shows of what is left. Where most is not hidden nothing is: a few wrong depths would
-    // leave specks to other pictures.
+    // Paints what another picture shows of what is left. Where most of it is not hidden, all counts as shown: a few
+    // wrong depths would leave specks to other pictures.
     void paint_from(const Painter& from);
 
-    // Whether all of it is painted.
+    // Whether all of it is painted; whether half is.
     [[nodiscard]] bool done() const { return left_.empty(); }
+    [[nodiscard]] bool half_done() const { return 2 * left_.size() <= all_; }
     // What no picture has shown is as it was.
     [[nodiscard]] Image<Rgba8> picture() && { return std::move(picture_); }
 
@@ -59,6 +62,7 @@ private:
     Image<Rgba8> picture_;
     int scale_;
     std::vector<Spot> left_;
+    std::size_t all_ = 0;  // at first
 };
 
 }  // namespace rs::encode

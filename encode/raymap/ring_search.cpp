@@ -10,7 +10,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -25,10 +24,12 @@ constexpr int kHullLevels = 128;                // of depth, where silhouettes a
 constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of the set
 constexpr int kOverruledMargin_px = 4;
 constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
-constexpr int kRepairMargin_px = 4;   // of pictures of half the working size: lost parts are looked for so far away
-constexpr double kTolerated = 0.1;    // of the silhouettes, where large parts are looked for
-constexpr double kLargePart = 0.1;    // of what there is of the object
-constexpr double kMostLacking = 0.2;  // of the pictures lack a part; else cameras do not stand where the rig has them
+constexpr int kRepairMargin_px = 4;  // of pictures of half the working size: rims are looked for so far away
+constexpr int kWidestMended_px = 4;  // margin of a hull whose rims are worth mending
+constexpr double kTolerated = 0.1;   // of the silhouettes, where large parts are looked for
+constexpr double kLargePart = 0.1;   // of what there is of the object
+constexpr double kMostLacking =
+    0.2;  // of the pictures, five at least for one; else cameras do not stand where the rig has them
 constexpr double kWidestBetweenRings_deg = 20;
 constexpr int kNearSoft_px = 8;  // what is soft is told from what is around it, too
 
@@ -105,37 +106,41 @@ Status RingSearch::complete_cut_outs(Progress* progress, const Keep& keep) {
     RingSearch half(set_, rig_, ring_, options_);
     half.reduction_ = 2 * reduction_;
     for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
-    const Result<std::vector<Image<float>>> missing = half.missing_depths(*this, progress);
+    Result<std::vector<Image<float>>> missing = half.find_missing(*this, progress);
     if (!missing) return missing.error();
+    missing_ = std::move(*missing);
 
     std::vector<Image<float>> parts(views_.size());
     tbb::parallel_for(std::size_t{0}, views_.size(),
-                      [&](std::size_t n) { parts[n] = lost_part(half.views_[n].view, (*missing)[n]); });
+                      [&](std::size_t n) { parts[n] = lost_part(half.views_[n].view, missing_[n]); });
     std::vector<std::size_t> lacking;
     for (std::size_t n = 0; n < views_.size(); ++n) {
         if (share_of(parts[n], half.views_[n].view) >= kLargePart) lacking.push_back(n);
     }
-    if (static_cast<double>(lacking.size()) > kMostLacking * static_cast<double>(views_.size())) lacking.clear();
+    if (static_cast<double>(lacking.size()) > kMostLacking * static_cast<double>(views_.size())) return {};
     for (const std::size_t n : lacking) {
-        const Result<Image<Rgba8>> picture = completed(n, half, parts[n]);
+        const Result<std::optional<Image<Rgba8>>> picture = completed(n, half, parts[n]);
         if (!picture) return picture.error();
-        keep(ring_.views[n], *picture);
-        take(n, *picture);
-    }
-    if (!silhouettes_agree_) return {};
-    for (std::size_t n = 0; n < views_.size(); ++n) {
-        if (shows_nothing((*missing)[n])) continue;
-        mended_[n] = views_[n].view;
-        fill_missing(*mended_[n], (*missing)[n]);
+        if (!*picture) continue;
+        keep(ring_.views[n], **picture);
+        take(n, **picture);
     }
     return {};
 }
 
-// Of each picture of half the size: what the others show of the object where it has none.
-Result<std::vector<Image<float>>> RingSearch::missing_depths(const RingSearch& whole, Progress* progress) {
+void RingSearch::mend_silhouettes() {
+    if (!silhouettes_agree_ || margin_px_ > kWidestMended_px) return;
+    for (std::size_t n = 0; n < missing_.size(); ++n) {
+        if (shows_nothing(missing_[n])) continue;
+        mended_[n] = views_[n].view;
+        fill_missing(*mended_[n], missing_[n]);
+    }
+}
+
+Result<std::vector<Image<float>>> RingSearch::find_missing(const RingSearch& whole, Progress* progress) {
     const std::vector<const WorkView*> silhouettes = work_views({});
     const auto tolerated = static_cast<int>(kTolerated * static_cast<double>(silhouettes.size()));
-    const int narrow_px = (whole.margin_px_ + 1) / 2;
+    const int narrow_px = (std::min(whole.margin_px_, kWidestMended_px) + 1) / 2;
     const int searched_px = whole.silhouettes_agree_ ? std::max(kRepairMargin_px, whole.margin_px_) : narrow_px;
     sampled_hull_ = sampled(VisualHull(silhouettes, searched_px, tolerated), kRepairSpacing_px);
     if (Status status = search("depth at half size", progress, false); !status) return status.error();
@@ -149,31 +154,36 @@ Result<std::vector<Image<float>>> RingSearch::missing_depths(const RingSearch& w
     });
     std::vector<Image<float>> missing(views_.size());
     tbb::parallel_for(std::size_t{0}, views_.size(),
-                      [&](std::size_t n) { missing[n] = rs::encode::missing_depths(views_[n].view, points); });
+                      [&](std::size_t n) { missing[n] = missing_depths(views_[n].view, points); });
     return missing;
 }
 
 // Painted by the pictures that are nearest, of two as near by the one that shows more of it first.
-Result<Image<Rgba8>> RingSearch::completed(std::size_t n, const RingSearch& half, const Image<float>& part) const {
+Result<std::optional<Image<Rgba8>>> RingSearch::completed(std::size_t n, const RingSearch& half,
+                                                          const Image<float>& part) const {
     constexpr int kFarthestPainter = 3;  // pictures away
     Result<Image<Rgba8>> picture = read_upright_picture(set_, ring_.views[n]);
-    if (!picture) return picture;
+    if (!picture) return picture.error();
     LostPartPainter painter(half.views_[n].view, part, half.reduction_, std::move(*picture));
     for (int away = 1; away <= std::min(kFarthestPainter, count() / 2) && !painter.done(); ++away) {
-        std::array<Image<Rgba8>, 2> pictures;
-        std::array<LostPartPainter::Painter, 2> painters;
-        for (const std::size_t side : {0U, 1U}) {
-            const int sense = side == 0 ? -away : away;
+        std::vector<Image<Rgba8>> pictures;
+        pictures.reserve(2);
+        std::vector<LostPartPainter::Painter> painters;
+        for (const int sense : {-away, away}) {
             const auto from = static_cast<std::size_t>((static_cast<int>(n) + sense + count()) % count());
+            if (degrees(angle_between(views_[n].view, views_[from].view)) > options_.lines.widest_gap_deg) continue;
             Result<Image<Rgba8>> other = read_upright_picture(set_, ring_.views[from]);
             if (!other) return other.error();
-            pictures[side] = std::move(*other);
-            painters[side] = {&half.views_[from], &pictures[side]};
+            pictures.push_back(std::move(*other));
+            painters.push_back({&half.views_[from], &pictures.back()});
         }
-        if (painter.shown_by(painters[0]) < painter.shown_by(painters[1])) std::swap(painters[0], painters[1]);
+        if (painters.size() == 2 && painter.shown_by(painters[0]) < painter.shown_by(painters[1])) {
+            std::swap(painters[0], painters[1]);
+        }
         for (const LostPartPainter::Painter& from : painters) painter.paint_from(from);
     }
-    return std::move(painter).picture();
+    if (!painter.half_done()) return std::optional<Image<Rgba8>>();
+    return std::optional(std::move(painter).picture());
 }
 
 Status RingSearch::match(Progress* progress) {

@@ -1,6 +1,7 @@
 #pragma once
-// One ring's search for one layer of surfaces; holds what its steps share: read(), choose_hull() with the rings beside
-// it, mend_silhouettes() or complete_cut_outs(), match(), agree(), then lines().
+// One ring's search for one layer of surfaces; holds what its steps share. In this order: read(), choose_hull(),
+// complete_cut_outs() and, if that has painted anything, choose_hull() again, mend_silhouettes(), match(), agree(),
+// lines().
 
 #include "encode/raymap/cost_volume.hpp"
 #include "encode/raymap/shape_map.hpp"
@@ -34,10 +35,12 @@ public:
     // The hull; `rings` are those next below and above, where there are such.
     void choose_hull(const std::vector<const RingSearch*>& rings);
 
-    // Gives back what cut-outs lack, as points tell that the object's pictures of half the size show: large parts
-    // (lost_parts.hpp), in pictures that are passed to `keep` as by read(), and, where the silhouettes agree, rims, to
-    // the silhouettes alone (silhouette_repair.hpp). Before any ring's match().
+    // Finds what cut-outs lack, as points tell that the object's pictures of half the size show, and paints large parts
+    // of it (lost_parts.hpp), if few pictures lack one: else the rig is at fault. Those pictures are passed to `keep`,
+    // one after the other. Not for the soft layer.
     Status complete_cut_outs(Progress* progress, const Keep& keep);
+    // Where the silhouettes agree, what was found is added to them (silhouette_repair.hpp), not to the pictures.
+    void mend_silhouettes();
 
     // The depths that the colours say.
     Status match(Progress* progress);
@@ -59,8 +62,11 @@ public:
 private:
     [[nodiscard]] int count() const { return static_cast<int>(views_.size()); }
     void take(std::size_t n, const Image<Rgba8>& picture);
-    Result<std::vector<Image<float>>> missing_depths(const RingSearch& whole, Progress* progress);
-    Result<Image<Rgba8>> completed(std::size_t n, const RingSearch& half, const Image<float>& part) const;
+    // Of each picture of half the size, this search's: what the others show of the object where it has none.
+    Result<std::vector<Image<float>>> find_missing(const RingSearch& whole, Progress* progress);
+    // Nothing where no picture near enough shows it.
+    Result<std::optional<Image<Rgba8>>> completed(std::size_t n, const RingSearch& half,
+                                                  const Image<float>& part) const;
 
     // What the colours say of each level that the hull allows.
     [[nodiscard]] CostVolume colour_costs(int n, const Neighbours& neighbours, const DepthRange& range) const;
@@ -85,12 +91,13 @@ private:
     Layer layer_;
     int reduction_ = 1;  // of the pictures to the working size
     std::vector<DepthView> views_;
+    std::vector<Image<float>> missing_;                  // of each view at half the size; empty before it is found
     std::vector<std::optional<WorkView>> mended_;        // silhouettes that lacked something
     std::vector<Image<std::uint8_t>> soft_;              // of each view
     std::vector<std::optional<CostVolume>> kept_costs_;  // of each view, from match() to agree()
     std::vector<const RingSearch*> beside_;
     std::unique_ptr<VisualHull> hull_;
-    std::unique_ptr<SampledHull> sampled_hull_;  // kHullSpacing_px apart
+    std::unique_ptr<SampledHull> sampled_hull_;
     int margin_px_ = 1;
     double overruled_share_ = 0;
     bool silhouettes_agree_ = true;

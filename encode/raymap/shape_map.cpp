@@ -1,6 +1,7 @@
 #include "encode/raymap/shape_map.hpp"
 
 #include "encode/raymap/ring_search.hpp"
+#include "rayspace/base/check.hpp"
 #include "rayspace/object/yuv.hpp"
 
 #include <utility>
@@ -22,6 +23,7 @@ std::string lost_parts_text(const CompletedPictures& completed, const Rig& rig) 
 Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
                                    const ShapeOptions& options, bool keep_pictures, RaySpaceObject& object,
                                    Progress* progress) {
+    RS_CHECK(set.completed.empty());
     FoundShapes found;
     const auto keep = [&](int v, const Image<Rgba8>& picture) {
         if (keep_pictures) object.pictures[static_cast<std::size_t>(v)] = planar_from_rgba(picture);
@@ -41,19 +43,19 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
         }
     };
     choose_hulls();
+    CaptureSet whole = set;  // with what cut-outs lack given back
     const auto keep_completed = [&](int v, const Image<Rgba8>& picture) {
         keep(v, picture);
-        found.completed.insert_or_assign(v, picture);
+        whole.completed.insert_or_assign(v, picture);
     };
     for (RingSearch& search : searches) {
         if (const Status status = search.complete_cut_outs(progress, keep_completed); !status) return status.error();
     }
-    CaptureSet whole = set;
-    if (!found.completed.empty()) {
-        whole.completed = found.completed;
-        found.warnings.push_back(lost_parts_text(found.completed, rig));
+    if (!whole.completed.empty()) {
+        found.warnings.push_back(lost_parts_text(whole.completed, rig));
         choose_hulls();
     }
+    for (RingSearch& search : searches) search.mend_silhouettes();
     for (RingSearch& search : searches) {
         if (const Status status = search.match(progress); !status) return status.error();
     }
@@ -74,6 +76,7 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
         ring.shape = searches[r].lines(layers, ring.planes);
         searches[r].warn(ring.shape, found.warnings);
     }
+    found.completed = std::move(whole.completed);
     return found;
 }
 

@@ -49,8 +49,8 @@ struct FoundShapes {
 
 // `object` has its views and rings but their shapes; rig is set.upright in object radii, rings as find_rings() gave
 // them. Pictures are read from the set, and stored in the object where `keep_pictures`; so are those of `completed`.
-// Memory: at the working size 8 bytes a pixel and picture, and for each thread about 3 bytes per object pixel and depth
-// level. Deterministic.
+// `set` has no completed pictures yet. Memory: at the working size 8 bytes a pixel and picture, 4 bytes for each whole
+// pixel of `completed`, and for each thread about 3 bytes per object pixel and depth level. Deterministic.
 Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
                                    const ShapeOptions& options, bool keep_pictures, RaySpaceObject& object,
                                    Progress* progress = nullptr);

@@ -151,12 +151,13 @@ Status run_build(const BuildArguments& arguments) {
     if (set->resampled) std::cerr << "rs-encode: the cameras look up or down; their pictures are made upright\n";
     Result<BuiltObject> built = build_object(*set, *options, &progress);
     if (!built) return built.error();
-    set->completed = std::move(built->completed);
     BuildSummary summary;
     if (*goal) {
+        set->completed = std::move(built->completed);
         Result<EncodedPictures> encoded =
             encode_pictures(*set, built->object, **goal, arguments.profile.alpha_bits, &progress);
         if (!encoded) return encoded.error();
+        set->completed.clear();  // what is scored is compared with the photographs
         summary.psnr_db = encoded->psnr_db;
         built->object.coded = std::make_shared<codec::CodedPictures>(std::move(encoded->coded));
     }

@@ -231,7 +231,7 @@ Status write_captured_object(const std::string& name, capture::SceneFile object,
     const auto captured = capture::write_capture_set(*tracer, rig, options, set_folder, progress);
     if (!captured) return captured.error();
 
-    const Result<encode::CaptureSet> set = encode::open_capture_set(set_folder, progress);
+    Result<encode::CaptureSet> set = encode::open_capture_set(set_folder, progress);
     if (!set) return set.error();
     encode::BuildOptions build;
     build.map = encode::usual_plane_map(build.raymap);
@@ -239,6 +239,7 @@ Status write_captured_object(const std::string& name, capture::SceneFile object,
     build.raw_pictures = false;
     Result<encode::BuiltObject> built = encode::build_object(*set, build, progress);
     if (!built) return built.error();
+    set->completed = std::move(built->completed);
     Result<encode::EncodedPictures> encoded = encode::encode_pictures(*set, built->object, encode::PictureGoal{},
                                                                       encode::DenseSettings{}.alpha_bits, progress);
     if (!encoded) return encoded.error();
