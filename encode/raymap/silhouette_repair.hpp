@@ -2,7 +2,7 @@
 // Parts that cut-outs lack. A point of the surface that a picture and those beside it agree about lies within every
 // true silhouette, whatever hides it there; where it appears beside one, that cut-out lacks a part. A part lost in a
 // view from behind would take the surface away from views of the front. What is found so lies within the hull that was
-// searched: of a larger part the rim.
+// searched.
 
 #include "encode/raymap/visual_hull.hpp"
 #include "encode/raymap/work_view.hpp"
