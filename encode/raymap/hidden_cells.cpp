@@ -4,29 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace rs::encode {
 namespace {
 
-// A wrong depth is often off by less; what stands in front of another part is mostly farther away.
-constexpr double kClearlyInFront = 0.1;  // object radii
-constexpr int kEnoughOfNine = 7;         // pixels around a point that show something clearly in front of it
+constexpr int kEnoughOfNine = 7;  // pixels around a point that show something clearly in front of it
 
 // Of the pixels that are at most one away from where the picture sees the point, for how many holds(column, row); none
 // where it sees it outside of its frame.
 template <class Holds>
-int count_around(const WorkView& view, const SeenColumn& seen, double y, const Holds& holds) {
-    if (seen.axial <= 0) return 0;
-    const double row = view.row_of(y, seen.axial);
-    if (!(seen.column >= 0 && seen.column < view.width && row >= 0 && row < view.height)) return 0;
+int count_around(const WorkView& view, const glm::dvec2& place, double y, const Holds& holds) {
+    const std::optional<SeenPoint> seen = view.see(place, y);
+    if (!seen) return 0;
     int count = 0;
-    const auto column = static_cast<int>(seen.column);
-    const auto row_number = static_cast<int>(row);
-    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, view.width - 1); ++c) {
-        for (int r = std::max(row_number - 1, 0); r <= std::min(row_number + 1, view.height - 1); ++r) {
-            if (holds(c, r)) ++count;
-        }
-    }
+    for_each_around(view, seen->whole_column(), seen->whole_row(), 1,
+                    [&](int c, int r) { count += holds(c, r) ? 1 : 0; });
     return count;
 }
 
@@ -35,18 +28,16 @@ bool other_layer_hides(const DepthView& picture, const glm::dvec2& place, double
     const auto is_others = [&](int column, int row) {
         return std::isnan(picture.depth(row, column)) && picture.view.at(column, row).a >= kFaintest;
     };
-    return count_around(picture.view, picture.view.see(place), y, is_others) > 0;
+    return count_around(picture.view, place, y, is_others) > 0;
 }
 
 // Whether what a picture was found to show stands clearly in front of the point.
 bool is_hidden(const DepthView& picture, const glm::dvec2& place, double y) {
-    const SeenColumn seen = picture.view.see(place);
-    const HorizontalRay ray = picture.view.ray_of(seen.column);
-    const double nearer = glm::dot(place - ray.foot, ray.along) - kClearlyInFront;
+    const double nearer = picture.view.ray_of(picture.view.see(place).column).depth_of(place) - kClearlyInFront;
     const auto is_in_front = [&](int column, int row) {
         return static_cast<double>(picture.depth(row, column)) <= nearer;  // false where there is none
     };
-    return count_around(picture.view, seen, y, is_in_front) >= kEnoughOfNine;
+    return count_around(picture.view, place, y, is_in_front) >= kEnoughOfNine;
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 #include "encode/raymap/lost_parts.hpp"
 
 #include "encode/set/soft_coverage.hpp"
+#include "rayspace/base/median.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace rs::encode {
@@ -14,10 +17,9 @@ constexpr int kDense_px = 2;     // to each side, of the square in which half of
 constexpr int kClosed_px = 3;    // half of the widest gap that is closed
 constexpr int kStraight_px = 4;  // to each side, of the square that outlines are straightened by
 constexpr int kStraightenings = 4;
-constexpr int kRadius_px = 5;    // half of the least part's side
-constexpr double kMost = 0.7;    // of what a picture has there, if it is not hidden
-constexpr double kHidden = 0.1;  // object radii: so much nearer is what hides a point
-constexpr int kSmooth_px = 5;    // depths are medians of squares of so much to each side
+constexpr int kRadius_px = 5;  // half of the least part's side
+constexpr double kMost = 0.7;  // of what a picture has there, if it is not hidden
+constexpr int kSmooth_px = 5;  // depths are medians of squares of so much to each side
 
 bool is_object(const WorkView& view, int column, int row) {
     return view.at(column, row).a >= kInside;
@@ -34,14 +36,6 @@ void for_each_pixel(const WorkView& view, const Each& each) {
     }
 }
 
-// Of a square that far to each side, as far as it lies in the frame.
-template <class Each>
-void for_each_around(const WorkView& view, int column, int row, int radius, const Each& each) {
-    for (int c = std::max(column - radius, 0); c <= std::min(column + radius, view.width - 1); ++c) {
-        for (int r = std::max(row - radius, 0); r <= std::min(row + radius, view.height - 1); ++r) each(c, r);
-    }
-}
-
 // The median of the depths around each pixel of `mask`; kNoDepth elsewhere.
 Image<float> smoothed(const WorkView& view, const Image<float>& depths, const Image<std::uint8_t>& mask) {
     Image<float> smooth(depths.width(), depths.height(), kNoDepth);
@@ -54,9 +48,7 @@ Image<float> smoothed(const WorkView& view, const Image<float>& depths, const Im
             });
         }
         if (near.empty()) return;
-        const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
-        std::nth_element(near.begin(), middle, near.end());
-        smooth(row, column) = *middle;
+        smooth(row, column) = median_of(std::span(near));
         near.clear();
     });
     return smooth;
@@ -138,7 +130,7 @@ std::optional<glm::dvec3> colour_at(const Image<Rgba8>& picture, double x, doubl
 Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
     // Half of a square, and that densely: nothing is looked for where there are fewer.
     constexpr int kFewest = (2 * kRadius_px + 1) * (2 * kRadius_px + 1) / 4;
-    if (std::ranges::count_if(missing.pixels(), [](float depth) { return !std::isnan(depth); }) < kFewest) {
+    if (count_depths(missing) < kFewest) {
         return Image<float>(missing.width(), missing.height(), kNoDepth);
     }
     const auto mask_of = [&](const auto& belongs) {
@@ -177,10 +169,11 @@ Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
 }
 
 double share_of(const Image<float>& part, const WorkView& view) {
-    const auto lost = std::ranges::count_if(part.pixels(), [](float depth) { return !std::isnan(depth); });
-    const auto object =
+    const std::ptrdiff_t lost = count_depths(part);
+    if (lost == 0) return 0;
+    const std::ptrdiff_t object =
         std::ranges::count_if(view.columns.pixels(), [](const Rgba8& pixel) { return pixel.a >= kInside; });
-    return static_cast<double>(lost) / static_cast<double>(std::max(object, decltype(object){1}));
+    return static_cast<double>(lost) / static_cast<double>(std::max(object, std::ptrdiff_t{1}));
 }
 
 LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part, int scale, Image<Rgba8> picture)
@@ -215,17 +208,14 @@ LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part,
 
 std::optional<glm::dvec3> LostPartPainter::seen_by(const Painter& from, const Spot& spot, bool hidden) const {
     const WorkView& view = from.seen->view;
-    const SeenColumn seen = view.see(spot.place);
-    if (seen.axial <= 0) return std::nullopt;
-    const double row = view.row_of(spot.height, seen.axial);
-    if (!(seen.column >= 0 && seen.column < view.width && row >= 0 && row < view.height)) return std::nullopt;
+    const std::optional<SeenPoint> at = view.see(spot.place, spot.height);
+    if (!at) return std::nullopt;
     if (!hidden) {
-        const int c = static_cast<int>(seen.column), r = static_cast<int>(row);
-        const HorizontalRay ray = view.ray_of(c + 0.5);
-        const double depth = glm::dot(spot.place - ray.foot, ray.along);
-        if (!(depth - static_cast<double>(from.seen->depth(r, c)) < kHidden)) return std::nullopt;  // or nothing there
+        const double depth = view.ray_of(at->whole_column() + 0.5).depth_of(spot.place);
+        const auto shown = static_cast<double>(from.seen->depth(at->whole_row(), at->whole_column()));
+        if (!(depth - shown < kClearlyInFront)) return std::nullopt;  // or nothing is there
     }
-    return colour_at(*from.picture, seen.column * scale_, row * scale_);
+    return colour_at(*from.picture, at->column * scale_, at->row * scale_);
 }
 
 std::size_t LostPartPainter::shown_by(const Painter& from, bool hidden) const {

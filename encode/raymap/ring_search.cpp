@@ -131,7 +131,7 @@ Status RingSearch::complete_cut_outs(Progress* progress, const Keep& keep) {
 void RingSearch::mend_silhouettes() {
     if (!silhouettes_agree_ || margin_px_ > kWidestMended_px) return;
     for (std::size_t n = 0; n < missing_.size(); ++n) {
-        if (shows_nothing(missing_[n])) continue;
+        if (count_depths(missing_[n]) == 0) continue;
         mended_[n] = views_[n].view;
         fill_missing(*mended_[n], missing_[n]);
     }

@@ -7,18 +7,6 @@
 namespace rs::encode {
 namespace {
 
-struct Pixel {
-    int column = 0, row = 0;
-};
-
-std::optional<Pixel> pixel_of(const WorkView& view, const PlaceInSpace& point) {
-    const SeenColumn seen = view.see(point.place);
-    if (seen.axial <= 0) return std::nullopt;
-    const double row = view.row_of(point.y, seen.axial);
-    if (!(seen.column >= 0 && seen.column < view.width && row >= 0 && row < view.height)) return std::nullopt;
-    return Pixel{static_cast<int>(seen.column), static_cast<int>(row)};
-}
-
 bool rules_out(const SampledHull& hull, const PlaceInSpace& point) {
     return std::ranges::none_of(hull.heights_above(point.place), [&](const Interval& heights) {
         return heights.low <= point.y && point.y <= heights.high;
@@ -26,31 +14,23 @@ bool rules_out(const SampledHull& hull, const PlaceInSpace& point) {
 }
 
 bool shows(const DepthView& picture, const PlaceInSpace& point, double tolerance) {
-    const std::optional<Pixel> at = pixel_of(picture.view, point);
+    const std::optional<SeenPoint> at = picture.view.see(point.place, point.y);
     if (!at) return false;
-    const HorizontalRay ray = picture.view.ray_of(at->column + 0.5);
-    const double there = static_cast<double>(picture.depth(at->row, at->column));
-    return std::abs(glm::dot(point.place - ray.foot, ray.along) - there) < tolerance;  // false where there is none
-}
-
-template <class Each>
-void for_each_around(const WorkView& view, const Pixel& pixel, const Each& each) {
-    for (int column = std::max(pixel.column - 1, 0); column <= std::min(pixel.column + 1, view.width - 1); ++column) {
-        for (int row = std::max(pixel.row - 1, 0); row <= std::min(pixel.row + 1, view.height - 1); ++row) {
-            each(column, row);
-        }
-    }
+    const double depth = picture.view.ray_of(at->whole_column() + 0.5).depth_of(point.place);
+    const auto there = static_cast<double>(picture.depth(at->whole_row(), at->whole_column()));
+    return std::abs(depth - there) < tolerance;  // false where there is none
 }
 
 // Nothing where that may be: what lies outside of the frame may be object.
-std::optional<Pixel> pixel_beside(const WorkView& view, const PlaceInSpace& point) {
-    const std::optional<Pixel> at = pixel_of(view, point);
-    if (!at || at->column == 0 || at->row == 0 || at->column == view.width - 1 || at->row == view.height - 1) {
-        return std::nullopt;
-    }
+std::optional<glm::ivec2> pixel_beside(const WorkView& view, const PlaceInSpace& point) {
+    const std::optional<SeenPoint> at = view.see(point.place, point.y);
+    if (!at) return std::nullopt;
+    const glm::ivec2 pixel(at->whole_column(), at->whole_row());
+    if (pixel.x == 0 || pixel.y == 0 || pixel.x == view.width - 1 || pixel.y == view.height - 1) return std::nullopt;
     bool beside = true;
-    for_each_around(view, *at, [&](int column, int row) { beside = beside && view.at(column, row).a < kInside; });
-    return beside ? at : std::nullopt;
+    for_each_around(view, pixel.x, pixel.y, 1,
+                    [&](int column, int row) { beside = beside && view.at(column, row).a < kInside; });
+    return beside ? std::optional(pixel) : std::nullopt;
 }
 
 }  // namespace
@@ -85,19 +65,14 @@ Image<float> missing_depths(const WorkView& view, std::span<const std::vector<Ru
     if (std::ranges::none_of(pixels, [](const Rgba8& pixel) { return pixel.a >= kInside; })) return missing;
     for (const std::vector<RuledOutPoint>& of_picture : points) {
         for (const RuledOutPoint& point : of_picture) {
-            const std::optional<Pixel> at = pixel_beside(view, point.found);
+            const std::optional<glm::ivec2> at = pixel_beside(view, point.found);
             if (!at || !pixel_beside(view, point.nearest) || !pixel_beside(view, point.farthest)) continue;
-            const HorizontalRay ray = view.ray_of(at->column + 0.5);
-            const auto depth = static_cast<float>(glm::dot(point.found.place - ray.foot, ray.along));
-            float& nearest = missing(at->row, at->column);
+            const auto depth = static_cast<float>(view.ray_of(at->x + 0.5).depth_of(point.found.place));
+            float& nearest = missing(at->y, at->x);
             if (!(nearest <= depth)) nearest = depth;
         }
     }
     return missing;
-}
-
-bool shows_nothing(const Image<float>& depths) {
-    return std::ranges::all_of(depths.pixels(), [](float depth) { return std::isnan(depth); });
 }
 
 void fill_missing(WorkView& view, const Image<float>& missing) {
@@ -105,7 +80,7 @@ void fill_missing(WorkView& view, const Image<float>& missing) {
         for (int row = 0; row < missing.width(); ++row) {
             if (std::isnan(missing(row, column))) continue;
             for (int part = 0; part < 4; ++part) {
-                for_each_around(view, {2 * column + part / 2, 2 * row + part % 2},
+                for_each_around(view, 2 * column + part / 2, 2 * row + part % 2, 1,
                                 [&](int c, int r) { view.columns(r, c).a = 255; });
             }
         }

@@ -36,8 +36,6 @@ std::vector<RuledOutPoint> ruled_out(const DepthView& picture, std::span<const D
 // None where the view shows no object.
 Image<float> missing_depths(const WorkView& view, std::span<const std::vector<RuledOutPoint>> points);
 
-bool shows_nothing(const Image<float>& depths);
-
 // Makes the pixels with a depth object, and those next to them. `missing` is of a view of half the size (halved).
 void fill_missing(WorkView& view, const Image<float>& missing);
 

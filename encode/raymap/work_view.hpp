@@ -7,13 +7,18 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
 
 namespace rs::encode {
 
 inline constexpr int kInside = 128;  // the least alpha of what is within a silhouette
 inline constexpr int kOpaque = 250;  // and of what nothing shines through
+// A wrong depth is often off by less; what stands in front of another part is mostly farther away. Object radii.
+inline constexpr double kClearlyInFront = 0.1;
 inline constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
 
 // Where a ray of vertical planes runs, seen from above: through its foot (nearest to the axis) in direction `along`
@@ -25,6 +30,8 @@ struct HorizontalRay {
     double horizontal_per_axial = 1;  // horizontal length of the ray per unit of axial depth
 
     [[nodiscard]] glm::dvec2 place_at(double depth) const { return foot + depth * along; }
+    // Of the point of the ray that is nearest to a place.
+    [[nodiscard]] double depth_of(const glm::dvec2& place) const { return glm::dot(place - foot, along); }
     [[nodiscard]] double axial_at(double depth) const { return (to_foot + depth) / horizontal_per_axial; }
 };
 
@@ -44,6 +51,13 @@ struct DepthRange {
 struct SeenColumn {
     double axial = 0;   // depth; not seen where <= 0
     double column = 0;  // px
+};
+
+// Where a point appears in a picture, px.
+struct SeenPoint {
+    double column = 0, row = 0;
+    [[nodiscard]] int whole_column() const { return static_cast<int>(column); }
+    [[nodiscard]] int whole_row() const { return static_cast<int>(row); }
 };
 
 struct WorkView {
@@ -68,10 +82,26 @@ struct WorkView {
         const double axial = glm::dot(from_centre, forward);
         return {axial, cx + fl_x * glm::dot(from_centre, right) / axial};
     }
+    // Nothing where that is outside of the frame.
+    [[nodiscard]] std::optional<SeenPoint> see(const glm::dvec2& place, double y) const {
+        const SeenColumn seen = see(place);
+        if (seen.axial <= 0) return std::nullopt;
+        const double row = row_of(y, seen.axial);
+        if (!(seen.column >= 0 && seen.column < width && row >= 0 && row < height)) return std::nullopt;
+        return SeenPoint{seen.column, row};
+    }
     // Row of height y at an axial depth, and back.
     [[nodiscard]] double row_of(double y, double axial) const { return cy - fl_y * (y - centre_y) / axial; }
     [[nodiscard]] double height_of(double row, double axial) const { return centre_y + axial * (cy - row) / fl_y; }
 };
+
+// each(column, row) of the square that far to each side of a pixel, as far as it lies in the frame.
+template <class Each>
+void for_each_around(const WorkView& view, int column, int row, int radius, const Each& each) {
+    for (int c = std::max(column - radius, 0); c <= std::min(column + radius, view.width - 1); ++c) {
+        for (int r = std::max(row - radius, 0); r <= std::min(row + radius, view.height - 1); ++r) each(c, r);
+    }
+}
 
 // A picture and what was found: along a pixel's ray, distance from the foot in object radii, transposed as
 // WorkView::columns is; kNoDepth where there is none.
@@ -79,6 +109,11 @@ struct DepthView {
     WorkView view;
     Image<float> depth;
 };
+
+// How many pixels have a depth.
+inline std::ptrdiff_t count_depths(const Image<float>& depths) {
+    return std::ranges::count_if(depths.pixels(), [](float depth) { return !std::isnan(depth); });
+}
 
 // `camera` is upright and in object radii. `picture` is averaged over blocks of `reduction` x `reduction` pixels
 // (colour weighted by alpha); what is left over at the right and lower edges is dropped.
