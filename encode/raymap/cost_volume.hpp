@@ -3,8 +3,8 @@
 // that these were found to show.
 
 #include "encode/raymap/column_match.hpp"
-#include "encode/raymap/visual_hull.hpp"
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/visual_hull.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 
 #include <cstdint>
 #include <vector>

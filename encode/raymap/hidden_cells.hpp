@@ -2,7 +2,7 @@
 // Cells of a shape map whose surface one of the two pictures does not show, since another surface hides it there.
 
 #include "encode/raymap/line_grid.hpp"
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/object/shape_map.hpp"
 
 #include <glm/vec2.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 // The cells of a shape map's line (rayspace/object/shape_map.hpp) and its rays, in object radii.
 
-#include "encode/raymap/visual_hull.hpp"
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/visual_hull.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/object/shape_map.hpp"
 
 #include <glm/vec2.hpp>

@@ -1,7 +1,7 @@
 #include "encode/raymap/ring_search.hpp"
 
 #include "encode/raymap/captured_view.hpp"
-#include "encode/raymap/lost_parts.hpp"
+#include "encode/raymap/silhouettes/lost_parts.hpp"
 #include "encode/set/soft_coverage.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"

@@ -5,9 +5,9 @@
 
 #include "encode/raymap/cost_volume.hpp"
 #include "encode/raymap/shape_map.hpp"
-#include "encode/raymap/silhouette_repair.hpp"
-#include "encode/raymap/visual_hull.hpp"
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/silhouette_repair.hpp"
+#include "encode/raymap/silhouettes/visual_hull.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 
 #include <cstdint>
 #include <functional>

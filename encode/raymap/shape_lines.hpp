@@ -2,8 +2,8 @@
 // From depths of captured pictures to the cells of a shape map (rayspace/object/shape_map.hpp): every line of every gap
 // sees the surfaces of the two pictures beside it, moved to its own viewpoint.
 
-#include "encode/raymap/visual_hull.hpp"
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/visual_hull.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/object/shape_map.hpp"
 

@@ -72,7 +72,8 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
      {"rayspace/*", "datasets-synthetic/measuring", "datasets-synthetic/showroom", "datasets-synthetic/street"}},
 
     {"encode/set", {"rayspace/*"}},
-    {"encode/raymap", {"rayspace/*", "encode/set"}},
+    {"encode/raymap/silhouettes", {"rayspace/*", "encode/set"}},
+    {"encode/raymap", {"rayspace/*", "encode/set", "encode/raymap/silhouettes"}},
     {"encode/codec", {"rayspace/*"}},
     {"encode/codec/board", {"rayspace/*", "encode/codec"}},
     {"encode", {"rayspace/*", "encode/set", "encode/raymap", "encode/codec", "encode/codec/board"}},

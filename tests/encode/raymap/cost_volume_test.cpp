@@ -3,7 +3,7 @@
 #include "encode/raymap/cost_volume.hpp"
 
 #include "encode/raymap/semi_global.hpp"
-#include "encode/raymap/visual_hull.hpp"
+#include "encode/raymap/silhouettes/visual_hull.hpp"
 #include "tests/encode/raymap/drawn_views.hpp"
 #include "tests/encode/raymap/striped_ball.hpp"
 

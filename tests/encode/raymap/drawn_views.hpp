@@ -1,7 +1,7 @@
 #pragma once
 // Working pictures of the drawn balls, and the plain twin of the visual hull.
 
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "tests/support/drawn_set.hpp"

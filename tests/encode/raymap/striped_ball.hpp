@@ -1,7 +1,7 @@
 #pragma once
 // Balls about the origin: one whose colour depends on height alone, and one without stripes.
 
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/geometry/camera.hpp"
 #include "rayspace/image/image.hpp"
 

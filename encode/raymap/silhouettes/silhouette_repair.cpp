@@ -1,4 +1,4 @@
-#include "encode/raymap/silhouette_repair.hpp"
+#include "encode/raymap/silhouettes/silhouette_repair.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 // view from behind would take the surface away from views of the front. What is found so lies within the hull that was
 // searched.
 
-#include "encode/raymap/visual_hull.hpp"
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/visual_hull.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/image/image.hpp"
 
 #include <glm/vec2.hpp>

@@ -5,7 +5,7 @@
 // in height. A column of a silhouette is a few runs of rows; so the hull above a place is an intersection of runs,
 // exact and without a grid of voxels.
 
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -4,7 +4,7 @@
 // vanish, and come back. What pictures agree about (silhouette_repair.hpp) says which part it is and how deep; the
 // colours are those of the nearest pictures that show it.
 
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/image/image.hpp"
 
 #include <glm/vec2.hpp>

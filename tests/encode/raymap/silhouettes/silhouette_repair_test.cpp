@@ -1,6 +1,6 @@
 // Parts that cut-outs lack, found from a ball whose depths are known.
 
-#include "encode/raymap/silhouette_repair.hpp"
+#include "encode/raymap/silhouettes/silhouette_repair.hpp"
 
 #include "tests/encode/raymap/drawn_views.hpp"
 #include "tests/encode/raymap/striped_ball.hpp"

@@ -1,4 +1,4 @@
-#include "encode/raymap/lost_parts.hpp"
+#include "encode/raymap/silhouettes/lost_parts.hpp"
 
 #include "encode/set/soft_coverage.hpp"
 #include "rayspace/base/median.hpp"

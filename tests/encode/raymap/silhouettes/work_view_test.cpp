@@ -1,6 +1,6 @@
 // Pictures as the depth search sees them.
 
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"

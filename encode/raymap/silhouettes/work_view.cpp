@@ -1,4 +1,4 @@
-#include "encode/raymap/work_view.hpp"
+#include "encode/raymap/silhouettes/work_view.hpp"
 
 #include "encode/set/soft_coverage.hpp"
 

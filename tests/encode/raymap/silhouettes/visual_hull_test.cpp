@@ -1,6 +1,6 @@
 // The hull that silhouettes leave, and the lines of a shape map that heed it.
 
-#include "encode/raymap/visual_hull.hpp"
+#include "encode/raymap/silhouettes/visual_hull.hpp"
 
 #include "encode/raymap/semi_global.hpp"
 #include "encode/raymap/shape_lines.hpp"

@@ -1,4 +1,4 @@
-#include "encode/raymap/visual_hull.hpp"
+#include "encode/raymap/silhouettes/visual_hull.hpp"
 
 #include <tbb/parallel_for.h>
 

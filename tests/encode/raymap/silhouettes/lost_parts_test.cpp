@@ -1,6 +1,6 @@
 // Large parts that cut-outs lack: which they are, and how they are painted.
 
-#include "encode/raymap/lost_parts.hpp"
+#include "encode/raymap/silhouettes/lost_parts.hpp"
 
 #include "tests/encode/raymap/drawn_views.hpp"
 #include "tests/encode/raymap/striped_ball.hpp"
