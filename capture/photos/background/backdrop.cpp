@@ -149,18 +149,21 @@ bool looks_even(const Rgba8& pixel, const Lab& look) {
     return delta_e(lab_from_linear(linear_rgb(pixel)), look) <= kEven_delta_e;
 }
 
-// Whether nearly all of the pictures' borders has one colour.
-bool have_even_borders(const std::vector<Image<Rgba8>>& pictures, const Lab& look) {
-    constexpr double kEvenShare = 0.95;
-    std::int64_t border = 0;
-    std::int64_t even = 0;
+// How even the black is that the pictures' borders show.
+BlackGround black_ground_of(const std::vector<Image<Rgba8>>& pictures, const Rgba8& colour) {
+    constexpr double kNearlyAll = 0.95;
+    const Lab look = lab_from_linear(linear_rgb(colour));
+    double border = 0, even = 0, exact = 0;
     for (const Image<Rgba8>& picture : pictures) {
         for_border(picture.width(), picture.height(), [&](int x, int y) {
+            const Rgba8& pixel = picture(x, y);
             ++border;
-            even += looks_even(picture(x, y), look) ? 1 : 0;
+            even += looks_even(pixel, look) ? 1 : 0;
+            exact += pixel == colour ? 1 : 0;
         });
     }
-    return static_cast<double>(even) >= kEvenShare * static_cast<double>(border);
+    if (even < kNearlyAll * border) return BlackGround::kNoneOrNoisy;
+    return exact < kNearlyAll * even ? BlackGround::kEven : BlackGround::kExact;
 }
 
 // Nowhere more than along the border, by its mean.
@@ -278,9 +281,10 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     }
     // Before an even black whatever is a little lighter is the object's: a black strap that turns about its own place
     // looks still, too, and where it is seen the backdrop would look noisy.
-    const Lab look = lab_from_linear(linear_rgb(found.colour));
-    found.even_black = turn && found.kind == BackdropKind::kBlack && have_even_borders(survey.samples, look);
-    if (found.even_black) {
+    if (turn && found.kind == BackdropKind::kBlack) found.black = black_ground_of(survey.samples, found.colour);
+    const bool even_black = found.black != BlackGround::kNoneOrNoisy;
+    if (even_black) {
+        const Lab look = lab_from_linear(linear_rgb(found.colour));
         std::transform(known.pixels().begin(), known.pixels().end(), still.colour.pixels().begin(),
                        known.pixels().begin(), [&](std::uint8_t is_known, const Rgba8& pixel) {
                            return looks_even(pixel, look) ? is_known : std::uint8_t{0};
@@ -295,7 +299,11 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     fill_unknown(still.colour, known);
     found.plate = std::move(still.colour);
     if (turn) found.noise_delta_e = plate_noise(samples, found.plate, found.known);
-    if (found.even_black) cap_noise(found.noise_delta_e);
+    if (even_black) cap_noise(found.noise_delta_e);
+    if (found.black == BlackGround::kExact) {
+        std::fill(found.plate.pixels().begin(), found.plate.pixels().end(), found.colour);
+        found.noise_delta_e = Image<float>(found.plate.width(), found.plate.height());
+    }
     return found;
 }
 

@@ -260,10 +260,18 @@ MaskOptions mask_options_for(const Backdrop& backdrop) {
     MaskOptions options;
     if (backdrop.kind == BackdropKind::kBlack) {
         options.min_shade = options.min_shade_colourful = options.max_shade = 1;
-        if (backdrop.even_black) {
+        if (backdrop.black == BlackGround::kEven) {
             options.plain_delta_e = .4F;
             options.possible_delta_e = .9F;
             options.certain_delta_e = 2;
+        } else if (backdrop.black == BlackGround::kExact) {
+            // A grey of code 1 is .27 away from black. What fades to black within the object has no rim there; a hole
+            // has one.
+            options.plain_delta_e = .15F;
+            options.possible_delta_e = .2F;
+            options.certain_delta_e = 2;
+            options.contrast_delta_e = .5F;
+            options.max_island = .012;
         }
     }
     // A plate that is known exactly, texture and all, is hardly met by chance.
@@ -345,7 +353,7 @@ Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const PlateView& pl
     Image<float> preference = preference_by(looks, photo, plate, options);
     if (options.thin_delta_e > 0) lean_to_object_in_thin_parts(photo, plate, looks.plate, options, preference);
     doubt_small_islands(preference, looks.plate, options.max_island);
-    result = cut_by_contrast(looks.photo, preference, {});
+    result = cut_by_contrast(looks.photo, preference, {.contrast_delta_e = options.contrast_delta_e});
     cv::Mat1b mask(result.height(), result.width(), result.data());
     keep_solid_parts(mask, preference, options.min_part);
     close_false_holes(mask, preference, looks.plate, options);
