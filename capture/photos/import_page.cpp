@@ -2,6 +2,7 @@
 
 #include "capture/opencv/opencv_image.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
 #include "rayspace/page/page_pictures.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace rs::capture {
 namespace {
@@ -102,15 +102,11 @@ constexpr int kMattes = 18;
 constexpr Rgba8 kMagenta{255, 0, 255, 255};
 
 std::string number(double value, int digits) {
-    if (!std::isfinite(value)) return "unknown";
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
+    return std::isfinite(value) ? with_digits(value, digits) : "unknown";
 }
 
 std::string deviation(double value, int digits) {
-    if (value == 0) return "held";
-    return std::isfinite(value) ? number(value, digits) : "unknown";
+    return value == 0 ? "held" : number(value, digits);
 }
 
 std::string what_it_rests_on(CalibrationMethod method) {

@@ -8,7 +8,7 @@
 namespace rs::compositor {
 namespace {
 
-constexpr double kFarthestPlace = 1e6;
+constexpr double kFarthestObject = 1e6;
 constexpr double kSmallestScale = 1e-6;
 
 // False where the text is anything but finite numbers with commas between them.
@@ -16,7 +16,7 @@ bool parse_numbers(std::string_view text, std::vector<double>& numbers) {
     while (true) {
         double number = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error != std::errc{} || !(std::abs(number) <= kFarthestPlace)) return false;
+        if (error != std::errc{} || !(std::abs(number) <= kFarthestObject)) return false;
         numbers.push_back(number);
         text.remove_prefix(static_cast<std::size_t>(end - text.data()));
         if (text.empty()) return true;

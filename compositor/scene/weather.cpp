@@ -1,6 +1,7 @@
 #include "compositor/scene/weather.hpp"
 
 #include "rayspace/base/printable.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <algorithm>
 
@@ -11,10 +12,6 @@ constexpr double kVisibilityInRain_m = 900;
 constexpr double kVisibilityInSnow_m = 320;
 constexpr float kSunThroughClouds = 0.35F;
 constexpr float kGreyFromAbove = 0.3F;  // of what the sun loses, as ambient light
-
-float luminance(const glm::vec3& colour) {
-    return glm::dot(colour, glm::vec3(0.2126F, 0.7152F, 0.0722F));
-}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include "compositor/scene/normal_map.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
+#include "rayspace/light/directions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +17,6 @@ namespace {
 
 constexpr int kFloorCorners = 96;
 constexpr int kFloorTexels = 64;  // of two squares
-
-float luminance(const glm::vec3& colour) {
-    return glm::dot(colour, glm::vec3(0.2126F, 0.7152F, 0.0722F));
-}
 
 capture::Texture linear_texture(const SceneTexture& from) {
     capture::Texture texture;

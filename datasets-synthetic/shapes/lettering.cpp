@@ -13,20 +13,20 @@ namespace {
 
 using glm::vec2;
 
-class Pen {
+class LetterPen {
 public:
     // Lifts the pen and draws straight lines through the points.
-    Pen& lines(std::initializer_list<vec2> points) {
+    LetterPen& lines(std::initializer_list<vec2> points) {
         strokes_.emplace_back();
         return on(points);
     }
     // Goes on from where the pen is.
-    Pen& on(std::initializer_list<vec2> points) {
+    LetterPen& on(std::initializer_list<vec2> points) {
         strokes_.back().insert(strokes_.back().end(), points);
         return *this;
     }
     // Goes on along an elliptic arc; 0 degrees is +x, counter-clockwise is positive.
-    Pen& arc(vec2 centre, vec2 radii, double from_deg, double to_deg) {
+    LetterPen& arc(vec2 centre, vec2 radii, double from_deg, double to_deg) {
         constexpr int kSteps = 20;
         for (int k = 0; k <= kSteps; ++k) {
             const double angle_rad = radians(from_deg + (to_deg - from_deg) * k / kSteps);
@@ -36,7 +36,7 @@ public:
         return *this;
     }
     // The belly of B, D, P, R between two heights, from the stem at x = 0 to `x`.
-    Pen& bowl(float low, float high, float x) {
+    LetterPen& bowl(float low, float high, float x) {
         const float half = 0.5F * (high - low);
         lines({{0.0F, high}});
         arc({x - 0.9F * half, low + half}, {0.9F * half, half}, 90, -90);
@@ -58,7 +58,7 @@ private:
 
 Letter pen_letter(char letter) {
     constexpr float kW = 0.66F;  // the usual width
-    Pen pen;
+    LetterPen pen;
     switch (letter) {
         case 'A':
             return pen.lines({{0, 0}, {0.38F, 1}, {0.76F, 0}}).lines({{0.13F, 0.34F}, {0.63F, 0.34F}}).lift();

@@ -1,5 +1,6 @@
 #include "datasets-synthetic/street/street.hpp"
 
+#include "datasets-synthetic/shapes/random.hpp"
 #include "datasets-synthetic/street/houses.hpp"
 #include "datasets-synthetic/street/obj_file.hpp"
 #include "datasets-synthetic/street/road.hpp"
@@ -80,7 +81,7 @@ void build_row(Street& street, RoomBuilder& builder, const std::string& name, ve
     }
 }
 
-void plant(Street& street, Random& random) {
+void plant_trees(Street& street, Random& random) {
     const auto tree = [&](float x, float z) {
         const int kind = random.below(2);
         const float turn = random.uniform(0, 360);
@@ -146,7 +147,7 @@ Street make_street(const StreetOptions& options) {
     build_row(street, builder, "house_es", {h, 0, behind}, -90, side, night, random);
     build_row(street, builder, "house_wn", {-h, 0, -behind}, 90, side, night, random);
     build_row(street, builder, "house_ws", {-h, 0, behind + side}, 90, side, night, random);
-    plant(street, random);
+    plant_trees(street, random);
     return street;
 }
 

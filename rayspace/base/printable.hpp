@@ -1,5 +1,5 @@
 #pragma once
-// Text that names of files or what stands in them are part of, for a terminal.
+// Text for people: with names of files and what stands in them, and with numbers.
 
 #include <string>
 #include <string_view>
@@ -9,5 +9,8 @@ namespace rs {
 // Control characters (those of Unicode's second block as UTF-8, too) and the byte 127 become \xNN, so that a name
 // cannot colour, move or clear anything; everything else stays, UTF-8 or not.
 std::string printable(std::string_view text);
+
+// So many digits behind the point.
+std::string with_digits(double value, int digits);
 
 }  // namespace rs

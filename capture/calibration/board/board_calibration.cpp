@@ -12,8 +12,8 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kHeldOutEvery = 10;
-constexpr double kOutlierDeviations = 5;
+constexpr int kCornerHeldOutEvery = 10;
+constexpr double kCornerOutlierDeviations = 5;
 constexpr double kLeastNoise_px = 0.01;  // below that corners are numerically exact
 constexpr double kContradiction_rad = radians(15);
 
@@ -83,7 +83,7 @@ void collect(Task& task) {
     for (std::size_t i = 0; i < task.views.size(); ++i) {
         if (!shows_board(task.views[i], task.design)) continue;
         for (const SeenCorner& seen : task.views[i].corners) {
-            const bool out = ++count % kHeldOutEvery == 0;
+            const bool out = ++count % kCornerHeldOutEvery == 0;
             (out ? task.held_out : task.used)
                 .push_back({static_cast<int>(i), corner_mm(task.design, seen.corner), seen.p});
         }
@@ -249,7 +249,7 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     for (int round = 0; round < 4; ++round) {
         task.options.noise_px = robust_noise_px(*turn, used);
         // Observations lost to a poor start get another chance.
-        used = within(*turn, task.used, kOutlierDeviations * task.options.noise_px);
+        used = within(*turn, task.used, kCornerOutlierDeviations * task.options.noise_px);
         if (!adjust(*turn, used, task.options)) {
             return Error{"board: the adjustment fails; check that the pictures are of one turn and in order"};
         }
@@ -284,7 +284,7 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     c.points = static_cast<int>(corners.size());
     c.observations = static_cast<int>(used.size());
     c.rms_px = fitted;
-    const auto held_out = within(*turn, task.held_out, kOutlierDeviations * task.options.noise_px);
+    const auto held_out = within(*turn, task.held_out, kCornerOutlierDeviations * task.options.noise_px);
     c.held_out_rms_px = rms_px(*turn, held_out);
     c.step_rad = median_step(c.model.angles_rad);
     for (std::size_t i = 0; i < views.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "capture/calibration/board/board_start.hpp"
 
+#include "capture/calibration/model/turn_of_cameras.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <Eigen/Dense>
@@ -112,13 +113,6 @@ std::optional<Axis> axis_of(const std::vector<BoardPose>& poses) {
 
 double wrapped(double angle) {
     return std::remainder(angle, 2 * kPi);
-}
-
-// The rotation nearest to a sum of rotations.
-Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& sum) {
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-    return svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
 }
 
 }  // namespace

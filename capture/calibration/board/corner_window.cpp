@@ -8,12 +8,12 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kArm = 0.42;           // of the cross, in squares
-constexpr double kMost = 0.2;           // squares that the corner may stand from where it was expected
-constexpr double kCorrelation = 0.7;    // with an ideal chessboard
-constexpr double kLeastContrast = 0.4;  // of the worst two sectors, to the mean contrast
+constexpr double kArm = 0.42;                 // of the cross, in squares
+constexpr double kMost = 0.2;                 // squares that the corner may stand from where it was expected
+constexpr double kCorrelation = 0.7;          // with an ideal chessboard
+constexpr double kLeastSectorContrast = 0.4;  // of the worst two sectors, to the mean contrast
 constexpr double kSmear_px = 3;
-constexpr int kMostSteps = 12;
+constexpr int kMostRefinements = 12;
 
 struct Window {
     int half = 0;      // samples from the middle to the rim
@@ -88,7 +88,7 @@ bool looks_right(const Window& window, bool first_is_black, double band) {
             whites += mean / 8;
         }
     }
-    return darkest_white - lightest_black > kLeastContrast * (whites - blacks);
+    return darkest_white - lightest_black > kLeastSectorContrast * (whites - blacks);
 }
 
 // From the window's middle to the corner, in squares.
@@ -128,7 +128,7 @@ std::optional<glm::dvec2> refined_corner(const cv::Mat1f& grey, const cv::Matx33
     const double band = std::clamp(margin - kSmear_px / std::max(1.0, narrow_px), 0.45 * margin, margin);
 
     glm::dvec2 centre(0);
-    for (int i = 0; i < kMostSteps; ++i) {
+    for (int i = 0; i < kMostRefinements; ++i) {
         if (!fill(window, grey, h, centre)) return std::nullopt;
         const auto step = offset(window, band);
         if (!step) return std::nullopt;

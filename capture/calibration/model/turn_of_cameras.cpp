@@ -49,14 +49,6 @@ std::optional<Vector3d> common_axis(const std::vector<Placed>& cameras) {
     return mean.col(1).dot(axis) < 0 ? Vector3d(-axis) : axis;
 }
 
-// The rotation nearest to a matrix.
-Matrix3d nearest_rotation(const Matrix3d& matrix) {
-    const Eigen::JacobiSVD<Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Matrix3d sign = Matrix3d::Identity();
-    sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-    return svd.matrixU() * sign * svd.matrixV().transpose();
-}
-
 // The angle about `axis` that takes orientation `from` nearest to `to`.
 double angle_between(const Vector3d& axis, const Matrix3d& from, const Matrix3d& to) {
     const Matrix3d q = to * from.transpose();
@@ -115,6 +107,13 @@ std::string with_digits(double number) {
 }
 
 }  // namespace
+
+Matrix3d nearest_rotation(const Matrix3d& matrix) {
+    const Eigen::JacobiSVD<Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Matrix3d sign = Matrix3d::Identity();
+    sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+    return svd.matrixU() * sign * svd.matrixV().transpose();
+}
 
 Result<TurnOfCameras> turn_of_cameras(std::span<const glm::dmat4> world_from_camera, const std::string& where) {
     if (world_from_camera.size() < 3) {

@@ -5,6 +5,8 @@
 #include "capture/calibration/model/turntable_model.hpp"
 #include "rayspace/base/result.hpp"
 
+#include <Eigen/Core>
+
 #include <span>
 #include <string>
 #include <vector>
@@ -27,5 +29,8 @@ struct TurnOfCameras {
 // that points up in the pictures counts as up. Errors, which begin with `where`: fewer than 3 cameras, cameras that do
 // not turn against each other or stand on the axis, misfits above the limits. Thread-safe.
 Result<TurnOfCameras> turn_of_cameras(std::span<const glm::dmat4> world_from_camera, const std::string& where);
+
+// The rotation nearest to a matrix, as to a sum of rotations.
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
 
 }  // namespace rs::capture

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLeastCorrelation = 0.85;
 constexpr double kFarthestMove_px = 3;      // from where the bundle expects the point
-constexpr double kLeastContrast = 3;        // of a levelled patch's grey values; below, there is nothing to align
+constexpr double kLeastPatchContrast = 3;   // of a levelled patch's grey values; below, there is nothing to align
 constexpr double kSharpDeviation_px = 0.1;  // an alignment surer than this in all directions has full weight
 constexpr double kTypicalNoise = 4;         // grey values squared
 constexpr double kWindowDeviation_px = 3;
@@ -189,7 +189,7 @@ std::optional<Patch> textured_patch(const PatchPicture& picture, glm::dvec2 cent
     }
     if (samples(patch) < kFewestSamples) return std::nullopt;
     level(patch);
-    if (contrast(patch) < kLeastContrast) return std::nullopt;
+    if (contrast(patch) < kLeastPatchContrast) return std::nullopt;
     return patch;
 }
 

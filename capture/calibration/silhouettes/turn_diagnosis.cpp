@@ -2,10 +2,10 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/base/printable.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 namespace rs::capture {
@@ -22,12 +22,6 @@ constexpr double kStepWarning_deg = 0.5;
 constexpr double kRepeat = 0.1;  // of the median step
 constexpr double kGap = 1.6;
 constexpr double kAxesApart_px = 0.5;
-
-std::string number(double value, int digits) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
-}
 
 // [view], of its candidates: those that agree with the rig.
 std::vector<double> agreeing_shares(const Bundle& bundle, std::span<const int> candidates) {
@@ -110,7 +104,7 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     const std::vector<std::size_t> apart = views_apart(bundle, candidates);
     const auto views = static_cast<double>(names.size());
     if (share < kFewestAgreeing || static_cast<double>(apart.size()) > kMostViewsApart * views) {
-        std::string text = "the pictures do not show one turn before a still camera: " + number(100 * share, 0) +
+        std::string text = "the pictures do not show one turn before a still camera: " + with_digits(100 * share, 0) +
                            " % of the observations agree with the best one";
         if (!apart.empty()) text += ", and not those of " + listed(apart, names);
         if (const auto moment = moment_of_change(agreeing_shares(bundle, candidates))) {
@@ -122,7 +116,7 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     }
     const double longer = std::max(model.lens.width, model.lens.height);
     if (rms_px(bundle) > kLargestRms * longer) {
-        return Error{"the best turn misses the observations by " + number(rms_px(bundle), 1) +
+        return Error{"the best turn misses the observations by " + with_digits(rms_px(bundle), 1) +
                      " px; are the pictures in the order they were taken, from one still camera?"};
     }
     const double usual = median_step(model.angles_rad);
@@ -131,13 +125,13 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
         if ((model.angles_rad[i] - model.angles_rad[i - 1]) * usual < -kRepeat * usual * usual) ++against;
     }
     if (std::abs(degrees(usual)) < 0.05 || against > 0.1 * views) {
-        return Error{"the angles make no turn (median step " + number(degrees(usual), 2) + " degrees, " +
+        return Error{"the angles make no turn (median step " + with_digits(degrees(usual), 2) + " degrees, " +
                      std::to_string(against) +
                      " steps against it); are the pictures in the order they were taken? Names are sorted naturally"};
     }
     const double turn_deg = std::abs(degrees(model.angles_rad.back() - model.angles_rad.front()));
     if (turn_deg < 15 || turn_deg > 400) {
-        return Error{"the pictures cover " + number(turn_deg, 1) +
+        return Error{"the pictures cover " + with_digits(turn_deg, 1) +
                      " degrees of turn; 15 to 400 are needed (one turn, without repeats)"};
     }
     if (!(deviations.f_px < kMostUncertainLens * model.lens.f_px)) {
@@ -165,23 +159,24 @@ std::vector<std::string> step_warnings(std::span<const double> angles, const Mod
         const double step = std::abs(usual) + off(i);
         if (std::abs(off(i)) <= tolerance(i)) continue;
         if (std::abs(step) < kRepeat * std::abs(usual)) {
-            lines.push_back(names[i] + " stands where " + names[i - 1] + " does (" + number(step, 2) +
+            lines.push_back(names[i] + " stands where " + names[i - 1] + " does (" + with_digits(step, 2) +
                             " degrees on); the turntable had not turned");
         } else if (i + 1 < angles.size() && std::abs(off(i) + off(i + 1)) <= tolerance(i)) {
-            lines.push_back(names[i] + " is " + number(std::abs(off(i)), 1) + " degrees off (" +
+            lines.push_back(names[i] + " is " + with_digits(std::abs(off(i)), 1) + " degrees off (" +
                             (off(i) > 0 ? "too far" : "not far enough") + "); its true angle is used");
             ++i;
         } else if (step > kGap * std::abs(usual)) {
-            lines.push_back("there is a gap of " + number(step, 1) + " degrees between " + names[i - 1] + " and " +
-                            names[i] + " where other steps are " + number(std::abs(usual), 1));
+            lines.push_back("there is a gap of " + with_digits(step, 1) + " degrees between " + names[i - 1] + " and " +
+                            names[i] + " where other steps are " + with_digits(std::abs(usual), 1));
         } else {
-            lines.push_back("the step from " + names[i - 1] + " to " + names[i] + " is " + number(step, 1) +
-                            " degrees where others are " + number(std::abs(usual), 1) + "; the true angles are used");
+            lines.push_back("the step from " + names[i - 1] + " to " + names[i] + " is " + with_digits(step, 1) +
+                            " degrees where others are " + with_digits(std::abs(usual), 1) +
+                            "; the true angles are used");
         }
     }
     const double closing = 360 - std::abs(degrees(angles.back() - angles.front()));
     if (closing > kGap * std::abs(usual) && closing < 90) {
-        lines.push_back("the turn does not close: " + number(closing, 1) + " degrees are missing between " +
+        lines.push_back("the turn does not close: " + with_digits(closing, 1) + " degrees are missing between " +
                         names.back() + " and " + names.front());
     }
     return lines;
@@ -195,7 +190,7 @@ std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const 
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (features[i] < 0.25 * ordinary) {
             lines.push_back(names[i] + " shows " + std::to_string(features[i]) + " features where others show " +
-                            number(ordinary, 0) + "; is it blurred?");
+                            with_digits(ordinary, 0) + "; is it blurred?");
         }
     }
     const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
@@ -215,15 +210,15 @@ std::string place_warning(std::span<const PicturePlace> places) {
         least = std::min(least, place.scale);
         most = std::max(most, place.scale);
     }
-    return "the pictures were moved (by up to " + number(shift_px, 0) + " px) and scaled (by up to " +
-           number(100 * (most / least - 1), 0) + " %) one by one, as shops do; they are put back";
+    return "the pictures were moved (by up to " + with_digits(shift_px, 0) + " px) and scaled (by up to " +
+           with_digits(100 * (most / least - 1), 0) + " %) one by one, as shops do; they are put back";
 }
 
 std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_outlines, int reduction) {
     const double apart = std::abs(of_tracks.position_px - of_outlines.position_px);
     const double believed = 3 * std::hypot(of_tracks.deviation_px, of_outlines.deviation_px);
     if (!(apart > std::max(believed, kAxesApart_px * reduction))) return std::nullopt;
-    return "the object's texture turns about an axis " + number(apart, 1) +
+    return "the object's texture turns about an axis " + with_digits(apart, 1) +
            " px beside that of its outlines, which is taken; stripes wound around the object mislead like this, but so "
            "do cut-outs that lack the same side in all pictures: look at those, or put a printed board under the "
            "object";

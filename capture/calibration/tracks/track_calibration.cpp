@@ -21,11 +21,11 @@ namespace {
 
 constexpr std::size_t kFewestViews = 5;
 constexpr std::size_t kFewestTracks = 40;
-constexpr std::size_t kHeldOutEvery = 10;  // of the tracks
+constexpr std::size_t kTrackHeldOutEvery = 10;  // of the tracks
 constexpr double kFewestAgreeingPlaced = 0.75;
 constexpr int kPlaceRounds = 1;
 constexpr double kLossDeviations = 2;
-constexpr double kOutlierDeviations = 4;
+constexpr double kTrackOutlierDeviations = 4;
 constexpr double kSharedError_px = 0.2;  // what the true errors on photographs with known truth ask for
 constexpr std::size_t kEnoughWideTracks = 80;
 constexpr double kWideArc_rad = 0.35;
@@ -41,11 +41,12 @@ constexpr int kRoughIterations = 12;
 constexpr double kRoughlyEnough = 1e-4;
 
 void split(const std::vector<Track>& tracks, std::vector<Track>& part, std::vector<Track>& held_out) {
-    for (std::size_t i = 0; i < tracks.size(); ++i) (i % kHeldOutEvery == 3 ? held_out : part).push_back(tracks[i]);
+    for (std::size_t i = 0; i < tracks.size(); ++i)
+        (i % kTrackHeldOutEvery == 3 ? held_out : part).push_back(tracks[i]);
 }
 
 double outlier_limit(const Bundle& bundle, int reduction) {
-    return std::max(kLeastOutlierLimit_px * reduction, kOutlierDeviations * robust_deviation_px(bundle));
+    return std::max(kLeastOutlierLimit_px * reduction, kTrackOutlierDeviations * robust_deviation_px(bundle));
 }
 
 std::vector<ViewFit> fits(const Bundle& bundle) {
@@ -174,7 +175,8 @@ std::optional<Bundle> refined(Bundle bundle, const TurnPictures& turn, BundleOpt
         for (int again = 0; again < 2; ++again) {
             options.loss_px = std::max(0.05 * turn.reduction, kLossDeviations * robust_deviation_px(bundle));
             if (!adjust(bundle, rough(options))) return std::nullopt;
-            drop_outliers(bundle, std::max(0.2 * turn.reduction, kOutlierDeviations * robust_deviation_px(bundle)));
+            drop_outliers(bundle,
+                          std::max(0.2 * turn.reduction, kTrackOutlierDeviations * robust_deviation_px(bundle)));
         }
     }
     if (!adjust(bundle, options)) return std::nullopt;

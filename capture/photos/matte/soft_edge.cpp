@@ -56,15 +56,15 @@ LinearRgb rgb(const cv::Vec3f& v) {
 }
 
 // What a pixel's colour says of its alpha.
-struct Reading {
+struct AlphaReading {
     float alpha = 0;
     float variance = 0;
 };
 
 // The projection of `colour` between `backdrop` and `object` that is least led astray by how both scatter (Fisher's
 // linear discriminant), where a pixel is expected to show `expected` of the object.
-Reading read_alpha(const cv::Vec3f& colour, const cv::Vec3f& object, const cv::Vec3f& backdrop,
-                   const Side::Covariance& of_object, const Side::Covariance& of_backdrop, float expected) {
+AlphaReading read_alpha(const cv::Vec3f& colour, const cv::Vec3f& object, const cv::Vec3f& backdrop,
+                        const Side::Covariance& of_object, const Side::Covariance& of_backdrop, float expected) {
     const cv::Vec3f span = object - backdrop;
     const Side::Covariance c = of_object * (expected * expected) + of_backdrop * ((1 - expected) * (1 - expected));
     cv::Matx33f scatter(c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5]);
@@ -93,7 +93,7 @@ public:
 
     static float by_distance(float distance_px) { return std::clamp(0.5F + kAlphaPerPx * distance_px, 0.0F, 1.0F); }
 
-    void learn(float distance_px, const Reading& reading) {
+    void learn(float distance_px, const AlphaReading& reading) {
         constexpr double kClearVariance = 0.05 * 0.05;
         const double weight = std::pow(1 + reading.variance / kClearVariance, -2);
         Bin& bin = bins_[bin_of(distance_px)];
@@ -103,7 +103,7 @@ public:
         bin.noise += weight * reading.variance;
     }
 
-    [[nodiscard]] Reading at(float distance_px) const {
+    [[nodiscard]] AlphaReading at(float distance_px) const {
         constexpr double kLeastVariance = 0.03 * 0.03;
         const Bin& bin = bins_[bin_of(distance_px)];
         const double mean = bin.sum / bin.weight;
@@ -131,7 +131,7 @@ float snapped(float alpha) {
 struct InBand {
     int x, y;
     float distance_px;
-    Reading reading;
+    AlphaReading reading;
 };
 
 SoftEdge softened(const cv::Mat3f& light, const cv::Mat1b& inside, int band_px, float leeway) {
@@ -143,8 +143,8 @@ SoftEdge softened(const cv::Mat3f& light, const cv::Mat1b& inside, int band_px, 
     }
     std::vector<InBand> in_band;
     for_each_in_band(light, distance, band_px, [&](int x, int y, const Side& object, const Side& backdrop) {
-        const Reading reading = read_alpha(light(y, x), object.mean, backdrop.mean, object.covariance,
-                                           backdrop.covariance, EdgeProfile::by_distance(distance(y, x)));
+        const AlphaReading reading = read_alpha(light(y, x), object.mean, backdrop.mean, object.covariance,
+                                                backdrop.covariance, EdgeProfile::by_distance(distance(y, x)));
         edge.object(x, y) = rgb(object.mean);
         edge.backdrop(x, y) = rgb(backdrop.mean);
         in_band.push_back({x, y, distance(y, x), reading});
@@ -152,7 +152,7 @@ SoftEdge softened(const cv::Mat3f& light, const cv::Mat1b& inside, int band_px, 
     EdgeProfile profile(band_px);
     for (const InBand& p : in_band) profile.learn(p.distance_px, p.reading);
     for (const InBand& p : in_band) {
-        const Reading expected = profile.at(p.distance_px);
+        const AlphaReading expected = profile.at(p.distance_px);
         const float variance = leeway * leeway * expected.variance;
         const float trusted = variance / (variance + p.reading.variance);
         edge.alpha(p.x, p.y) = snapped(expected.alpha + trusted * (p.reading.alpha - expected.alpha));

@@ -11,7 +11,7 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kPatch_px = 15;
+constexpr int kCompared_px = 15;
 constexpr int kGrid_px = 12;
 constexpr std::size_t kMaxPairs = 24;
 constexpr float kMinMatch = 0.85F;     // normalised correlation
@@ -40,8 +40,8 @@ cv::Mat1b grey(ConstImageView<Rgba8> picture) {
 
 // True where the patch shows nothing but the object.
 bool is_solid(ConstImageView<Rgba8> picture, int left, int top) {
-    for (int y = top; y < top + kPatch_px; ++y) {
-        for (int x = left; x < left + kPatch_px; ++x) {
+    for (int y = top; y < top + kCompared_px; ++y) {
+        for (int x = left; x < left + kCompared_px; ++x) {
             if (picture(x, y).a < 250) return false;
         }
     }
@@ -52,11 +52,12 @@ bool is_solid(ConstImageView<Rgba8> picture, int left, int top) {
 // where the best place lies on the edge of the search.
 std::optional<cv::Point> find_patch(const cv::Mat1b& from, const cv::Mat1b& to, cv::Point at, cv::Size reach) {
     const cv::Rect everywhere(0, 0, to.cols, to.rows);
-    const cv::Rect window = everywhere & cv::Rect(at.x - reach.width, at.y - reach.height, kPatch_px + 2 * reach.width,
-                                                  kPatch_px + 2 * reach.height);
-    if (window.width <= kPatch_px || window.height <= kPatch_px) return std::nullopt;
+    const cv::Rect window = everywhere & cv::Rect(at.x - reach.width, at.y - reach.height,
+                                                  kCompared_px + 2 * reach.width, kCompared_px + 2 * reach.height);
+    if (window.width <= kCompared_px || window.height <= kCompared_px) return std::nullopt;
     cv::Mat1f likeness;
-    cv::matchTemplate(to(window), from(cv::Rect(at, cv::Size(kPatch_px, kPatch_px))), likeness, cv::TM_CCOEFF_NORMED);
+    cv::matchTemplate(to(window), from(cv::Rect(at, cv::Size(kCompared_px, kCompared_px))), likeness,
+                      cv::TM_CCOEFF_NORMED);
     double best = 0;
     cv::Point where;
     cv::minMaxLoc(likeness, nullptr, &best, nullptr, &where);
@@ -70,19 +71,19 @@ std::vector<Motion> motions_between(ConstImageView<Rgba8> first, ConstImageView<
     std::vector<Motion> motions;
     const cv::Mat1b from = grey(first);
     const cv::Mat1b to = grey(second);
-    for (int y = 0; y + kPatch_px <= from.rows; y += kGrid_px) {
-        for (int x = 0; x + kPatch_px <= from.cols; x += kGrid_px) {
+    for (int y = 0; y + kCompared_px <= from.rows; y += kGrid_px) {
+        for (int x = 0; x + kCompared_px <= from.cols; x += kGrid_px) {
             if (!is_solid(first, x, y)) continue;
             cv::Scalar mean;
             cv::Scalar deviation;
-            cv::meanStdDev(from(cv::Rect(x, y, kPatch_px, kPatch_px)), mean, deviation);
+            cv::meanStdDev(from(cv::Rect(x, y, kCompared_px, kCompared_px)), mean, deviation);
             if (deviation[0] < kMinContrast) continue;
             const auto there = find_patch(from, to, {x, y}, reach);
             if (!there || !is_solid(second, there->x, there->y)) continue;
             const auto back = find_patch(to, from, *there, reach);
             if (!back || std::abs(back->x - x) > kMaxReturnError_px || std::abs(back->y - y) > kMaxReturnError_px)
                 continue;
-            const double centre = kPatch_px / 2.0;
+            const double centre = kCompared_px / 2.0;
             motions.push_back({(x + there->x) / 2.0 + centre - axis_x_px, (y + there->y) / 2.0 + centre,
                                static_cast<double>(there->x - x), static_cast<double>(there->y - y)});
         }

@@ -11,8 +11,8 @@ namespace rs::capture {
 
 namespace {
 
-constexpr int kFewest = 4, kMost = 64;  // diameters
-constexpr float kNarrower_px = 0.4F;    // that a line may be than its disc, between two diameters
+constexpr int kFewestDiameters = 4, kMostDiameters = 64;  // diameters
+constexpr float kNarrower_px = 0.4F;                      // that a line may be than its disc, between two diameters
 constexpr float kHidden_px = 0.3F;      // that a line may be narrower because its crease hides in the last chord
 constexpr float kMostAngle_rad = 3.1F;  // of a crease; its half has a tangent
 constexpr float kFlattest = 0.01F;      // cosine of a ray and a surface's normal, that is told from a flatter one
@@ -32,10 +32,10 @@ void span_disc(const glm::vec3& direction, glm::vec3& u, glm::vec3& v) {
 
 // How many diameters a disc needs, so that lines are as wide as it is.
 std::size_t diameters_of(float radius_px) {
-    std::size_t count = kFewest;
+    std::size_t count = kFewestDiameters;
     // 1 - cos(x) is x * x / 2 here.
-    for (float narrower_px = radius_px * kPiF * kPiF / (8.0F * kFewest * kFewest);
-         narrower_px > kNarrower_px && count < kMost; narrower_px /= 4.0F) {
+    for (float narrower_px = radius_px * kPiF * kPiF / (8.0F * kFewestDiameters * kFewestDiameters);
+         narrower_px > kNarrower_px && count < kMostDiameters; narrower_px /= 4.0F) {
         count *= 2;
     }
     return count;
@@ -43,10 +43,10 @@ std::size_t diameters_of(float radius_px) {
 
 // Of each diameter after the fewest: cosine and sine from the first one. The first N of all, for N = 8, 16, ..., are
 // spread evenly.
-std::array<glm::vec2, kMost - kFewest> make_turns() {
-    std::array<glm::vec2, kMost - kFewest> turns;
+std::array<glm::vec2, kMostDiameters - kFewestDiameters> make_turns() {
+    std::array<glm::vec2, kMostDiameters - kFewestDiameters> turns;
     std::size_t count = 0;
-    for (int all = 2 * kFewest; all <= kMost; all *= 2) {
+    for (int all = 2 * kFewestDiameters; all <= kMostDiameters; all *= 2) {
         for (int odd = 1; odd < all; odd += 2) {
             const double turn_rad = kPi * odd / all;
             turns[count++] = glm::vec2(glm::dvec2(std::cos(turn_rad), std::sin(turn_rad)));
@@ -55,7 +55,7 @@ std::array<glm::vec2, kMost - kFewest> make_turns() {
     return turns;
 }
 
-const std::array<glm::vec2, kMost - kFewest> kTurns = make_turns();
+const std::array<glm::vec2, kMostDiameters - kFewestDiameters> kTurns = make_turns();
 
 // Of the disc that u and v span.
 glm::vec3 way_of(std::size_t diameter, const glm::vec3& u, const glm::vec3& v) {
@@ -70,7 +70,7 @@ glm::vec3 way_of(std::size_t diameter, const glm::vec3& u, const glm::vec3& v) {
         case 3:
             return (u - v) * kDiagonal;
         default:
-            return u * kTurns[diameter - kFewest].x + v * kTurns[diameter - kFewest].y;
+            return u * kTurns[diameter - kFewestDiameters].x + v * kTurns[diameter - kFewestDiameters].y;
     }
 }
 

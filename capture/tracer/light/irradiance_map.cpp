@@ -18,13 +18,13 @@ glm::vec3 direction_of(float polar, float turn) {
     return {std::sin(polar) * std::sin(turn), std::cos(polar), -std::sin(polar) * std::cos(turn)};
 }
 
-struct Patch {
+struct SkyPatch {
     glm::vec3 direction;
     glm::vec3 flux;  // radiance times solid angle
 };
 
-std::vector<Patch> patches_of(const EnvironmentMap& environment) {
-    std::vector<Patch> patches;
+std::vector<SkyPatch> patches_of(const EnvironmentMap& environment) {
+    std::vector<SkyPatch> patches;
     const float step = kPiF / kSkyRows;
     for (int row = 0; row < kSkyRows; ++row) {
         const float top = static_cast<float>(row) * step;
@@ -50,14 +50,14 @@ std::vector<Patch> patches_of(const EnvironmentMap& environment) {
 
 IrradianceMap::IrradianceMap(const EnvironmentMap& environment) {
     if (environment.is_black()) return;
-    const std::vector<Patch> patches = patches_of(environment);
+    const std::vector<SkyPatch> patches = patches_of(environment);
     grid_ = Image<RgbaF>(kColumns, kRows);
     for (int row = 0; row < kRows; ++row) {
         for (int column = 0; column < kColumns; ++column) {
             const glm::vec3 normal = direction_of(kPiF * static_cast<float>(row) / (kRows - 1),
                                                   2.0F * kPiF * static_cast<float>(column) / kColumns);
             glm::vec3 sum(0.0F);
-            for (const Patch& patch : patches) sum += patch.flux * std::max(glm::dot(normal, patch.direction), 0.0F);
+            for (const SkyPatch& patch : patches) sum += patch.flux * std::max(glm::dot(normal, patch.direction), 0.0F);
             grid_(column, row) = {sum.r, sum.g, sum.b, 1};
         }
     }

@@ -19,7 +19,7 @@ namespace rs::capture {
 
 namespace {
 
-constexpr std::uint64_t kMaxFile_bytes = std::uint64_t{4} << 30;
+constexpr std::uint64_t kMaxPly_bytes = std::uint64_t{4} << 30;
 
 using Problem = std::optional<std::string>;
 
@@ -259,7 +259,7 @@ private:
 }  // namespace
 
 Result<std::string> read_plain_ply(const std::filesystem::path& path) {
-    const auto bytes = read_file(path, kMaxFile_bytes);
+    const auto bytes = read_file(path, kMaxPly_bytes);
     if (!bytes) return bytes.error();
     const auto wrong = [&](const std::string& problem) {
         return Error{path.string() + ": cannot be read as a mesh: " + problem};

@@ -44,7 +44,7 @@ struct Mark {
 };
 
 // Wall and table meet in a line parallel to the picture at depth `edge_z` (negative: behind the axis).
-struct Room {
+struct StillRoom {
     double unit;  // length of the scene that a feature of 1 spans
     double edge_z;
     double table_y;
@@ -81,7 +81,7 @@ Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Plate& plate, std::uin
     const glm::dvec3 eye(0, plan.camera_height, plan.distance);
     const auto ray = [&](double x, double y) { return table_ray(lens, pose, {x, y}).value_or(glm::dvec3(0, 0, -1)); };
 
-    Room room;
+    StillRoom room;
     room.unit = 0.25 * plan.distance;
     room.table_y = plate.foot();
     room.plate_radius = plate.surface == PlateSurface::none ? 0 : plate.radius;

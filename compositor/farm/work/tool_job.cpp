@@ -6,6 +6,7 @@
 #include "rayspace/file/input_list.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <memory>
 #include <optional>

@@ -18,18 +18,18 @@ namespace {
 constexpr int kAround = 12;             // views of each elevation
 constexpr std::size_t kElevations = 3;  // at most
 constexpr double kSteepest_rad = kPi / 3;
-constexpr double kDistance = 6;       // of the viewpoint from the axis, object radii
-constexpr double kAcross_px = 64;     // the bound's larger side
-constexpr int kFrame_px = 2048;       // more than any view takes
-constexpr std::uint8_t kSolid = 128;  // alpha
-constexpr double kJump_px = 8;        // between neighbours of one surface, lengths of a pixel there
+constexpr double kDistance = 6;            // of the viewpoint from the axis, object radii
+constexpr double kAcross_px = 64;          // the bound's larger side
+constexpr int kFrame_px = 2048;            // more than any view takes
+constexpr std::uint8_t kSolidAlpha = 128;  // alpha
+constexpr double kJump_px = 8;             // between neighbours of one surface, lengths of a pixel there
 
 struct ShellView {
     Camera camera;  // object radii
     Image<Rgba8> picture;
     Image<float> depths;  // object radii, 0 where there is nothing
 
-    [[nodiscard]] bool solid(int x, int y) const { return picture(x, y).a >= kSolid && depths(x, y) > 0; }
+    [[nodiscard]] bool solid(int x, int y) const { return picture(x, y).a >= kSolidAlpha && depths(x, y) > 0; }
     [[nodiscard]] glm::dvec3 point(double x, double y, double depth) const {
         return camera.centre() + depth * camera.ray(x, y);
     }
@@ -41,7 +41,7 @@ struct ShellView {
         const int row = static_cast<int>(std::floor(at.y));
         for (int y = std::max(row - 1, 0); y <= std::min(row + 1, picture.height() - 1); ++y) {
             for (int x = std::max(column - 1, 0); x <= std::min(column + 1, picture.width() - 1); ++x) {
-                if (picture(x, y).a >= kSolid) return true;
+                if (picture(x, y).a >= kSolidAlpha) return true;
             }
         }
         return false;

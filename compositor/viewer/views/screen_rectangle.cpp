@@ -11,7 +11,7 @@ namespace rs::compositor {
 namespace {
 
 constexpr int kSides = 16;
-constexpr double kNearest = 1e-3;  // axial depth, object radii: what is nearer is cut off
+constexpr double kCutOff = 1e-3;  // axial depth, object radii: what is nearer is cut off
 
 // The corners of a prism around the cylinder, in camera coordinates with depth as z.
 std::array<glm::dvec3, 2 * kSides> prism_corners(const BoundingCylinder& bound, const Camera& camera) {
@@ -45,14 +45,14 @@ std::optional<ScreenRectangle> covering_rectangle(const BoundingCylinder& bound,
     };
     const auto corners = prism_corners(bound, camera);
     for (const glm::dvec3& p : corners) {
-        if (p.z >= kNearest) {
+        if (p.z >= kCutOff) {
             include(p);
             continue;
         }
         // The prism is convex: cutting it at the near plane leaves the corners in front and points between a corner in
         // front and one behind. All such pairs are taken; those that are no edges lie inside and do no harm.
         for (const glm::dvec3& q : corners) {
-            if (q.z > kNearest) include(p + (q - p) * ((kNearest - p.z) / (q.z - p.z)));
+            if (q.z > kCutOff) include(p + (q - p) * ((kCutOff - p.z) / (q.z - p.z)));
         }
     }
     left = std::floor(std::max(left, 0.0));

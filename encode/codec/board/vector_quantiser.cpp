@@ -16,20 +16,20 @@ std::int16_t rounded_quotient(std::int64_t sum, std::int64_t weight) {
     return static_cast<std::int16_t>(std::clamp<std::int64_t>((sum + half) / weight, -128, 127));
 }
 
-struct Sums {
+struct BlockSums {
     std::vector<std::int64_t> values;  // [entry][dimension]
     std::vector<std::int64_t> weights;
     std::vector<std::int64_t> errors;  // [entry]
 };
 
 // What the vectors of each entry's cell add up to.
-Sums sum_cells(const TrainedBook& book, const WeightedVectors& vectors) {
+BlockSums sum_cells(const TrainedBook& book, const WeightedVectors& vectors) {
     std::vector<Nearest> nearest(vectors.count());
     const auto dimensions = static_cast<std::size_t>(book.dimensions);
     tbb::parallel_for(std::size_t{0}, nearest.size(), [&](std::size_t i) {
         nearest[i] = nearest_entry(book, &vectors.values[i * dimensions], &vectors.weights[i * dimensions]);
     });
-    Sums sums;
+    BlockSums sums;
     sums.values.resize(book.entries.size());
     sums.weights.resize(book.entries.size());
     sums.errors.resize(book.count());
@@ -47,7 +47,7 @@ Sums sum_cells(const TrainedBook& book, const WeightedVectors& vectors) {
 
 // Moves every entry but the first to the middle of its cell; an entry without vectors goes beside the one with the
 // largest error.
-void move_entries(TrainedBook& book, const Sums& sums) {
+void move_entries(TrainedBook& book, const BlockSums& sums) {
     const auto dimensions = static_cast<std::size_t>(book.dimensions);
     std::vector<std::int64_t> errors = sums.errors;
     for (std::size_t entry = 1; entry < book.count(); ++entry) {

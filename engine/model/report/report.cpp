@@ -7,7 +7,7 @@
 namespace rs::engine::model {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // To those of the same block in other pipes, where there are any.
 void add_block(BlockShare share, std::vector<BlockShare>& blocks) {
@@ -59,8 +59,8 @@ ChannelReport channel_report(const MemoryController& memory, const ActivityCount
     return channel;
 }
 
-Json json_of(const ChannelReport& channel) {
-    Json clients = Json::object();
+OrderedJson json_of(const ChannelReport& channel) {
+    OrderedJson clients = OrderedJson::object();
     for (const MemoryTraffic& traffic : channel.clients) {
         clients[traffic.client] = {
             {"bytes", traffic.words * 8}, {"words", traffic.words}, {"null_reads", traffic.nulls}};
@@ -74,13 +74,13 @@ Json json_of(const ChannelReport& channel) {
             {"occupied_while_rendering", channel.rendering.occupied()}};
 }
 
-Json json_of(const Interval& interval) {
-    Json json{{"board_cycles", interval.board_cycles},
-              {"seconds", interval.seconds},
-              {"limiting_block", interval.limiting_block},
-              {"blocks", Json::object()}};
+OrderedJson json_of(const Interval& interval) {
+    OrderedJson json{{"board_cycles", interval.board_cycles},
+                     {"seconds", interval.seconds},
+                     {"limiting_block", interval.limiting_block},
+                     {"blocks", OrderedJson::object()}};
     for (const BlockShare& block : interval.blocks) {
-        Json cycles = Json::object();
+        OrderedJson cycles = OrderedJson::object();
         for (std::size_t a = 0; a < kActivities; ++a) {
             if (block.counts.cycles[a] > 0) {
                 cycles[std::string(activity_name(static_cast<Activity>(a)))] = block.counts.cycles[a];
@@ -131,22 +131,22 @@ BoardReport make_report(const Board& board, const BoardRun& run) {
 }
 
 std::string report_json(const BoardReport& report) {
-    Json json{{"config", report.config},
-              {"clock_mhz", report.clock_mhz},
-              {"rendering_cycles", report.cycles},
-              {"pictures", report.pictures},
-              {"pixels", report.pixels},
-              {"render_cycles", report.render_cycles},
-              {"mpixels_per_second", report.pixels_per_second / 1e6},
-              {"rendering_cycles_per_second", report.cycles_per_second},
-              {"arrivals_per_second", report.arrivals_per_second},
-              {"rendering", json_of(report.rendering)},
-              {"delivering", json_of(report.delivering)},
-              {"host_bus",
-               {{"image_bytes", report.bus.image_bytes},
-                {"bursts", report.bus.bursts},
-                {"retries", report.bus.retries},
-                {"register_writes", report.bus.register_writes}}}};
+    OrderedJson json{{"config", report.config},
+                     {"clock_mhz", report.clock_mhz},
+                     {"rendering_cycles", report.cycles},
+                     {"pictures", report.pictures},
+                     {"pixels", report.pixels},
+                     {"render_cycles", report.render_cycles},
+                     {"mpixels_per_second", report.pixels_per_second / 1e6},
+                     {"rendering_cycles_per_second", report.cycles_per_second},
+                     {"arrivals_per_second", report.arrivals_per_second},
+                     {"rendering", json_of(report.rendering)},
+                     {"delivering", json_of(report.delivering)},
+                     {"host_bus",
+                      {{"image_bytes", report.bus.image_bytes},
+                       {"bursts", report.bus.bursts},
+                       {"retries", report.bus.retries},
+                       {"register_writes", report.bus.register_writes}}}};
     for (std::size_t c = 0; c < report.channels.size(); ++c) {
         json["memory_channel_" + std::to_string(c)] = json_of(report.channels[c]);
     }
