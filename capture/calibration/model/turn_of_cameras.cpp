@@ -1,12 +1,12 @@
 #include "capture/calibration/model/turn_of_cameras.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
 
 #include <Eigen/Dense>
 
 #include <cmath>
 #include <complex>
-#include <cstdio>
 
 namespace rs::capture {
 namespace {
@@ -100,12 +100,6 @@ CameraPose pose_of(const Matrix3d& camera_from_table) {
     return pose;
 }
 
-std::string with_digits(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", number);
-    return text;
-}
-
 }  // namespace
 
 Matrix3d nearest_rotation(const Matrix3d& matrix) {
@@ -152,13 +146,14 @@ Result<TurnOfCameras> turn_of_cameras(std::span<const glm::dmat4> world_from_cam
     // Written so that NaN is refused, too.
     if (!(turn.orientation_misfit_deg <= kMaxOrientationMisfit_deg)) {
         return Error{where + ": is not of a turntable: its cameras' directions are off a turn about a single axis by " +
-                     with_digits(turn.orientation_misfit_deg) + " degrees, most in view " + std::to_string(worst + 1) +
-                     "; at most " + with_digits(kMaxOrientationMisfit_deg) + " is taken"};
+                     with_digits(turn.orientation_misfit_deg, 2) + " degrees, most in view " +
+                     std::to_string(worst + 1) + "; at most " + with_digits(kMaxOrientationMisfit_deg, 0) +
+                     " is taken"};
     }
     if (!(turn.place_misfit <= kMaxPlaceMisfit)) {
         return Error{where + ": is not of a turntable: its cameras' places are off a circle about a single axis by " +
-                     with_digits(100 * turn.place_misfit) + " % of their distance; at most " +
-                     with_digits(100 * kMaxPlaceMisfit) + " % is taken"};
+                     with_digits(100 * turn.place_misfit, 1) + " % of their distance; at most " +
+                     with_digits(100 * kMaxPlaceMisfit, 0) + " % is taken"};
     }
 
     Matrix3d world_from_table;

@@ -30,7 +30,7 @@ struct TurnOfCameras {
 // not turn against each other or stand on the axis, misfits above the limits. Thread-safe.
 Result<TurnOfCameras> turn_of_cameras(std::span<const glm::dmat4> world_from_camera, const std::string& where);
 
-// The rotation nearest to a matrix, as to a sum of rotations.
+// The rotation nearest to a matrix, for instance to a sum of rotations.
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
 
 }  // namespace rs::capture

@@ -149,21 +149,22 @@ bool looks_even(const Rgba8& pixel, const Lab& look) {
     return delta_e(lab_from_linear(linear_rgb(pixel)), look) <= kEven_delta_e;
 }
 
-// How even the black is that the pictures' borders show.
-BlackGround black_ground_of(const std::vector<Image<Rgba8>>& pictures, const Rgba8& colour) {
-    constexpr double kNearlyAll = 0.95;
-    const Lab look = lab_from_linear(linear_rgb(colour));
-    double border = 0, even = 0, exact = 0;
-    for (const Image<Rgba8>& picture : pictures) {
+// How even the black is that the pictures' borders show. Where parts of the object fade to black at the border of some
+// pictures, others show the backdrop alone.
+BlackGround black_ground_of(const Survey& survey, const Lab& look) {
+    constexpr double kEvenShare = 0.95;
+    constexpr std::ptrdiff_t kPureOneIn = 4;  // pictures
+    std::int64_t border = 0;
+    std::int64_t even = 0;
+    for (const Image<Rgba8>& picture : survey.samples) {
         for_border(picture.width(), picture.height(), [&](int x, int y) {
-            const Rgba8& pixel = picture(x, y);
             ++border;
-            even += looks_even(pixel, look) ? 1 : 0;
-            exact += pixel == colour ? 1 : 0;
+            even += looks_even(picture(x, y), look) ? 1 : 0;
         });
     }
-    if (even < kNearlyAll * border) return BlackGround::kNoneOrNoisy;
-    return exact < kNearlyAll * even ? BlackGround::kEven : BlackGround::kExact;
+    if (static_cast<double>(even) < kEvenShare * static_cast<double>(border)) return BlackGround::kUnknownOrNoisy;
+    const auto pure = std::count(survey.pure_black_border.begin(), survey.pure_black_border.end(), 1);
+    return kPureOneIn * pure >= std::ssize(survey.samples) ? BlackGround::kExact : BlackGround::kEven;
 }
 
 // Nowhere more than along the border, by its mean.
@@ -281,10 +282,17 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     }
     // Before an even black whatever is a little lighter is the object's: a black strap that turns about its own place
     // looks still, too, and where it is seen the backdrop would look noisy.
-    if (turn && found.kind == BackdropKind::kBlack) found.black = black_ground_of(survey.samples, found.colour);
-    const bool even_black = found.black != BlackGround::kNoneOrNoisy;
-    if (even_black) {
-        const Lab look = lab_from_linear(linear_rgb(found.colour));
+    const Lab look = lab_from_linear(linear_rgb(found.colour));
+    if (turn && found.kind == BackdropKind::kBlack) found.black = black_ground_of(survey, look);
+    if (found.black == BlackGround::kExact) {
+        found.colour = {0, 0, 0, 255};
+        found.untouched = {};  // nor does its exposure change
+        found.plate = Image<Rgba8>(known.width(), known.height(), found.colour);
+        found.known = Image<std::uint8_t>(known.width(), known.height(), std::uint8_t{255});
+        found.noise_delta_e = Image<float>(known.width(), known.height());
+        return found;
+    }
+    if (found.black == BlackGround::kEven) {
         std::transform(known.pixels().begin(), known.pixels().end(), still.colour.pixels().begin(),
                        known.pixels().begin(), [&](std::uint8_t is_known, const Rgba8& pixel) {
                            return looks_even(pixel, look) ? is_known : std::uint8_t{0};
@@ -294,16 +302,14 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
         still.colour = Image<Rgba8>(known.width(), known.height(), found.colour);
     }
     found.known = known;
-    if (disc) found.ground = disc_mask(*disc, known.width(), known.height(), kShadowReach);
+    // A shadow on black cannot be seen.
+    if (disc && found.black == BlackGround::kUnknownOrNoisy)
+        found.ground = disc_mask(*disc, known.width(), known.height(), kShadowReach);
     if (turn) bridge_gaps(disc, still.colour, known);
     fill_unknown(still.colour, known);
     found.plate = std::move(still.colour);
     if (turn) found.noise_delta_e = plate_noise(samples, found.plate, found.known);
-    if (even_black) cap_noise(found.noise_delta_e);
-    if (found.black == BlackGround::kExact) {
-        std::fill(found.plate.pixels().begin(), found.plate.pixels().end(), found.colour);
-        found.noise_delta_e = Image<float>(found.plate.width(), found.plate.height());
-    }
+    if (found.black == BlackGround::kEven) cap_noise(found.noise_delta_e);
     return found;
 }
 

@@ -28,13 +28,13 @@ struct BackdropRequest {
 // "auto", "white", "black", "alpha" or "R,G,B" (0..255 each).
 Result<BackdropRequest> parse_backdrop(const std::string& text);
 
-// Before a black that is even, black parts of an object stand out; before one that is so to the code, as in renderings
-// and retouched pictures, whatever is not all black does.
-enum class BlackGround { kNoneOrNoisy, kEven, kExact };
+// Before a black that is even, black parts of an object stand out a little; before one that is black to the code, as in
+// renderings and retouched pictures, even parts that fade to black do. Unknown: another kind, or too few pictures.
+enum class BlackGround { kUnknownOrNoisy, kEven, kExact };
 
 struct Backdrop {
     BackdropKind kind = BackdropKind::kAlpha;
-    BlackGround black = BlackGround::kNoneOrNoisy;
+    BlackGround black = BlackGround::kUnknownOrNoisy;
     Rgba8 colour;                 // the commonest colour along the border (kAlpha: transparent black)
     std::vector<Rgba8> screen{};  // strong colours of the border, as of a chroma key: backdrop wherever they are seen
     Image<Rgba8> plate;           // sRGB, opaque, in the samples' size; empty for kAlpha

@@ -84,11 +84,28 @@ Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px) {
     return result;
 }
 
+bool has_pure_black_border(ConstImageView<Rgba8> picture) {
+    constexpr int kDark = 3;
+    std::int64_t all = 0, dark = 0, black = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+        const bool whole_row = y == 0 || y == picture.height() - 1;
+        for (int x = 0; x < picture.width(); x += whole_row ? 1 : std::max(1, picture.width() - 1)) {
+            const Rgba8& pixel = picture(x, y);
+            const int code = std::max({pixel.r, pixel.g, pixel.b});
+            ++all;
+            dark += code <= kDark ? 1 : 0;
+            black += code == 0 ? 1 : 0;
+        }
+    }
+    return 2 * dark > all && black == dark;
+}
+
 Result<Survey> survey_photos(const PhotoFolder& folder, Progress* progress) {
     const std::size_t count = folder.photos.size();
     Survey survey;
     survey.thumbnails.resize(count);
     survey.samples.resize(sample_count(count));
+    survey.pure_black_border.resize(survey.samples.size());
     std::vector<std::optional<std::size_t>> sample_of(count);
     for (std::size_t s = 0; s < survey.samples.size(); ++s) {
         survey.sample_photos.push_back(s * count / survey.samples.size());
@@ -99,7 +116,10 @@ Result<Survey> survey_photos(const PhotoFolder& folder, Progress* progress) {
         if (!picture) return picture.error();
         Image<Rgba8> sample = reduced(*picture, kSampleSide_px);
         survey.thumbnails[i] = reduced(sample, kThumbnailSide_px);
-        if (sample_of[i]) survey.samples[*sample_of[i]] = std::move(sample);
+        if (sample_of[i]) {
+            survey.samples[*sample_of[i]] = std::move(sample);
+            survey.pure_black_border[*sample_of[i]] = has_pure_black_border(*picture) ? 1 : 0;
+        }
         return {};
     };
     if (Status status = for_each_photo(folder, kReadBytesPerPixel, "looking at the pictures", progress, look_at);

@@ -8,6 +8,8 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace rs::capture {
@@ -21,11 +23,16 @@ struct Survey {
     std::vector<Image<Rgba8>> thumbnails;    // [photo]
     std::vector<Image<Rgba8>> samples;       // of at most kMaxSamples photos, evenly spread over the turn
     std::vector<std::size_t> sample_photos;  // [sample] -> photo
+    // [sample]: has_pure_black_border() of the photograph itself, not of its small copy, where noise averages out.
+    std::vector<std::uint8_t> pure_black_border;
 };
 
 // A picture made smaller by averaging, so that no side is longer than `side_px`; a copy where it is small enough.
 // Colours are averaged with alpha as their weight. Besides the result it takes the memory of a few rows.
 Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px);
+
+// Whether most of the outermost pixels are dark (up to code 3), and all of these are black to the code.
+bool has_pure_black_border(ConstImageView<Rgba8> picture);
 
 // What reading takes of memory per pixel of a picture, at most: 16-bit and float files pass through float.
 inline constexpr int kReadBytesPerPixel = 24;

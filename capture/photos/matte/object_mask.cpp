@@ -265,10 +265,10 @@ MaskOptions mask_options_for(const Backdrop& backdrop) {
             options.possible_delta_e = .9F;
             options.certain_delta_e = 2;
         } else if (backdrop.black == BlackGround::kExact) {
-            // A grey of code 1 is .27 away from black. What fades to black within the object has no rim there; a hole
-            // has one.
+            // A grey of code 1 is .27 away. Where the object fades to black within itself, nothing is seen of a rim,
+            // and the cut closes it; a true hole has one, so that larger islands than elsewhere can be left to the cut.
             options.plain_delta_e = .15F;
-            options.possible_delta_e = .2F;
+            options.possible_delta_e = .225F;
             options.certain_delta_e = 2;
             options.contrast_delta_e = .5F;
             options.max_island = .012;

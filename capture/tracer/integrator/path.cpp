@@ -18,10 +18,11 @@ void PathTracer::trace_many(std::span<CameraRay> rays, std::span<Arrived> arrive
 }
 
 Arrived PathTracer::follow(CameraRay& ray) const {
-    // Roulette: of what fur and other dark things send on little comes back. Half as much again as the share of the
-    // light that is left spares a quarter of their time for .2 dB of noise, which a twentieth more samples win back.
-    constexpr int kRouletteFrom = 1;
-    constexpr float kRouletteMargin = 1.5F;
+    // From its second rough surface on (its fourth of any kind) a path goes on with a probability of 2.5 times what is
+    // left of its light, at most 1: fur, where little comes back, takes an eighth less time with the same noise.
+    constexpr int kRouletteFrom = 3;
+    constexpr int kRoughBefore = 2;
+    constexpr float kRouletteMargin = 2.5F;
     using Met = LightTransport::Met;
     Arrived arrived;
     Sampler& sampler = ray.sampler;
@@ -29,6 +30,7 @@ Arrived PathTracer::follow(CameraRay& ray) const {
     LightTransport::Segment segment = LightTransport::camera_segment(ray.origin, ray.direction, ray.time);
     MediumStack media;  // that the segment runs in
     float distance = 0.0F;
+    int rough = 0;  // surfaces so far
 
     for (int bounce = 0;; ++bounce) {
         SurfacePoint point;
@@ -41,6 +43,7 @@ Arrived PathTracer::follow(CameraRay& ray) const {
         if (guides_) vertex.guide(distance, arrived);
         const glm::vec2 choices = sampler.next_2d();
         if (!vertex.surface.is_specular()) {
+            ++rough;
             transport_.select_lights(vertex);
             arrived.radiance += throughput * transport_.light_sample(vertex, choices.y, sampler.next_2d());
         }
@@ -50,7 +53,7 @@ Arrived PathTracer::follow(CameraRay& ray) const {
         segment = transport_.segment_from(vertex, drawn);
         if (vertex.surface.passes(drawn)) media.cross(transport_.material_of(point), point.front_side);
 
-        if (bounce >= kRouletteFrom) {
+        if (rough >= kRoughBefore || bounce >= kRouletteFrom) {
             const float survival = std::min(1.0F, kRouletteMargin * max_component(throughput));
             if (!(sampler.next_2d().x < survival)) return arrived;
             throughput /= survival;

@@ -1,6 +1,6 @@
 #pragma once
 // One path of light, followed from the camera backwards: next-event estimation with multiple importance sampling at
-// each surface, Russian roulette from the second on, absorption inside glass.
+// each surface, Russian roulette from the second rough one on, absorption inside glass.
 //
 //     camera ray -> hit -> [ draw a light: visible? add ] -> draw a direction -> next hit or light -> ...
 //

@@ -147,16 +147,16 @@ void find_variance(const Accumulation& from, const Image<RgbaF>& mean, const Gui
 }
 
 // Sums of one row.
-struct RowSums {
+struct FilteredRow {
     std::array<Plane, 3> colour;
     Plane weight, variance;
-    explicit RowSums(std::size_t width) : weight(width), variance(width) { colour.fill(Plane(width)); }
+    explicit FilteredRow(std::size_t width) : weight(width), variance(width) { colour.fill(Plane(width)); }
 };
 
 // Adds to the pixels [from, to) of a row what lies `offset` pixels on. `sharpness` is 1 / tolerated difference of
 // brightness.
 void add_neighbours(const Guides& guides, const Estimates& light, const Plane& brightness, const Plane& sharpness,
-                    std::size_t row, std::ptrdiff_t offset, float weight, int from, int to, RowSums& sums) {
+                    std::size_t row, std::ptrdiff_t offset, float weight, int from, int to, FilteredRow& sums) {
     const auto& [nx, ny, nz] = guides.normal;
     const auto& [px, py, pz] = guides.place;
     const auto& [cr, cg, cb] = guides.colour;
@@ -198,7 +198,7 @@ Estimates smoothed(const Estimates& light, const Guides& guides, int level) {
     Estimates result = light;
     for_rows(height, [&](int y) {
         const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-        RowSums sums(static_cast<std::size_t>(width));
+        FilteredRow sums(static_cast<std::size_t>(width));
         for (int dy = -step; dy <= step; dy += step) {
             if (y + dy < 0 || y + dy >= height) continue;
             for (int dx = -step; dx <= step; dx += step) {

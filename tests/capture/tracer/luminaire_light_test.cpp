@@ -106,7 +106,7 @@ TEST(LuminaireLightRealData, FillsASphereAsItsFluxSays) {
         ASSERT_TRUE(read) << read.error().message;
         const auto luminaire = std::make_shared<const Luminaire>(std::move(read).value());
         expect_sphere_is_filled(luminaire, RenderMethod::kPath);
-        // Seconds each, and behind the lamp the same for every web.
+        // It takes seconds each, and only photons and light samples depend on the web: two webs are enough.
         if (i % 4 == 1) expect_sphere_is_filled(luminaire, RenderMethod::kRadiosity);
     }
 }
