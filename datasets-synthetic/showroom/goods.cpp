@@ -6,7 +6,6 @@
 namespace rs::synthetic {
 namespace {
 
-using glm::vec2;
 using glm::vec3;
 
 std::string one_of_six(const char* kind, Random& random) {

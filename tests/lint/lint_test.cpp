@@ -184,6 +184,27 @@ TEST(Names, AreNotTheCompilersOwn) {
     }
 }
 
+// clang-tidy says it of a main source only, and it reads many as one.
+TEST(Names, ThatAreTakenFromElsewhereAreUsed) {
+    static const std::regex kUsing(R"(^\s*using (?:\w+::)+(\w+);)");
+    std::size_t seen = 0;
+    for (const fs::path& source : sources()) {
+        if (source.extension() != ".cpp") continue;  // a header may hand names on
+        const std::vector<std::string> lines = lines_of(source);
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            std::smatch taken;
+            if (!std::regex_search(lines[i], taken, kUsing)) continue;
+            ++seen;
+            const std::regex name("\\b" + taken[1].str() + "\\b");
+            const auto uses = std::count_if(lines.begin(), lines.end(), [&](const std::string& line) {
+                return &line != &lines[i] && std::regex_search(line.substr(0, line.find("//")), name);
+            });
+            EXPECT_GT(uses, 0) << source.string() << ":" << i + 1 << ": " << lines[i];
+        }
+    }
+    EXPECT_GT(seen, 100U) << "the pattern finds none";
+}
+
 TEST(Files, AreReadInOneSitting) {
     for (const fs::path& source : sources()) {
         EXPECT_LE(lines_of(source).size(), static_cast<std::size_t>(kMostLines)) << source.string();

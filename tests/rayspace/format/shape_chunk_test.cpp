@@ -20,7 +20,6 @@ using namespace rs;
 using namespace rs::object_chunks;
 using test::small_object_with_shape;
 using test::SmallShapeOptions;
-using testing::AnyOf;
 using testing::HasSubstr;
 
 constexpr std::size_t kSurfacesAt = 40;

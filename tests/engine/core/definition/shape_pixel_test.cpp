@@ -17,7 +17,6 @@ namespace {
 using test::pixel_at;
 using test::registers_of;
 using test::RingObjectOptions;
-using test::rise_at;
 using test::Texel;
 Image<Rgba8> rendered(const RaySpaceObject& object, const Camera& camera) {
     Image<Rgba8> picture(camera.width, camera.height);
