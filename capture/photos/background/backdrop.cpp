@@ -262,6 +262,17 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     found.colour = colours.front();
     if (found.kind == BackdropKind::kColour) found.screen = screen_colours(colours);
 
+    const Lab look = lab_from_linear(linear_rgb(found.colour));
+    if (turn && found.kind == BackdropKind::kBlack) found.black = black_ground_of(survey, look);
+    if (found.black == BlackGround::kExact) {  // nor does its exposure change: no plate is looked for
+        const int width = still.colour.width(), height = still.colour.height();
+        found.colour = {0, 0, 0, 255};
+        found.plate = Image<Rgba8>(width, height, found.colour);
+        found.known = Image<std::uint8_t>(width, height, std::uint8_t{255});
+        found.noise_delta_e = Image<float>(width, height);
+        return found;
+    }
+
     if (turn) {
         samples.even_out(still.colour, mask_of(still, [](float agreement) { return agreement >= kNeverHidden; }));
         still = agree_over_time(samples);
@@ -282,16 +293,6 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     }
     // Before an even black whatever is a little lighter is the object's: a black strap that turns about its own place
     // looks still, too, and where it is seen the backdrop would look noisy.
-    const Lab look = lab_from_linear(linear_rgb(found.colour));
-    if (turn && found.kind == BackdropKind::kBlack) found.black = black_ground_of(survey, look);
-    if (found.black == BlackGround::kExact) {
-        found.colour = {0, 0, 0, 255};
-        found.untouched = {};  // nor does its exposure change
-        found.plate = Image<Rgba8>(known.width(), known.height(), found.colour);
-        found.known = Image<std::uint8_t>(known.width(), known.height(), std::uint8_t{255});
-        found.noise_delta_e = Image<float>(known.width(), known.height());
-        return found;
-    }
     if (found.black == BlackGround::kEven) {
         std::transform(known.pixels().begin(), known.pixels().end(), still.colour.pixels().begin(),
                        known.pixels().begin(), [&](std::uint8_t is_known, const Rgba8& pixel) {
