@@ -22,7 +22,7 @@ using capture::SurfaceKind;
 using glm::vec2;
 using glm::vec3;
 
-constexpr int kAround = 192;
+constexpr int kSidesAround = 192;
 
 // Moves every inner point of a profile to its left by `distance`: the other side of a wall. The end on the axis stays
 // on it.
@@ -82,8 +82,8 @@ std::vector<vec2> oil_profile(const std::vector<vec2>& font, float wall_thicknes
 void append_font_and_oil(Mesh& glass, Mesh& oil, float fill) {
     constexpr float kThickness = 0.032F;
     const std::vector<vec2> outside = font_outside();
-    append_lathe(glass, wall(outside, kThickness), {.segments = kAround, .crease_rad = 3.0F});
-    append_lathe(oil, oil_profile(outside, kThickness, fill), {.segments = kAround, .crease_rad = 0.9F});
+    append_lathe(glass, wall(outside, kThickness), {.segments = kSidesAround, .crease_rad = 3.0F});
+    append_lathe(oil, oil_profile(outside, kThickness, fill), {.segments = kSidesAround, .crease_rad = 0.9F});
 }
 
 void append_chimney(Mesh& glass) {
@@ -92,31 +92,31 @@ void append_chimney(Mesh& glass) {
                                      {0.12F, 2.32F},   {0.135F, 2.50F}, {0.15F, 2.545F}};
     std::vector<vec2> profile = wall(smooth_curve<vec2>(controls, 10), 0.014F);
     profile.push_back(profile.front());  // the lower rim closes the ring
-    append_lathe(glass, profile, {.segments = kAround, .crease_rad = 0.9F});
+    append_lathe(glass, profile, {.segments = kSidesAround, .crease_rad = 0.9F});
 }
 
 void append_stand(Mesh& brushed, Mesh& polished) {
     const std::vector<vec2> foot{{0.0F, 0.15F},   {0.47F, 0.15F}, {0.49F, 0.165F},
                                  {0.49F, 0.195F}, {0.47F, 0.21F}, {0.42F, 0.215F}};
-    append_lathe(polished, foot, {.segments = kAround, .crease_rad = 0.9F});
+    append_lathe(polished, foot, {.segments = kSidesAround, .crease_rad = 0.9F});
     const std::vector<vec2> ogee{{0.42F, 0.215F}, {0.36F, 0.235F}, {0.25F, 0.275F}, {0.15F, 0.32F}, {0.105F, 0.355F}};
-    append_lathe(brushed, smooth_curve<vec2>(ogee, 8), {.segments = kAround});
+    append_lathe(brushed, smooth_curve<vec2>(ogee, 8), {.segments = kSidesAround});
     const std::vector<vec2> knop{{0.105F, 0.355F}, {0.10F, 0.37F},  {0.135F, 0.39F}, {0.165F, 0.43F},
                                  {0.135F, 0.475F}, {0.085F, 0.49F}, {0.075F, 0.51F}};
-    append_lathe(polished, smooth_curve<vec2>(knop, 8), {.segments = kAround});
+    append_lathe(polished, smooth_curve<vec2>(knop, 8), {.segments = kSidesAround});
     const std::vector<vec2> neck{{0.075F, 0.51F}, {0.07F, 0.56F}, {0.085F, 0.62F}, {0.14F, 0.665F}, {0.24F, 0.70F}};
-    append_lathe(brushed, smooth_curve<vec2>(neck, 8), {.segments = kAround});
+    append_lathe(brushed, smooth_curve<vec2>(neck, 8), {.segments = kSidesAround});
     // The cup hugs the font's belly from below, a little off the glass.
     const std::vector<vec2> cup{{0.24F, 0.70F},   {0.355F, 0.755F}, {0.375F, 0.775F}, {0.368F, 0.782F},
                                 {0.345F, 0.763F}, {0.20F, 0.699F},  {0.0F, 0.694F}};
-    append_lathe(polished, cup, {.segments = kAround, .crease_rad = 0.9F});
+    append_lathe(polished, cup, {.segments = kSidesAround, .crease_rad = 0.9F});
 }
 
 void append_burner(Mesh& brushed, Mesh& polished) {
     const std::vector<vec2> collar{{0.156F, 1.275F}, {0.185F, 1.275F}, {0.19F, 1.285F},  {0.19F, 1.315F},
                                    {0.175F, 1.33F},  {0.15F, 1.345F},  {0.15F, 1.375F},  {0.165F, 1.40F},
                                    {0.21F, 1.425F},  {0.215F, 1.44F},  {0.205F, 1.447F}, {0.0F, 1.447F}};
-    append_lathe(polished, collar, {.segments = kAround, .crease_rad = 0.7F});
+    append_lathe(polished, collar, {.segments = kSidesAround, .crease_rad = 0.7F});
     // Beads around the collar and prongs that hold the chimney.
     constexpr int kBeads = 36;
     for (int k = 0; k < kBeads; ++k) {

@@ -197,8 +197,8 @@ TEST_F(FarmTool, RendersTilesThatAreTheFrame) {
     write("hall.wrl", kHall);
     ASSERT_TRUE(write_object(work_ / "small.rso", test::small_object()).ok());
     for (const char* const method : {"path", "whitted", "radiosity"}) {
-        const std::vector<std::string> options = {"--renderer", method,    "--passes", "3",
-                                                  "--size",     "300x270", "--object", in("small.rso") + "@1,0,2"};
+        const std::vector<std::string> options = {"--renderer", method,    "--passes", "2",
+                                                  "--size",     "264x260", "--object", in("small.rso") + "@1,0,2"};
         const std::string name = std::string(method) + ".png";
         const test::ToolRun alone =
             tool("rs-view", std::vector<std::string>{in("hall.wrl"), "-q", "-o", in(name)} + options);

@@ -59,10 +59,15 @@ double board_size_mm(const BoardDesign& design) {
 
 std::optional<BoardPose> pose_from(Eigen::Matrix3d h, double unit_mm) {
     if (h(2, 2) < 0) h = -h;  // before the camera
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(h.leftCols<2>(), Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const double scale = svd.singularValues().mean();
-    if (!(scale > 1e-12)) return std::nullopt;
-    const Eigen::Matrix<double, 3, 2> turned = svd.matrixU() * svd.matrixV().transpose();
+    // The nearest of orthonormal columns is H (H^T H)^(-1/2).
+    const Eigen::Matrix<double, 3, 2> columns = h.leftCols<2>();
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> squares;
+    squares.computeDirect(columns.transpose() * columns);
+    const Eigen::Vector2d stretch = squares.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+    const double scale = stretch.mean();
+    if (!(stretch(0) > 1e-9 * scale)) return std::nullopt;
+    const Eigen::Matrix<double, 3, 2> turned =
+        columns * squares.eigenvectors() * stretch.cwiseInverse().asDiagonal() * squares.eigenvectors().transpose();
     const Eigen::Vector3d flip(1, -1, -1);  // from y down, z forward
     BoardPose pose;
     pose.rotation.col(0) = flip.cwiseProduct(turned.col(0));
@@ -96,17 +101,20 @@ std::optional<Axis> axis_of(const std::vector<BoardPose>& poses) {
     if (axis.direction.dot(face) < 0) axis.direction = -axis.direction;
     // A point of the board that stands still, and where: rotation * b + translation = c for all views. Both may slide
     // along the axis; of those solutions the shortest is taken.
-    Eigen::MatrixXd a(3 * static_cast<Eigen::Index>(poses.size()), 6);
-    Eigen::VectorXd rhs(a.rows());
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        const auto row = 3 * static_cast<Eigen::Index>(i);
-        a.block<3, 3>(row, 0) = poses[i].rotation;
-        a.block<3, 3>(row, 3) = -Eigen::Matrix3d::Identity();
-        rhs.segment<3>(row) = -poses[i].translation;
+    cv::Mat_<double> a(3 * static_cast<int>(poses.size()), 6, 0.0), rhs(a.rows, 1);
+    for (int row = 0; row < a.rows; ++row) {
+        const BoardPose& pose = poses[static_cast<std::size_t>(row / 3)];
+        const int k = row % 3;
+        for (int column = 0; column < 3; ++column) a(row, column) = pose.rotation(k, column);
+        a(row, 3 + k) = -1;
+        rhs(row, 0) = -pose.translation(k);
     }
-    Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    svd.setThreshold(1e-3);
-    const Eigen::Vector3d point = svd.solve(rhs).tail<3>();
+    cv::SVD svd(a);
+    cv::Mat_<double> values = svd.w;
+    for (double& value : values) value = value < 1e-3 * values(0, 0) ? 0 : value;
+    cv::Mat_<double> solution;
+    svd.backSubst(rhs, solution);
+    const Eigen::Vector3d point(solution(3, 0), solution(4, 0), solution(5, 0));
     axis.foot = point - axis.direction * axis.direction.dot(point);
     return axis.foot.norm() > 1e-9 && axis.foot.allFinite() ? std::optional(axis) : std::nullopt;
 }
@@ -128,7 +136,8 @@ bool shows_board(const BoardCorners& view, const BoardDesign& design) {
         mean += points.back() / static_cast<double>(view.corners.size());
     }
     for (const Eigen::Vector2d& p : points) spread += (p - mean) * (p - mean).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+    solver.computeDirect(spread);
     return solver.eigenvalues()(0) > 0.4;  // squares^2; six corners in two rows have 1.5
 }
 

@@ -130,7 +130,8 @@ std::optional<Round<kUnknowns>> align_once(const PatchPicture& picture, const Pa
 
 // How an alignment with this information counts: directions in which it is vague count less. Symmetric.
 glm::dmat2 whitening(const Eigen::Matrix2d& information) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(information);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+    axes.computeDirect(information);
     Eigen::Vector2d weight = (axes.eigenvalues().cwiseMax(0.0)).cwiseSqrt() * kSharpDeviation_px;
     weight = weight.cwiseMin(1.0);
     const Eigen::Matrix2d w = axes.eigenvectors() * weight.asDiagonal() * axes.eigenvectors().transpose();

@@ -17,9 +17,9 @@ constexpr int kDense_px = 2;     // to each side, of the square in which half of
 constexpr int kClosed_px = 3;    // half of the widest gap that is closed
 constexpr int kStraight_px = 4;  // to each side, of the square that outlines are straightened by
 constexpr int kStraightenings = 4;
-constexpr int kRadius_px = 5;  // half of the least part's side
-constexpr double kMost = 0.7;  // of what a picture has there, if it is not hidden
-constexpr int kSmooth_px = 5;  // depths are medians of squares of so much to each side
+constexpr int kHalfSide_px = 5;  // half of the least part's side
+constexpr double kMost = 0.7;    // of what a picture has there, if it is not hidden
+constexpr int kSmooth_px = 5;    // depths are medians of squares of so much to each side
 
 bool is_object(const WorkView& view, int column, int row) {
     return view.at(column, row).a >= kInside;
@@ -129,7 +129,7 @@ std::optional<glm::dvec3> colour_at(const Image<Rgba8>& picture, double x, doubl
 
 Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
     // Half of a square, and that densely: nothing is looked for where there are fewer.
-    constexpr int kFewest = (2 * kRadius_px + 1) * (2 * kRadius_px + 1) / 4;
+    constexpr int kFewest = (2 * kHalfSide_px + 1) * (2 * kHalfSide_px + 1) / 4;
     if (count_depths(missing) < kFewest) {
         return Image<float>(missing.width(), missing.height(), kNoDepth);
     }
@@ -156,14 +156,14 @@ Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
     // Of squares that are lost, at least half of them, or object.
     const auto middles = mask_of([&](int column, int row) {
         int all = 0, object = 0, gone = 0;
-        for_each_around(view, column, row, kRadius_px, [&](int c, int r) {
+        for_each_around(view, column, row, kHalfSide_px, [&](int c, int r) {
             ++all;
             gone += lost(r, c);
             object += is_object(view, c, r) ? 1 : 0;
         });
         return lost(row, column) != 0 && gone + object == all && 2 * gone >= all;
     });
-    const auto large = dilated(middles, 2 * kRadius_px);
+    const auto large = dilated(middles, 2 * kHalfSide_px);
     const auto part = mask_of([&](int c, int r) { return large(r, c) != 0 && lost(r, c) != 0; });
     return smoothed(view, missing, straightened(view, beside_object(view, part, middles)));
 }

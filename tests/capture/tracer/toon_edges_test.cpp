@@ -200,30 +200,28 @@ double dark_width(const Image<RgbaF>& picture, const glm::vec2& across) {
 TEST(ToonEdges, LinesAreAsWideAsTheirRadiusFromThere) {
     enum Edge { kBeforeNothing, kBeforeAWall, kFlatCrease, kSharpCrease };
     double worst = 0;
-    for (const double radius_px : {0.7, 3.0, 9.0, 16.0, 30.0}) {
-        for (const double z : {2.0, 6.0}) {
-            const Camera camera = front_camera(z, 10, 96);
-            const auto radius = static_cast<float>(radius_px * z / camera.fl_x);
-            // Edges that stand, lie and lean; halfway between four, eight and sixteen diameters, too.
-            for (const double lean_deg : {0.0, 5.625, 22.5, 45.0, 123.75}) {
-                const auto lean = static_cast<float>(radians(lean_deg));
-                const glm::vec3 across(std::cos(lean), std::sin(lean), 0), along(-across.y, across.x, 0);
-                for (const Edge edge : {kBeforeNothing, kBeforeAWall, kFlatCrease, kSharpCrease}) {
-                    Scene scene = scene_of(make_quad(-20.0F * along, 9.0F * across, 40.0F * along), white());
-                    if (edge == kBeforeAWall)
-                        scene.meshes.push_back(make_quad({-50, -50, -3}, {100, 0, 0}, {0, 100, 0}));
-                    if (edge == kFlatCrease || edge == kSharpCrease) {  // a roof, seen from above
-                        const auto slope = static_cast<float>(radians(edge == kFlatCrease ? 20 : 45));
-                        const glm::vec3 out = std::cos(slope) * across, down(0, 0, -std::sin(slope));
-                        scene.meshes = {make_quad(-20.0F * along, 3.0F * (down + out), 40.0F * along),
-                                        make_quad(20.0F * along, 3.0F * (down - out), -40.0F * along)};
-                    }
-                    const double sides = edge == kBeforeNothing || edge == kBeforeAWall ? 1 : 2;
-                    const Image<RgbaF> picture = render(std::move(scene), camera, lines(radius, 4)).picture;
-                    const double width = dark_width(picture, across) / sides;
-                    worst = std::max(worst, std::abs(width - radius_px));
-                    EXPECT_NEAR(width, radius_px, 0.7) << "edge " << edge << ", " << lean_deg << " degrees, z " << z;
+    for (const auto& [radius_px, z] :
+         std::vector<std::pair<double, double>>{{0.7, 2}, {0.7, 6}, {3, 6}, {9, 2}, {16, 6}, {30, 2}}) {
+        const Camera camera = front_camera(z, 10, 96);
+        const auto radius = static_cast<float>(radius_px * z / camera.fl_x);
+        // Edges that stand, lie and lean; halfway between four, eight and sixteen diameters, too.
+        for (const double lean_deg : {0.0, 5.625, 22.5, 45.0, 123.75}) {
+            const auto lean = static_cast<float>(radians(lean_deg));
+            const glm::vec3 across(std::cos(lean), std::sin(lean), 0), along(-across.y, across.x, 0);
+            for (const Edge edge : {kBeforeNothing, kBeforeAWall, kFlatCrease, kSharpCrease}) {
+                Scene scene = scene_of(make_quad(-20.0F * along, 9.0F * across, 40.0F * along), white());
+                if (edge == kBeforeAWall) scene.meshes.push_back(make_quad({-50, -50, -3}, {100, 0, 0}, {0, 100, 0}));
+                if (edge == kFlatCrease || edge == kSharpCrease) {  // a roof, seen from above
+                    const auto slope = static_cast<float>(radians(edge == kFlatCrease ? 20 : 45));
+                    const glm::vec3 out = std::cos(slope) * across, down(0, 0, -std::sin(slope));
+                    scene.meshes = {make_quad(-20.0F * along, 3.0F * (down + out), 40.0F * along),
+                                    make_quad(20.0F * along, 3.0F * (down - out), -40.0F * along)};
                 }
+                const double sides = edge == kBeforeNothing || edge == kBeforeAWall ? 1 : 2;
+                const Image<RgbaF> picture = render(std::move(scene), camera, lines(radius, 4)).picture;
+                const double width = dark_width(picture, across) / sides;
+                worst = std::max(worst, std::abs(width - radius_px));
+                EXPECT_NEAR(width, radius_px, 0.7) << "edge " << edge << ", " << lean_deg << " degrees, z " << z;
             }
         }
     }

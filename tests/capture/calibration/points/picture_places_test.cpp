@@ -60,10 +60,10 @@ TEST(PicturePlace, IsUndoneAndChained) {
 
 TEST(PicturePlaces, AreFoundFromPointsInBothSenses) {
     for (const double sense : {1.0, -1.0}) {
-        TurntableModel truth = test::turn_model(36, sense * radians(10));
+        TurntableModel truth = test::turn_model(24, sense * radians(15));
         truth.lens.k1 = 0;
-        const std::vector<PicturePlace> places = drawn_places(36, truth.lens.width);
-        std::vector<Track> tracks = test::tracks_of(truth, test::surface_points(400, 5), 0.2, 5);
+        const std::vector<PicturePlace> places = drawn_places(24, truth.lens.width);
+        std::vector<Track> tracks = test::tracks_of(truth, test::surface_points(250, 5), 0.2, 5);
         for (Track& track : tracks) {
             for (Observation& seen : track.seen) {
                 seen.p = places[static_cast<std::size_t>(seen.view)].seen(seen.p, middle_of(truth.lens));
@@ -71,13 +71,13 @@ TEST(PicturePlaces, AreFoundFromPointsInBothSenses) {
         }
         Lens lens = truth.lens;
         lens.f_px = 0;
-        const auto found = find_places(tracks, lens, 36, 1, {});
+        const auto found = find_places(tracks, lens, 24, 1, {});
         ASSERT_TRUE(found.has_value());
         EXPECT_GT(found->agreeing, 0.95);
-        ASSERT_EQ(found->places.size(), 36U);
+        ASSERT_EQ(found->places.size(), 24U);
         EXPECT_LT(worst_scale(found->places, places), 0.01);
         EXPECT_GT(found->model.angles_rad[1] * sense, 0) << "turns the other way";
-        EXPECT_NEAR(degrees(found->model.angles_rad[35]), sense * 350, 2);
+        EXPECT_NEAR(degrees(found->model.angles_rad[23]), sense * 345, 2);
         EXPECT_NEAR(degrees(found->model.pose.tilt_rad), 20, 3);
     }
 }
