@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -149,6 +150,42 @@ TEST(CutOut, KeepsABlackStrapBeforeAnEvenBlack) {
             EXPECT_GT(strap_pixels, 500) << "of 572";
         }
     }
+}
+
+// Before an exact black: a dark body fades to 0 within itself, which the cut closes, and has a hole of the same size
+// with a rim, through which one sees. Both are larger than the islands that elsewhere may be the object's.
+TEST(CutOut, ClosesWhatFadesToAnExactBlackAndKeepsAHoleWithARim) {
+    constexpr double kBlackRadius_px = 7, kFade_px = 12;
+    test::DrawnTurn turn;
+    turn.backdrop = {0, 0, 0, 255};
+    Survey survey;
+    survey.samples = test::draw_photos(turn);
+    for (const Image<Rgba8>& photo : survey.samples) survey.pure_black_border.push_back(has_pure_black_border(photo));
+    const Result<Backdrop> backdrop = find_backdrop(survey, {}, "drawn");
+    ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
+    ASSERT_EQ(backdrop->black, BlackGround::kExact);
+
+    Image<Rgba8> photo(turn.width, turn.height, turn.backdrop);
+    for (int y = 20; y < 100; ++y) {
+        for (int x = 20; x < 140; ++x) {
+            const double faded = (std::hypot(x - 50, y - 60) - kBlackRadius_px) / kFade_px;
+            const auto code = static_cast<std::uint8_t>(std::lround(24 * std::clamp(faded, 0.0, 1.0)));
+            photo(x, y) = {code, code, code, 255};
+            if (std::hypot(x - 110, y - 60) < kBlackRadius_px) photo(x, y) = turn.backdrop;
+        }
+    }
+    const Image<Rgba8> cut = ObjectCutter(*backdrop, turn.width, turn.height).cut(photo);
+    int lost = 0, closed = 0;
+    for (int y = 0; y < turn.height; ++y) {
+        for (int x = 0; x < turn.width; ++x) {
+            if (std::hypot(x - 50, y - 60) < kBlackRadius_px + kFade_px && cut(x, y).a < 255) ++lost;
+            if (std::hypot(x - 110, y - 60) < kBlackRadius_px - 2 && cut(x, y).a > 0) ++closed;
+        }
+    }
+    EXPECT_EQ(lost, 0) << "where the body fades";
+    EXPECT_EQ(closed, 0) << "in the hole";
+    EXPECT_EQ(cut(80, 30).a, 255);
+    EXPECT_EQ(cut(5, 5).a, 0);
 }
 
 TEST(CutOut, KeepsATrueHoleOpenAndAGreyInsideClosed) {
