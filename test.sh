@@ -5,7 +5,7 @@
 #   ./test.sh --no-sanitizers     without the last
 #   ./test.sh --sanitize-all      all tests under ASan + UBSan as well: much longer
 #   ./test.sh --hostile MINUTES   builds, and only tries to break things, for that long, with new seeds: half of it with
-#                                 tests/hostile, half with libFuzzer (which is built with clang)
+#                                 tests/hostile, half with libFuzzer
 #   ./test.sh -R NAME             further arguments go to ctest; no clang-tidy
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -85,6 +85,8 @@ if [ "$SANITIZE" != none ]; then
   fi
   # By clang, which takes two thirds of g++'s time for it, and sees what g++ does not.
   say "Building with AddressSanitizer and UndefinedBehaviorSanitizer: ${TARGETS[*]}"
+  # With another compiler's cache CMake would forget all that is asked for.
+  grep -qs 'CMAKE_CXX_COMPILER:.*clang' build/asan/CMakeCache.txt || rm -f build/asan/CMakeCache.txt
   configure build/asan -DCMAKE_BUILD_TYPE=RelWithDebInfo "${CLANG[@]}" -DRAYSPACE_SANITIZE=address,undefined \
     -DRAYSPACE_BENCH=OFF -DRAYSPACE_WARNINGS_AS_ERRORS=ON
   cmake --build build/asan -j "$JOBS" --target "${TARGETS[@]}"

@@ -12,7 +12,7 @@ BUILD_PACKAGES=(
 TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-14 shellcheck xvfb
   dpkg-dev pybind11-dev python3-dev python3-numpy)
 # shellcheck disable=SC2034
-CLANG_PACKAGES=(clang-14 libclang-rt-14-dev)  # for sanitizers and fuzzing
+CLANG_PACKAGES=(clang-14 libclang-rt-14-dev llvm)  # for sanitizers, whose traces llvm names, and fuzzing
 # shellcheck disable=SC2034
 CLANG=(-DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14)
 

@@ -302,7 +302,7 @@ int farm_main(int argc, char** argv) {
         command->add_option("-o,--output", arguments.output, "folder of the results")->required();
         add_common_options(*command, arguments);
         command->footer(kFooter);
-        command->callback([&, command] {
+        command->callback([&] {
             if (arguments.inputs.empty() && arguments.list.empty()) {
                 throw CLI::ValidationError("no inputs; give " + std::string(kind.input) + " or --list FILE");
             }

@@ -61,7 +61,7 @@ std::string LightList::text() const {
 
 std::string beam_ies(const std::string& name, double lumens, double half_deg) {
     constexpr double kStep_deg = 1.5;
-    constexpr int kRows = 61;
+    constexpr int kAngles = 61;
     const auto shape = [&](double angle_deg) {
         const double share = angle_deg / half_deg;
         return std::exp2(-share * share) * std::cos(radians(angle_deg));
@@ -73,17 +73,17 @@ std::string beam_ies(const std::string& name, double lumens, double half_deg) {
         flux += shape(angle) * std::sin(radians(angle)) * radians(0.1) * 2 * kPi;
     }
     std::string text = "IESNA:LM-63-2002\n[TEST]none: computed\n[MANUFAC]Rayspace\n[LUMCAT]" + name +
-                       "\n[LUMINAIRE]spot light, computed\nTILT=NONE\n1 -1 1 " + std::to_string(kRows) +
+                       "\n[LUMINAIRE]spot light, computed\nTILT=NONE\n1 -1 1 " + std::to_string(kAngles) +
                        " 1 1 2 -0.04 -0.04 0\n1 1 6\n";
     char number[32];
-    for (int row = 0; row < kRows; ++row) {
-        std::snprintf(number, sizeof number, "%g%c", row * kStep_deg, row % 10 == 9 || row + 1 == kRows ? '\n' : ' ');
+    for (int row = 0; row < kAngles; ++row) {
+        std::snprintf(number, sizeof number, "%g%c", row * kStep_deg, row % 10 == 9 || row + 1 == kAngles ? '\n' : ' ');
         text += number;
     }
     text += "0\n";
-    for (int row = 0; row < kRows; ++row) {
-        const double candela = row + 1 == kRows ? 0 : lumens / flux * shape(row * kStep_deg);
-        std::snprintf(number, sizeof number, "%.2f%c", candela, row % 10 == 9 || row + 1 == kRows ? '\n' : ' ');
+    for (int row = 0; row < kAngles; ++row) {
+        const double candela = row + 1 == kAngles ? 0 : lumens / flux * shape(row * kStep_deg);
+        std::snprintf(number, sizeof number, "%.2f%c", candela, row % 10 == 9 || row + 1 == kAngles ? '\n' : ' ');
         text += number;
     }
     return text;

@@ -248,7 +248,7 @@ TEST_F(BadInput, LimitsOfTheProcessAreOnePlainLine) {
     EXPECT_NE(limited("-f 4", "rs-encode build " + in("set") + " -q -o " + in("x.rso")).find("file-size limit"),
               std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(work_ / "x.rso"));
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(RAYSPACE_ADDRESS_SANITIZER)
     const std::string little = limited("-v 300000", "rs-encode build " + in("set") + " -q -o " + in("x.rso"));
     EXPECT_NE(little.find("memory"), std::string::npos) << little;
     EXPECT_EQ(little.find("beside the program"), std::string::npos) << little;

@@ -166,10 +166,17 @@ TEST(Libraries, NeitherPrintNorExit) {
 // Names with two underscores, or that begin with one and a capital letter.
 TEST(Names, AreNotTheCompilersOwn) {
     static const std::regex kReserved(R"(\b(_[A-Z]\w*|\w*__\w*)\b)");
-    const std::set<std::string> kKnown = {"__int128",          "__extension__",        "__builtin_prefetch",
-                                          "__builtin_bswap32", "__SANITIZE_ADDRESS__", "__LINE__",
-                                          "__FILE__",          "_SC_PHYS_PAGES",       "_SC_PAGESIZE",
-                                          "_SC_PAGE_SIZE",     "_SC_NPROCESSORS_ONLN", "__lsan_default_suppressions",
+    const std::set<std::string> kKnown = {"__int128",
+                                          "__extension__",
+                                          "__builtin_prefetch",
+                                          "__builtin_bswap32",
+                                          "__LINE__",
+                                          "__FILE__",
+                                          "_SC_PHYS_PAGES",
+                                          "_SC_PAGESIZE",
+                                          "_SC_PAGE_SIZE",
+                                          "_SC_NPROCESSORS_ONLN",
+                                          "__lsan_default_suppressions",
                                           "_INDEXED"};
     for (const fs::path& source : sources()) {
         if (source == "tests/lint/lint_test.cpp") continue;  // the list above

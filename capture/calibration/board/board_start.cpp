@@ -59,13 +59,13 @@ double board_size_mm(const BoardDesign& design) {
 
 std::optional<BoardPose> pose_from(Eigen::Matrix3d h, double unit_mm) {
     if (h(2, 2) < 0) h = -h;  // before the camera
-    // The nearest of orthonormal columns is H (H^T H)^(-1/2).
+    // The nearest matrix of orthonormal columns is H (H^T H)^(-1/2).
     const Eigen::Matrix<double, 3, 2> columns = h.leftCols<2>();
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> squares;
     squares.computeDirect(columns.transpose() * columns);
     const Eigen::Vector2d stretch = squares.eigenvalues().cwiseMax(0.0).cwiseSqrt();
     const double scale = stretch.mean();
-    if (!(stretch(0) > 1e-9 * scale)) return std::nullopt;
+    if (!(stretch(0) > 1e-6 * scale)) return std::nullopt;
     const Eigen::Matrix<double, 3, 2> turned =
         columns * squares.eigenvectors() * stretch.cwiseInverse().asDiagonal() * squares.eigenvectors().transpose();
     const Eigen::Vector3d flip(1, -1, -1);  // from y down, z forward
@@ -137,7 +137,7 @@ bool shows_board(const BoardCorners& view, const BoardDesign& design) {
     }
     for (const Eigen::Vector2d& p : points) spread += (p - mean) * (p - mean).transpose();
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
-    solver.computeDirect(spread);
+    solver.computeDirect(spread, Eigen::EigenvaluesOnly);
     return solver.eigenvalues()(0) > 0.4;  // squares^2; six corners in two rows have 1.5
 }
 

@@ -119,7 +119,7 @@ Image<std::uint8_t> disc_mask(const TurntableDisc& disc, int width, int height, 
 Image<std::uint8_t> still_foot(const TurntableDisc& disc, ConstImageView<Rgba8> still,
                                ConstImageView<std::uint8_t> known, ConstImageView<std::uint8_t> swept) {
     constexpr double kSeenShare = 0.6;  // of a circle: it is not the object that hides the rest
-    constexpr float kOther_delta_e = 6;
+    constexpr float kUnlike_delta_e = 6;
     const int width = still.width();
     const int height = still.height();
     const DiscPlane plane(disc, width, height);
@@ -161,7 +161,7 @@ Image<std::uint8_t> still_foot(const TurntableDisc& disc, ConstImageView<Rgba8> 
             if (swept(x, y) != 0) joined(y, x) = 255;
             if (circle_of(x, y) >= circles || known(x, y) == 0 || is_seen(circle_of(x, y))) continue;
             const Explanation e = explain_by_backdrop(linear_rgb(still(x, y)), bare, 0.25F, 1);
-            if (e.plain > kOther_delta_e && e.shaded > kOther_delta_e) joined(y, x) = 255;
+            if (e.plain > kUnlike_delta_e && e.shaded > kUnlike_delta_e) joined(y, x) = 255;
         }
     }
     cv::morphologyEx(joined, joined, cv::MORPH_CLOSE, cv::Mat(), {-1, -1}, 1);

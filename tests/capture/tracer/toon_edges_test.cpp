@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 namespace rs::capture::test {
@@ -221,7 +222,8 @@ TEST(ToonEdges, LinesAreAsWideAsTheirRadiusFromThere) {
                 const Image<RgbaF> picture = render(std::move(scene), camera, lines(radius, 4)).picture;
                 const double width = dark_width(picture, across) / sides;
                 worst = std::max(worst, std::abs(width - radius_px));
-                EXPECT_NEAR(width, radius_px, 0.7) << "edge " << edge << ", " << lean_deg << " degrees, z " << z;
+                EXPECT_NEAR(width, radius_px, 0.7)
+                    << "edge " << edge << ", radius " << radius_px << ", " << lean_deg << " degrees, z " << z;
             }
         }
     }

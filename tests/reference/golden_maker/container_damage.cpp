@@ -11,7 +11,6 @@ namespace {
 using namespace object_chunks;
 
 constexpr std::size_t kTable = 48;
-constexpr std::size_t kEntry = 32;
 const std::string kBase = "raw";
 
 void fit_header_checksum(Bytes& file) {
