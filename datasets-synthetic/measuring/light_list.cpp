@@ -76,14 +76,15 @@ std::string beam_ies(const std::string& name, double lumens, double half_deg) {
                        "\n[LUMINAIRE]spot light, computed\nTILT=NONE\n1 -1 1 " + std::to_string(kAngles) +
                        " 1 1 2 -0.04 -0.04 0\n1 1 6\n";
     char number[32];
-    for (int row = 0; row < kAngles; ++row) {
-        std::snprintf(number, sizeof number, "%g%c", row * kStep_deg, row % 10 == 9 || row + 1 == kAngles ? '\n' : ' ');
+    for (int step = 0; step < kAngles; ++step) {
+        std::snprintf(number, sizeof number, "%g%c", step * kStep_deg,
+                      step % 10 == 9 || step + 1 == kAngles ? '\n' : ' ');
         text += number;
     }
     text += "0\n";
-    for (int row = 0; row < kAngles; ++row) {
-        const double candela = row + 1 == kAngles ? 0 : lumens / flux * shape(row * kStep_deg);
-        std::snprintf(number, sizeof number, "%.2f%c", candela, row % 10 == 9 || row + 1 == kAngles ? '\n' : ' ');
+    for (int step = 0; step < kAngles; ++step) {
+        const double candela = step + 1 == kAngles ? 0 : lumens / flux * shape(step * kStep_deg);
+        std::snprintf(number, sizeof number, "%.2f%c", candela, step % 10 == 9 || step + 1 == kAngles ? '\n' : ' ');
         text += number;
     }
     return text;

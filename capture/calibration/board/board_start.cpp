@@ -59,15 +59,12 @@ double board_size_mm(const BoardDesign& design) {
 
 std::optional<BoardPose> pose_from(Eigen::Matrix3d h, double unit_mm) {
     if (h(2, 2) < 0) h = -h;  // before the camera
-    // The nearest matrix of orthonormal columns is H (H^T H)^(-1/2).
-    const Eigen::Matrix<double, 3, 2> columns = h.leftCols<2>();
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> squares;
-    squares.computeDirect(columns.transpose() * columns);
-    const Eigen::Vector2d stretch = squares.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-    const double scale = stretch.mean();
-    if (!(stretch(0) > 1e-6 * scale)) return std::nullopt;
-    const Eigen::Matrix<double, 3, 2> turned =
-        columns * squares.eigenvectors() * stretch.cwiseInverse().asDiagonal() * squares.eigenvectors().transpose();
+    Eigen::Matrix3d frame = h;
+    frame.col(2) = h.col(0).cross(h.col(1));
+    const Eigen::Matrix3d turned = nearest_rotation(frame);
+    // Half the sum of the singular values of the first two columns.
+    const double scale = turned.leftCols<2>().cwiseProduct(h.leftCols<2>()).sum() / 2;
+    if (!(scale > 1e-12)) return std::nullopt;
     const Eigen::Vector3d flip(1, -1, -1);  // from y down, z forward
     BoardPose pose;
     pose.rotation.col(0) = flip.cwiseProduct(turned.col(0));
