@@ -4,6 +4,7 @@
 #include "capture/photos/background/plate.hpp"
 #include "capture/photos/background/turn_plate.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
+#include "rayspace/base/median.hpp"
 
 #include <tbb/parallel_for.h>
 #include <opencv2/core.hpp>
@@ -13,6 +14,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 namespace rs::capture {
 namespace {
@@ -92,6 +94,24 @@ bool resembles(const Rgba8& pixel, const std::vector<Rgba8>& colours) {
     });
 }
 
+// Where the exposure changes much from picture to picture, nothing agrees over time: what the border shows at the
+// median tells by how much.
+void even_out_border(EvenedSamples& samples) {
+    constexpr float kMuch = 1.15F;
+    Image<Rgba8> median(samples.width(), samples.height());
+    Image<std::uint8_t> border(samples.width(), samples.height());
+    std::vector<std::uint8_t> codes(samples.count());
+    for_border(samples.width(), samples.height(), [&](int x, int y) {
+        const auto median_of_channel = [&](std::uint8_t Rgba8::*channel) {
+            for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = samples(i, x, y).*channel;
+            return median_of(std::span(codes));
+        };
+        border(x, y) = 255;
+        median(x, y) = {median_of_channel(&Rgba8::r), median_of_channel(&Rgba8::g), median_of_channel(&Rgba8::b), 255};
+    });
+    samples.even_out(median, border, kMuch);
+}
+
 constexpr const char* kNoColour =
     ": the pictures' borders are neither even nor still; give --backdrop R,G,B, or cut the object out beforehand and "
     "give pictures with alpha";
@@ -101,6 +121,14 @@ std::optional<Rgba8> own_colour(BackdropKind kind) {
     if (kind == BackdropKind::kWhite) return Rgba8{255, 255, 255, 255};
     if (kind == BackdropKind::kBlack) return Rgba8{0, 0, 0, 255};
     return std::nullopt;
+}
+
+bool is_white(const Rgba8& c) {
+    return std::min({c.r, c.g, c.b}) >= kWhite_code;
+}
+
+bool is_black(const Rgba8& c) {
+    return std::max({c.r, c.g, c.b}) <= kBlack_code;
 }
 
 struct BorderShares {
@@ -114,8 +142,8 @@ BorderShares border_shares(const StillPicture& still) {
     for_border(still.colour.width(), still.colour.height(), [&](int x, int y) {
         const Rgba8& c = still.colour(x, y);
         ++count;
-        shares.white += std::min({c.r, c.g, c.b}) >= kWhite_code ? 1 : 0;
-        shares.black += std::max({c.r, c.g, c.b}) <= kBlack_code ? 1 : 0;
+        shares.white += is_white(c) ? 1 : 0;
+        shares.black += is_black(c) ? 1 : 0;
         shares.still += still.agreement(x, y) >= kStillShare ? 1 : 0;
     });
     shares.white /= count;
@@ -149,11 +177,30 @@ bool looks_even(const Rgba8& pixel, const Lab& look) {
     return delta_e(lab_from_linear(linear_rgb(pixel)), look) <= kEven_delta_e;
 }
 
-// How even the black is that the pictures' borders show. Where parts of the object fade to black at the border of some
-// pictures, others show the backdrop alone.
+// Where parts of the object fade into the backdrop at the border of some pictures, others show the backdrop alone.
+constexpr std::ptrdiff_t kFlatOneIn = 4;  // pictures
+
+// The one colour of a white backdrop; none where it has noise or a course, or where pictures are exposed differently.
+std::optional<Rgba8> flat_white_of(const Survey& survey) {
+    std::vector<Rgba8> whites;
+    std::ptrdiff_t flat = 0;
+    for (const Border& border : survey.borders) {
+        if (!is_white(border.median)) continue;
+        whites.push_back(border.median);
+        flat += border.flat ? 1 : 0;
+    }
+    if (whites.empty() || kFlatOneIn * flat < std::ssize(survey.borders)) return std::nullopt;
+    const auto differs = [&](std::uint8_t Rgba8::*channel) {
+        const auto [least, most] = std::ranges::minmax(whites, {}, channel);
+        return most.*channel - least.*channel > 1;
+    };
+    if (differs(&Rgba8::r) || differs(&Rgba8::g) || differs(&Rgba8::b)) return std::nullopt;
+    return whites.front();
+}
+
+// How even the black is that the pictures' borders show.
 BlackGround black_ground_of(const Survey& survey, const Lab& look) {
     constexpr double kEvenShare = 0.95;
-    constexpr std::ptrdiff_t kPureOneIn = 4;  // pictures
     std::int64_t border = 0;
     std::int64_t even = 0;
     for (const Image<Rgba8>& picture : survey.samples) {
@@ -163,8 +210,9 @@ BlackGround black_ground_of(const Survey& survey, const Lab& look) {
         });
     }
     if (static_cast<double>(even) < kEvenShare * static_cast<double>(border)) return BlackGround::kUnknownOrNoisy;
-    const auto pure = std::count(survey.pure_black_border.begin(), survey.pure_black_border.end(), 1);
-    return kPureOneIn * pure >= std::ssize(survey.samples) ? BlackGround::kExact : BlackGround::kEven;
+    const auto flat =
+        std::ranges::count_if(survey.borders, [](const Border& each) { return each.flat && is_black(each.median); });
+    return kFlatOneIn * flat >= std::ssize(survey.samples) ? BlackGround::kExact : BlackGround::kEven;
 }
 
 // Nowhere more than along the border, by its mean.
@@ -238,8 +286,9 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     }
 
     EvenedSamples samples(survey.samples);
-    StillPicture still = agree_over_time(samples);
     const bool turn = survey.samples.size() >= kMinSamplesForStillness;
+    if (turn) even_out_border(samples);
+    StillPicture still = agree_over_time(samples);
     const BorderShares shares = border_shares(still);
     Backdrop found;
     std::vector<Rgba8> colours = border_colours(still, turn);
@@ -265,8 +314,8 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     const Lab look = lab_from_linear(linear_rgb(found.colour));
     if (turn && found.kind == BackdropKind::kBlack) found.black = black_ground_of(survey, look);
     if (found.black == BlackGround::kExact) {  // nor does its exposure change: no plate is looked for
-        const int width = still.colour.width(), height = still.colour.height();
         found.colour = {0, 0, 0, 255};
+        const int width = still.colour.width(), height = still.colour.height();
         found.plate = Image<Rgba8>(width, height, found.colour);
         found.known = Image<std::uint8_t>(width, height, std::uint8_t{255});
         found.noise_delta_e = Image<float>(width, height);
@@ -288,6 +337,7 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
         found.untouched = std::move(plate.untouched);
         // Through the loops of an object a white or black backdrop looks the same all the time, too.
         if (found.kind == BackdropKind::kColour) found.hidden = std::move(plate.hidden);
+        if (found.kind == BackdropKind::kWhite && !disc) found.flat_white = flat_white_of(survey);
     } else {
         known = alike(still, colours, turn);
     }

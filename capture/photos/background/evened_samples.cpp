@@ -7,6 +7,8 @@
 #include <tbb/parallel_for.h>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
+
 namespace rs::capture {
 namespace {
 
@@ -33,14 +35,20 @@ EvenedSamples::EvenedSamples(std::span<const Image<Rgba8>> samples)
     });
 }
 
-void EvenedSamples::even_out(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> untouched) {
+void EvenedSamples::even_out(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> untouched, float least_change) {
     Image<LinearRgb> plate(still.width(), still.height());
     for (int y = 0; y < still.height(); ++y) {
         for (int x = 0; x < still.width(); ++x) plate(x, y) = linear_rgb(still(x, y));
     }
+    std::vector<LinearRgb> gains;
+    for (const Image<Rgba8>& sample : samples_) gains.push_back(exposure_gain(sample, plate, untouched));
+    const auto change = [&](float LinearRgb::*channel) {
+        const auto [least, most] = std::ranges::minmax(gains, {}, channel);
+        return most.*channel / least.*channel;
+    };
+    if (std::max({change(&LinearRgb::r), change(&LinearRgb::g), change(&LinearRgb::b)}) < least_change) return;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-        const LinearRgb gain = exposure_gain(samples_[i], plate, untouched);
-        codes_[i] = {divided_by(gain.r), divided_by(gain.g), divided_by(gain.b)};
+        codes_[i] = {divided_by(gains[i].r), divided_by(gains[i].g), divided_by(gains[i].b)};
     }
 }
 

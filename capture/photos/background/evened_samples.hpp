@@ -17,8 +17,9 @@ public:
     // Exposed as they are. At least one sample, all of one size; they must outlive this. Takes as much memory again.
     explicit EvenedSamples(std::span<const Image<Rgba8>> samples);
 
-    // Divides sample i by exposure_gain() from `still`, over the pixels where `untouched` is not 0.
-    void even_out(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> untouched);
+    // Divides sample i by exposure_gain() from `still`, over the pixels where `untouched` is not 0; but none where no
+    // two gains differ by more than the factor `least_change` in any channel.
+    void even_out(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> untouched, float least_change = 1);
 
     [[nodiscard]] std::size_t count() const { return samples_.size(); }
     [[nodiscard]] int width() const { return samples_[0].width(); }

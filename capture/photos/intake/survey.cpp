@@ -1,10 +1,12 @@
 #include "capture/photos/intake/survey.hpp"
 
 #include "capture/photos/intake/bounded_work.hpp"
+#include "rayspace/base/median.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <span>
 #include <utility>
@@ -84,20 +86,44 @@ Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px) {
     return result;
 }
 
-bool has_pure_black_border(ConstImageView<Rgba8> picture) {
-    constexpr int kDark = 3;
-    std::int64_t all = 0, dark = 0, black = 0;
+Border border_of(ConstImageView<Rgba8> picture) {
+    constexpr int kDark_code = 3;
+    constexpr int kLight_code = 225;
+    constexpr int kNear_codes = 10;
+    constexpr int kFlat_codes = 1;
+    constexpr double kFlatShare = 0.97;
+    std::vector<Rgba8> pixels;
     for (int y = 0; y < picture.height(); ++y) {
         const bool whole_row = y == 0 || y == picture.height() - 1;
         for (int x = 0; x < picture.width(); x += whole_row ? 1 : std::max(1, picture.width() - 1)) {
-            const Rgba8& pixel = picture(x, y);
-            const int code = std::max({pixel.r, pixel.g, pixel.b});
-            ++all;
-            dark += code <= kDark ? 1 : 0;
-            black += code == 0 ? 1 : 0;
+            pixels.push_back(picture(x, y));
         }
     }
-    return 2 * dark > all && black == dark;
+    if (pixels.empty()) return {};
+    const auto median_of_channel = [&](std::uint8_t Rgba8::*channel) {
+        std::vector<std::uint8_t> codes;
+        for (const Rgba8& pixel : pixels) codes.push_back(pixel.*channel);
+        return median(std::move(codes));
+    };
+    Border border{{median_of_channel(&Rgba8::r), median_of_channel(&Rgba8::g), median_of_channel(&Rgba8::b), 255}};
+    const auto [r, g, b, a] = border.median;
+    const auto largest_step = [&](const Rgba8& pixel) {
+        return std::max({std::abs(pixel.r - r), std::abs(pixel.g - g), std::abs(pixel.b - b)});
+    };
+    std::int64_t near = 0, flat = 0, dark = 0, black = 0;
+    for (const Rgba8& pixel : pixels) {
+        const int brightest = std::max({pixel.r, pixel.g, pixel.b});
+        dark += brightest <= kDark_code ? 1 : 0;
+        black += brightest == 0 ? 1 : 0;
+        near += largest_step(pixel) <= kNear_codes ? 1 : 0;
+        flat += largest_step(pixel) <= kFlat_codes ? 1 : 0;
+    }
+    const auto most = [&](std::int64_t count) { return 2 * count > std::ssize(pixels); };
+    const bool flat_black = most(dark) && black == dark;
+    const bool flat_light = std::min({r, g, b}) >= kLight_code && most(near) &&
+                            static_cast<double>(flat) >= kFlatShare * static_cast<double>(near);
+    border.flat = flat_black || flat_light;
+    return border;
 }
 
 Result<Survey> survey_photos(const PhotoFolder& folder, Progress* progress) {
@@ -105,7 +131,7 @@ Result<Survey> survey_photos(const PhotoFolder& folder, Progress* progress) {
     Survey survey;
     survey.thumbnails.resize(count);
     survey.samples.resize(sample_count(count));
-    survey.pure_black_border.resize(survey.samples.size());
+    survey.borders.resize(survey.samples.size());
     std::vector<std::optional<std::size_t>> sample_of(count);
     for (std::size_t s = 0; s < survey.samples.size(); ++s) {
         survey.sample_photos.push_back(s * count / survey.samples.size());
@@ -118,7 +144,7 @@ Result<Survey> survey_photos(const PhotoFolder& folder, Progress* progress) {
         survey.thumbnails[i] = reduced(sample, kThumbnailSide_px);
         if (sample_of[i]) {
             survey.samples[*sample_of[i]] = std::move(sample);
-            survey.pure_black_border[*sample_of[i]] = has_pure_black_border(*picture) ? 1 : 0;
+            survey.borders[*sample_of[i]] = border_of(*picture);
         }
         return {};
     };

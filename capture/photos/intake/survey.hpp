@@ -19,20 +19,27 @@ inline constexpr int kSampleSide_px = 1024;
 inline constexpr int kThumbnailSide_px = 160;
 inline constexpr int kMaxSamples = 48;
 
+// The outermost pixels of a photograph, which the object seldom reaches.
+struct Border {
+    Rgba8 median;       // per channel
+    bool flat = false;  // shows a backdrop of one colour, as border_of() says
+};
+
 struct Survey {
     std::vector<Image<Rgba8>> thumbnails;    // [photo]
     std::vector<Image<Rgba8>> samples;       // of at most kMaxSamples photos, evenly spread over the turn
     std::vector<std::size_t> sample_photos;  // [sample] -> photo
-    // [sample]: has_pure_black_border() of the photograph itself, not of its small copy, where noise averages out.
-    std::vector<std::uint8_t> pure_black_border;
+    std::vector<Border> borders;  // [sample]: of the photograph itself, as noise averages out in small copies
 };
 
 // A picture made smaller by averaging, so that no side is longer than `side_px`; a copy where it is small enough.
 // Colours are averaged with alpha as their weight. Besides the result it takes the memory of a few rows.
 Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px);
 
-// Whether most of the outermost pixels are dark (up to code 3), and all of these are black to the code.
-bool has_pure_black_border(ConstImageView<Rgba8> picture);
+// A border is flat where renderings, retouched and overexposed pictures show a backdrop without noise: most pixels are
+// dark (up to code 3), and all of these are black to the code; or most are within 10 codes of a light median (225 at
+// least in every channel), and nearly all of these within 1 code, as JPEG files leave of a single colour.
+Border border_of(ConstImageView<Rgba8> picture);
 
 // What reading takes of memory per pixel of a picture, at most: 16-bit and float files pass through float.
 inline constexpr int kReadBytesPerPixel = 24;

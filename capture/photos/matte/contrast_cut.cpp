@@ -3,6 +3,7 @@
 #include "capture/photos/matte/object_mask.hpp"
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/imgproc/detail/gcgraph.hpp>
 
 #include <algorithm>
@@ -86,6 +87,80 @@ Image<std::uint8_t> cut_by_contrast(ConstImageView<Lab> looks, ConstImageView<fl
         }
     }
     return object;
+}
+
+namespace {
+
+constexpr std::ptrdiff_t kMuchUndecided_px =
+    30000;  // below that a cut of the whole takes some tenths of a second at most
+constexpr float kClearly = 1;
+
+std::ptrdiff_t undecided_in(ConstImageView<float> preference) {
+    std::ptrdiff_t count = 0;
+    for (int y = 0; y < preference.height(); ++y) {
+        count += std::count_if(preference.row(y), preference.row(y) + preference.width(),
+                               [](float own) { return std::abs(own) < kDecided; });
+    }
+    return count;
+}
+
+struct HalfSize {
+    Image<Lab> looks;
+    Image<float> preference;
+};
+
+// Means of 2 x 2 pixels. A pixel is decided where all four are and agree. Twice the mean preference: areas shrink to a
+// quarter, borders to half.
+HalfSize half_size(ConstImageView<Lab> looks, ConstImageView<float> preference) {
+    const int width = (looks.width() + 1) / 2, height = (looks.height() + 1) / 2;
+    HalfSize half{Image<Lab>(width, height), Image<float>(width, height)};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            Lab sum;
+            float own = 0, least = kDecided, most = -kDecided;
+            for (int v = 2 * y; v < 2 * y + 2; ++v) {
+                for (int u = 2 * x; u < 2 * x + 2; ++u) {
+                    const int at_x = std::min(u, looks.width() - 1), at_y = std::min(v, looks.height() - 1);
+                    const Lab& look = looks(at_x, at_y);
+                    sum = {sum.l + look.l, sum.a + look.a, sum.b + look.b};
+                    const float one = preference(at_x, at_y);
+                    own += one;
+                    least = std::min(least, one);
+                    most = std::max(most, one);
+                }
+            }
+            constexpr float kAlmostDecided = 0.99F * kDecided;
+            half.looks(x, y) = {sum.l / 4, sum.a / 4, sum.b / 4};
+            half.preference(x, y) = least >= kDecided   ? kDecided
+                                    : most <= -kDecided ? -kDecided
+                                                        : std::clamp(own / 2, -kAlmostDecided, kAlmostDecided);
+        }
+    }
+    return half;
+}
+
+}  // namespace
+
+Image<std::uint8_t> cut_coarse_first(ConstImageView<Lab> looks, ConstImageView<float> preference,
+                                     const CutOptions& options) {
+    if (undecided_in(preference) < kMuchUndecided_px) return cut_by_contrast(looks, preference, options);
+    const HalfSize half = half_size(looks, preference);
+    Image<std::uint8_t> coarse = cut_coarse_first(half.looks, half.preference, options);
+    const cv::Mat1b sides(coarse.height(), coarse.width(), coarse.data());
+    const cv::Mat1b around = cv::getStructuringElement(cv::MORPH_RECT, {kCoarseBand_px + 1, kCoarseBand_px + 1});
+    cv::Mat1b least, most;
+    cv::erode(sides, least, around);
+    cv::dilate(sides, most, around);
+    Image<float> left(preference.width(), preference.height());
+    for (int y = 0; y < left.height(); ++y) {
+        for (int x = 0; x < left.width(); ++x) {
+            const float own = preference(x, y);
+            const bool object = least(y / 2, x / 2) != 0, backdrop = most(y / 2, x / 2) == 0;
+            const bool open = (!object && !backdrop) || (object ? own <= -kClearly : own >= kClearly);
+            left(x, y) = std::abs(own) >= kDecided || open ? own : object ? kDecided : -kDecided;
+        }
+    }
+    return cut_by_contrast(looks, left, options);
 }
 
 }  // namespace rs::capture

@@ -15,8 +15,7 @@
 namespace rs::capture {
 namespace {
 
-// What the colour says where it is almost the plate's, and on a small island of it.
-constexpr float kAlmostPlain = -0.4F;
+// What the colour says on a small island of the plate's colour.
 constexpr float kIsland = -0.1F;
 
 // For a plate that is known from a turn and neither white nor black.
@@ -70,8 +69,8 @@ float preference_against(const KnownColour& pixel, const KnownColour& behind, fl
     const float tolerance = 1 + options.shadow_tolerance * std::max(0.0F, 1 - e.shade);
     const float object = ramp(e.shaded, possible_delta_e * tolerance, certain_delta_e * tolerance);
     if (object > 0) return std::max(std::abs(options.shadow_or_grey), object * kDecided);
-    const float plain = 1 - ramp(e.plain, plain_delta_e, 2 * plain_delta_e);
-    if (plain > 0) return plain * kAlmostPlain;
+    const float plain = 1 - ramp(e.plain, plain_delta_e, options.almost_plain_reach * plain_delta_e);
+    if (plain > 0) return plain * options.almost_plain;
     const bool likely = e.shade >= options.crevice_shade && e.shaded <= 0.8F * possible_delta_e;
     return likely ? options.shadow_or_grey : std::abs(options.shadow_or_grey);
 }
@@ -126,13 +125,20 @@ void doubt_small_islands(Image<float>& preference, ConstImageView<Lab> plate, do
 }
 
 // Keeps the parts of `mask` that hold a pixel which strongly speaks for the object, and are no specks.
-void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, double min_part) {
+void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, const MaskOptions& options) {
     const Parts parts(mask, 8);
     auto keep = parts.per_label<std::uint8_t>();
     for (int y = 0; y < mask.rows; ++y) {
         for (int x = 0; x < mask.cols; ++x) {
             if (mask(y, x) != 0 && preference(x, y) >= kStrong) keep[static_cast<std::size_t>(parts.label(x, y))] = 1;
         }
+    }
+    if (options.may_be_faint && std::ranges::count(keep, 0) == std::ssize(keep)) {
+        int first = 0;
+        for (int label = 1; label < parts.count(); ++label) {
+            if (first == 0 || parts.area(label) > parts.area(first)) first = label;
+        }
+        keep[static_cast<std::size_t>(first)] = 1;
     }
     int largest = 0;
     for (int label = 1; label < parts.count(); ++label) {
@@ -141,8 +147,8 @@ void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, double 
     for (int y = 0; y < mask.rows; ++y) {
         for (int x = 0; x < mask.cols; ++x) {
             const int label = parts.label(x, y);
-            const bool solid =
-                label != 0 && keep[static_cast<std::size_t>(label)] != 0 && parts.area(label) >= min_part * largest;
+            const bool solid = label != 0 && keep[static_cast<std::size_t>(label)] != 0 &&
+                               parts.area(label) >= options.min_part * largest;
             mask(y, x) = solid ? 255 : 0;
         }
     }
@@ -288,6 +294,16 @@ MaskOptions mask_options_for(const Backdrop& backdrop) {
     return options;
 }
 
+MaskOptions mask_options_for_flat_white() {
+    MaskOptions options;
+    options.plain_delta_e = .5F;
+    // What differs by a few codes may as well be a faint shadow: it says next to nothing, and the contrast decides.
+    options.almost_plain_reach = 10;
+    options.almost_plain = -.05F;
+    options.coarse_first = true;  // most of a white object is undecided
+    return options;
+}
+
 namespace {
 
 // The photograph and what is behind the object, as they look.
@@ -353,9 +369,11 @@ Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const PlateView& pl
     Image<float> preference = preference_by(looks, photo, plate, options);
     if (options.thin_delta_e > 0) lean_to_object_in_thin_parts(photo, plate, looks.plate, options, preference);
     doubt_small_islands(preference, looks.plate, options.max_island);
-    result = cut_by_contrast(looks.photo, preference, {.contrast_delta_e = options.contrast_delta_e});
+    const CutOptions cut{.contrast_delta_e = options.contrast_delta_e};
+    result = options.coarse_first ? cut_coarse_first(looks.photo, preference, cut)
+                                  : cut_by_contrast(looks.photo, preference, cut);
     cv::Mat1b mask(result.height(), result.width(), result.data());
-    keep_solid_parts(mask, preference, options.min_part);
+    keep_solid_parts(mask, preference, options);
     close_false_holes(mask, preference, looks.plate, options);
     return result;
 }

@@ -20,10 +20,13 @@ namespace rs::capture {
 struct MaskOptions {
     float plain_delta_e = 2.5F;         // up to this from a grey plate: surely backdrop
     float plain_colourful_delta_e = 6;  // the same for a plate that has a colour, which objects seldom share
-    float possible_delta_e = 10;        // from here on a pixel leans to the object, in full light ...
-    float certain_delta_e = 22;         // ... and from here on it is surely object
-    float shadow_tolerance = 1;         // both grow by this share of what the shadow takes away: objects tint shadows
-    float noise_margin = 2;             // what is plain lies within so many times the noise
+    // Up to so many times that it is almost plain, which says a little: so much at most, and nothing at the end.
+    float almost_plain_reach = 2;
+    float almost_plain = -0.4F;
+    float possible_delta_e = 10;  // from here on a pixel leans to the object, in full light ...
+    float certain_delta_e = 22;   // ... and from here on it is surely object
+    float shadow_tolerance = 1;   // both grow by this share of what the shadow takes away: objects tint shadows
+    float noise_margin = 2;       // what is plain lies within so many times the noise
     // What the colour says where nothing but a shadow on a grey backdrop explains it: next to nothing, so that the
     // contrast decides. Above 0 a closed border around a grey patch of the object can hold it.
     float shadow_or_grey = 0.08F;
@@ -36,6 +39,8 @@ struct MaskOptions {
     float thin_delta_e = 0;
     float thin_on_ground_delta_e = 0;
     float contrast_delta_e = 3.5F;  // as in contrast_cut.hpp
+    bool coarse_first = false;      // cut_coarse_first() there
+    bool may_be_faint = false;      // where no part is clearly the object's, the largest is
     double max_island = 0.003;      // plain grey patches smaller than this share of the picture may be the object's
     double min_part = 0.01;         // parts smaller than this share of the largest are specks
     // Of a true hole's inner part at least so much looks plain; measured on a shoe before white: loops of its straps
@@ -55,6 +60,9 @@ struct PlateView {
 
 // A shadow on black cannot be seen, so it is not looked for.
 MaskOptions mask_options_for(const Backdrop& backdrop);
+
+// White objects differ by a few codes from a white of one colour.
+MaskOptions mask_options_for_flat_white();
 
 // The preference, -kDecided..kDecided; the ends are certain.
 inline constexpr float kDecided = 4;

@@ -95,5 +95,33 @@ TEST(ContrastCut, WithoutAnyDoubtTheSidesStay) {
     EXPECT_EQ(cut(2, 0), 0);
 }
 
+// A body a little darker than what is around it, known in its middle and far outside, with noise; and a bar of one
+// pixel that only its preference tells: the coarse pictures hardly know it.
+TEST(ContrastCut, CoarseFirstFindsTheSame) {
+    constexpr int kSide = 301, kBar_y = 40;
+    std::mt19937 random(5);
+    Image<Rgba8> photo(kSide, kSide);
+    Image<float> preference(kSide, kSide);
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const double r = std::hypot(x - 151 + 20 * std::sin(0.05 * y), y - 160);
+            const bool bar = y == kBar_y && x > 60 && x < 240;
+            const auto code = static_cast<std::uint8_t>((r < 90 ? 190
+                                                         : bar  ? 120
+                                                                : 215) +
+                                                        static_cast<int>(random() % 5));
+            photo(x, y) = {code, code, code, 255};
+            preference(x, y) = r < 30 ? kDecided : r > 130 && !bar ? -kDecided : bar ? 1.5F : 0.02F;
+        }
+    }
+    const Image<Lab> looks = lab_picture(photo);
+    const Image<std::uint8_t> whole = cut_by_contrast(looks, preference, {});
+    const Image<std::uint8_t> coarse_first = cut_coarse_first(looks, preference, {});
+    EXPECT_EQ(whole, coarse_first);
+    EXPECT_EQ(whole(100, kBar_y), 255);
+    EXPECT_EQ(whole(151, 235), 255);
+    EXPECT_EQ(whole(151, 260), 0);
+}
+
 }  // namespace
 }  // namespace rs::capture

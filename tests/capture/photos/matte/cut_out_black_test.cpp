@@ -1,6 +1,7 @@
 // Dark parts of objects before a black backdrop: noisy, even, exact.
 
 #include "capture/photos/matte/cut_out.hpp"
+#include "tests/capture/photos/backdrop_behind.hpp"
 #include "tests/capture/photos/turn_of_pictures.hpp"
 
 #include <gtest/gtest.h>
@@ -9,18 +10,10 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
-#include <utility>
 #include <vector>
 
 namespace rs::capture {
 namespace {
-
-Result<Backdrop> backdrop_behind(std::vector<Image<Rgba8>> photos) {
-    Survey survey;
-    for (const Image<Rgba8>& photo : photos) survey.pure_black_border.push_back(has_pure_black_border(photo));
-    survey.samples = std::move(photos);
-    return find_backdrop(survey, {}, "drawn");
-}
 
 // A black strap hangs below the disc's place in every picture. Before an even black it is cut out whole, before an
 // exact black also where it is only four codes lighter; where the black itself is as noisy, nobody can tell.
@@ -50,7 +43,7 @@ TEST(CutOutBeforeBlack, KeepsABlackStrapBeforeAnEvenBlack) {
                 }
             }
         }
-        const Result<Backdrop> backdrop = backdrop_behind(photos);
+        const Result<Backdrop> backdrop = test::backdrop_behind(photos);
         ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
         EXPECT_EQ(backdrop->black, drawn.black);
         const Image<Rgba8> cut = ObjectCutter(*backdrop, turn.width, turn.height).cut(photos[2]);
@@ -78,7 +71,7 @@ TEST(CutOutBeforeBlack, ClosesWhatFadesToAnExactBlackAndKeepsAHoleWithARim) {
     constexpr double kBlackRadius_px = 7, kFade_px = 12;
     test::DrawnTurn turn;
     turn.backdrop = {0, 0, 0, 255};
-    const Result<Backdrop> backdrop = backdrop_behind(test::draw_photos(turn));
+    const Result<Backdrop> backdrop = test::backdrop_behind(test::draw_photos(turn));
     ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
     ASSERT_EQ(backdrop->black, BlackGround::kExact);
 

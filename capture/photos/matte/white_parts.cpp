@@ -1,0 +1,76 @@
+#include "capture/photos/matte/white_parts.hpp"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace rs::capture {
+
+PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& white) {
+    constexpr float kMark_delta_e = 2.5F;
+    const int width = plate.light.width(), height = plate.light.height();
+    PlateView flat;
+    flat.light = Image<LinearRgb>(width, height, white);
+    flat.noise_delta_e = Image<float>(width, height);
+    const Lab look = lab_from_linear(white);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (untouched(x, y) == 0 || delta_e(lab_from_linear(plate.light(x, y)), look) <= kMark_delta_e) continue;
+            flat.light(x, y) = plate.light(x, y);
+            if (!plate.noise_delta_e.empty()) flat.noise_delta_e(x, y) = plate.noise_delta_e(x, y);
+        }
+    }
+    return flat;
+}
+
+namespace {
+
+// Adds to `mask` the parts that only `whole` has and that are large beside it.
+void add_large_parts(Image<std::uint8_t>& mask, Image<std::uint8_t> whole) {
+    constexpr double kLarge = 0.02;  // loops and patches of shadow are smaller
+    const cv::Mat1b found(mask.height(), mask.width(), mask.data());
+    const cv::Mat1b all(whole.height(), whole.width(), whole.data());
+    cv::Mat1b lacks(all.size(), std::uint8_t{0});
+    cv::bitwise_xor(all, found, lacks, all);
+    cv::Mat1i labels;
+    cv::Mat stats, centroids;
+    cv::connectedComponentsWithStats(lacks, labels, stats, centroids, 4);
+    const double least_px = kLarge * cv::countNonZero(all);
+    for (int y = 0; y < mask.height(); ++y) {
+        for (int x = 0; x < mask.width(); ++x) {
+            const int label = labels(y, x);
+            if (label != 0 && stats.at<int>(label, cv::CC_STAT_AREA) >= least_px) mask(x, y) = 255;
+        }
+    }
+}
+
+// How many pixels look different from what is behind the object.
+std::ptrdiff_t differing(ConstImageView<Rgba8> photo, const PlateView& plate) {
+    constexpr float kVisible_delta_e = 2.5F;
+    std::ptrdiff_t count = 0;
+    for (int y = 0; y < photo.height(); ++y) {
+        for (int x = 0; x < photo.width(); ++x) {
+            const Lab look = lab_from_linear(linear_rgb(photo(x, y)));
+            count += delta_e(look, lab_from_linear(plate.light(x, y))) > kVisible_delta_e ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+}  // namespace
+
+void add_white_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, const PlateView& flat) {
+    constexpr double kHardlyAny = 0.2;  // of what differs: the rest cannot all be shadow
+    if (mask.empty()) return;
+    MaskOptions options = mask_options_for_flat_white();
+    add_large_parts(mask, find_object(photo, flat, options));
+    const auto solid = std::ranges::count(mask.pixels(), std::uint8_t{255});
+    if (static_cast<double>(solid) >= kHardlyAny * static_cast<double>(differing(photo, flat))) return;
+    options.shadow_or_grey = 0.5F;
+    options.may_be_faint = true;
+    add_large_parts(mask, find_object(photo, flat, options));
+}
+
+}  // namespace rs::capture
