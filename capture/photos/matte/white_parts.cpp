@@ -27,23 +27,20 @@ PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouc
 
 namespace {
 
-// Adds to `mask` the parts that only `whole` has and that are large beside it.
-void add_large_parts(Image<std::uint8_t>& mask, Image<std::uint8_t> whole) {
-    constexpr double kLarge = 0.02;  // loops and patches of shadow are smaller
-    const cv::Mat1b found(mask.height(), mask.width(), mask.data());
+// Adds `whole` to `mask` where that adds a part that is large beside it: such an object is white, and its highlights,
+// spokes and mirrors are, too.
+void add_if_large(Image<std::uint8_t>& mask, Image<std::uint8_t> whole) {
+    constexpr double kLarge = 0.02;  // loops of an object that is not white, and patches of shadow, are smaller
+    cv::Mat1b found(mask.height(), mask.width(), mask.data());
     const cv::Mat1b all(whole.height(), whole.width(), whole.data());
     cv::Mat1b lacks(all.size(), std::uint8_t{0});
     cv::bitwise_xor(all, found, lacks, all);
     cv::Mat1i labels;
     cv::Mat stats, centroids;
-    cv::connectedComponentsWithStats(lacks, labels, stats, centroids, 4);
-    const double least_px = kLarge * cv::countNonZero(all);
-    for (int y = 0; y < mask.height(); ++y) {
-        for (int x = 0; x < mask.width(); ++x) {
-            const int label = labels(y, x);
-            if (label != 0 && stats.at<int>(label, cv::CC_STAT_AREA) >= least_px) mask(x, y) = 255;
-        }
-    }
+    const int parts = cv::connectedComponentsWithStats(lacks, labels, stats, centroids, 4);
+    int largest_px = 0;
+    for (int part = 1; part < parts; ++part) largest_px = std::max(largest_px, stats.at<int>(part, cv::CC_STAT_AREA));
+    if (largest_px >= kLarge * cv::countNonZero(all)) cv::bitwise_or(found, all, found);
 }
 
 // How many pixels look different from what is behind the object.
@@ -65,12 +62,12 @@ void add_white_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, con
     constexpr double kHardlyAny = 0.2;  // of what differs: the rest cannot all be shadow
     if (mask.empty()) return;
     MaskOptions options = mask_options_for_flat_white();
-    add_large_parts(mask, find_object(photo, flat, options));
+    add_if_large(mask, find_object(photo, flat, options));
     const auto solid = std::ranges::count(mask.pixels(), std::uint8_t{255});
     if (static_cast<double>(solid) >= kHardlyAny * static_cast<double>(differing(photo, flat))) return;
     options.shadow_or_grey = 0.5F;
     options.may_be_faint = true;
-    add_large_parts(mask, find_object(photo, flat, options));
+    add_if_large(mask, find_object(photo, flat, options));
 }
 
 }  // namespace rs::capture
