@@ -180,22 +180,23 @@ bool looks_even(const Rgba8& pixel, const Lab& look) {
 // Where parts of the object fade into the backdrop at the border of some pictures, others show the backdrop alone.
 constexpr std::ptrdiff_t kFlatOneIn = 4;  // pictures
 
-// The one colour of a white backdrop; none where it has noise or a course, or where pictures are exposed differently.
-std::optional<Rgba8> flat_white_of(const Survey& survey) {
-    std::vector<Rgba8> whites;
+// The one colour of a grey or white backdrop; none where it has noise or a course, or where pictures are exposed
+// differently.
+std::optional<Rgba8> flat_grey_of(const Survey& survey) {
+    std::vector<Rgba8> greys;
     std::ptrdiff_t flat = 0;
     for (const Border& border : survey.borders) {
-        if (!is_white(border.median)) continue;
-        whites.push_back(border.median);
+        if (is_colourful(linear_rgb(border.median))) continue;
+        greys.push_back(border.median);
         flat += border.flat ? 1 : 0;
     }
-    if (whites.empty() || kFlatOneIn * flat < std::ssize(survey.borders)) return std::nullopt;
+    if (greys.empty() || kFlatOneIn * flat < std::ssize(survey.borders)) return std::nullopt;
     const auto differs = [&](std::uint8_t Rgba8::*channel) {
-        const auto [least, most] = std::ranges::minmax(whites, {}, channel);
+        const auto [least, most] = std::ranges::minmax(greys, {}, channel);
         return most.*channel - least.*channel > 1;
     };
     if (differs(&Rgba8::r) || differs(&Rgba8::g) || differs(&Rgba8::b)) return std::nullopt;
-    return whites.front();
+    return greys.front();
 }
 
 // How even the black is that the pictures' borders show.
@@ -337,7 +338,7 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
         found.untouched = std::move(plate.untouched);
         // Through the loops of an object a white or black backdrop looks the same all the time, too.
         if (found.kind == BackdropKind::kColour) found.hidden = std::move(plate.hidden);
-        if (found.kind == BackdropKind::kWhite && !disc) found.flat_white = flat_white_of(survey);
+        if (found.kind != BackdropKind::kBlack && !disc) found.flat_grey = flat_grey_of(survey);
     } else {
         known = alike(still, colours, turn);
     }

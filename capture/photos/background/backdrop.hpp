@@ -35,9 +35,9 @@ enum class BlackGround { kUnknownOrNoisy, kEven, kExact };
 struct Backdrop {
     BackdropKind kind = BackdropKind::kAlpha;
     BlackGround black = BlackGround::kUnknownOrNoisy;
-    // The colour of a white without noise, as of retouched and overexposed pictures, before which white parts of an
-    // object differ by a few codes; none of another kind, with a turntable's disc, or of too few pictures.
-    std::optional<Rgba8> flat_white{};
+    // The colour of a grey or a white without noise, as of retouched and overexposed pictures, before which grey parts
+    // of an object differ by a few codes; none of another kind, with a turntable's disc, or of too few pictures.
+    std::optional<Rgba8> flat_grey{};
     Rgba8 colour;                 // the commonest colour along the border (kAlpha: transparent black)
     std::vector<Rgba8> screen{};  // strong colours of the border, as of a chroma key: backdrop wherever they are seen
     Image<Rgba8> plate;           // sRGB, opaque, in the samples' size; empty for kAlpha

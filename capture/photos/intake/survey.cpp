@@ -88,7 +88,6 @@ Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px) {
 
 Border border_of(ConstImageView<Rgba8> picture) {
     constexpr int kDark_code = 3;
-    constexpr int kLight_code = 225;
     constexpr int kNear_codes = 10;
     constexpr int kFlat_codes = 1;
     constexpr double kFlatShare = 0.97;
@@ -120,9 +119,9 @@ Border border_of(ConstImageView<Rgba8> picture) {
     }
     const auto most = [&](std::int64_t count) { return 2 * count > std::ssize(pixels); };
     const bool flat_black = most(dark) && black == dark;
-    const bool flat_light = std::min({r, g, b}) >= kLight_code && most(near) &&
-                            static_cast<double>(flat) >= kFlatShare * static_cast<double>(near);
-    border.flat = flat_black || flat_light;
+    const bool dark_median = std::max({r, g, b}) <= kDark_code;
+    const bool flat_other = most(near) && static_cast<double>(flat) >= kFlatShare * static_cast<double>(near);
+    border.flat = dark_median ? flat_black : flat_other;
     return border;
 }
 

@@ -37,8 +37,8 @@ struct Survey {
 Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px);
 
 // A border is flat where renderings, retouched and overexposed pictures show a backdrop without noise: most pixels are
-// dark (up to code 3), and all of these are black to the code; or most are within 10 codes of a light median (225 at
-// least in every channel), and nearly all of these within 1 code, as JPEG files leave of a single colour.
+// within 10 codes of the median, and nearly all of these within 1 code, as JPEG files leave of a single colour; but of
+// a dark median (up to code 3) most pixels are dark, and all of these are black to the code.
 Border border_of(ConstImageView<Rgba8> picture);
 
 // What reading takes of memory per pixel of a picture, at most: 16-bit and float files pass through float.

@@ -2,8 +2,8 @@
 
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/exposure.hpp"
+#include "capture/photos/matte/grey_parts.hpp"
 #include "capture/photos/matte/soft_edge.hpp"
-#include "capture/photos/matte/white_parts.hpp"
 
 #include <opencv2/imgproc.hpp>
 
@@ -121,7 +121,7 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
     plate_.ground = scaled(backdrop.ground, width, height);
     plate_.hidden = scaled(backdrop.hidden, width, height);
     untouched_ = scaled(backdrop.untouched, width, height);
-    if (backdrop.flat_white) flat_plate_ = flat_plate(plate_, untouched_, linear_rgb(*backdrop.flat_white));
+    if (backdrop.flat_grey) flat_plate_ = flat_plate(plate_, untouched_, linear_rgb(*backdrop.flat_grey));
 }
 
 PlateView ObjectCutter::exposed_as(ConstImageView<Rgba8> photo) const {
@@ -142,7 +142,7 @@ Image<Rgba8> ObjectCutter::cut(ConstImageView<Rgba8> photo) const {
     } else {
         const PlateView plate = exposed_as(photo);
         Image<std::uint8_t> mask = find_object(photo, plate, options_);
-        if (!flat_plate_.light.empty()) add_white_parts(mask, photo, flat_plate_);
+        if (!flat_plate_.light.empty()) add_grey_parts(mask, photo, flat_plate_);
         cut = unmix(photo, soften_edge(photo, mask, band_px_));
     }
     bleed_colours(cut);

@@ -294,13 +294,13 @@ MaskOptions mask_options_for(const Backdrop& backdrop) {
     return options;
 }
 
-MaskOptions mask_options_for_flat_white() {
+MaskOptions mask_options_for_flat_grey() {
     MaskOptions options;
     options.plain_delta_e = .5F;
     // What differs by a few codes may as well be a faint shadow: it says next to nothing, and the contrast decides.
     options.almost_plain_reach = 10;
     options.almost_plain = -.05F;
-    options.coarse_first = true;  // most of a white object is undecided
+    options.coarse_first = true;  // most of a grey object is undecided
     return options;
 }
 

@@ -61,8 +61,8 @@ struct PlateView {
 // A shadow on black cannot be seen, so it is not looked for.
 MaskOptions mask_options_for(const Backdrop& backdrop);
 
-// White objects differ by a few codes from a white of one colour.
-MaskOptions mask_options_for_flat_white();
+// White objects differ by a few codes from a white of one colour, and grey ones from a grey.
+MaskOptions mask_options_for_flat_grey();
 
 // The preference, -kDecided..kDecided; the ends are certain.
 inline constexpr float kDecided = 4;

@@ -1,4 +1,4 @@
-#include "capture/photos/matte/white_parts.hpp"
+#include "capture/photos/matte/grey_parts.hpp"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -8,13 +8,13 @@
 
 namespace rs::capture {
 
-PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& white) {
+PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& grey) {
     constexpr float kMark_delta_e = 2.5F;
     const int width = plate.light.width(), height = plate.light.height();
     PlateView flat;
-    flat.light = Image<LinearRgb>(width, height, white);
+    flat.light = Image<LinearRgb>(width, height, grey);
     flat.noise_delta_e = Image<float>(width, height);
-    const Lab look = lab_from_linear(white);
+    const Lab look = lab_from_linear(grey);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             if (untouched(x, y) == 0 || delta_e(lab_from_linear(plate.light(x, y)), look) <= kMark_delta_e) continue;
@@ -27,10 +27,10 @@ PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouc
 
 namespace {
 
-// Adds `whole` to `mask` where that adds a part that is large beside it: such an object is white, and its highlights,
-// spokes and mirrors are, too.
+// Adds `whole` to `mask` where that adds a part that is large beside it: such an object is as grey as its
+// backdrop, and its highlights, spokes and mirrors are, too.
 void add_if_large(Image<std::uint8_t>& mask, Image<std::uint8_t> whole) {
-    constexpr double kLarge = 0.02;  // loops of an object that is not white, and patches of shadow, are smaller
+    constexpr double kLarge = 0.02;  // loops of other objects, and patches of shadow, are smaller
     cv::Mat1b found(mask.height(), mask.width(), mask.data());
     const cv::Mat1b all(whole.height(), whole.width(), whole.data());
     cv::Mat1b lacks(all.size(), std::uint8_t{0});
@@ -58,10 +58,10 @@ std::ptrdiff_t differing(ConstImageView<Rgba8> photo, const PlateView& plate) {
 
 }  // namespace
 
-void add_white_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, const PlateView& flat) {
+void add_grey_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, const PlateView& flat) {
     constexpr double kHardlyAny = 0.2;  // of what differs: the rest cannot all be shadow
     if (mask.empty()) return;
-    MaskOptions options = mask_options_for_flat_white();
+    MaskOptions options = mask_options_for_flat_grey();
     add_if_large(mask, find_object(photo, flat, options));
     const auto solid = std::ranges::count(mask.pixels(), std::uint8_t{255});
     if (static_cast<double>(solid) >= kHardlyAny * static_cast<double>(differing(photo, flat))) return;
