@@ -177,31 +177,25 @@ bool looks_even(const Rgba8& pixel, const Lab& look) {
     return delta_e(lab_from_linear(linear_rgb(pixel)), look) <= kEven_delta_e;
 }
 
-// Where parts of the object fade into the backdrop at the border of some pictures, others show the backdrop alone.
-constexpr std::ptrdiff_t kFlatOneIn = 4;  // pictures
-
-// The one colour of a grey or white backdrop; none where it has noise or a course, or where pictures are exposed
-// differently.
+// The one colour of a grey or white backdrop; none where it has noise or a course, or seldom the same exposure.
 std::optional<Rgba8> flat_grey_of(const Survey& survey) {
-    std::vector<Rgba8> greys;
-    std::ptrdiff_t flat = 0;
-    for (const Border& border : survey.borders) {
-        if (is_colourful(linear_rgb(border.median))) continue;
-        greys.push_back(border.median);
-        flat += border.flat ? 1 : 0;
-    }
-    if (greys.empty() || kFlatOneIn * flat < std::ssize(survey.borders)) return std::nullopt;
-    const auto differs = [&](std::uint8_t Rgba8::*channel) {
-        const auto [least, most] = std::ranges::minmax(greys, {}, channel);
-        return most.*channel - least.*channel > 1;
+    if (survey.borders.empty()) return std::nullopt;
+    const auto median_of_channel = [&](std::uint8_t Rgba8::*channel) {
+        std::vector<std::uint8_t> codes;
+        for (const Border& border : survey.borders) codes.push_back(border.median.*channel);
+        return median(std::move(codes));
     };
-    if (differs(&Rgba8::r) || differs(&Rgba8::g) || differs(&Rgba8::b)) return std::nullopt;
-    return greys.front();
+    const Rgba8 grey{median_of_channel(&Rgba8::r), median_of_channel(&Rgba8::g), median_of_channel(&Rgba8::b), 255};
+    const auto flat = std::ranges::count_if(
+        survey.borders, [&](const Border& each) { return each.flat && samples_agree(each.median, grey, kFlat_codes); });
+    if (2 * flat < std::ssize(survey.borders) || is_colourful(linear_rgb(grey))) return std::nullopt;
+    return grey;
 }
 
 // How even the black is that the pictures' borders show.
 BlackGround black_ground_of(const Survey& survey, const Lab& look) {
     constexpr double kEvenShare = 0.95;
+    constexpr std::ptrdiff_t kFlatOneIn = 4;  // pictures; parts of the object fade to black at the border of others
     std::int64_t border = 0;
     std::int64_t even = 0;
     for (const Image<Rgba8>& picture : survey.samples) {

@@ -36,7 +36,8 @@ struct Backdrop {
     BackdropKind kind = BackdropKind::kAlpha;
     BlackGround black = BlackGround::kUnknownOrNoisy;
     // The colour of a grey or a white without noise, as of retouched and overexposed pictures, before which grey parts
-    // of an object differ by a few codes; none of another kind, with a turntable's disc, or of too few pictures.
+    // of an object differ by a few codes. Nothing before black and strong colours, on a turntable's disc, and where
+    // `untouched` is empty. Single pictures may be exposed otherwise, and show their own.
     std::optional<Rgba8> flat_grey{};
     Rgba8 colour;                 // the commonest colour along the border (kAlpha: transparent black)
     std::vector<Rgba8> screen{};  // strong colours of the border, as of a chroma key: backdrop wherever they are seen

@@ -17,8 +17,8 @@ public:
     // Exposed as they are. At least one sample, all of one size; they must outlive this. Takes as much memory again.
     explicit EvenedSamples(std::span<const Image<Rgba8>> samples);
 
-    // Divides sample i by exposure_gain() from `still`, over the pixels where `untouched` is not 0; but none where no
-    // two gains differ by more than the factor `least_change` in any channel.
+    // Divides sample i by exposure_gain() from `still`, over the pixels where `untouched` is not 0; but none unless two
+    // gains differ by the factor `least_change` at least in a channel.
     void even_out(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> untouched, float least_change = 1);
 
     [[nodiscard]] std::size_t count() const { return samples_.size(); }

@@ -89,8 +89,8 @@ Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px) {
 Border border_of(ConstImageView<Rgba8> picture) {
     constexpr int kDark_code = 3;
     constexpr int kNear_codes = 10;
-    constexpr int kFlat_codes = 1;
-    constexpr double kFlatShare = 0.97;
+    constexpr double kNearShare = 0.85;  // of all ...
+    constexpr double kFlatShare = 0.97;  // ... and of these
     std::vector<Rgba8> pixels;
     for (int y = 0; y < picture.height(); ++y) {
         const bool whole_row = y == 0 || y == picture.height() - 1;
@@ -105,9 +105,9 @@ Border border_of(ConstImageView<Rgba8> picture) {
         return median(std::move(codes));
     };
     Border border{{median_of_channel(&Rgba8::r), median_of_channel(&Rgba8::g), median_of_channel(&Rgba8::b), 255}};
-    const auto [r, g, b, a] = border.median;
+    const Rgba8 middle = border.median;
     const auto largest_step = [&](const Rgba8& pixel) {
-        return std::max({std::abs(pixel.r - r), std::abs(pixel.g - g), std::abs(pixel.b - b)});
+        return std::max({std::abs(pixel.r - middle.r), std::abs(pixel.g - middle.g), std::abs(pixel.b - middle.b)});
     };
     std::int64_t near = 0, flat = 0, dark = 0, black = 0;
     for (const Rgba8& pixel : pixels) {
@@ -117,10 +117,10 @@ Border border_of(ConstImageView<Rgba8> picture) {
         near += largest_step(pixel) <= kNear_codes ? 1 : 0;
         flat += largest_step(pixel) <= kFlat_codes ? 1 : 0;
     }
-    const auto most = [&](std::int64_t count) { return 2 * count > std::ssize(pixels); };
-    const bool flat_black = most(dark) && black == dark;
-    const bool dark_median = std::max({r, g, b}) <= kDark_code;
-    const bool flat_other = most(near) && static_cast<double>(flat) >= kFlatShare * static_cast<double>(near);
+    const bool flat_black = 2 * dark > std::ssize(pixels) && black == dark;
+    const bool dark_median = std::max({middle.r, middle.g, middle.b}) <= kDark_code;
+    const bool flat_other = static_cast<double>(near) >= kNearShare * static_cast<double>(pixels.size()) &&
+                            static_cast<double>(flat) >= kFlatShare * static_cast<double>(near);
     border.flat = dark_median ? flat_black : flat_other;
     return border;
 }

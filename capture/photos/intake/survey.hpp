@@ -36,9 +36,11 @@ struct Survey {
 // Colours are averaged with alpha as their weight. Besides the result it takes the memory of a few rows.
 Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px);
 
-// A border is flat where renderings, retouched and overexposed pictures show a backdrop without noise: most pixels are
-// within 10 codes of the median, and nearly all of these within 1 code, as JPEG files leave of a single colour; but of
-// a dark median (up to code 3) most pixels are dark, and all of these are black to the code.
+// A border is flat where renderings, retouched and overexposed pictures show a backdrop without noise: but for a few of
+// the object its pixels are within 10 codes of the median, and nearly all of these within kFlat_codes, as JPEG files
+// leave of a single colour; but of a dark median (up to code 3) most pixels are dark, and all of these are black to the
+// code.
+inline constexpr int kFlat_codes = 1;
 Border border_of(ConstImageView<Rgba8> picture);
 
 // What reading takes of memory per pixel of a picture, at most: 16-bit and float files pass through float.

@@ -91,8 +91,8 @@ Image<std::uint8_t> cut_by_contrast(ConstImageView<Lab> looks, ConstImageView<fl
 
 namespace {
 
-constexpr std::ptrdiff_t kMuchUndecided_px =
-    30000;  // below that a cut of the whole takes some tenths of a second at most
+// Below that a cut of the whole takes some tenths of a second at most.
+constexpr std::ptrdiff_t kMuchUndecided_px = 30000;
 constexpr float kClearly = 1;
 
 std::ptrdiff_t undecided_in(ConstImageView<float> preference) {
@@ -144,8 +144,10 @@ HalfSize half_size(ConstImageView<Lab> looks, ConstImageView<float> preference) 
 Image<std::uint8_t> cut_coarse_first(ConstImageView<Lab> looks, ConstImageView<float> preference,
                                      const CutOptions& options) {
     if (undecided_in(preference) < kMuchUndecided_px) return cut_by_contrast(looks, preference, options);
-    const HalfSize half = half_size(looks, preference);
-    Image<std::uint8_t> coarse = cut_coarse_first(half.looks, half.preference, options);
+    Image<std::uint8_t> coarse = [&] {
+        const HalfSize half = half_size(looks, preference);
+        return cut_coarse_first(half.looks, half.preference, options);
+    }();
     const cv::Mat1b sides(coarse.height(), coarse.width(), coarse.data());
     const cv::Mat1b around = cv::getStructuringElement(cv::MORPH_RECT, {kCoarseBand_px + 1, kCoarseBand_px + 1});
     cv::Mat1b least, most;

@@ -19,8 +19,9 @@ struct CutOptions {
 Image<std::uint8_t> cut_by_contrast(ConstImageView<Lab> looks, ConstImageView<float> preference,
                                     const CutOptions& options);
 
-// The same in a fraction of the time where much is undecided: a picture of half the size is cut first, itself so where
-// that helps, and only what lies within kCoarseBand_px of its border, or prefers the other side clearly, is cut anew.
+// Nearly the same in a fraction of the time where much is undecided: a picture of half the size is cut first, itself so
+// where that helps, and only what lies within kCoarseBand_px of its border, or prefers the other side clearly, is cut
+// anew.
 inline constexpr int kCoarseBand_px = 6;
 Image<std::uint8_t> cut_coarse_first(ConstImageView<Lab> looks, ConstImageView<float> preference,
                                      const CutOptions& options);

@@ -1,7 +1,9 @@
 #include "capture/photos/matte/cut_out.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
+#include "capture/photos/background/plate.hpp"
 #include "capture/photos/intake/exposure.hpp"
+#include "capture/photos/intake/survey.hpp"
 #include "capture/photos/matte/grey_parts.hpp"
 #include "capture/photos/matte/soft_edge.hpp"
 
@@ -107,7 +109,10 @@ Image<T> scaled(const Image<T>& mask, int width, int height) {
 }  // namespace
 
 ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
-    : kind_(backdrop.kind), options_(mask_options_for(backdrop)), band_px_(expected_band_px(width, height)) {
+    : kind_(backdrop.kind),
+      options_(mask_options_for(backdrop)),
+      flat_grey_(backdrop.flat_grey),
+      band_px_(expected_band_px(width, height)) {
     if (kind_ == BackdropKind::kAlpha) return;
     RS_CHECK(!backdrop.plate.empty());
     cv::Mat3f plate;
@@ -121,7 +126,7 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
     plate_.ground = scaled(backdrop.ground, width, height);
     plate_.hidden = scaled(backdrop.hidden, width, height);
     untouched_ = scaled(backdrop.untouched, width, height);
-    if (backdrop.flat_grey) flat_plate_ = flat_plate(plate_, untouched_, linear_rgb(*backdrop.flat_grey));
+    if (flat_grey_) flat_plate_ = flat_plate(plate_, untouched_, linear_rgb(*flat_grey_));
 }
 
 PlateView ObjectCutter::exposed_as(ConstImageView<Rgba8> photo) const {
@@ -140,9 +145,10 @@ Image<Rgba8> ObjectCutter::cut(ConstImageView<Rgba8> photo) const {
         cut = Image<Rgba8>(photo.width(), photo.height());
         for (int y = 0; y < photo.height(); ++y) std::copy_n(photo.row(y), photo.width(), cut.row(y));
     } else {
-        const PlateView plate = exposed_as(photo);
-        Image<std::uint8_t> mask = find_object(photo, plate, options_);
-        if (!flat_plate_.light.empty()) add_grey_parts(mask, photo, flat_plate_);
+        Image<std::uint8_t> mask = find_object(photo, exposed_as(photo), options_);
+        if (flat_grey_ && samples_agree(border_of(photo).median, *flat_grey_, kFlat_codes)) {
+            add_grey_parts(mask, photo, flat_plate_);
+        }
         cut = unmix(photo, soften_edge(photo, mask, band_px_));
     }
     bleed_colours(cut);

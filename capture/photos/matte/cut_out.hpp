@@ -40,7 +40,8 @@ private:
     BackdropKind kind_;
     MaskOptions options_;
     PlateView plate_;
-    PlateView flat_plate_;           // as it would be without noise; empty where it is not known to be
+    std::optional<Rgba8> flat_grey_;
+    PlateView flat_plate_;           // where that is known
     Image<std::uint8_t> untouched_;  // of the plate; empty where nobody can tell
     int band_px_;
 };

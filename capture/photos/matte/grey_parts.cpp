@@ -1,5 +1,7 @@
 #include "capture/photos/matte/grey_parts.hpp"
 
+#include "rayspace/base/check.hpp"
+
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -7,9 +9,14 @@
 #include <cstddef>
 
 namespace rs::capture {
+namespace {
+
+constexpr float kVisible_delta_e = 2.5F;
+
+}  // namespace
 
 PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& grey) {
-    constexpr float kMark_delta_e = 2.5F;
+    RS_CHECK(plate.light.width() == untouched.width() && plate.light.height() == untouched.height());
     const int width = plate.light.width(), height = plate.light.height();
     PlateView flat;
     flat.light = Image<LinearRgb>(width, height, grey);
@@ -17,7 +24,7 @@ PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouc
     const Lab look = lab_from_linear(grey);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            if (untouched(x, y) == 0 || delta_e(lab_from_linear(plate.light(x, y)), look) <= kMark_delta_e) continue;
+            if (untouched(x, y) == 0 || delta_e(lab_from_linear(plate.light(x, y)), look) <= kVisible_delta_e) continue;
             flat.light(x, y) = plate.light(x, y);
             if (!plate.noise_delta_e.empty()) flat.noise_delta_e(x, y) = plate.noise_delta_e(x, y);
         }
@@ -45,7 +52,6 @@ void add_if_large(Image<std::uint8_t>& mask, Image<std::uint8_t> whole) {
 
 // How many pixels look different from what is behind the object.
 std::ptrdiff_t differing(ConstImageView<Rgba8> photo, const PlateView& plate) {
-    constexpr float kVisible_delta_e = 2.5F;
     std::ptrdiff_t count = 0;
     for (int y = 0; y < photo.height(); ++y) {
         for (int x = 0; x < photo.width(); ++x) {
@@ -60,11 +66,13 @@ std::ptrdiff_t differing(ConstImageView<Rgba8> photo, const PlateView& plate) {
 
 void add_grey_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, const PlateView& flat) {
     constexpr double kHardlyAny = 0.2;  // of what differs: the rest cannot all be shadow
+    constexpr double kDust = 0.002;     // of the picture
     if (mask.empty()) return;
     MaskOptions options = mask_options_for_flat_grey();
     add_if_large(mask, find_object(photo, flat, options));
-    const auto solid = std::ranges::count(mask.pixels(), std::uint8_t{255});
-    if (static_cast<double>(solid) >= kHardlyAny * static_cast<double>(differing(photo, flat))) return;
+    const auto solid = static_cast<double>(std::ranges::count(mask.pixels(), std::uint8_t{255}));
+    const auto differs = static_cast<double>(differing(photo, flat));
+    if (solid >= kHardlyAny * differs || differs < kDust * static_cast<double>(mask.pixels().size())) return;
     options.shadow_or_grey = 0.5F;
     options.may_be_faint = true;
     add_if_large(mask, find_object(photo, flat, options));

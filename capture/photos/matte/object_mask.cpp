@@ -296,9 +296,9 @@ MaskOptions mask_options_for(const Backdrop& backdrop) {
 
 MaskOptions mask_options_for_flat_grey() {
     MaskOptions options;
-    options.plain_delta_e = .5F;
+    options.plain_delta_e = .7F;  // a code in one channel of white is up to .67
     // What differs by a few codes may as well be a faint shadow: it says next to nothing, and the contrast decides.
-    options.almost_plain_reach = 10;
+    options.almost_plain_reach = 7;
     options.almost_plain = -.05F;
     options.coarse_first = true;  // most of a grey object is undecided
     return options;

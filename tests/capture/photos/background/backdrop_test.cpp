@@ -51,7 +51,8 @@ TEST(Backdrop, FindsEachKind) {
     EXPECT_LE(distance(found->colour, blue), 2);
 }
 
-// No value is seen in most of the pictures, so nothing along the border is still; but a white's exposure is evened out.
+// No value is seen in most of the pictures, so nothing along the border is still. A white's exposure is evened out, at
+// its median; codes of black are too few for that.
 TEST(Backdrop, WhiteAndBlackNeedNoStillBorder) {
     for (const auto& [codes, kind, colour] :
          {std::tuple{std::array{225, 240, 255}, BackdropKind::kWhite, Rgba8{240, 240, 240, 255}},

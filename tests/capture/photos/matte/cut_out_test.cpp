@@ -129,7 +129,6 @@ TEST(CutOut, DropsSpecksOnTheBackdrop) {
     EXPECT_EQ(cutter.cut(photo)(static_cast<int>(turn.axis_x_px), turn.height / 2).a, 255);
 }
 
-// The lamp warms up: each picture is a little brighter than the one before.
 // Lamps that warm up, and a camera that chooses its exposure anew, so that no two pictures show the backdrop alike.
 TEST(CutOut, FollowsTheExposure) {
     test::DrawnTurn turn;
