@@ -91,8 +91,6 @@ Image<std::uint8_t> cut_by_contrast(ConstImageView<Lab> looks, ConstImageView<fl
 
 namespace {
 
-// Below that a cut of the whole takes some tenths of a second at most.
-constexpr std::ptrdiff_t kMuchUndecided_px = 30000;
 constexpr float kClearly = 1;
 
 std::ptrdiff_t undecided_in(ConstImageView<float> preference) {
@@ -143,7 +141,7 @@ HalfSize half_size(ConstImageView<Lab> looks, ConstImageView<float> preference) 
 
 Image<std::uint8_t> cut_coarse_first(ConstImageView<Lab> looks, ConstImageView<float> preference,
                                      const CutOptions& options) {
-    if (undecided_in(preference) < kMuchUndecided_px) return cut_by_contrast(looks, preference, options);
+    if (undecided_in(preference) < options.coarse_from_px) return cut_by_contrast(looks, preference, options);
     Image<std::uint8_t> coarse = [&] {
         const HalfSize half = half_size(looks, preference);
         return cut_coarse_first(half.looks, half.preference, options);

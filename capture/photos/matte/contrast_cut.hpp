@@ -11,6 +11,7 @@ struct CutOptions {
     float smoothness = 6;           // what it costs to part two neighbours of one colour
     float contrast_delta_e = 3.5F;  // parting gets cheap where neighbours differ by more than this
     float floor = 0.05F;            // what it costs at the very least: short borders are better than long ones
+    int coarse_from_px = 400000;    // so many undecided pixels, and cut_coarse_first() goes coarse first
 };
 
 // 255 where the object is. `looks`: of the photograph. `preference` as in object_mask.hpp: pixels at +-kDecided keep
@@ -19,9 +20,9 @@ struct CutOptions {
 Image<std::uint8_t> cut_by_contrast(ConstImageView<Lab> looks, ConstImageView<float> preference,
                                     const CutOptions& options);
 
-// Nearly the same in a fraction of the time where much is undecided: a picture of half the size is cut first, itself so
-// where that helps, and only what lies within kCoarseBand_px of its border, or prefers the other side clearly, is cut
-// anew.
+// The same; where much is undecided nearly the same in a fraction of the time, which grows faster than the picture: one
+// of half the size is cut first, itself so where that helps, and only what lies within kCoarseBand_px of its border, or
+// prefers the other side clearly, is cut anew.
 inline constexpr int kCoarseBand_px = 6;
 Image<std::uint8_t> cut_coarse_first(ConstImageView<Lab> looks, ConstImageView<float> preference,
                                      const CutOptions& options);

@@ -39,7 +39,7 @@ struct MaskOptions {
     float thin_delta_e = 0;
     float thin_on_ground_delta_e = 0;
     float contrast_delta_e = 3.5F;  // as in contrast_cut.hpp
-    bool coarse_first = false;      // cut_coarse_first() there
+    int coarse_from_px = 400000;    // the same
     bool may_be_faint = false;      // where no part is clearly the object's, the largest is
     double max_island = 0.003;      // plain grey patches smaller than this share of the picture may be the object's
     double min_part = 0.01;         // parts smaller than this share of the largest are specks

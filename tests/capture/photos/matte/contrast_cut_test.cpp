@@ -116,8 +116,10 @@ TEST(ContrastCut, CoarseFirstFindsTheSame) {
     }
     const Image<Lab> looks = lab_picture(photo);
     const Image<std::uint8_t> whole = cut_by_contrast(looks, preference, {});
-    const Image<std::uint8_t> coarse_first = cut_coarse_first(looks, preference, {});
-    EXPECT_EQ(whole, coarse_first);
+    for (const int from_px : {30000, 8000}) {  // one coarse picture, and two
+        SCOPED_TRACE(from_px);
+        EXPECT_EQ(whole, cut_coarse_first(looks, preference, {.coarse_from_px = from_px}));
+    }
     EXPECT_EQ(whole(100, kBar_y), 255);
     EXPECT_EQ(whole(151, 235), 255);
     EXPECT_EQ(whole(151, 260), 0);
