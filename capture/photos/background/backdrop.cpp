@@ -309,8 +309,8 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     const Lab look = lab_from_linear(linear_rgb(found.colour));
     if (turn && found.kind == BackdropKind::kBlack) found.black = black_ground_of(survey, look);
     if (found.black == BlackGround::kExact) {  // nor does its exposure change: no plate is looked for
-        found.colour = {0, 0, 0, 255};
         const int width = still.colour.width(), height = still.colour.height();
+        found.colour = {0, 0, 0, 255};
         found.plate = Image<Rgba8>(width, height, found.colour);
         found.known = Image<std::uint8_t>(width, height, std::uint8_t{255});
         found.noise_delta_e = Image<float>(width, height);

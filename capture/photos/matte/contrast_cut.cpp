@@ -141,6 +141,7 @@ HalfSize half_size(ConstImageView<Lab> looks, ConstImageView<float> preference) 
 
 Image<std::uint8_t> cut_coarse_first(ConstImageView<Lab> looks, ConstImageView<float> preference,
                                      const CutOptions& options) {
+    RS_CHECK(options.coarse_from_px > 1);
     if (undecided_in(preference) < options.coarse_from_px) return cut_by_contrast(looks, preference, options);
     Image<std::uint8_t> coarse = [&] {
         const HalfSize half = half_size(looks, preference);

@@ -11,7 +11,7 @@ struct CutOptions {
     float smoothness = 6;           // what it costs to part two neighbours of one colour
     float contrast_delta_e = 3.5F;  // parting gets cheap where neighbours differ by more than this
     float floor = 0.05F;            // what it costs at the very least: short borders are better than long ones
-    int coarse_from_px = 400000;    // so many undecided pixels, and cut_coarse_first() goes coarse first
+    int coarse_from_px = 400000;    // so many undecided pixels, 2 at least, and cut_coarse_first() goes coarse first
 };
 
 // 255 where the object is. `looks`: of the photograph. `preference` as in object_mask.hpp: pixels at +-kDecided keep
