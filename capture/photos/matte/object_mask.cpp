@@ -296,9 +296,9 @@ MaskOptions mask_options_for(const Backdrop& backdrop) {
 
 MaskOptions mask_options_for_flat_grey() {
     MaskOptions options;
-    options.plain_delta_e = .7F;  // a code in one channel of white is up to .67
+    options.plain_delta_e = .5F;  // a grey code of white is .36; a code in one channel, up to .67, says next to nothing
     // What differs by a few codes may as well be a faint shadow: it says next to nothing, and the contrast decides.
-    options.almost_plain_reach = 7;
+    options.almost_plain_reach = 10;
     options.almost_plain = -.05F;
     options.coarse_from_px = 30000;  // most of a grey object is undecided, and noise fools single pixels
     return options;
