@@ -4,7 +4,6 @@
 #include "capture/photos/background/plate.hpp"
 #include "capture/photos/background/turn_plate.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
-#include "rayspace/base/median.hpp"
 
 #include <tbb/parallel_for.h>
 #include <opencv2/core.hpp>
@@ -14,7 +13,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <span>
 
 namespace rs::capture {
 namespace {
@@ -100,14 +98,11 @@ void even_out_border(EvenedSamples& samples) {
     constexpr float kMuch = 1.15F;
     Image<Rgba8> median(samples.width(), samples.height());
     Image<std::uint8_t> border(samples.width(), samples.height());
-    std::vector<std::uint8_t> codes(samples.count());
+    std::vector<Rgba8> seen(samples.count());
     for_border(samples.width(), samples.height(), [&](int x, int y) {
-        const auto median_of_channel = [&](std::uint8_t Rgba8::*channel) {
-            for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = samples(i, x, y).*channel;
-            return median_of(std::span(codes));
-        };
+        for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = samples(i, x, y);
         border(x, y) = 255;
-        median(x, y) = {median_of_channel(&Rgba8::r), median_of_channel(&Rgba8::g), median_of_channel(&Rgba8::b), 255};
+        median(x, y) = median_colour(seen);
     });
     samples.even_out(median, border, kMuch);
 }
@@ -180,14 +175,11 @@ bool looks_even(const Rgba8& pixel, const Lab& look) {
 // The one colour of a grey or white backdrop; none where it has noise or a course, or seldom the same exposure.
 std::optional<Rgba8> flat_grey_of(const Survey& survey) {
     if (survey.borders.empty()) return std::nullopt;
-    const auto median_of_channel = [&](std::uint8_t Rgba8::*channel) {
-        std::vector<std::uint8_t> codes;
-        for (const Border& border : survey.borders) codes.push_back(border.median.*channel);
-        return median(std::move(codes));
-    };
-    const Rgba8 grey{median_of_channel(&Rgba8::r), median_of_channel(&Rgba8::g), median_of_channel(&Rgba8::b), 255};
+    std::vector<Rgba8> medians;
+    for (const Border& border : survey.borders) medians.push_back(border.median);
+    const Rgba8 grey = median_colour(medians);
     const auto flat = std::ranges::count_if(
-        survey.borders, [&](const Border& each) { return each.flat && samples_agree(each.median, grey, kFlat_codes); });
+        survey.borders, [&](const Border& each) { return each.flat && within_codes(each.median, grey, kFlat_codes); });
     if (2 * flat < std::ssize(survey.borders) || is_colourful(linear_rgb(grey))) return std::nullopt;
     return grey;
 }

@@ -2,9 +2,8 @@
 // The still picture behind a turning object; what it is for: backdrop.hpp.
 
 #include "capture/photos/background/evened_samples.hpp"
+#include "capture/photos/intake/colour_difference.hpp"
 #include "rayspace/image/image.hpp"
-
-#include <cstdlib>
 
 namespace rs::capture {
 
@@ -13,10 +12,10 @@ struct StillPicture {
     Image<float> agreement;  // the group's share of all samples, 0..1
 };
 
-// Whether no channel's sRGB codes differ by more than `codes`.
+// By how many codes samples of one still thing may differ.
 inline constexpr int kAgreement_codes = 14;
 inline bool samples_agree(const Rgba8& a, const Rgba8& b, int codes = kAgreement_codes) {
-    return std::abs(a.r - b.r) <= codes && std::abs(a.g - b.g) <= codes && std::abs(a.b - b.b) <= codes;
+    return within_codes(a, b, codes);
 }
 
 StillPicture agree_over_time(const EvenedSamples& samples);

@@ -3,7 +3,14 @@
 
 #include "rayspace/image/image.hpp"
 
+#include <cstdlib>
+
 namespace rs::capture {
+
+// Whether no channel's sRGB codes differ by more than `codes`.
+inline bool within_codes(const Rgba8& a, const Rgba8& b, int codes) {
+    return std::abs(a.r - b.r) <= codes && std::abs(a.g - b.g) <= codes && std::abs(a.b - b.b) <= codes;
+}
 
 struct LinearRgb {
     float r = 0, g = 0, b = 0;  // linear light, sRGB primaries

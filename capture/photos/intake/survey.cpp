@@ -1,12 +1,12 @@
 #include "capture/photos/intake/survey.hpp"
 
 #include "capture/photos/intake/bounded_work.hpp"
+#include "capture/photos/intake/colour_difference.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <span>
 #include <utility>
@@ -86,6 +86,15 @@ Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px) {
     return result;
 }
 
+Rgba8 median_colour(std::span<const Rgba8> colours) {
+    const auto median_of_channel = [&](std::uint8_t Rgba8::*channel) {
+        std::vector<std::uint8_t> codes;
+        for (const Rgba8& colour : colours) codes.push_back(colour.*channel);
+        return median(std::move(codes));
+    };
+    return {median_of_channel(&Rgba8::r), median_of_channel(&Rgba8::g), median_of_channel(&Rgba8::b), 255};
+}
+
 Border border_of(ConstImageView<Rgba8> picture) {
     constexpr int kDark_code = 3;
     constexpr int kNear_codes = 10;
@@ -99,26 +108,17 @@ Border border_of(ConstImageView<Rgba8> picture) {
         }
     }
     if (pixels.empty()) return {};
-    const auto median_of_channel = [&](std::uint8_t Rgba8::*channel) {
-        std::vector<std::uint8_t> codes;
-        for (const Rgba8& pixel : pixels) codes.push_back(pixel.*channel);
-        return median(std::move(codes));
-    };
-    Border border{{median_of_channel(&Rgba8::r), median_of_channel(&Rgba8::g), median_of_channel(&Rgba8::b), 255}};
-    const Rgba8 middle = border.median;
-    const auto largest_step = [&](const Rgba8& pixel) {
-        return std::max({std::abs(pixel.r - middle.r), std::abs(pixel.g - middle.g), std::abs(pixel.b - middle.b)});
-    };
+    Border border{median_colour(pixels)};
     std::int64_t near = 0, flat = 0, dark = 0, black = 0;
     for (const Rgba8& pixel : pixels) {
         const int brightest = std::max({pixel.r, pixel.g, pixel.b});
         dark += brightest <= kDark_code ? 1 : 0;
         black += brightest == 0 ? 1 : 0;
-        near += largest_step(pixel) <= kNear_codes ? 1 : 0;
-        flat += largest_step(pixel) <= kFlat_codes ? 1 : 0;
+        near += within_codes(pixel, border.median, kNear_codes) ? 1 : 0;
+        flat += within_codes(pixel, border.median, kFlat_codes) ? 1 : 0;
     }
     const bool flat_black = 2 * dark > std::ssize(pixels) && black == dark;
-    const bool dark_median = std::max({middle.r, middle.g, middle.b}) <= kDark_code;
+    const bool dark_median = std::max({border.median.r, border.median.g, border.median.b}) <= kDark_code;
     const bool flat_other = static_cast<double>(near) >= kNearShare * static_cast<double>(pixels.size()) &&
                             static_cast<double>(flat) >= kFlatShare * static_cast<double>(near);
     border.flat = dark_median ? flat_black : flat_other;

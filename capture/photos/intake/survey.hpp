@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace rs::capture {
@@ -35,6 +36,9 @@ struct Survey {
 // A picture made smaller by averaging, so that no side is longer than `side_px`; a copy where it is small enough.
 // Colours are averaged with alpha as their weight. Besides the result it takes the memory of a few rows.
 Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px);
+
+// The upper median of every channel by itself, opaque; of at least one.
+Rgba8 median_colour(std::span<const Rgba8> colours);
 
 // A border is flat where renderings, retouched and overexposed pictures show a backdrop without noise: but for a few of
 // the object its pixels are within 10 codes of the median, and nearly all of these within kFlat_codes, as JPEG files

@@ -1,7 +1,6 @@
 #include "capture/photos/matte/cut_out.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
-#include "capture/photos/background/plate.hpp"
 #include "capture/photos/intake/exposure.hpp"
 #include "capture/photos/intake/survey.hpp"
 #include "capture/photos/matte/grey_parts.hpp"
@@ -146,7 +145,7 @@ Image<Rgba8> ObjectCutter::cut(ConstImageView<Rgba8> photo) const {
         for (int y = 0; y < photo.height(); ++y) std::copy_n(photo.row(y), photo.width(), cut.row(y));
     } else {
         Image<std::uint8_t> mask = find_object(photo, exposed_as(photo), options_);
-        if (flat_grey_ && samples_agree(border_of(photo).median, *flat_grey_, kFlat_codes)) {
+        if (flat_grey_ && within_codes(border_of(photo).median, *flat_grey_, kFlat_codes)) {
             add_grey_parts(mask, photo, flat_plate_);
         }
         cut = unmix(photo, soften_edge(photo, mask, band_px_));

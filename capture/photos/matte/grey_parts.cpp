@@ -13,27 +13,6 @@ namespace {
 
 constexpr float kVisible_delta_e = 2.5F;
 
-}  // namespace
-
-PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& grey) {
-    RS_CHECK(plate.light.width() == untouched.width() && plate.light.height() == untouched.height());
-    const int width = plate.light.width(), height = plate.light.height();
-    PlateView flat;
-    flat.light = Image<LinearRgb>(width, height, grey);
-    flat.noise_delta_e = Image<float>(width, height);
-    const Lab look = lab_from_linear(grey);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            if (untouched(x, y) == 0 || delta_e(lab_from_linear(plate.light(x, y)), look) <= kVisible_delta_e) continue;
-            flat.light(x, y) = plate.light(x, y);
-            if (!plate.noise_delta_e.empty()) flat.noise_delta_e(x, y) = plate.noise_delta_e(x, y);
-        }
-    }
-    return flat;
-}
-
-namespace {
-
 // Adds `whole` to `mask` where that adds a part that is large beside it: such an object is as grey as its
 // backdrop, and its highlights, spokes and mirrors are, too.
 void add_if_large(Image<std::uint8_t>& mask, Image<std::uint8_t> whole) {
@@ -63,6 +42,23 @@ std::ptrdiff_t differing(ConstImageView<Rgba8> photo, const PlateView& plate) {
 }
 
 }  // namespace
+
+PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& grey) {
+    RS_CHECK(plate.light.width() == untouched.width() && plate.light.height() == untouched.height());
+    const int width = plate.light.width(), height = plate.light.height();
+    PlateView flat;
+    flat.light = Image<LinearRgb>(width, height, grey);
+    flat.noise_delta_e = Image<float>(width, height);
+    const Lab look = lab_from_linear(grey);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (untouched(x, y) == 0 || delta_e(lab_from_linear(plate.light(x, y)), look) <= kVisible_delta_e) continue;
+            flat.light(x, y) = plate.light(x, y);
+            if (!plate.noise_delta_e.empty()) flat.noise_delta_e(x, y) = plate.noise_delta_e(x, y);
+        }
+    }
+    return flat;
+}
 
 void add_grey_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, const PlateView& flat) {
     constexpr double kHardlyAny = 0.2;  // of what differs: the rest cannot all be shadow

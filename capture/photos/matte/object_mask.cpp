@@ -276,7 +276,7 @@ MaskOptions mask_options_for(const Backdrop& backdrop) {
             options.plain_delta_e = .15F;
             options.possible_delta_e = .225F;
             options.certain_delta_e = 2;
-            options.contrast_delta_e = .5F;
+            options.cut.contrast_delta_e = .5F;
             options.max_island = .012;
         }
     }
@@ -300,7 +300,7 @@ MaskOptions mask_options_for_flat_grey() {
     // What differs by a few codes may as well be a faint shadow: it says next to nothing, and the contrast decides.
     options.almost_plain_reach = 10;
     options.almost_plain = -.05F;
-    options.coarse_from_px = 30000;  // most of a grey object is undecided, and noise fools single pixels
+    options.cut.coarse_from_px = 30000;  // most of a grey object is undecided, and noise fools single pixels
     return options;
 }
 
@@ -369,8 +369,7 @@ Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const PlateView& pl
     Image<float> preference = preference_by(looks, photo, plate, options);
     if (options.thin_delta_e > 0) lean_to_object_in_thin_parts(photo, plate, looks.plate, options, preference);
     doubt_small_islands(preference, looks.plate, options.max_island);
-    result = cut_coarse_first(looks.photo, preference,
-                              {.contrast_delta_e = options.contrast_delta_e, .coarse_from_px = options.coarse_from_px});
+    result = cut_coarse_first(looks.photo, preference, options.cut);
     cv::Mat1b mask(result.height(), result.width(), result.data());
     keep_solid_parts(mask, preference, options);
     close_false_holes(mask, preference, looks.plate, options);

@@ -10,6 +10,7 @@
 
 #include "capture/photos/background/backdrop.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
+#include "capture/photos/matte/contrast_cut.hpp"
 #include "rayspace/image/image.hpp"
 
 #include <vector>
@@ -38,11 +39,10 @@ struct MaskOptions {
     // of shadow, so more is asked there.
     float thin_delta_e = 0;
     float thin_on_ground_delta_e = 0;
-    float contrast_delta_e = 3.5F;  // as in contrast_cut.hpp
-    int coarse_from_px = 400000;    // the same
-    bool may_be_faint = false;      // where no part is clearly the object's, the largest is
-    double max_island = 0.003;      // plain grey patches smaller than this share of the picture may be the object's
-    double min_part = 0.01;         // parts smaller than this share of the largest are specks
+    CutOptions cut{};
+    bool may_be_faint = false;  // where no part is clearly the object's, the largest is
+    double max_island = 0.003;  // plain grey patches smaller than this share of the picture may be the object's
+    double min_part = 0.01;     // parts smaller than this share of the largest are specks
     // Of a true hole's inner part at least so much looks plain; measured on a shoe before white: loops of its straps
     // 0.94 to 1.00, white insoles 0.74 to 0.85.
     double hole_share = 0.9;
