@@ -1,6 +1,7 @@
 #include "encode/raymap/shape_lines.hpp"
 
 #include "encode/raymap/captured_view.hpp"
+#include "encode/raymap/floating_cells.hpp"
 #include "encode/raymap/hidden_cells.hpp"
 #include "encode/raymap/line_grid.hpp"
 #include "encode/raymap/semi_global.hpp"
@@ -136,25 +137,6 @@ void heed_hull(const LineGrid& grid, const CellRay& ray, HullColumns& hull, Shap
     }
 }
 
-// Surfaces whose ray misses the hull, and all of whose neighbours do, float beside the object: no picture's depth was
-// true there. One beside a ray that meets the hull stays, since a part thinner than a cell may pass by its middle.
-void drop_floating(const LineGrid& grid, const std::vector<std::uint8_t>& meets_hull, ShapeCell* cells) {
-    const auto meets_nearby = [&](int p, int h) {
-        for (int x = std::max(p - 1, 0); x <= std::min(p + 1, grid.p_cells - 1); ++x) {
-            for (int y = std::max(h - 1, 0); y <= std::min(h + 1, grid.bands - 1); ++y) {
-                if (meets_hull[static_cast<std::size_t>(x * grid.bands + y)] != 0) return true;
-            }
-        }
-        return false;
-    };
-    for (int p = 0; p < grid.p_cells; ++p) {
-        for (int h = 0; h < grid.bands; ++h) {
-            ShapeCell& cell = cells[p * grid.bands + h];
-            if (cell.has_surface() && !meets_nearby(p, h)) cell = {};
-        }
-    }
-}
-
 // What a line sees of a layer's two pictures beside it.
 class LineSurfaces {
 public:
@@ -165,7 +147,7 @@ public:
           cells_(static_cast<std::size_t>(grid.p_cells) * static_cast<std::size_t>(grid.bands)) {}
 
     // Cells of the line of `viewpoint`, until the next call.
-    const std::vector<ShapeCell>& see(const SurfaceLayer& layer, const LinePictures& pictures) {
+    const std::vector<ShapeCell>& see(const SurfaceLayer& layer, const LinePictures& pictures, double floating_share) {
         from_first_.draw(pictures.first, pictures.viewpoint);
         from_second_.draw(pictures.second, pictures.viewpoint);
         for (int p = 0; p < grid_.p_cells; ++p) {
@@ -181,7 +163,8 @@ public:
             heed_hull(grid_, CellRay(grid_, pictures.viewpoint, p), hull, cells_.data() + column,
                       meets_hull.data() + column);
         }
-        if (layer.silhouettes_agree) drop_floating(grid_, meets_hull, cells_.data());
+        if (layer.silhouettes_agree) drop_beside_hull(grid_, meets_hull, cells_.data());
+        if (layer.in_front) drop_islands(grid_, floating_share, cells_.data());
         for (int p = 0; p < grid_.p_cells; ++p) {
             ShapeCell* const column = cells_.data() + p * grid_.bands;
             if (!layer.in_front) avoid_hidden(grid_, pictures, p, column);
@@ -295,6 +278,9 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
     const std::size_t line_cells = static_cast<std::size_t>(map.p_cells) * static_cast<std::size_t>(map.bands);
     map.cells.resize(lines * line_cells);
 
+    std::vector<double> floating(ring.size());
+    tbb::parallel_for(std::size_t{0}, ring.size(), [&](std::size_t n) { floating[n] = floating_share(ring[n].depth); });
+
     tbb::parallel_for(std::size_t{0}, ring.size(), [&](std::size_t n) {
         const ShapeGap& gap = map.gaps[n];
         LineSurfaces surfaces(grid);
@@ -304,7 +290,8 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
             const glm::dvec2 viewpoint = glm::mix(ring[n].view.centre, ring[next].view.centre, part);
             ShapeCell* const cells = map.cells.data() + (gap.first_line + static_cast<std::size_t>(s)) * line_cells;
             for (const SurfaceLayer& layer : layers) {
-                const std::vector<ShapeCell>& found = surfaces.see(layer, {layer.ring[n], layer.ring[next], viewpoint});
+                const std::vector<ShapeCell>& found = surfaces.see(layer, {layer.ring[n], layer.ring[next], viewpoint},
+                                                                   std::min(floating[n], floating[next]));
                 for (std::size_t i = 0; i < line_cells; ++i) {
                     if (!cells[i].has_surface()) cells[i] = found[i];
                 }
