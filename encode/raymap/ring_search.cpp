@@ -18,9 +18,10 @@ namespace {
 
 constexpr int kSampleViews = 4;
 constexpr double kMostContradicted = 0.01;
-constexpr double kHullSpacing_px = 0.5;         // of the working pictures
-constexpr double kRepairSpacing_px = 1;         // of those of half the size
-constexpr int kHullLevels = 128;                // of depth, where silhouettes are asked whether they agree
+constexpr double kExactSilhouettes = 1e-4;  // contradicted less, they lack nothing: 1e-5 traced, .0005 and more cut out
+constexpr double kHullSpacing_px = 0.5;     // of the working pictures
+constexpr double kRepairSpacing_px = 1;     // of those of half the size
+constexpr int kHullLevels = 128;            // of depth, where silhouettes are asked whether they agree
 constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of the set
 constexpr int kOverruledMargin_px = 4;
 constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
@@ -54,8 +55,12 @@ Image<float> depths_at(Image<float> levels, const DepthRange& range) {
     return levels;
 }
 
+double contradicted_by(const VisualHull& hull, const std::vector<const WorkView*>& views) {
+    return contradicted_share(views, hull, range_of(kHullLevels));
+}
+
 bool agree_with(const std::vector<const WorkView*>& views, const VisualHull& hull) {
-    return contradicted_share(views, hull, range_of(kHullLevels)) <= kMostContradicted;
+    return contradicted_by(hull, views) <= kMostContradicted;
 }
 
 }  // namespace
@@ -102,7 +107,8 @@ void RingSearch::choose_hull(const std::vector<const RingSearch*>& rings) {
 }
 
 Status RingSearch::complete_cut_outs(Progress* progress, const Keep& keep) {
-    if (count() < 3) return {};
+    // A part that a cut-out lacks is ruled out in other pictures, too.
+    if (count() < 3 || contradicted_ <= kExactSilhouettes) return {};
     RingSearch half(set_, rig_, ring_, options_);
     half.reduction_ = 2 * reduction_;
     for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
@@ -316,7 +322,8 @@ void RingSearch::find_margin(const std::vector<const RingSearch*>& beside) {
     overruled_share_ = 0;
     for (margin_px_ = 1; margin_px_ <= options_.widest_hull_margin_px; margin_px_ *= 2) {
         hull_ = std::make_unique<VisualHull>(all, margin_px_);
-        silhouettes_agree_ = agree_with(all, *hull_);
+        contradicted_ = contradicted_by(*hull_, all);
+        silhouettes_agree_ = contradicted_ <= kMostContradicted;
         if (silhouettes_agree_) return;
     }
     margin_px_ = kOverruledMargin_px;

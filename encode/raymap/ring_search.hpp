@@ -100,6 +100,8 @@ private:
     std::unique_ptr<SampledHull> sampled_hull_;
     int margin_px_ = 1;
     double overruled_share_ = 0;
+    double contradicted_ =
+        1;  // share of the object that the hull of margin_px_ rules out, with no silhouette overruled
     bool silhouettes_agree_ = true;
 };
 

@@ -23,14 +23,15 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
-BuiltObject build(const std::filesystem::path& folder, MapKind kind = MapKind::kShape) {
+BuiltObject build(const std::filesystem::path& folder, MapKind kind = MapKind::kShape, Progress* progress = nullptr) {
     const Result<CaptureSet> set = open_capture_set(folder);
     EXPECT_TRUE(set.ok()) << set.error().message;
     BuildOptions options;
     options.raymap = kind;
     options.map = usual_plane_map(kind);
-    Result<BuiltObject> built = build_object(*set, options);
+    Result<BuiltObject> built = build_object(*set, options, progress);
     EXPECT_TRUE(built.ok()) << built.error().message;
     const Status valid = validate_object(built->object, "built");
     EXPECT_TRUE(valid.ok()) << valid.error().message;
@@ -159,6 +160,25 @@ TEST(ShapeMap, ALargePartThatFewCutOutsLackIsPaintedFromThoseBeside) {
     }
     EXPECT_GT(lost, 400);
     EXPECT_GT(back, lost * 3 / 4);  // its corners are rounded
+}
+
+TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
+    class Labels final : public Progress {
+    public:
+        void start(const std::string& label, std::int64_t) override { labels.push_back(label); }
+        void advance(std::int64_t) override {}
+        void finish() override {}
+        std::vector<std::string> labels;
+    };
+    const test::TemporaryFolder folder;
+    test::write_drawn_set(folder / "set", drawn_ring(24), mottled_ball);
+    Labels whole, lacking;
+    build(folder / "set", MapKind::kShape, &whole);
+    EXPECT_THAT(whole.labels, Contains("depth"));
+    EXPECT_THAT(whole.labels, Not(Contains("depth at half size")));
+    cut_away(folder / "set" / "7.png", 20, 56, 32);
+    build(folder / "set", MapKind::kShape, &lacking);
+    EXPECT_THAT(lacking.labels, Contains("depth at half size"));
 }
 
 TEST(ShapeMap, WhereManyCutOutsSeemToLackAPartTheRigIsAtFault) {
