@@ -1,106 +1,31 @@
 #include "rayspace/format/chunk_table.hpp"
 
-#include "rayspace/codec/stream/coded_chunks.hpp"
-#include "rayspace/format/shape_chunk.hpp"
-
 #include <algorithm>
 
 namespace rs::object_chunks {
-namespace {
 
-using Bytes = std::span<const std::byte>;
-using Object = const RaySpaceObject&;
-using Unread = UnreadObject&;
-using Index = std::uint32_t;
-
-// The numbers of a map's frame and the runs that they are stand in memory at once.
-constexpr std::uint64_t kRunsOverContent = 2;
-
-Status parse_code(Bytes payload, Unread unread, Index) {
-    RaySpaceObject& object = unread.object;
-    unread.coded = std::make_shared<codec::CodedPictures>();
-    object.coded = unread.coded;
-    return codec::parse_code(payload, object.views.size(), object.width, object.height, *unread.coded);
-}
-
-Result<ChunkMemory> map_memory(Bytes payload, Unread unread, Index r) {
-    const auto coded = parse_map_head(payload, unread.object.rings[r]);
-    if (!coded) return coded.error();
-    return ChunkMemory{.passing_bytes = kRunsOverContent * coded->content_bytes};
-}
-
-Status parse_map(Bytes payload, Unread unread, Index r) {
-    const auto coded = parse_map_head(payload, unread.object.rings[r]);
-    return coded ? parse_map(*coded, unread.object.rings[r]) : coded.error();
-}
-
-Result<ChunkMemory> shape_memory(Bytes payload, Unread unread, Index r) {
-    const auto coded = parse_shape_head(payload, unread.object.rings[r]);
-    if (!coded) return coded.error();
-    return ChunkMemory{.kept_bytes = coded->cells * sizeof(ShapeCell)};
-}
-
-Status parse_shape(Bytes payload, Unread unread, Index r) {
-    const auto coded = parse_shape_head(payload, unread.object.rings[r]);
-    return coded ? parse_shape_cells(*coded, unread.object.rings[r].shape) : coded.error();
-}
-
-Payload view_payload(Object object, Index view) {
-    return object.coded ? codec::coded_picture_payload(*object.coded, view) : picture_payload(object.pictures[view]);
-}
-
-Status parse_view(Bytes payload, Unread unread, Index view) {
-    if (unread.coded) return codec::parse_coded_picture(payload, view, *unread.coded);
-    RaySpaceObject& object = unread.object;
-    return parse_picture(payload, object.width, object.height, object.pictures[view]);
-}
-
-constexpr ChunkKind kTable[] = {
-    {.name = kHead,
-     .payload = [](Object o, Index) { return head_payload(o); },
-     .parse = [](Bytes b, Unread u, Index) { return parse_head(b, u.object); }},
-    {.name = kRig,
-     .payload = [](Object o, Index) { return rig_payload(o); },
-     .parse = [](Bytes b, Unread u, Index) { return parse_rig_text(b, u.object); }},
-    {.name = kViews,
-     .payload = [](Object o, Index) { return views_payload(o); },
-     .parse = [](Bytes b, Unread u, Index) { return parse_views(b, u.object); }},
-    {.name = kFoot,
-     .is_there = [](Object o, Index) { return o.foot_q20.has_value(); },
-     .payload = [](Object o, Index) { return foot_payload(o); },
-     .parse = [](Bytes b, Unread u, Index) { return parse_foot(b, u.object); }},
-    {.name = kCode,
-     .is_there = [](Object o, Index) { return o.coded != nullptr; },
-     .payload = [](Object o, Index) { return codec::code_payload(*o.coded); },
-     .parse = parse_code},
-    {.name = kRing,
-     .each = OneFor::ring,
-     .payload = [](Object o, Index r) { return ring_payload(o, r); },
-     .parse = [](Bytes b, Unread u, Index r) { return parse_ring(b, u.object, r); }},
-    {.name = kMap,
-     .each = OneFor::ring,
-     .stage = ReadStage::maps,
-     .payload = [](Object o, Index r) { return map_payload(o.rings[r]); },
-     .memory = map_memory,
-     .parse = parse_map},
-    {.name = kShape,
-     .each = OneFor::ring,
-     .stage = ReadStage::maps,
-     .is_there = [](Object o, Index r) { return !o.rings[r].shape.empty(); },
-     .payload = [](Object o, Index r) { return shape_payload(o.rings[r]); },
-     .memory = shape_memory,
-     .parse = parse_shape},
-    {.name = kPicture,
-     .each = OneFor::view,
-     .stage = ReadStage::pictures,
-     .payload = view_payload,
-     .parse = parse_view},
-};
-
-}  // namespace
+// NAME_chunk() is in chunks/NAME_chunk.cpp.
+ChunkKind head_chunk();
+ChunkKind rig_chunk();
+ChunkKind views_chunk();
+ChunkKind foot_chunk();
+ChunkKind code_chunk();
+ChunkKind ring_chunk();
+ChunkKind map_chunk();
+ChunkKind shape_chunk();
+ChunkKind picture_chunk();
 
 std::span<const ChunkKind> chunk_table() {
-    return kTable;
+    static const ChunkKind table[] = {
+        head_chunk(), rig_chunk(),  views_chunk(), foot_chunk(),  // of the object
+        code_chunk(), ring_chunk(), map_chunk(),   shape_chunk(), picture_chunk(),
+    };
+    return table;
+}
+
+std::size_t count_of(OneFor each, const RaySpaceObject& object) {
+    if (each == OneFor::object) return 1;
+    return each == OneFor::ring ? object.rings.size() : object.pictures.size();
 }
 
 int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n) {
@@ -111,7 +36,7 @@ std::vector<ChunkKey> chunk_order(const RaySpaceObject& object,
                                   const std::function<bool(const ChunkKind&, std::uint32_t)>& has) {
     std::vector<ChunkKey> order;
     const auto add = [&](OneFor each, std::uint32_t index) {
-        for (const ChunkKind& kind : kTable) {
+        for (const ChunkKind& kind : chunk_table()) {
             if (kind.each == each && (kind.is_there == nullptr || has(kind, index)))
                 order.push_back({kind.name, index});
         }
@@ -134,8 +59,8 @@ std::vector<ChunkKey> chunk_order(const RaySpaceObject& object) {
 }
 
 Payload chunk_payload(const RaySpaceObject& object, ChunkKey key) {
-    const auto kind = std::ranges::find(kTable, key.name, &ChunkKind::name);
-    RS_CHECK(kind != std::end(kTable));
+    const auto kind = std::ranges::find(chunk_table(), key.name, &ChunkKind::name);
+    RS_CHECK(kind != std::end(chunk_table()));
     return kind->payload(object, key.index);
 }
 

@@ -1,48 +1,21 @@
 #pragma once
 // All chunks that an .rso file's object is made of, in one table: the order of the file, which of them may lack, what
-// they take in memory, and the functions that write and parse them (object_chunks.hpp). encode/FORMAT.md, "Chunks".
+// they take in memory, and the functions that write, parse and validate them. encode/FORMAT.md, "Chunks".
 
-#include "rayspace/format/object_chunks.hpp"
+#include "rayspace/format/chunks/chunk_kind.hpp"
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
 namespace rs::object_chunks {
 
-// An object that is being read.
-struct UnreadObject {
-    RaySpaceObject object;
-    std::shared_ptr<codec::CodedPictures> coded;  // object.coded, while it is filled
-};
-
-// What parsing a chunk takes beyond a small multiple of its payload.
-struct ChunkMemory {
-    std::uint64_t kept_bytes = 0;     // by the object
-    std::uint64_t passing_bytes = 0;  // while it is parsed
-};
-
-// Read one after the other. Everything of the first is bound by counts that its chunks' parsers check.
-enum class ReadStage { geometry, maps, pictures };
-enum class OneFor { object, ring, view };
-
-// The table's order is the file's: those of an object, then those of ring after ring, then those of views by levels.
-// `index` is the ring's or the view's number, or 0.
-struct ChunkKind {
-    ChunkName name{};
-    OneFor each = OneFor::object;
-    ReadStage stage = ReadStage::geometry;
-    // Whether an object has it; null: always.
-    bool (*is_there)(const RaySpaceObject& object, std::uint32_t index) = nullptr;
-    Payload (*payload)(const RaySpaceObject& object, std::uint32_t index) = nullptr;
-    // Null where it takes nothing more. Does not yet allocate it.
-    Result<ChunkMemory> (*memory)(std::span<const std::byte> payload, UnreadObject& object,
-                                  std::uint32_t index) = nullptr;
-    Status (*parse)(std::span<const std::byte> payload, UnreadObject& object, std::uint32_t index) = nullptr;
-};
+// A thread-safe constant.
 std::span<const ChunkKind> chunk_table();
+
+// How many chunks of a kind an object has at most: 1, or one for each ring or view.
+std::size_t count_of(OneFor each, const RaySpaceObject& object);
 
 struct ChunkKey {
     ChunkName name{};

@@ -108,27 +108,30 @@ private:
     Status read_stage(ReadStage stage) {
         if (stage == ReadStage::pictures) return read_pictures();
         for (const OneFor each : {OneFor::object, OneFor::ring}) {
-            const auto count = each == OneFor::object ? std::size_t{1} : unread_.object.rings.size();
-            for (std::uint32_t index = 0; index < count; ++index) {
-                for (const ChunkKind& kind : chunk_table()) {
-                    if (kind.each != each || kind.stage != stage) continue;
-                    if (Status status = read_chunk(kind, index); !status) return status;
-                }
+            for (std::uint32_t index = 0; index < count_of(each, unread_.object); ++index) {
+                if (Status status = read_each(each, stage, index); !status) return status;
             }
         }
         return {};
     }
 
     Status read_pictures() {
-        const ChunkKind& kind = *std::ranges::find(chunk_table(), kPicture, &ChunkKind::name);
         for (const Ring& ring : unread_.object.rings) {
             for (std::size_t n = 0; n < ring.views.size(); ++n) {
                 if (!is_wanted(ring, n)) continue;
-                if (Status status = read_chunk(kind, ring.views[n]); !status) return status;
+                if (Status status = read_each(OneFor::view, ReadStage::pictures, ring.views[n]); !status) return status;
                 if (!unread_.coded) continue;
                 needed_bytes_ += unread_.coded->pictures[ring.views[n]].bytes.size();
                 if (needed_bytes_ > options_.memory_cap_bytes) return too_large(needed_bytes_);
             }
+        }
+        return {};
+    }
+
+    Status read_each(OneFor each, ReadStage stage, std::uint32_t index) {
+        for (const ChunkKind& kind : chunk_table()) {
+            if (kind.each != each || kind.stage != stage) continue;
+            if (Status status = read_chunk(kind, index); !status) return status;
         }
         return {};
     }

@@ -9,7 +9,7 @@
 #include "engine/core/fast/renderer.hpp"
 #include "engine/core/views/compare.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/format/shape_chunk.hpp"
+#include "rayspace/format/chunks/shape_chunk.hpp"
 #include "rayspace/page/line_plot.hpp"
 #include "rayspace/tool/tool_main.hpp"
 

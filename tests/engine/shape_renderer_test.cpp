@@ -6,7 +6,7 @@
 #include "engine/core/views/conformance.hpp"
 #include "engine/core/views/depth_picture.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/format/shape_validate.hpp"
+#include "rayspace/format/chunks/shape_chunk.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/random_shape.hpp"
@@ -107,7 +107,7 @@ Seen expect_equal(Pose pose, std::uint64_t first_seed, int objects, int views) {
         const test::RingObjectOptions options = random_options(random);
         const RaySpaceObject object = random_object(random, options);
         for (const Ring& ring : object.rings) {
-            const Status valid = check_shape(ring);
+            const Status valid = object_chunks::check_shape(ring);
             EXPECT_TRUE(valid.ok()) << valid.error().message;
         }
         const Result<Renderer> renderer = Renderer::create(object);

@@ -1,6 +1,6 @@
 // Objects with a shape map in files: the chunk's place, the memory cap, what is covered by checksums.
+#include "rayspace/format/chunks/shape_chunk.hpp"
 #include "rayspace/format/object_file.hpp"
-#include "rayspace/format/shape_chunk.hpp"
 #include "tests/support/small_shape.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -2,10 +2,9 @@
 // refuse the same.
 
 #include "tests/reference/decoder/reference_shape.hpp"
+#include "rayspace/format/chunks/shape_chunk.hpp"
 #include "rayspace/format/container.hpp"
-#include "rayspace/format/shape_chunk.hpp"
 #include "rayspace/format/shape_coding.hpp"
-#include "rayspace/format/shape_validate.hpp"
 #include "tests/support/random_shape.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +41,8 @@ std::size_t u32_at(const Payload& payload, std::size_t at) {
 std::optional<ShapeMap> library_shape(const Payload& payload, Ring ring) {
     ring.shape = {};
     const auto coded = object_chunks::parse_shape_head(payload, ring);
-    if (!coded || !object_chunks::parse_shape_cells(*coded, ring.shape).ok() || !check_shape(ring).ok()) {
+    if (!coded || !object_chunks::parse_shape_cells(*coded, ring.shape).ok() ||
+        !object_chunks::check_shape(ring).ok()) {
         return std::nullopt;
     }
     return ring.shape;

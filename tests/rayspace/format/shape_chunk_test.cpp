@@ -1,8 +1,7 @@
-#include "rayspace/format/shape_chunk.hpp"
+#include "rayspace/format/chunks/shape_chunk.hpp"
 
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/format/shape_coding.hpp"
-#include "rayspace/format/shape_validate.hpp"
 #include "tests/support/put_number.hpp"
 #include "tests/support/small_shape.hpp"
 

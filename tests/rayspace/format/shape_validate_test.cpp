@@ -1,4 +1,4 @@
-#include "rayspace/format/shape_validate.hpp"
+#include "rayspace/format/chunks/shape_chunk.hpp"
 
 #include "tests/rayspace/format/int32_range.hpp"
 #include "tests/support/small_shape.hpp"
@@ -21,7 +21,7 @@ constexpr std::int32_t k2To30 = 1 << 30;
 std::string error_after(const std::function<void(ShapeMap&)>& change) {
     Ring ring = small_object_with_shape().rings[0];
     change(ring.shape);
-    const Status status = check_shape(ring);
+    const Status status = object_chunks::check_shape(ring);
     return status.ok() ? "valid" : status.error().message;
 }
 

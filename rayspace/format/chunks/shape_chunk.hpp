@@ -1,6 +1,6 @@
 #pragma once
-// The payload of chunk `shap`, a ring's shape map: encode/FORMAT.md, section "shap". As in object_chunks.hpp, a parser
-// checks what it needs in order to read and to allocate safely; validate_object() checks the rest.
+// shap r: a ring's shape map; encode/FORMAT.md, section "shap". For tests and measurements: the file itself is read and
+// written through chunk_table.hpp.
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/format/object_chunks.hpp"
@@ -30,5 +30,10 @@ struct CodedShapeCells {
 // `ring` has its planes and views from RING. The first step reads all of ring.shape but the cells.
 Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Ring& ring);
 Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape);
+
+// ring.shape is empty in all its members, or has the sizes that the ring and its own numbers ask for and all numbers
+// within their ranges. The ring's own numbers must have been checked. The error says what is wrong, without a place.
+// Cost: one look at every cell.
+Status check_shape(const Ring& ring);
 
 }  // namespace rs::object_chunks

@@ -1,17 +1,14 @@
 #pragma once
-// The part of validate_object() that looks at a ring's shape map; encode/FORMAT.md, section "Ranges".
+// What the chunks' parts of validate_object() share; encode/FORMAT.md, section "Ranges".
 
-#include "rayspace/base/result.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <vector>
 
-namespace rs {
-
-// The bounds that several parts of validate_object() share.
-namespace object_ranges {
+namespace rs::object_ranges {
 
 inline constexpr std::int64_t kOne_q16 = std::int64_t{1} << 16;
 inline constexpr std::int64_t kOne_q20 = std::int64_t{1} << 20;
@@ -31,11 +28,13 @@ inline bool is_consistent(std::int32_t cells_per_unit_q12, int cells, double hal
     return cells_per_unit_q12 > 0 && std::abs(cells_per_unit_q12 - expected) <= 1.0 + std::ldexp(expected, -20);
 }
 
-}  // namespace object_ranges
+// [view]: whether it is in one of the first `rings` rings, whose lists of views must have been checked.
+inline std::vector<bool> is_in_ring(const RaySpaceObject& object, std::size_t rings) {
+    std::vector<bool> is_in(object.views.size());
+    for (std::size_t r = 0; r < rings; ++r) {
+        for (const std::uint16_t view : object.rings[r].views) is_in[view] = true;
+    }
+    return is_in;
+}
 
-// ring.shape is empty in all its members, or has the sizes that the ring and its own numbers ask for and all numbers
-// within their ranges. The ring's own numbers must have been checked. The error says what is wrong, without a place.
-// Cost: one look at every cell.
-Status check_shape(const Ring& ring);
-
-}  // namespace rs
+}  // namespace rs::object_ranges

@@ -1,0 +1,58 @@
+// RIGJ: object.rig_json in a Zstandard frame; read as it is, too.
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/zstd_frame.hpp"
+#include "rayspace/format/chunks/chunk_kind.hpp"
+#include "rayspace/geometry/rig.hpp"
+
+#include <optional>
+
+namespace rs::object_chunks {
+namespace {
+
+constexpr std::uint64_t kMaxRigJson_bytes = std::uint64_t{16} << 20;
+
+Payload rig_payload(const RaySpaceObject& object, std::uint32_t) {
+    return zstd_frame({reinterpret_cast<const std::uint8_t*>(object.rig_json.data()), object.rig_json.size()});
+}
+
+Status parse_rig_text(Bytes payload, UnreadObject& unread, std::uint32_t) {
+    if (payload.size() > kMaxRigJson_bytes)
+        return out_of_range("the rig's length", payload.size(), 0, kMaxRigJson_bytes);
+    const std::optional<std::uint64_t> expanded_bytes = stated_zstd_bytes(payload);
+    if (!expanded_bytes) {  // as it is
+        unread.object.rig_json.assign(reinterpret_cast<const char*>(payload.data()), payload.size());
+        return {};
+    }
+    if (*expanded_bytes > kMaxRigJson_bytes) {
+        return out_of_range("the rig's length, expanded,", *expanded_bytes, 0, kMaxRigJson_bytes);
+    }
+    const Result<std::vector<std::uint8_t>> text = zstd_content(payload, *expanded_bytes, "the words of its rig");
+    if (!text) return text.error();
+    unread.object.rig_json.assign(text->begin(), text->end());
+    return {};
+}
+
+Status check_rig(const RaySpaceObject& object, std::uint32_t) {
+    if (object.rig_json.empty()) return {};
+    if (object.rig_json.size() > kMaxRigJson_bytes) return Error{"its rig is larger than 16 MiB"};
+    const Result<Rig> rig = rig_from_json(object.rig_json, "rig");
+    if (!rig) return rig.error();
+    if (rig->views.size() != object.views.size()) return Error{"its rig does not have as many frames as views"};
+    return {};
+}
+
+std::int64_t held_by_rig(const RaySpaceObject& object, std::uint32_t) {
+    return static_cast<std::int64_t>(object.rig_json.capacity());
+}
+
+}  // namespace
+
+ChunkKind rig_chunk() {
+    return {.name = kRig,
+            .payload = rig_payload,
+            .parse = parse_rig_text,
+            .validate = check_rig,
+            .held_bytes = held_by_rig};
+}
+
+}  // namespace rs::object_chunks
