@@ -133,7 +133,7 @@ private:
         for (std::size_t t = 0; t < tiles; ++t) {
             const codec::TilePlace place = codec::place_of_tile(coded_, t);
             for (int y = place.top; y < place.top + place.height && !coded.tiles[t].present; ++y) {
-                const std::uint8_t* const row = sources_[static_cast<std::size_t>(view)].matters.row(y) + place.left;
+                const std::uint8_t* const row = sources_[static_cast<std::size_t>(view)].valid.row(y) + place.left;
                 coded.tiles[t].present = std::any_of(row, row + place.width, [](std::uint8_t m) { return m != 0; });
             }
         }

@@ -20,8 +20,8 @@ public:
         : search_(search),
           from_(from),
           other_(other),
-          target_{search.source->planes[0].row(search.y) + search.x, search.source->matters.row(search.y) + search.x,
-                  search.source->matters.width(), search.size} {}
+          target_{search.source->planes[0].row(search.y) + search.x, search.source->valid.row(search.y) + search.x,
+                  search.source->valid.width(), search.size} {}
 
     void try_whole(int x, int y) {
         const int left = search_.x + x;

@@ -24,7 +24,7 @@ struct MotionSearch {
 
 struct FoundMotion {
     codec::MotionVector vector;
-    float cost = 0;  // sum of absolute differences of Y over the samples that matter, and the vector's bits
+    float cost = 0;  // sum of absolute differences of Y over the valid samples, and the vector's bits
 };
 
 // The best vector around any of `starts`, first in whole samples, then in halves and quarters (if wanted); `from` is

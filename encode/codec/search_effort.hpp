@@ -14,7 +14,7 @@ inline constexpr int kUsualEffort = 5;
 struct PartEffort {
     int intra = 4;               // modes of intra prediction that are looked at closely
     int coded = 7;               // predictions that are coded in full, of those that look best
-    int refits = 2;              // times a part with samples that do not count is coded anew
+    int refits = 2;              // times a part with samples that are not valid is coded anew
     bool all_transforms = true;  // both sizes for each prediction; else small ones for the best prediction alone
     bool all_splits = true;      // quarters even where the whole needs no coefficients
     int motion_step = 1;         // MotionSearch::step

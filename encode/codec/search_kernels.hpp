@@ -12,7 +12,7 @@ namespace rs::encode {
 // orthonormal ones times 16 (size 8) or 8 (size 16).
 void forward_transform(const std::int16_t* residual, int size, std::int32_t* coefficients);
 
-// A square of samples beside others: `size` (8 or 16) rows of `size`. The mask has 255 where a sample counts, else 0.
+// A square of samples beside others: `size` (8 or 16) rows of `size`. The mask has 255 where a sample is valid, else 0.
 struct MaskedSamples {
     const std::uint8_t* wanted = nullptr;
     const std::uint8_t* mask = nullptr;

@@ -43,12 +43,12 @@ void set_alpha_bits(SourcePicture& source, int alpha_bits) {
     const int width = source.coverage.width();
     const int height = source.coverage.height();
     source.alpha = Image<std::uint8_t>(width, height);
-    source.matters = Image<std::uint8_t>(width, height);
+    source.valid = Image<std::uint8_t>(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const int level = codec::level_of_alpha(source.coverage(x, y), alpha_bits);
             source.alpha(x, y) = static_cast<std::uint8_t>(level);
-            source.matters(x, y) = level != 0 ? 255 : 0;
+            source.valid(x, y) = level != 0 ? 255 : 0;
         }
     }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A picture as the encoder sees it: planes of the coded size, and which samples matter.
+// A picture as the encoder sees it: planes of the coded size, and which samples are valid.
 
 #include "rayspace/codec/code/dense_code.hpp"
 #include "rayspace/image/image.hpp"
@@ -14,7 +14,7 @@ struct SourcePicture {
     std::array<Image<std::uint8_t>, 3> planes;  // Y, U, V at full size
     Image<std::uint8_t> coverage;               // alpha, 0 .. 255
     Image<std::uint8_t> alpha;                  // levels 0 .. 2^bits - 1
-    Image<std::uint8_t> matters;                // 255 where the alpha level is not 0, else 0
+    Image<std::uint8_t> valid;                  // 255 where the alpha level is not 0, else 0
 };
 
 // `picture` has straight alpha. The coded size is its own, rounded up to a multiple of 16.

@@ -23,7 +23,7 @@ struct PictureTask {
     codec::PlaneViews out;  // the reconstruction
 };
 
-// Encodes the tile at `place`, which must have a sample that matters; appends its decisions. Appends the vectors
+// Encodes the tile at `place`, which must have a valid sample; appends its decisions. Appends the vectors
 // used, per reference, to `motions`.
 void encode_tile(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
                  std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions);

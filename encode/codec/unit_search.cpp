@@ -28,12 +28,12 @@ constexpr float kNever = std::numeric_limits<float>::max();
 // Up to this squared error, in squared steps, no coefficient of an orthonormal transform reaches half a step.
 constexpr float kNothingToCode = 0.25F;
 
-// One transform of a plane: what is wanted, predicted, and which samples count.
+// One transform of a plane: what is wanted, predicted, and which samples are valid.
 struct TransformTarget {
     MaskedSamples samples;
     const std::uint8_t* predicted = nullptr;
     std::ptrdiff_t stride = 0;
-    bool all_matter = true;
+    bool all_valid = true;
 
     [[nodiscard]] float error_of(const std::uint8_t* shown, std::ptrdiff_t shown_stride) const {
         return static_cast<float>(squared_differences(samples, shown, shown_stride));
@@ -66,7 +66,7 @@ bool code_transform(const TransformTarget& target, const QuantiserSettings& sett
         show_prediction();
         if (!any) return false;
         codec::add_residual(levels, settings.step, size, shown, size);
-        if (target.all_matter || round == refits) return true;
+        if (target.all_valid || round == refits) return true;
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x) {
                 if (target.samples.mask[y * target.samples.stride + x] != 0) continue;
@@ -129,7 +129,7 @@ void UnitSearch::commit(const PredictionUnit& part, const PartChoice& choice) co
 
 MaskedSamples UnitSearch::samples_of(const PartPlace& place, int plane) const {
     const Image<std::uint8_t>& wanted = task_.source->planes[static_cast<std::size_t>(plane)];
-    return {wanted.row(place.y) + place.x, task_.source->matters.row(place.y) + place.x, wanted.width(), place.size};
+    return {wanted.row(place.y) + place.x, task_.source->valid.row(place.y) + place.x, wanted.width(), place.size};
 }
 
 // Enters what the candidate costs before anything is coded, and what all together looks like.
@@ -157,15 +157,15 @@ void UnitSearch::evaluate(const PredictionUnit& part, const Candidate& candidate
     const PartPlace place = place_of(part);
     candidate.put(trial);
     const bool inter = is_inter(trial.source);
-    bool all_matter = true;
+    bool all_valid = true;
     for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
         const auto& info = state_.grid.at(part.bx + (i & (part.blocks() - 1)), part.by + i / part.blocks());
-        all_matter = all_matter && info.alpha == codec::AlphaClass::kOpaque;
+        all_valid = all_valid && info.alpha == codec::AlphaClass::kOpaque;
     }
     TransformTarget targets[codec::kPlanes];
     float plain_error = 0;
     for (int plane = 0; plane < codec::kPlanes; ++plane) {
-        targets[plane] = {samples_of(place, plane), candidate.predicted[plane], part.size, all_matter};
+        targets[plane] = {samples_of(place, plane), candidate.predicted[plane], part.size, all_valid};
         plain_error += kPlaneWeights[static_cast<std::size_t>(plane)] *
                        targets[plane].error_of(candidate.predicted[plane], part.size);
     }

@@ -21,10 +21,10 @@ BlockResidual residual_of(const SourcePicture& source, int x, int y, const Predi
     for (std::size_t i = 0; i < 64; ++i) {
         const int column = x + static_cast<int>(i % 8);
         const int row = y + static_cast<int>(i / 8);
-        const bool matters = source.matters(column, row) != 0;
-        residual.matters[i] = matters ? 1 : 0;
+        const bool valid = source.valid(column, row) != 0;
+        residual.valid[i] = valid ? 1 : 0;
         for (std::size_t plane = 0; plane < 3; ++plane) {
-            const int left = matters ? source.planes[plane](column, row) - prediction(plane, i) : 0;
+            const int left = valid ? source.planes[plane](column, row) - prediction(plane, i) : 0;
             residual.left[plane][i] = static_cast<std::int16_t>(left);
         }
     }
@@ -61,7 +61,7 @@ std::array<std::uint8_t, 3> mean_colour(const SourcePicture& source, int x, int 
     int count = 0;
     for (int row = y; row < y + 8; ++row) {
         for (int column = x; column < x + 8; ++column) {
-            if (source.matters(column, row) == 0) continue;
+            if (source.valid(column, row) == 0) continue;
             ++count;
             for (std::size_t plane = 0; plane < 3; ++plane) sum[plane] += source.planes[plane](column, row);
         }
@@ -77,7 +77,7 @@ std::array<std::uint8_t, 3> mean_colour(const SourcePicture& source, int x, int 
 void block_vector(const BlockResidual& residual, const WeightedVectors::Place& out) {
     for (std::size_t i = 0; i < 64; ++i) {
         out.values[i] = residual.left[0][i];
-        out.weights[i] = static_cast<std::int16_t>(kWholePlaneWeights[0] * residual.matters[i]);
+        out.weights[i] = static_cast<std::int16_t>(kWholePlaneWeights[0] * residual.valid[i]);
     }
     for (std::size_t plane = 1; plane < 3; ++plane) {
         for (std::size_t pair = 0; pair < 16; ++pair) {
@@ -85,7 +85,7 @@ void block_vector(const BlockResidual& residual, const WeightedVectors::Place& o
             int count = 0;
             for (const std::size_t i : pixels_of_pair(pair)) {
                 sum += residual.left[plane][i];
-                count += residual.matters[i];
+                count += residual.valid[i];
             }
             const std::size_t d = 48 + 16 * plane + pair;
             out.values[d] = static_cast<std::int16_t>(count == 0 ? 0 : (sum + (sum < 0 ? -count : count) / 2) / count);
@@ -99,8 +99,7 @@ void quarter_vector(const BlockResidual& residual, int quarter, const WeightedVe
         for (std::size_t i = 0; i < 16; ++i) {
             const std::size_t pixel = pixel_of(static_cast<std::size_t>(quarter), i);
             out.values[16 * plane + i] = residual.left[plane][pixel];
-            out.weights[16 * plane + i] =
-                static_cast<std::int16_t>(kWholePlaneWeights[plane] * residual.matters[pixel]);
+            out.weights[16 * plane + i] = static_cast<std::int16_t>(kWholePlaneWeights[plane] * residual.valid[pixel]);
         }
     }
 }
@@ -111,7 +110,7 @@ void subtract_block(BlockResidual& residual, const std::int16_t* entry) {
         const std::array<int, 3> off = {entry[i], entry[64 + pair], entry[80 + pair]};
         for (std::size_t plane = 0; plane < 3; ++plane) {
             residual.left[plane][i] =
-                static_cast<std::int16_t>(residual.left[plane][i] - residual.matters[i] * off[plane]);
+                static_cast<std::int16_t>(residual.left[plane][i] - residual.valid[i] * off[plane]);
         }
     }
 }
@@ -120,8 +119,8 @@ void subtract_quarter(BlockResidual& residual, int quarter, const std::int16_t* 
     for (std::size_t plane = 0; plane < 3; ++plane) {
         for (std::size_t i = 0; i < 16; ++i) {
             const std::size_t pixel = pixel_of(static_cast<std::size_t>(quarter), i);
-            residual.left[plane][pixel] = static_cast<std::int16_t>(residual.left[plane][pixel] -
-                                                                    residual.matters[pixel] * entry[16 * plane + i]);
+            residual.left[plane][pixel] =
+                static_cast<std::int16_t>(residual.left[plane][pixel] - residual.valid[pixel] * entry[16 * plane + i]);
         }
     }
 }

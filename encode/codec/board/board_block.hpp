@@ -16,8 +16,8 @@ namespace rs::encode {
 inline constexpr std::array<std::int16_t, 3> kWholePlaneWeights = {6, 7, 5};
 
 struct BlockResidual {
-    std::array<std::array<std::int16_t, 64>, 3> left;  // of Y, U, V; 0 where the sample does not matter
-    std::array<std::int16_t, 64> matters;              // 1 or 0
+    std::array<std::array<std::int16_t, 64>, 3> left;  // of Y, U, V; 0 where the sample is not valid
+    std::array<std::int16_t, 64> valid;                // 1 or 0
 
     // Sum of weight * left^2.
     [[nodiscard]] std::int64_t error() const;
@@ -28,7 +28,7 @@ BlockResidual residual_of_flat(const SourcePicture& source, int x, int y, const 
 BlockResidual residual_of_predicted(const SourcePicture& source, int x, int y, const codec::ConstPlaneViews& reference,
                                     int from_x, int from_y);
 
-// The mean colour of the samples of the block that matter; grey where none does.
+// The mean colour of the valid samples of the block; grey where there are none.
 std::array<std::uint8_t, 3> mean_colour(const SourcePicture& source, int x, int y);
 
 // What a stage of whole blocks, or of quarter `quarter`, sees of the residual: kBlockDimensions or kQuarterDimensions

@@ -41,14 +41,14 @@ float bits_of(MotionVector vector, MotionVector from) {
     return bits;
 }
 
-// Of one vector: prediction by the codec, samples that matter, the mean with `other` where there is one.
+// Of one vector: prediction by the codec, valid samples, the mean with `other` where there is one.
 float cost_of(const MotionSearch& search, MotionVector vector, MotionVector from, const std::uint8_t* other) {
     std::vector<std::uint8_t> samples(static_cast<std::size_t>(search.size) * static_cast<std::size_t>(search.size));
     codec::predict_from_picture(search.reference, search.x, search.y, vector, search.size, samples.data(), search.size);
     int sum = 0;
     for (int y = 0; y < search.size; ++y) {
         for (int x = 0; x < search.size; ++x) {
-            if (search.source->matters(search.x + x, search.y + y) == 0) continue;
+            if (search.source->valid(search.x + x, search.y + y) == 0) continue;
             const auto i = static_cast<std::size_t>(y * search.size + x);
             const int predicted = other == nullptr ? samples[i] : (samples[i] + other[i] + 1) / 2;
             sum += std::abs(search.source->planes[0](search.x + x, search.y + y) - predicted);

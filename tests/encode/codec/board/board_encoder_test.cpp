@@ -156,10 +156,10 @@ TEST(VectorQuantiser, FindsCentresAndIgnoresWhatDoesNotMatter) {
         const auto& centre = centres[static_cast<std::size_t>(i) % centres.size()];
         const WeightedVectors::Place place = vectors.add();
         for (std::size_t d = 0; d < 16; ++d) {
-            const bool matters = random() % 4 != 0;
-            place.weights[d] = matters ? 6 : 0;
-            place.values[d] = static_cast<std::int16_t>(matters ? centre[d] + static_cast<int>(random() % 5) - 2
-                                                                : static_cast<int>(random() % 400) - 200);
+            const bool valid = random() % 4 != 0;
+            place.weights[d] = valid ? 6 : 0;
+            place.values[d] = static_cast<std::int16_t>(valid ? centre[d] + static_cast<int>(random() % 5) - 2
+                                                              : static_cast<int>(random() % 400) - 200);
         }
     }
     const TrainedBook book = train_book(vectors, 32);
