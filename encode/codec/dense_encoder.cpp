@@ -25,7 +25,7 @@ using codec::CodedPictures;
 using codec::MotionVector;
 
 struct DenseWorkPicture {
-    codec::Planes shown;
+    codec::Planes reconstruction;
     std::vector<std::vector<Decision>> decisions;  // [tile]
     std::array<int, 2> reach = {0, 0};
     std::array<std::vector<std::vector<MotionVector>>, 2> motions;  // [reference][tile]
@@ -49,7 +49,7 @@ public:
         coded_.pictures.resize(object.views.size());
         plan();
         tbb::parallel_for(std::size_t{0}, work_.size(), [&](std::size_t v) {
-            for (auto& plane : work_[v].shown) {
+            for (auto& plane : work_[v].reconstruction) {
                 plane = Image<std::uint8_t>(coded_.coded_width(), coded_.coded_height());
             }
             find_tiles(static_cast<int>(v));
@@ -65,7 +65,7 @@ public:
             progress_->start("encoding", count + count / effort.sampled);
         }
         // The first pass finds the probabilities, and so the prices of the second, and the usual vectors.
-        if (effort.sampled > 1) show_sources();
+        if (effort.sampled > 1) start_with_sources();
         run_pass(effort.first_pass, effort.sampled);
         for (std::size_t v = 0; v < work_.size(); ++v) set_global_motion(v);
         run_pass(effort.part, 1);
@@ -73,7 +73,7 @@ public:
         if (progress_ != nullptr) progress_->finish();
         const double psnr_db =
             coded_psnr(sources_, object_.width, object_.height, settings_.alpha_bits,
-                       [&](std::size_t v) { return codec::views_of(std::as_const(work_[v].shown)); });
+                       [&](std::size_t v) { return codec::views_of(std::as_const(work_[v].reconstruction)); });
         return {std::move(coded_), psnr_db};
     }
 
@@ -156,12 +156,12 @@ private:
     }
 
     // What pictures are predicted from where not all their tiles are coded.
-    void show_sources() {
+    void start_with_sources() {
         tbb::parallel_for(std::size_t{0}, work_.size(), [&](std::size_t v) {
-            for (std::size_t p = 0; p < 3; ++p) work_[v].shown[p] = sources_[v].planes[p];
+            for (std::size_t p = 0; p < 3; ++p) work_[v].reconstruction[p] = sources_[v].planes[p];
             for (int y = 0; y < coded_.coded_height(); ++y) {
                 for (int x = 0; x < coded_.coded_width(); ++x) {
-                    work_[v].shown[3](x, y) =
+                    work_[v].reconstruction[3](x, y) =
                         static_cast<std::uint8_t>(codec::alpha_of_level(sources_[v].alpha(x, y), settings_.alpha_bits));
                 }
             }
@@ -202,9 +202,9 @@ private:
             task.reach = work_[v].reach;
             const float step = static_cast<float>(codec::step_q4(task.head.step)) / 16.0F;
             task.lambda = settings_.lambda_factor * kPlaneWeights[0] * step * step;
-            task.out = codec::views_of(work_[v].shown);
+            task.out = codec::views_of(work_[v].reconstruction);
             for (std::size_t r = 0; r < static_cast<std::size_t>(task.head.references()); ++r) {
-                task.references[r] = codec::views_of(std::as_const(work_[task.head.reference[r]].shown));
+                task.references[r] = codec::views_of(std::as_const(work_[task.head.reference[r]].reconstruction));
             }
         }
         return tasks;

@@ -35,27 +35,29 @@ struct TransformTarget {
     std::ptrdiff_t stride = 0;
     bool all_valid = true;
 
-    [[nodiscard]] float error_of(const std::uint8_t* shown, std::ptrdiff_t shown_stride) const {
-        return static_cast<float>(squared_differences(samples, shown, shown_stride));
+    [[nodiscard]] float error_of(const std::uint8_t* reconstruction, std::ptrdiff_t reconstruction_stride) const {
+        return static_cast<float>(squared_differences(samples, reconstruction, reconstruction_stride));
     }
 };
 
-// Levels for the target; returns whether there are any. `shown` receives what the decoder will show (size * size).
+// Levels for the target; returns whether there are any. `reconstruction` receives the decoder's samples (size * size).
 bool code_transform(const TransformTarget& target, const QuantiserSettings& settings, const CostTable& costs,
-                    int refits, codec::Levels& levels, int& last, std::uint8_t* shown) {
+                    int refits, codec::Levels& levels, int& last, std::uint8_t* reconstruction) {
     const int size = target.samples.size;
-    const auto show_prediction = [&] {
-        for (int y = 0; y < size; ++y) std::copy_n(target.predicted + y * target.stride, size, shown + y * size);
+    const auto start_with_prediction = [&] {
+        for (int y = 0; y < size; ++y)
+            std::copy_n(target.predicted + y * target.stride, size, reconstruction + y * size);
     };
-    show_prediction();
+    start_with_prediction();
     const float step = static_cast<float>(codec::step_q4(settings.step)) / 16.0F;
-    if (target.error_of(shown, size) < kNothingToCode * step * step) return false;
+    if (target.error_of(reconstruction, size) < kNothingToCode * step * step) return false;
     std::int16_t residual[kMacroblockSamples];
     for (int y = 0; y < size; ++y) {
         const std::uint8_t* const wanted = target.samples.wanted + y * target.samples.stride;
         const std::uint8_t* const mask = target.samples.mask + y * target.samples.stride;
         for (int x = 0; x < size; ++x) {
-            residual[y * size + x] = static_cast<std::int16_t>((wanted[x] & mask[x]) - (shown[y * size + x] & mask[x]));
+            residual[y * size + x] =
+                static_cast<std::int16_t>((wanted[x] & mask[x]) - (reconstruction[y * size + x] & mask[x]));
         }
     }
     for (int round = 0;; ++round) {
@@ -63,15 +65,15 @@ bool code_transform(const TransformTarget& target, const QuantiserSettings& sett
         forward_transform(residual, size, coefficients);
         levels = {};
         const bool any = quantise(coefficients, settings, costs, levels, last);
-        show_prediction();
+        start_with_prediction();
         if (!any) return false;
-        codec::add_residual(levels, settings.step, size, shown, size);
+        codec::add_residual(levels, settings.step, size, reconstruction, size);
         if (target.all_valid || round == refits) return true;
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x) {
                 if (target.samples.mask[y * target.samples.stride + x] != 0) continue;
                 residual[y * size + x] =
-                    static_cast<std::int16_t>(shown[y * size + x] - target.predicted[y * target.stride + x]);
+                    static_cast<std::int16_t>(reconstruction[y * size + x] - target.predicted[y * target.stride + x]);
             }
         }
     }
@@ -206,11 +208,11 @@ void UnitSearch::evaluate(const PredictionUnit& part, const Candidate& candidate
                 target.samples.wanted += down * target.samples.stride + right;
                 target.samples.mask += down * target.samples.stride + right;
                 target.predicted += down * target.stride + right;
-                std::uint8_t shown[kMacroblockSamples];
+                std::uint8_t reconstruction[kMacroblockSamples];
                 trial.plane_coded[p][t] = code_transform(target, settings, costs_, task_.effort.refits,
-                                                         trial.levels[p][t], trial.last[p][t], shown);
+                                                         trial.levels[p][t], trial.last[p][t], reconstruction);
                 trial.coded = trial.coded || trial.plane_coded[p][t];
-                error += kPlaneWeights[p] * target.error_of(shown, size);
+                error += kPlaneWeights[p] * target.error_of(reconstruction, size);
             }
         }
         if (trial.coded) finish(error);

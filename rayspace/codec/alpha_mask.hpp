@@ -128,9 +128,9 @@ private:
         for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
             for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
                 const int mask = mask_.at(x, y);
-                const int shown =
+                const int interpolated =
                     interpolated_alpha(info.source, info.motion, references_, place_.left + x, place_.top + y);
-                const int predicted = shown < 0 ? 0 : shown < 32 || shown > 223 ? 1 : 2;
+                const int predicted = interpolated < 0 ? 0 : interpolated < 32 || interpolated > 223 ? 1 : 2;
                 const int sum = mask_sum(mask_, x, y, place_.width, place_.height);
                 const int neighbours = (depths_.at(x - 1, y) != 0 ? 1 : 0) + (depths_.at(x, y - 1) != 0 ? 1 : 0);
                 const int depth = bits_ == 2

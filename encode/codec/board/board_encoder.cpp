@@ -35,7 +35,7 @@ struct Block {
 };
 
 struct BoardWorkPicture {
-    codec::Planes shown;
+    codec::Planes reconstruction;
     std::array<int, 2> reach_px = {0, 0};
     std::vector<Block> blocks;  // row by row, of the coded size
 };
@@ -83,7 +83,7 @@ public:
         if (progress_ != nullptr) progress_->finish();
         const double psnr_db =
             coded_psnr(sources_, object_.width, object_.height, settings_.alpha_bits,
-                       [&](std::size_t v) { return codec::views_of(std::as_const(work_[v].shown)); });
+                       [&](std::size_t v) { return codec::views_of(std::as_const(work_[v].reconstruction)); });
         return {std::move(coded_), psnr_db};
     }
 
@@ -128,7 +128,7 @@ private:
     }
 
     void look_at_blocks(std::size_t v) {
-        for (auto& plane : work_[v].shown) {
+        for (auto& plane : work_[v].reconstruction) {
             plane = Image<std::uint8_t>(coded_.coded_width(), coded_.coded_height());
         }
         work_[v].blocks.resize(static_cast<std::size_t>(block_columns() * block_rows()));
@@ -179,8 +179,8 @@ private:
                                      y + block.motion.y);
     }
     [[nodiscard]] codec::ConstPlaneViews reference_of(std::size_t v, int reference) const {
-        return codec::views_of(
-            std::as_const(work_[coded_.pictures[v].head.reference[static_cast<std::size_t>(reference)]].shown));
+        return codec::views_of(std::as_const(
+            work_[coded_.pictures[v].head.reference[static_cast<std::size_t>(reference)]].reconstruction));
     }
 
     // On blocks spread evenly over the wanted pictures.
@@ -306,7 +306,7 @@ private:
             std::array<codec::ConstPlaneViews, 2> references;
             for (int r = 0; r < picture.head.references(); ++r)
                 references[static_cast<std::size_t>(r)] = reference_of(v, r);
-            codec::decode_tile(coded_, v, t, references, nullptr, codec::views_of(work_[v].shown));
+            codec::decode_tile(coded_, v, t, references, nullptr, codec::views_of(work_[v].reconstruction));
         }
         advance();
     }

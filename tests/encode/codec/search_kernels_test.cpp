@@ -23,14 +23,14 @@ constexpr int kStride = 40;
 struct Samples {
     std::vector<std::uint8_t> wanted = std::vector<std::uint8_t>(kStride * 16);
     std::vector<std::uint8_t> mask = wanted;
-    std::vector<std::uint8_t> shown = wanted;
+    std::vector<std::uint8_t> reconstruction = wanted;
     std::vector<std::uint8_t> other = wanted;
 
     explicit Samples(std::mt19937& random) {
         const unsigned span = 1U << (random() % 9);
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             wanted[i] = static_cast<std::uint8_t>(random() % 256);
-            shown[i] = static_cast<std::uint8_t>(std::min(wanted[i] + random() % span, 255UL));
+            reconstruction[i] = static_cast<std::uint8_t>(std::min(wanted[i] + random() % span, 255UL));
             other[i] = static_cast<std::uint8_t>(random() % 256);
             mask[i] = random() % 4 == 0 ? 0 : 255;
         }
@@ -38,7 +38,7 @@ struct Samples {
     [[nodiscard]] MaskedSamples target(int size) const { return {wanted.data(), mask.data(), kStride, size}; }
     [[nodiscard]] int off(int x, int y) const {
         const auto at = static_cast<std::size_t>(y * kStride + x);
-        return mask[at] != 0 ? wanted[at] - shown[at] : 0;
+        return mask[at] != 0 ? wanted[at] - reconstruction[at] : 0;
     }
 };
 
@@ -56,15 +56,16 @@ TEST(SearchKernels, SumsAreThoseOfTheFormulas) {
                     absolute += std::abs(samples.off(x, y));
                     squared += samples.off(x, y) * samples.off(x, y);
                     const int mean =
-                        (samples.shown[at] + samples.other[static_cast<std::size_t>(y * size + x)] + 1) / 2;
+                        (samples.reconstruction[at] + samples.other[static_cast<std::size_t>(y * size + x)] + 1) / 2;
                     of_mean += samples.mask[at] != 0 ? std::abs(samples.wanted[at] - mean) : 0;
                 }
             }
             const MaskedSamples target = samples.target(size);
-            ASSERT_EQ(absolute_differences(target, samples.shown.data(), kStride), absolute);
-            ASSERT_EQ(squared_differences(target, samples.shown.data(), kStride), squared);
-            ASSERT_EQ(absolute_differences_of_mean(target, samples.shown.data(), kStride, samples.other.data()),
-                      of_mean);
+            ASSERT_EQ(absolute_differences(target, samples.reconstruction.data(), kStride), absolute);
+            ASSERT_EQ(squared_differences(target, samples.reconstruction.data(), kStride), squared);
+            ASSERT_EQ(
+                absolute_differences_of_mean(target, samples.reconstruction.data(), kStride, samples.other.data()),
+                of_mean);
         }
     }
 }
@@ -93,7 +94,7 @@ TEST(SearchKernels, HadamardTransformsAreThoseOfTheFormula) {
                 }
                 sum += (magnitudes + 4) / 8;
             }
-            ASSERT_EQ(hadamard_differences(samples.target(size), samples.shown.data(), kStride), sum);
+            ASSERT_EQ(hadamard_differences(samples.target(size), samples.reconstruction.data(), kStride), sum);
         }
     }
 }
