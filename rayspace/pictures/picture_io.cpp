@@ -15,17 +15,17 @@ namespace rs {
 namespace fs = std::filesystem;
 namespace {
 
-struct Door {
+struct LoadedBackend {
     const pictures::Backend* backend = nullptr;
     std::string error;
 };
 
-Door open_door() {
+LoadedBackend load_backend() {
     std::error_code ignored;
     const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
     // Of this code: the program, or librayspace.so.
     Dl_info info{};
-    const bool found = ::dladdr(reinterpret_cast<const void*>(&open_door), &info) != 0 && info.dli_fname != nullptr;
+    const bool found = ::dladdr(reinterpret_cast<const void*>(&load_backend), &info) != 0 && info.dli_fname != nullptr;
     const fs::path library = found ? fs::path(info.dli_fname).parent_path() : here;
     const fs::path candidates[] = {
         here / pictures::kBackendFileName,                              // a build folder
@@ -62,9 +62,9 @@ Door open_door() {
 }
 
 Result<const pictures::Backend*> backend_for(const fs::path& path) {
-    static const Door door = open_door();
-    if (door.backend == nullptr) return Error{path.string() + ": " + door.error};
-    return door.backend;
+    static const LoadedBackend loaded = load_backend();
+    if (loaded.backend == nullptr) return Error{path.string() + ": " + loaded.error};
+    return loaded.backend;
 }
 
 // All pictures are encoded in memory, so that the disk's troubles are reported by StagedFile alone.
