@@ -264,7 +264,7 @@ private:
                         continue;
                     }
                     encoder.bit(d & 1, states.probability(context));
-                    states.learn(context, d & 1);
+                    states.adapt(context, d & 1);
                 }
                 const std::vector<std::byte> bytes = encoder.finish();
                 picture.tiles[t].begin = static_cast<std::uint32_t>(picture.bytes.size());

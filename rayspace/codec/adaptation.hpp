@@ -29,7 +29,7 @@ inline std::uint32_t decoder_probability(std::uint16_t zero_q16) {
 }
 
 // The probability of a 0 after a decision.
-inline std::uint16_t learned(std::uint16_t zero_q16, unsigned shift, int bit) {
+inline std::uint16_t adapted(std::uint16_t zero_q16, unsigned shift, int bit) {
     const std::uint32_t p = zero_q16;
     const std::uint32_t more = p + ((65536U - p) >> shift);
     const std::uint32_t less = p - (p >> shift);

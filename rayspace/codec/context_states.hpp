@@ -26,9 +26,9 @@ public:
         return decoder_probability(zero_q16_[static_cast<std::size_t>(context)]);
     }
 
-    void learn(int context, int bit) {
+    void adapt(int context, int bit) {
         const auto c = static_cast<std::size_t>(context);
-        zero_q16_[c] = learned(zero_q16_[c], shifts_[uses_[c]], bit);
+        zero_q16_[c] = adapted(zero_q16_[c], shifts_[uses_[c]], bit);
         uses_[c] = one_more(uses_[c]);
     }
 

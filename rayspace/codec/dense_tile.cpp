@@ -14,7 +14,7 @@ public:
     Reader(std::span<const std::byte> bytes, const DenseCode& code) : bits_(bytes), states_(code) {}
     int bit(int context, int /*value*/) {
         const int read = bits_.bit(states_.probability(context));
-        states_.learn(context, read);
+        states_.adapt(context, read);
         return read;
     }
     int raw(int /*value*/) { return bits_.bit(1U << (kProbabilityBits - 1)); }

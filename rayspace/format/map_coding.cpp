@@ -25,7 +25,7 @@ public:
         return begins ? first_ : static_cast<std::uint16_t>(view_ + 1);
     }
     [[nodiscard]] std::uint16_t length(std::uint16_t view) const { return lengths_[view]; }
-    void learn(std::uint16_t view, std::uint16_t length) {
+    void update(std::uint16_t view, std::uint16_t length) {
         if (begins_row_) first_ = view;
         view_ = view;
         lengths_[view] = length;
@@ -81,7 +81,7 @@ std::vector<std::uint8_t> residual_plane(const Runs& runs) {
         const std::uint16_t view = runs.views[run];
         put(static_cast<std::uint16_t>(view - predicted.next_view()), rows + run, plane);
         put(static_cast<std::uint16_t>(runs.lengths[run] - predicted.length(view)), rows + count + run, plane);
-        predicted.learn(view, runs.lengths[run]);
+        predicted.update(view, runs.lengths[run]);
     }
     return plane;
 }
@@ -95,7 +95,7 @@ Runs runs_of_residuals(std::span<const std::uint8_t> plane, std::size_t rows, st
     for (std::size_t run = 0; run < runs; ++run) {
         const auto view = static_cast<std::uint16_t>(number(rows + run) + predicted.next_view());
         const auto length = static_cast<std::uint16_t>(number(rows + runs + run) + predicted.length(view));
-        predicted.learn(view, length);
+        predicted.update(view, length);
         found.views[run] = view;
         found.lengths[run] = length;
     }

@@ -125,9 +125,9 @@ constexpr int kContexts = kMore + kGuides * 2 * kUnary;
 class States {
 public:
     [[nodiscard]] std::uint32_t probability(int context) const { return codec::decoder_probability(of(context).zero); }
-    void learn(int context, int bit) {
+    void adapt(int context, int bit) {
         State& state = states_[static_cast<std::size_t>(context)];
-        state.zero = codec::learned(state.zero, codec::kAdaptationShifts[state.uses], bit);
+        state.zero = codec::adapted(state.zero, codec::kAdaptationShifts[state.uses], bit);
         state.uses = codec::one_more(state.uses);
     }
 
@@ -148,7 +148,7 @@ class Writer {
 public:
     int bit(int context, int value) {
         encoder_.bit(value, states_.probability(context));
-        states_.learn(context, value);
+        states_.adapt(context, value);
         return value;
     }
     int raw(int value) {
@@ -167,7 +167,7 @@ public:
     explicit Reader(std::span<const std::byte> bytes) : decoder_(bytes) {}
     int bit(int context, int) {
         const int value = decoder_.bit(states_.probability(context));
-        states_.learn(context, value);
+        states_.adapt(context, value);
         return value;
     }
     int raw(int) { return decoder_.bit(kRaw); }

@@ -57,7 +57,7 @@ public:
     int bit(int context, int /*value*/) {
         const std::uint32_t zero = states_.probability(context);
         const int read = decoder_.bit(zero);
-        states_.learn(context, read);
+        states_.adapt(context, read);
         bits_[purpose_of(context)] -= std::log2((read == 0 ? zero : 4096 - zero) / 4096.0);
         return read;
     }

@@ -31,7 +31,7 @@ TEST(ContextStates, StayWithinWhatADecoderTakesAndFollowWhatIsSaid) {
             for (const int bit : {0, 1}) {
                 codec::ContextStates states(code);
                 EXPECT_EQ(states.probability(context), 16U * static_cast<unsigned>(listed));
-                for (int i = 0; i < 5000; ++i) states.learn(context, bit);
+                for (int i = 0; i < 5000; ++i) states.adapt(context, bit);
                 EXPECT_EQ(states.probability(context + 1), 16U * static_cast<unsigned>(listed));
                 // A shift by 7 stops 127 / 65536 before the end.
                 EXPECT_EQ(states.probability(context), bit == 0 ? 4088U : 8U);
@@ -45,20 +45,20 @@ TEST(ContextStates, TheFirstStepsAreThoseOfTheFormat) {
     code.probabilities.fill(2048);
     codec::ContextStates states(code);
     // n = 8, s = 3: z = 32768 + 4096, then 36864 - 4608 = 32256, eight in all; then n = 16, s = 4.
-    states.learn(context::kMask, 0);
+    states.adapt(context::kMask, 0);
     EXPECT_EQ(states.probability(context::kMask), 36864U >> 4U);
-    states.learn(context::kMask, 1);
+    states.adapt(context::kMask, 1);
     EXPECT_EQ(states.probability(context::kMask), 32256U >> 4U);
-    for (int i = 0; i < 6; ++i) states.learn(context::kMask, i & 1);
+    for (int i = 0; i < 6; ++i) states.adapt(context::kMask, i & 1);
     std::uint32_t z = 32256;
     for (int i = 0; i < 6; ++i) z = (i & 1) == 0 ? z + ((65536 - z) >> 3U) : z - (z >> 3U);
     EXPECT_EQ(states.probability(context::kMask), z >> 4U);
-    states.learn(context::kMask, 0);
+    states.adapt(context::kMask, 0);
     EXPECT_EQ(states.probability(context::kMask), (z + ((65536 - z) >> 4U)) >> 4U);
     // n = 16 and n = 64.
-    states.learn(context::kNonZero - 1, 0);
+    states.adapt(context::kNonZero - 1, 0);
     EXPECT_EQ(states.probability(context::kNonZero - 1), (32768U + 2048U) >> 4U);
-    states.learn(context::kNonZero, 0);
+    states.adapt(context::kNonZero, 0);
     EXPECT_EQ(states.probability(context::kNonZero), (32768U + 512U) >> 4U);
 }
 
@@ -68,7 +68,7 @@ TEST(ContextStates, DoNotMoveWithoutAdaptation) {
     std::mt19937 random(3);
     code.probabilities = random_probabilities(random);
     codec::ContextStates states(code);
-    for (int i = 0; i < 20000; ++i) states.learn(static_cast<int>(random() % context::kCount), i & 1);
+    for (int i = 0; i < 20000; ++i) states.adapt(static_cast<int>(random() % context::kCount), i & 1);
     for (int c = 0; c < context::kCount; ++c) {
         ASSERT_EQ(states.probability(c), code.probabilities[static_cast<std::size_t>(c)]) << c;
     }
