@@ -64,11 +64,11 @@ public:
             for (const auto& jobs : jobs_) count += static_cast<std::int64_t>(jobs.size());
             progress_->start("encoding", count + count / effort.sampled);
         }
-        // The first pass finds the probabilities, and so the prices of the second, and the usual vectors.
+        // The first pass finds the probabilities, and so the prices of the second, and the global motion.
         if (effort.sampled > 1) start_with_sources();
         run_pass(effort.first_pass, effort.sampled);
         for (std::size_t v = 0; v < work_.size(); ++v) set_global_motion(v);
-        run_pass(effort.part, 1);
+        run_pass(effort.unit, 1);
         write_tiles();
         if (progress_ != nullptr) progress_->finish();
         const double psnr_db =
@@ -169,7 +169,7 @@ private:
     }
 
     // Codes every `sampled`-th tile, and takes the probabilities from what was coded.
-    void run_pass(const PartEffort& effort, int sampled) {
+    void run_pass(const UnitEffort& effort, int sampled) {
         const CostTable costs(coded_.dense.probabilities);
         for (int level = 0; level < kProgressiveLevels; ++level) {
             const std::vector<PictureTask> tasks = tasks_of_level(level, effort);
@@ -190,7 +190,7 @@ private:
     }
 
     // One per view; those of other levels stay empty.
-    std::vector<PictureTask> tasks_of_level(int level, const PartEffort& effort) {
+    std::vector<PictureTask> tasks_of_level(int level, const UnitEffort& effort) {
         std::vector<PictureTask> tasks(work_.size());
         for (std::size_t v = 0; v < work_.size(); ++v) {
             if (coded_.levels[v] != level) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Where in another picture a part is best predicted from.
+// Where in another picture a unit is best predicted from.
 
 #include "encode/codec/source_picture.hpp"
 #include "rayspace/codec/kernels/prediction.hpp"
@@ -11,7 +11,7 @@ namespace rs::encode {
 struct MotionSearch {
     const SourcePicture* source = nullptr;
     ConstImageView<std::uint8_t> reference;  // its Y
-    int x = 0;                               // the part
+    int x = 0;                               // the unit
     int y = 0;
     int size = 16;
     int reach_x = 16;  // whole samples around each start

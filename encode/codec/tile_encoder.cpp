@@ -15,8 +15,8 @@ namespace {
 using codec::AlphaClass;
 using codec::kBlock;
 using codec::kMacroblock;
-using codec::PartChoice;
 using codec::PredictionUnit;
+using codec::UnitChoice;
 
 class TileEncoder {
 public:
@@ -121,9 +121,9 @@ private:
         }
     }
 
-    void put(const UnitSearch& search, const PredictionUnit& part, PartChoice& choice) {
-        search.write(part, choice, recorder_);
-        search.commit(part, choice);
+    void put(const UnitSearch& search, const PredictionUnit& unit, UnitChoice& choice) {
+        search.write(unit, choice, recorder_);
+        search.commit(unit, choice);
         for (std::size_t r = 0; r < 2; ++r) {
             if (uses(choice.source, static_cast<int>(r))) motions_[r].push_back(choice.motion[r]);
         }
@@ -139,9 +139,9 @@ private:
     TileState state_;
     std::array<std::array<AlphaClass, 8>, 8> classes_{};
     // Of the four quarters, and of the whole.
-    std::array<std::unique_ptr<PartChoice>, 5> choices_ = {
-        std::make_unique<PartChoice>(), std::make_unique<PartChoice>(), std::make_unique<PartChoice>(),
-        std::make_unique<PartChoice>(), std::make_unique<PartChoice>()};
+    std::array<std::unique_ptr<UnitChoice>, 5> choices_ = {
+        std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>(),
+        std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>()};
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Chooses what each part of a tile says, by weighted squared error and bits, and reconstructs it as the decoder will.
+// Makes the choices of each unit of a tile, by weighted squared error and bits, and reconstructs it as the decoder will.
 
 #include "encode/codec/coders.hpp"
 #include "encode/codec/search_effort.hpp"
@@ -19,7 +19,7 @@ struct PictureTask {
     std::array<codec::ConstPlaneViews, 2> references;
     std::array<int, 2> reach = {0, 0};  // of the motion search, samples, per reference
     float lambda = 0;
-    PartEffort effort;
+    UnitEffort effort;
     codec::PlaneViews out;  // the reconstruction
 };
 

@@ -17,10 +17,10 @@ namespace {
 using codec::kBlock;
 using codec::kMacroblock;
 using codec::MotionVector;
-using codec::PartChoice;
-using codec::PartPlace;
 using codec::PredictionUnit;
 using codec::Source;
+using codec::UnitChoice;
+using codec::UnitPlace;
 
 constexpr int kMacroblockSamples = kMacroblock * kMacroblock;
 constexpr float kNever = std::numeric_limits<float>::max();
@@ -81,13 +81,13 @@ bool code_transform(const TransformTarget& target, const QuantiserSettings& sett
 
 }  // namespace
 
-void UnitSearch::Candidate::take(const PartChoice& choice) {
+void UnitSearch::Candidate::take(const UnitChoice& choice) {
     source = choice.source;
     intra_mode = choice.intra_mode;
     motion = choice.motion;
 }
 
-void UnitSearch::Candidate::put(PartChoice& choice) const {
+void UnitSearch::Candidate::put(UnitChoice& choice) const {
     choice.source = source;
     choice.intra_mode = intra_mode;
     choice.motion = motion;
@@ -100,15 +100,15 @@ std::span<const UnitSearch::Candidate*> UnitSearch::Candidates::likeliest(int co
     return std::span(order_).first(std::min(count_, static_cast<std::size_t>(count)));
 }
 
-PartPlace UnitSearch::place_of(const PredictionUnit& part) const {
-    return codec::place_of_part(state_.grid, part, left_, top_);
+UnitPlace UnitSearch::place_of(const PredictionUnit& unit) const {
+    return codec::place_of_unit(state_.grid, unit, left_, top_);
 }
 
 template <class Coder>
-void UnitSearch::code_alpha(Coder& coder, const PredictionUnit& part, const PartChoice& choice) const {
-    for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
-        const int bx = part.bx + (i & (part.blocks() - 1));
-        const int by = part.by + i / part.blocks();
+void UnitSearch::code_alpha(Coder& coder, const PredictionUnit& unit, const UnitChoice& choice) const {
+    for (int i = 0; i < unit.blocks() * unit.blocks(); ++i) {
+        const int bx = unit.bx + (i & (unit.blocks() - 1));
+        const int by = unit.by + i / unit.blocks();
         if (state_.grid.at(bx, by).alpha != codec::AlphaClass::kMixed) continue;
         codec::code_block_mask(coder, state_.alpha, bx, by, [&](int x, int y) {
             return codec::predicted_mask(
@@ -117,64 +117,64 @@ void UnitSearch::code_alpha(Coder& coder, const PredictionUnit& part, const Part
     }
 }
 
-void UnitSearch::write(const PredictionUnit& part, PartChoice& choice, SymbolBuffer& recorder) const {
-    const codec::PartSurroundings around{task_.head.references(), task_.head.global_motion};
-    codec::code_prediction(recorder, state_.grid, part, around, choice);
-    code_alpha(recorder, part, choice);
-    codec::code_coefficients(recorder, state_.grid, part, task_.code->sign_data_hiding, choice);
+void UnitSearch::write(const PredictionUnit& unit, UnitChoice& choice, SymbolBuffer& recorder) const {
+    const codec::UnitSurroundings around{task_.head.references(), task_.head.global_motion};
+    codec::code_prediction(recorder, state_.grid, unit, around, choice);
+    code_alpha(recorder, unit, choice);
+    codec::code_coefficients(recorder, state_.grid, unit, task_.code->sign_data_hiding, choice);
 }
 
-void UnitSearch::commit(const PredictionUnit& part, const PartChoice& choice) const {
-    codec::reconstruct_unit(choice, place_of(part), task_.head.step, *task_.code, task_.references, task_.out);
-    codec::enter_part(state_.grid, part, choice);
+void UnitSearch::commit(const PredictionUnit& unit, const UnitChoice& choice) const {
+    codec::reconstruct_unit(choice, place_of(unit), task_.head.step, *task_.code, task_.references, task_.out);
+    codec::enter_unit(state_.grid, unit, choice);
 }
 
-MaskedSamples UnitSearch::samples_of(const PartPlace& place, int plane) const {
+MaskedSamples UnitSearch::samples_of(const UnitPlace& place, int plane) const {
     const Image<std::uint8_t>& wanted = task_.source->planes[static_cast<std::size_t>(plane)];
     return {wanted.row(place.y) + place.x, task_.source->valid.row(place.y) + place.x, wanted.width(), place.size};
 }
 
 // Enters what the candidate costs before anything is coded, and what all together looks like.
-void UnitSearch::weigh(const PredictionUnit& part, PartChoice& trial, Candidate& candidate) const {
-    const PartPlace place = place_of(part);
+void UnitSearch::weigh(const PredictionUnit& unit, UnitChoice& trial, Candidate& candidate) const {
+    const UnitPlace place = place_of(unit);
     candidate.take(trial);
-    const codec::PartSurroundings around{task_.head.references(), task_.head.global_motion};
+    const codec::UnitSurroundings around{task_.head.references(), task_.head.global_motion};
     Estimator bits(costs_);
-    codec::code_prediction(bits, state_.grid, part, around, trial);
-    code_alpha(bits, part, trial);
+    codec::code_prediction(bits, state_.grid, unit, around, trial);
+    code_alpha(bits, unit, trial);
     candidate.head_cost = task_.lambda * bits.bits();
     float left = 0;
     for (int plane = 0; plane < codec::kPlanes; ++plane) {
         left +=
-            static_cast<float>(hadamard_differences(samples_of(place, plane), candidate.predicted[plane], part.size));
+            static_cast<float>(hadamard_differences(samples_of(place, plane), candidate.predicted[plane], unit.size));
     }
     candidate.estimate = left + bit_cost() * bits.bits();
 }
 
 // Finds coefficients of the wanted sizes of transforms for the candidate; replaces `choice` and `best` by it where it
 // costs less.
-void UnitSearch::evaluate(const PredictionUnit& part, const Candidate& candidate, Transforms transforms,
-                          PartChoice& trial, PartChoice& choice, float& best) const {
+void UnitSearch::evaluate(const PredictionUnit& unit, const Candidate& candidate, Transforms transforms,
+                          UnitChoice& trial, UnitChoice& choice, float& best) const {
     if (candidate.head_cost >= best) return;
-    const PartPlace place = place_of(part);
+    const UnitPlace place = place_of(unit);
     candidate.put(trial);
     const bool inter = is_inter(trial.source);
     bool all_valid = true;
-    for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
-        const auto& info = state_.grid.at(part.bx + (i & (part.blocks() - 1)), part.by + i / part.blocks());
+    for (int i = 0; i < unit.blocks() * unit.blocks(); ++i) {
+        const auto& info = state_.grid.at(unit.bx + (i & (unit.blocks() - 1)), unit.by + i / unit.blocks());
         all_valid = all_valid && info.alpha == codec::AlphaClass::kOpaque;
     }
     TransformTarget targets[codec::kPlanes];
     float plain_error = 0;
     for (int plane = 0; plane < codec::kPlanes; ++plane) {
-        targets[plane] = {samples_of(place, plane), candidate.predicted[plane], part.size, all_valid};
+        targets[plane] = {samples_of(place, plane), candidate.predicted[plane], unit.size, all_valid};
         plain_error += kPlaneWeights[static_cast<std::size_t>(plane)] *
-                       targets[plane].error_of(candidate.predicted[plane], part.size);
+                       targets[plane].error_of(candidate.predicted[plane], unit.size);
     }
 
     const auto finish = [&](float error) {
         Estimator bits(costs_);
-        codec::code_coefficients(bits, state_.grid, part, task_.code->sign_data_hiding, trial);
+        codec::code_coefficients(bits, state_.grid, unit, task_.code->sign_data_hiding, trial);
         const float cost = candidate.head_cost + error + task_.lambda * bits.bits();
         if (cost >= best) return;
         best = cost;
@@ -186,11 +186,11 @@ void UnitSearch::evaluate(const PredictionUnit& part, const Candidate& candidate
         finish(plain_error);
     }
     for (const bool small : {false, true}) {
-        if (small && part.size == kBlock) break;
+        if (small && unit.size == kBlock) break;
         if (transforms == (small ? Transforms::kLarge : Transforms::kSmall)) continue;
         trial.small_transforms = small;
         trial.coded = false;
-        const int size = trial.transform_size(part.size);
+        const int size = trial.transform_size(unit.size);
         float error = 0;
         for (int plane = 0; plane < codec::kPlanes; ++plane) {
             const auto p = static_cast<std::size_t>(plane);
@@ -200,7 +200,7 @@ void UnitSearch::evaluate(const PredictionUnit& part, const Candidate& candidate
                                              kPlaneWeights[p],
                                              task_.lambda,
                                              task_.code->sign_data_hiding};
-            for (std::size_t t = 0; t < static_cast<std::size_t>(trial.transforms(part.size)); ++t) {
+            for (std::size_t t = 0; t < static_cast<std::size_t>(trial.transforms(unit.size)); ++t) {
                 TransformTarget target = targets[plane];
                 const std::ptrdiff_t down = static_cast<std::ptrdiff_t>(t >> 1) * kBlock;
                 const std::ptrdiff_t right = static_cast<std::ptrdiff_t>(t & 1) * kBlock;
@@ -220,43 +220,43 @@ void UnitSearch::evaluate(const PredictionUnit& part, const Candidate& candidate
 }
 
 // Of the modes, the likeliest by Y alone.
-void UnitSearch::add_intra(const PredictionUnit& part, PartChoice& trial, Candidates& candidates) const {
-    const PartPlace place = place_of(part);
+void UnitSearch::add_intra(const PredictionUnit& unit, UnitChoice& trial, Candidates& candidates) const {
+    const UnitPlace place = place_of(unit);
     trial.source = Source::kIntra;
     const MaskedSamples wanted = samples_of(place, 0);
     std::array<std::pair<int, int>, codec::kIntraModes> ranked;
     std::uint8_t predicted[codec::kIntraModes][kMacroblockSamples];
     const auto predict = [&](int plane, std::uint8_t* out) {
         const ImageView<std::uint8_t> scratch = task_.out[static_cast<std::size_t>(plane)];
-        codec::predict_part(trial, place, plane, task_.references, scratch);
-        for (int y = 0; y < part.size; ++y) {
-            std::copy_n(scratch.row(place.y + y) + place.x, part.size, out + y * part.size);
+        codec::predict_unit(trial, place, plane, task_.references, scratch);
+        for (int y = 0; y < unit.size; ++y) {
+            std::copy_n(scratch.row(place.y + y) + place.x, unit.size, out + y * unit.size);
         }
     };
     for (int mode = 0; mode < codec::kIntraModes; ++mode) {
         trial.intra_mode = mode;
         predict(0, predicted[mode]);
-        ranked[static_cast<std::size_t>(mode)] = {absolute_differences(wanted, predicted[mode], part.size), mode};
+        ranked[static_cast<std::size_t>(mode)] = {absolute_differences(wanted, predicted[mode], unit.size), mode};
     }
     std::sort(ranked.begin(), ranked.end());
     for (std::size_t i = 0; i < static_cast<std::size_t>(task_.effort.intra); ++i) {
         if (i > 0 && ranked[i].first == ranked[0].first) continue;
         trial.intra_mode = ranked[i].second;
         Candidate& candidate = candidates.add();
-        std::copy_n(predicted[trial.intra_mode], part.size * part.size, candidate.predicted[0]);
+        std::copy_n(predicted[trial.intra_mode], unit.size * unit.size, candidate.predicted[0]);
         for (const int plane : {1, 2}) predict(plane, candidate.predicted[plane]);
-        weigh(part, trial, candidate);
+        weigh(unit, trial, candidate);
     }
 }
 
-void UnitSearch::add_inter(const PredictionUnit& part, const PartChoice* around, PartChoice& trial,
+void UnitSearch::add_inter(const PredictionUnit& unit, const UnitChoice* around, UnitChoice& trial,
                            Candidates& candidates) const {
-    const PartPlace place = place_of(part);
+    const UnitPlace place = place_of(unit);
     MotionSearch search;
     search.source = task_.source;
     search.x = place.x;
     search.y = place.y;
-    search.size = part.size;
+    search.size = unit.size;
     search.bit_cost = bit_cost();
     search.neighbours = task_.effort.fractions;
     std::array<FoundMotion, 2> found;
@@ -268,19 +268,19 @@ void UnitSearch::add_inter(const PredictionUnit& part, const PartChoice* around,
         for (int plane = 0; plane < codec::kPlanes; ++plane) {
             const auto p = static_cast<std::size_t>(plane);
             const std::size_t first = uses(source, 0) ? 0 : 1;
-            codec::predict_from_picture(task_.references[first][p], place.x, place.y, trial.motion[first], part.size,
-                                        candidate.predicted[plane], part.size);
+            codec::predict_from_picture(task_.references[first][p], place.x, place.y, trial.motion[first], unit.size,
+                                        candidate.predicted[plane], unit.size);
             if (source != Source::kBoth) continue;
             std::uint8_t other[kMacroblockSamples];
-            codec::predict_from_picture(task_.references[1][p], place.x, place.y, trial.motion[1], part.size, other,
-                                        part.size);
-            codec::average_into(candidate.predicted[plane], part.size, other, part.size, part.size);
+            codec::predict_from_picture(task_.references[1][p], place.x, place.y, trial.motion[1], unit.size, other,
+                                        unit.size);
+            codec::average_into(candidate.predicted[plane], unit.size, other, unit.size, unit.size);
         }
-        weigh(part, trial, candidate);
+        weigh(unit, trial, candidate);
     };
     for (int r = 0; r < references; ++r) {
         const auto n = static_cast<std::size_t>(r);
-        from[n] = codec::predicted_motion(state_.grid, part, r, task_.head.global_motion[n]);
+        from[n] = codec::predicted_motion(state_.grid, unit, r, task_.head.global_motion[n]);
         search.reference = task_.references[n][0];
         if (around != nullptr && is_inter(around->source)) {
             const std::array<MotionVector, 2> starts = {around->motion[n], from[n]};
@@ -305,8 +305,8 @@ void UnitSearch::add_inter(const PredictionUnit& part, const PartChoice* around,
     search.step = 1;
     for (const std::size_t r : {std::size_t{0}, std::size_t{1}}) {
         std::uint8_t other[kMacroblockSamples];
-        codec::predict_from_picture(task_.references[1 - r][0], place.x, place.y, trial.motion[1 - r], part.size, other,
-                                    part.size);
+        codec::predict_from_picture(task_.references[1 - r][0], place.x, place.y, trial.motion[1 - r], unit.size, other,
+                                    unit.size);
         search.reference = task_.references[r][0];
         const std::array<MotionVector, 1> starts = {trial.motion[r]};
         trial.motion[r] = find_motion(search, starts, from[r], other).vector;
@@ -314,22 +314,22 @@ void UnitSearch::add_inter(const PredictionUnit& part, const PartChoice* around,
     add(Source::kBoth);
 }
 
-float UnitSearch::choose(const PredictionUnit& part, PartChoice& choice, const PartChoice* around) const {
-    PartChoice trial;
+float UnitSearch::choose(const PredictionUnit& unit, UnitChoice& choice, const UnitChoice* around) const {
+    UnitChoice trial;
     Candidates candidates;
-    if (task_.head.references() > 0) add_inter(part, around, trial, candidates);
-    add_intra(part, trial, candidates);
+    if (task_.head.references() > 0) add_inter(unit, around, trial, candidates);
+    add_intra(unit, trial, candidates);
     const std::span<const Candidate*> likeliest = candidates.likeliest(task_.effort.coded);
     const Transforms transforms = task_.effort.all_transforms ? Transforms::kBoth : Transforms::kLarge;
     float best = kNever;
     const Candidate* winner = nullptr;
     for (const Candidate* candidate : likeliest) {
         const float before = best;
-        evaluate(part, *candidate, transforms, trial, choice, best);
+        evaluate(unit, *candidate, transforms, trial, choice, best);
         if (best < before) winner = candidate;
     }
-    if (transforms == Transforms::kLarge && part.size == kMacroblock && choice.coded) {
-        evaluate(part, *winner, Transforms::kSmall, trial, choice, best);
+    if (transforms == Transforms::kLarge && unit.size == kMacroblock && choice.coded) {
+        evaluate(unit, *winner, Transforms::kSmall, trial, choice, best);
     }
     return best;
 }

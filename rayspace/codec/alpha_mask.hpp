@@ -37,7 +37,7 @@ inline int smooth_alpha(const EdgeAlpha& edge, int mask, int sum) {
     return mask != 0 ? 255 - off : off;
 }
 
-// The alpha that a part's references show for sample (x, y) of the picture, between samples interpolated; -1 where it
+// The alpha that a unit's references show for sample (x, y) of the picture, between samples interpolated; -1 where it
 // has none.
 int interpolated_alpha(Source source, const std::array<MotionVector, 2>& motion,
                        const std::array<ConstPlaneViews, 2>& references, int x, int y);
@@ -49,7 +49,7 @@ constexpr int predicted_mask(int alpha) {
     return alpha < 64 ? 2 : alpha < 112 ? 3 : alpha < 144 ? 4 : alpha < 192 ? 5 : alpha < 255 ? 6 : 7;
 }
 
-// A tile's alpha once its masks and parts are known: smoothed, or of more than one bit, coded. `depths`: a writer's, as
+// A tile's alpha once its masks and units are known: smoothed, or of more than one bit, coded. `depths`: a writer's, as
 // in syntax::alpha_depth; filled in.
 template <class Coder>
 class AlphaFinish {

@@ -9,7 +9,7 @@
 
 namespace rs::codec {
 
-// Y, U and V of the tile at `place`, whose parts are all decoded. `step`: of the picture. Does nothing where the code
+// Y, U and V of the tile at `place`, whose units are all decoded. `step`: of the picture. Does nothing where the code
 // has no edge filter.
 void filter_edges(const TileGrid& grid, const DenseCode& code, int step, const TilePlace& place, const PlaneViews& out);
 

@@ -48,56 +48,56 @@ private:
             return;
         }
         if (!syntax::split(reader_, grid_, bx, by, false)) {
-            part({bx, by, kMacroblock});
+            unit({bx, by, kMacroblock});
             return;
         }
         for (int i = 0; i < 4; ++i) grid_.at(bx + (i & 1), by + (i >> 1)).split = true;
         for (int i = 0; i < 4; ++i) {
             const PredictionUnit quarter{bx + (i & 1), by + (i >> 1), kBlock};
             if (grid_.at(quarter.bx, quarter.by).alpha != AlphaClass::kEmpty) {
-                part(quarter);
+                unit(quarter);
             } else {
                 clear_tile({left_ + quarter.bx * kBlock, top_ + quarter.by * kBlock, kBlock, kBlock}, out_);
             }
         }
     }
 
-    void part(const PredictionUnit& part) {
-        PartChoice& choice = choice_;
+    void unit(const PredictionUnit& unit) {
+        UnitChoice& choice = choice_;
         choice.coded = false;
-        code_prediction(reader_, grid_, part, around_, choice);
-        if (listener_ != nullptr) announce(part, choice);
+        code_prediction(reader_, grid_, unit, around_, choice);
+        if (listener_ != nullptr) announce(unit, choice);
         if (code_.has_masks) {
-            mask(part, choice);
+            mask(unit, choice);
         } else {
-            alpha(part, choice);
+            alpha(unit, choice);
         }
-        code_coefficients(reader_, grid_, part, code_.sign_data_hiding, choice);
-        const PartPlace place = place_of_part(grid_, part, left_, top_);
+        code_coefficients(reader_, grid_, unit, code_.sign_data_hiding, choice);
+        const UnitPlace place = place_of_unit(grid_, unit, left_, top_);
         reconstruct_unit(choice, place, head_.step, code_, references_, out_);
-        enter_part(grid_, part, choice);
-        if (choice.coded) forget_levels(part, choice);
+        enter_unit(grid_, unit, choice);
+        if (choice.coded) forget_levels(unit, choice);
     }
 
-    void announce(const PredictionUnit& part, const PartChoice& choice) {
+    void announce(const PredictionUnit& unit, const UnitChoice& choice) {
         for (int r = 0; r < 2; ++r) {
             if (!uses(choice.source, r)) continue;
             const MotionVector motion = choice.motion[static_cast<std::size_t>(r)];
-            const int x = left_ + part.bx * kBlock + (motion.x >> 2);
-            const int y = top_ + part.by * kBlock + (motion.y >> 2);
+            const int x = left_ + unit.bx * kBlock + (motion.x >> 2);
+            const int y = top_ + unit.by * kBlock + (motion.y >> 2);
             const int width = out_[0].width();
             const int height = out_[0].height();
             listener_->need(r, std::clamp(x - kTapsBefore, 0, width - 1), std::clamp(y - kTapsBefore, 0, height - 1),
-                            std::clamp(x + part.size + kTapsAfter, 1, width),
-                            std::clamp(y + part.size + kTapsAfter, 1, height));
+                            std::clamp(x + unit.size + kTapsAfter, 1, width),
+                            std::clamp(y + unit.size + kTapsAfter, 1, height));
         }
     }
 
-    void alpha(const PredictionUnit& part, const PartChoice& choice) {
+    void alpha(const PredictionUnit& unit, const UnitChoice& choice) {
         const auto& plane = out_[3];
-        for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
-            const int bx = part.bx + (i & (part.blocks() - 1));
-            const int by = part.by + i / part.blocks();
+        for (int i = 0; i < unit.blocks() * unit.blocks(); ++i) {
+            const int bx = unit.bx + (i & (unit.blocks() - 1));
+            const int by = unit.by + i / unit.blocks();
             const AlphaClass kind = grid_.at(bx, by).alpha;
             if (kind == AlphaClass::kMixed) {
                 const auto predicted = [&](int x, int y) {
@@ -118,10 +118,10 @@ private:
     }
 
     // What is shown where no more than the mask is said: in blocks that are not mixed, and have none beside them.
-    void mask(const PredictionUnit& part, const PartChoice& choice) {
-        for (int i = 0; i < part.blocks() * part.blocks(); ++i) {
-            const int bx = part.bx + (i & (part.blocks() - 1));
-            const int by = part.by + i / part.blocks();
+    void mask(const PredictionUnit& unit, const UnitChoice& choice) {
+        for (int i = 0; i < unit.blocks() * unit.blocks(); ++i) {
+            const int bx = unit.bx + (i & (unit.blocks() - 1));
+            const int by = unit.by + i / unit.blocks();
             const AlphaClass kind = grid_.at(bx, by).alpha;
             if (kind == AlphaClass::kMixed) {
                 code_block_mask(reader_, alpha_, bx, by, [&](int x, int y) {
@@ -138,9 +138,9 @@ private:
         }
     }
 
-    static void forget_levels(const PredictionUnit& part, PartChoice& choice) {
+    static void forget_levels(const PredictionUnit& unit, UnitChoice& choice) {
         for (std::size_t plane = 0; plane < kPlanes; ++plane) {
-            for (std::size_t t = 0; t < static_cast<std::size_t>(choice.transforms(part.size)); ++t) {
+            for (std::size_t t = 0; t < static_cast<std::size_t>(choice.transforms(unit.size)); ++t) {
                 if (choice.plane_coded[plane][t]) choice.levels[plane][t] = Levels{};
             }
         }
@@ -156,11 +156,11 @@ private:
     const std::array<ConstPlaneViews, 2>& references_;
     ReferenceListener* listener_;
     const PlaneViews& out_;
-    PartSurroundings around_;
+    UnitSurroundings around_;
     TileGrid grid_;
     AlphaLevels alpha_;
     AlphaLevels depths_;
-    PartChoice choice_;
+    UnitChoice choice_;
 };
 
 }  // namespace rs::codec

@@ -1,5 +1,5 @@
 #pragma once
-// A macroblock's alpha and a part's choices in the order of the stream: encode/FORMAT.md, sections "Macroblocks" and
+// A macroblock's alpha and a unit's choices in the order of the stream: encode/FORMAT.md, sections "Macroblocks" and
 // "Parts". Built from the single decisions of syntax.hpp; used by the decoder and, with other coders, by the encoder.
 
 #include "rayspace/codec/code/tile_grid.hpp"
@@ -36,21 +36,21 @@ constexpr int level_of_alpha(int alpha, int bits) {
 
 inline constexpr int kPlanes = 3;  // Y, U, V
 
-// Everything a part says, but for its alpha.
-struct PartChoice {
+// All choices of a unit, but for its alpha.
+struct UnitChoice {
     Source source = Source::kIntra;
     int intra_mode = 0;
     std::array<MotionVector, 2> motion;
     bool coded = false;
-    bool small_transforms = false;  // of a 16x16 part: four of 8x8 in every plane
+    bool small_transforms = false;  // of a 16x16 unit: four of 8x8 in every plane
     std::array<std::array<bool, 4>, kPlanes> plane_coded = {};
     std::array<std::array<Levels, 4>, kPlanes> levels;
     std::array<std::array<int, 4>, kPlanes> last = {};  // scan places, for a writer
 
-    [[nodiscard]] int transform_size(int part_size) const {
-        return part_size == kMacroblock && !small_transforms ? kMacroblock : kBlock;
+    [[nodiscard]] int transform_size(int unit_size) const {
+        return unit_size == kMacroblock && !small_transforms ? kMacroblock : kBlock;
     }
-    [[nodiscard]] int transforms(int part_size) const { return part_size == kMacroblock && small_transforms ? 4 : 1; }
+    [[nodiscard]] int transforms(int unit_size) const { return unit_size == kMacroblock && small_transforms ? 4 : 1; }
 };
 
 // A mixed block's alpha. predicted(x, y): the level that the references show for sample (x, y) of the tile, -1 where
@@ -109,25 +109,25 @@ bool code_macroblock_alpha(Coder& coder, TileGrid& grid, int bx, int by) {
     return whole != AlphaClass::kEmpty;
 }
 
-struct PartSurroundings {
+struct UnitSurroundings {
     int references = 0;
     std::array<MotionVector, 2> global_motion;
 };
 
-// What the part is predicted from.
+// What the unit is predicted from.
 template <class Coder>
-void code_prediction(Coder& coder, const TileGrid& grid, const PredictionUnit& part, const PartSurroundings& around,
-                     PartChoice& choice) {
-    choice.source = syntax::source(coder, grid, part, around.references, choice.source);
+void code_prediction(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, const UnitSurroundings& around,
+                     UnitChoice& choice) {
+    choice.source = syntax::source(coder, grid, unit, around.references, choice.source);
     if (!is_inter(choice.source)) {
-        choice.intra_mode = syntax::intra_mode(coder, part, choice.intra_mode);
+        choice.intra_mode = syntax::intra_mode(coder, unit, choice.intra_mode);
         return;
     }
     for (int r = 0; r < 2; ++r) {
         if (!uses(choice.source, r)) continue;
         const auto n = static_cast<std::size_t>(r);
-        const MotionVector from = predicted_motion(grid, part, r, around.global_motion[n]);
-        const auto off = syntax::motion(coder, part, {choice.motion[n].x - from.x, choice.motion[n].y - from.y});
+        const MotionVector from = predicted_motion(grid, unit, r, around.global_motion[n]);
+        const auto off = syntax::motion(coder, unit, {choice.motion[n].x - from.x, choice.motion[n].y - from.y});
         const auto component = [](int value) {
             return static_cast<std::int16_t>(std::clamp(value, -kMaxMotion_q2, kMaxMotion_q2));
         };
@@ -137,21 +137,21 @@ void code_prediction(Coder& coder, const TileGrid& grid, const PredictionUnit& p
 
 // The coefficients; `choice` has its prediction.
 template <class Coder>
-void code_coefficients(Coder& coder, const TileGrid& grid, const PredictionUnit& part, bool sign_data_hiding,
-                       PartChoice& choice) {
+void code_coefficients(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, bool sign_data_hiding,
+                       UnitChoice& choice) {
     const int inter = is_inter(choice.source) ? 1 : 0;
-    choice.coded = syntax::coded(coder, grid, part, inter != 0, choice.coded);
+    choice.coded = syntax::coded(coder, grid, unit, inter != 0, choice.coded);
     if (!choice.coded) return;
-    if (part.size == kMacroblock) {
+    if (unit.size == kMacroblock) {
         choice.small_transforms = coder.bit(context::kSmallTransforms + inter, choice.small_transforms ? 1 : 0) != 0;
     }
-    const int size = choice.transform_size(part.size);
+    const int size = choice.transform_size(unit.size);
     const int large = size == kMacroblock ? 1 : 0;
     int before = 0;
     for (std::size_t plane = 0; plane < kPlanes; ++plane) {
         const int kind = syntax::block_kind(static_cast<int>(plane), size, inter != 0);
         const int at = context::kPlaneCoded + 2 * (4 * static_cast<int>(plane) + 2 * large + inter);
-        for (std::size_t t = 0; t < static_cast<std::size_t>(choice.transforms(part.size)); ++t) {
+        for (std::size_t t = 0; t < static_cast<std::size_t>(choice.transforms(unit.size)); ++t) {
             bool& has = choice.plane_coded[plane][t];
             has = coder.bit(at + before, has ? 1 : 0) != 0;
             if (!has) continue;

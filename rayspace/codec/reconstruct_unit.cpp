@@ -7,7 +7,7 @@
 
 namespace rs::codec {
 
-int predicted_alpha(const PartChoice& choice, const std::array<ConstPlaneViews, 2>& references, int x, int y,
+int predicted_alpha(const UnitChoice& choice, const std::array<ConstPlaneViews, 2>& references, int x, int y,
                     int alpha_bits) {
     if (!is_inter(choice.source)) return -1;
     const std::size_t r = uses(choice.source, 0) ? 0 : 1;
@@ -18,7 +18,7 @@ int predicted_alpha(const PartChoice& choice, const std::array<ConstPlaneViews, 
                           alpha_bits);
 }
 
-void predict_part(const PartChoice& choice, const PartPlace& place, int plane,
+void predict_unit(const UnitChoice& choice, const UnitPlace& place, int plane,
                   const std::array<ConstPlaneViews, 2>& references, ImageView<std::uint8_t> out) {
     std::uint8_t* const samples = out.row(place.y) + place.x;
     const auto p = static_cast<std::size_t>(plane);
@@ -54,12 +54,12 @@ void add_residual(const Levels& levels, int step, int size, std::uint8_t* sample
     }
 }
 
-void reconstruct_unit(const PartChoice& choice, const PartPlace& place, int step, const DenseCode& code,
+void reconstruct_unit(const UnitChoice& choice, const UnitPlace& place, int step, const DenseCode& code,
                       const std::array<ConstPlaneViews, 2>& references, const PlaneViews& out) {
     const int size = choice.transform_size(place.size);
     for (int plane = 0; plane < kPlanes; ++plane) {
         const auto p = static_cast<std::size_t>(plane);
-        predict_part(choice, place, plane, references, out[p]);
+        predict_unit(choice, place, plane, references, out[p]);
         if (!choice.coded) continue;
         for (int t = 0; t < choice.transforms(place.size); ++t) {
             if (!choice.plane_coded[p][static_cast<std::size_t>(t)]) continue;

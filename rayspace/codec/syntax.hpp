@@ -54,8 +54,8 @@ bool split(Coder& coder, const TileGrid& grid, int bx, int by, bool value) {
 
 // How many of the two neighbours fulfil the condition.
 template <class Condition>
-int count_neighbours(const TileGrid& grid, const PredictionUnit& part, const Condition& condition) {
-    return (condition(grid.at(part.bx - 1, part.by)) ? 1 : 0) + (condition(grid.at(part.bx, part.by - 1)) ? 1 : 0);
+int count_neighbours(const TileGrid& grid, const PredictionUnit& unit, const Condition& condition) {
+    return (condition(grid.at(unit.bx - 1, unit.by)) ? 1 : 0) + (condition(grid.at(unit.bx, unit.by - 1)) ? 1 : 0);
 }
 
 constexpr int size_index(int size) {
@@ -64,29 +64,29 @@ constexpr int size_index(int size) {
 
 // `references`: how many pictures there are to predict from, 0 .. 2.
 template <class Coder>
-Source source(Coder& coder, const TileGrid& grid, const PredictionUnit& part, int references, Source value) {
+Source source(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, int references, Source value) {
     if (references == 0) return Source::kIntra;
-    const int size = size_index(part.size);
-    const int inter = count_neighbours(grid, part, [](const BlockInfo& b) { return is_inter(b.source); });
+    const int size = size_index(unit.size);
+    const int inter = count_neighbours(grid, unit, [](const BlockInfo& b) { return is_inter(b.source); });
     if (coder.bit(context::kInter + 3 * size + inter, is_inter(value) ? 1 : 0) == 0) return Source::kIntra;
     if (references == 1) return Source::kFirst;
-    const int both = count_neighbours(grid, part, [](const BlockInfo& b) { return b.source == Source::kBoth; });
+    const int both = count_neighbours(grid, unit, [](const BlockInfo& b) { return b.source == Source::kBoth; });
     if (coder.bit(context::kBoth + 3 * size + both, value == Source::kBoth ? 1 : 0) != 0) return Source::kBoth;
-    const int second = count_neighbours(grid, part, [](const BlockInfo& b) { return b.source == Source::kSecond; });
+    const int second = count_neighbours(grid, unit, [](const BlockInfo& b) { return b.source == Source::kSecond; });
     return coder.bit(context::kSecond + 3 * size + second, value == Source::kSecond ? 1 : 0) != 0 ? Source::kSecond
                                                                                                   : Source::kFirst;
 }
 
 template <class Coder>
-int intra_mode(Coder& coder, const PredictionUnit& part, int value) {
-    return tree(coder, context::kIntraMode + 7 * size_index(part.size), 3, value);
+int intra_mode(Coder& coder, const PredictionUnit& unit, int value) {
+    return tree(coder, context::kIntraMode + 7 * size_index(unit.size), 3, value);
 }
 
 // A vector less its prediction. What is read may lie outside of +-kMaxMotion_q2: the reader has to look.
 template <class Coder>
-std::array<int, 2> motion(Coder& coder, const PredictionUnit& part, std::array<int, 2> value) {
+std::array<int, 2> motion(Coder& coder, const PredictionUnit& unit, std::array<int, 2> value) {
     constexpr int kPlaces = 10;
-    const int zero = context::kMotionZero + size_index(part.size);
+    const int zero = context::kMotionZero + size_index(unit.size);
     if (coder.bit(zero, value[0] != 0 || value[1] != 0 ? 1 : 0) == 0) return {0, 0};
     std::array<int, 2> read = {0, 0};
     for (int c = 0; c < 2; ++c) {
@@ -102,11 +102,11 @@ std::array<int, 2> motion(Coder& coder, const PredictionUnit& part, std::array<i
     return read;
 }
 
-// Whether a part has any coefficients.
+// Whether a unit has any coefficients.
 template <class Coder>
-bool coded(Coder& coder, const TileGrid& grid, const PredictionUnit& part, bool inter, bool value) {
-    const int neighbours = count_neighbours(grid, part, [](const BlockInfo& b) { return b.coded; });
-    return coder.bit(context::kCoded + 3 * (2 * size_index(part.size) + (inter ? 1 : 0)) + neighbours, value ? 1 : 0) !=
+bool coded(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, bool inter, bool value) {
+    const int neighbours = count_neighbours(grid, unit, [](const BlockInfo& b) { return b.coded; });
+    return coder.bit(context::kCoded + 3 * (2 * size_index(unit.size) + (inter ? 1 : 0)) + neighbours, value ? 1 : 0) !=
            0;
 }
 

@@ -27,9 +27,9 @@ constexpr bool uses(Source source, int reference) {
 struct BlockInfo {
     AlphaClass alpha = AlphaClass::kOutside;
     Source source = Source::kNone;
-    bool split = false;             // belongs to a macroblock in four parts
-    bool coded = false;             // its part has coefficients
-    bool small_transforms = false;  // its part is a macroblock with those of 8x8
+    bool split = false;             // belongs to a macroblock in four units
+    bool coded = false;             // its unit has coefficients
+    bool small_transforms = false;  // its unit is a macroblock with those of 8x8
     std::array<MotionVector, 2> motion;
 };
 
@@ -47,7 +47,7 @@ private:
     std::array<BlockInfo, static_cast<std::size_t>(kSide* kSide)> blocks_;
 };
 
-// A part: a macroblock (size 16) or one of its four blocks (8). bx, by: its first block in the tile.
+// A unit: a macroblock (size 16) or one of its four blocks (8). bx, by: its first block in the tile.
 struct PredictionUnit {
     int bx = 0;
     int by = 0;
@@ -55,21 +55,22 @@ struct PredictionUnit {
     [[nodiscard]] int blocks() const { return size / kBlock; }
 };
 
-// The median of what the blocks to the left and above use, and `usual`.
-inline MotionVector predicted_motion(const TileGrid& grid, const PredictionUnit& part, int reference,
-                                     MotionVector usual) {
-    const BlockInfo& left = grid.at(part.bx - 1, part.by);
-    const BlockInfo& above = grid.at(part.bx, part.by - 1);
+// The median of what the blocks to the left and above use, and `global`.
+inline MotionVector predicted_motion(const TileGrid& grid, const PredictionUnit& unit, int reference,
+                                     MotionVector global) {
+    const BlockInfo& left = grid.at(unit.bx - 1, unit.by);
+    const BlockInfo& above = grid.at(unit.bx, unit.by - 1);
     const bool of_left = uses(left.source, reference);
     const bool of_above = uses(above.source, reference);
     const auto n = static_cast<std::size_t>(reference);
     if (of_left && !of_above) return left.motion[n];
     if (of_above && !of_left) return above.motion[n];
-    if (!of_left) return usual;
+    if (!of_left) return global;
     const auto median = [](std::int16_t a, std::int16_t b, std::int16_t c) {
         return std::max(std::min(a, b), std::min(std::max(a, b), c));
     };
-    return {median(left.motion[n].x, above.motion[n].x, usual.x), median(left.motion[n].y, above.motion[n].y, usual.y)};
+    return {median(left.motion[n].x, above.motion[n].x, global.x),
+            median(left.motion[n].y, above.motion[n].y, global.y)};
 }
 
 }  // namespace rs::codec

@@ -1,5 +1,5 @@
 #pragma once
-// What a part of a coded picture is predicted from: its neighbours inside the tile, or one or two other pictures.
+// What a unit of a coded picture is predicted from: its neighbours inside the tile, or one or two other pictures.
 // Integer and normative: encode/FORMAT.md, section "Prediction". No function here allocates; all may be called from
 // several threads at once.
 
@@ -31,7 +31,7 @@ void average_into(std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* 
 
 inline constexpr int kIntraModes = 8;  // mean, plane, vertical, horizontal, gradient, diagonal, steep, flat
 
-// From the column left of the part and the row above it, where there are such. `samples` points to the part's first
+// From the column left of the unit and the row above it, where there are such. `samples` points to the unit's first
 // sample in its plane; the prediction is written there.
 void predict_from_neighbours(std::uint8_t* samples, std::ptrdiff_t stride, int size, bool has_left, bool has_above,
                              int mode);

@@ -248,7 +248,7 @@ Status parse_coded_picture(std::span<const std::byte> payload, std::size_t view,
         for (const int component : {int{motion.x}, int{motion.y}}) {
             const int largest = board ? 0 : kMaxMotion_q2;
             if (std::abs(component) > largest) {
-                return out_of_range("a usual vector", component, -largest, largest);
+                return out_of_range("a global motion vector", component, -largest, largest);
             }
         }
     }
