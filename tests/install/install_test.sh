@@ -20,6 +20,47 @@ expect_same() {
   cmp "$2" "$WORK/expected.png" || fail "$2 is another picture than $1 draws"
 }
 
+# in_root OPTIONS...: dpkg in $ROOT, which needs no rights. It refuses a package whose dependencies are not installed.
+# The package's scripts call ldconfig, which here sees to $ROOT alone.
+in_root() {
+  mkdir -p "$WORK/bin"
+  # shellcheck disable=SC2016  # dpkg sets DPKG_ROOT for the script
+  printf '#!/bin/sh\nexec /sbin/ldconfig -n "$DPKG_ROOT/usr/lib"\n' >"$WORK/bin/ldconfig"
+  chmod +x "$WORK/bin/ldconfig"
+  PATH=$WORK/bin:$PATH:/usr/sbin:/sbin dpkg --root="$ROOT" --force-not-root --force-script-chrootless --no-triggers --log=/dev/null "$@" >"$WORK/log" 2>&1 ||
+    { cat "$WORK/log"; fail "dpkg $*"; }
+}
+
+# Every library that a file of the package loads belongs to a package that Depends names, or that those depend on.
+expect_all_stated() {
+  local file library libraries owner
+  # One line per package: its names, and after a bar what it depends on.
+  dpkg-query -W -f='${Package},${Provides}|${Pre-Depends},${Depends}\n' | sed 's/([^)]*)//g; s/:[a-z]*//g' >"$WORK/packages"
+  echo "rayspace|$(dpkg-deb -f "$PACKAGE" Depends | sed 's/([^)]*)//g')" >>"$WORK/packages"
+  awk -F'|' '
+    function reach(name,   i, n, list) {
+      if (name in reached || !(name in needs)) return
+      reached[name] = 1
+      n = split(needs[name], list, ",")
+      for (i = 1; i <= n; ++i) reach(list[i])
+    }
+    { gsub(" ", ""); names = $1; sub(/^[^|]*[|]/, ""); gsub("[|]", ",")
+      n = split(names, list, ","); for (i = 1; i <= n; ++i) if (list[i] != "") needs[list[i]] = needs[list[i]] "," list[1] "," $0 }
+    END { reach("rayspace"); for (name in reached) print name }' "$WORK/packages" | sort >"$WORK/stated"
+  while read -r file; do
+    ldd "$file" >>"$WORK/loaded"
+  done < <(find "$ROOT/usr/bin" "$ROOT/usr/lib" -type f \( -perm -u+x -o -name '*.so*' \))
+  ! grep 'not found' "$WORK/loaded" || fail "the package lacks libraries"
+  mapfile -t libraries < <(awk '$2 == "=>" { print $3 }' "$WORK/loaded" | grep -v "^$WORK" | xargs realpath | sort -u)
+  # The database may know a library by its place before /lib became a part of /usr.
+  dpkg-query -S "${libraries[@]}" "${libraries[@]#/usr}" 2>/dev/null | sed '/^diversion/d; s/^\([^:,]*\).*: /\1 /' >"$WORK/owners" || true
+  for library in "${libraries[@]}"; do
+    owner=$(awk -v a="$library" -v b="${library#/usr}" '$2 == a || $2 == b { print $1; exit }' "$WORK/owners")
+    [ -n "$owner" ] || fail "no package has $library"
+    grep -qxF "$owner" "$WORK/stated" || fail "the package needs $library of $owner, which Depends does not lead to"
+  done
+}
+
 case "$2" in
   library) # find_package(Rayspace) in somebody else's project
     cmake --install "$BUILD" --prefix "$WORK/there" >"$WORK/install.log"
@@ -38,17 +79,24 @@ case "$2" in
     cp -r "$WORK/drawn/." "$WORK/set"
     PYTHONPATH=$WORK/there/lib/python3/dist-packages /usr/bin/python3 "$HERE/use_module.py" "$OBJECT" "$WORK/set"
     ;;
-  package) # a .deb whose dependencies are stated, used from where it was unpacked
+  package) # a .deb, installed by dpkg beside a copy of this system's database, used from there, and removed
     (cd "$BUILD" && cpack -G DEB -B "$WORK/packed" >"$WORK/log" 2>&1) || { cat "$WORK/log"; fail "cpack"; }
     PACKAGE=$(echo "$WORK"/packed/*.deb)
-    DEPENDS=$(dpkg-deb -f "$PACKAGE" Depends)
-    for library in libtbb libopenimageio libopencv-core libembree libzstd; do
-      grep -q "$library" <<<"$DEPENDS" || fail "the package does not depend on $library: $DEPENDS"
+    ROOT=$WORK/root
+    mkdir -p "$ROOT/var/lib"
+    cp -r /var/lib/dpkg "$ROOT/var/lib"
+    rm -f "$ROOT"/var/lib/dpkg/lock*
+    in_root --install "$PACKAGE"
+    [ -e "$ROOT/usr/lib/rayspace/librayspace_pictures.so" ] || fail "the package lacks its picture module"
+    expect_all_stated
+    for tool in "$ROOT"/usr/bin/*; do
+      (cd "$WORK" && "$tool" --help >/dev/null) || fail "$tool does not start"
     done
-    dpkg-deb -x "$PACKAGE" "$WORK/unpacked"
-    [ -e "$WORK/unpacked/usr/lib/rayspace/librayspace_pictures.so" ] || fail "the package lacks its picture module"
-    (cd "$WORK" && "$WORK/unpacked/usr/bin/rs-engine" render "$OBJECT" --orbit 1 -o view.png -q)
+    (cd "$WORK" && "$ROOT/usr/bin/rs-engine" render "$OBJECT" --orbit 1 -o view.png -q)
     expect_same "$BUILD/bin/rs-engine" "$WORK/view.png"
+    in_root --remove rayspace
+    left=$(find "$ROOT" -path "$ROOT/var/lib/dpkg" -prune -o ! -type d -print)
+    [ -z "$left" ] || fail "removed, the package leaves $left"
     ;;
   *) fail "what is $2?" ;;
 esac
