@@ -3,6 +3,7 @@
 #include <engine/core/fast/renderer.hpp>
 #include <engine/core/views/orbit.hpp>
 #include <rayspace/format/object_file.hpp>
+#include <rayspace/light/light.hpp>
 #include <rayspace/pictures/picture_io.hpp>
 
 #include <cstdio>
@@ -21,8 +22,14 @@ static rs::Status draw(const char* object_file, const char* picture_file) {
     return rs::write_png(picture_file, picture);
 }
 
+// Lights are in the library, too.
+static bool has_lights() {
+    return rs::area_of(rs::rectangle_light({}, {2, 0, 0}, {0, 3, 0}, glm::vec3(1))) == 6;
+}
+
 int main(int argc, char** argv) {
     if (argc != 3) return std::fprintf(stderr, "usage: consumer OBJECT.rso PICTURE.png\n"), 2;
+    if (!has_lights()) return std::fprintf(stderr, "consumer: a rectangle has another area\n"), 1;
     const rs::Status done = draw(argv[1], argv[2]);
     if (!done) std::fprintf(stderr, "consumer: %s\n", done.error().message.c_str());
     return done ? 0 : 1;
