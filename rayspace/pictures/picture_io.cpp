@@ -58,7 +58,7 @@ LoadedBackend load_backend() {
         return {nullptr, "not enough memory to load what reads and writes pictures; raise the limit (ulimit -v)"};
     }
     return {nullptr, std::string(pictures::kBackendFileName) + " cannot be opened (" + why +
-                         "); put it beside the program or in ../lib/rayspace, with OpenImageIO and OpenCV installed"};
+                         "); put it beside the program or in ../lib/rayspace, with OpenImageIO and FFmpeg installed"};
 }
 
 Result<const pictures::Backend*> backend_for(const fs::path& path) {
