@@ -3,6 +3,7 @@
 #include "rayspace/base/zstd_frame.hpp"
 #include "rayspace/format/map_coding.hpp"
 #include "rayspace/format/object_chunks.hpp"
+#include "tests/rayspace/format/file_chunks.hpp"
 #include "tests/support/put_number.hpp"
 #include "tests/support/small_object.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -17,9 +18,13 @@
 namespace {
 
 using namespace rs;
+using test::Chunk;
+using test::Chunks;
+using test::chunks_of;
 using test::small_object;
 using test::SmallObjectOptions;
 using test::TemporaryFolder;
+using test::write_chunks;
 using testing::HasSubstr;
 
 void expect_same(const RaySpaceObject& a, const RaySpaceObject& b) {
@@ -32,30 +37,6 @@ void expect_same(const RaySpaceObject& a, const RaySpaceObject& b) {
     EXPECT_EQ(a.views, b.views);
     EXPECT_EQ(a.rings, b.rings);
     EXPECT_EQ(a.pictures, b.pictures);
-}
-
-struct Chunk {
-    ChunkName name{};
-    std::uint32_t index = 0;
-    std::vector<std::byte> payload;
-};
-using Chunks = std::vector<Chunk>;
-
-Chunks chunks_of(const std::filesystem::path& path) {
-    Chunks chunks;
-    const auto reader = ContainerReader::open(path);
-    EXPECT_TRUE(reader.ok());
-    for (const ChunkEntry& entry : reader->table()) {
-        chunks.push_back({entry.name, entry.index, std::move(reader->read(entry)).value()});
-    }
-    return chunks;
-}
-
-void write_chunks(const std::filesystem::path& path, const Chunks& chunks) {
-    auto writer = ContainerWriter::create(path, static_cast<std::uint32_t>(chunks.size()));
-    ASSERT_TRUE(writer.ok());
-    for (const Chunk& chunk : chunks) ASSERT_TRUE(writer->add(chunk.name, chunk.index, chunk.payload).ok());
-    ASSERT_TRUE(writer->commit().ok());
 }
 
 Chunk& find(Chunks& chunks, const char* name, std::uint32_t index = 0) {

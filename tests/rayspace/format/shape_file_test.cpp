@@ -1,6 +1,7 @@
 // Objects with a shape map in files: the chunk's place, the memory cap, what is covered by checksums.
 #include "rayspace/format/chunks/shape_chunk.hpp"
 #include "rayspace/format/object_file.hpp"
+#include "tests/rayspace/format/file_chunks.hpp"
 #include "tests/support/small_shape.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -13,37 +14,23 @@
 namespace {
 
 using namespace rs;
+using test::Chunk;
+using test::Chunks;
 using test::small_object;
 using test::small_object_with_shape;
 using test::SmallObjectOptions;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-struct Chunk {
-    ChunkName name{};
-    std::uint32_t index = 0;
-    std::vector<std::byte> payload;
-};
-using Chunks = std::vector<Chunk>;
-
 Chunks chunks_of(const RaySpaceObject& object) {
     const TemporaryFolder folder;
     EXPECT_TRUE(write_object(folder / "a.rso", object).ok());
-    const auto reader = ContainerReader::open(folder / "a.rso");
-    EXPECT_TRUE(reader.ok());
-    Chunks chunks;
-    for (const ChunkEntry& entry : reader->table()) {
-        chunks.push_back({entry.name, entry.index, std::move(reader->read(entry)).value()});
-    }
-    return chunks;
+    return test::chunks_of(folder / "a.rso");
 }
 
 Result<RaySpaceObject> object_of(const Chunks& chunks, const ReadObjectOptions& options = {}) {
     const TemporaryFolder folder;
-    auto writer = ContainerWriter::create(folder / "b.rso", static_cast<std::uint32_t>(chunks.size()));
-    EXPECT_TRUE(writer.ok());
-    for (const Chunk& chunk : chunks) EXPECT_TRUE(writer->add(chunk.name, chunk.index, chunk.payload).ok());
-    EXPECT_TRUE(writer->commit().ok());
+    test::write_chunks(folder / "b.rso", chunks);
     return read_object(folder / "b.rso", options);
 }
 
