@@ -1,8 +1,8 @@
 #include "capture/tools/commands.hpp"
 
 #include "capture/photos/import.hpp"
-#include "capture/photos/import_page.hpp"
 #include "capture/photos/intake/photo_folder.hpp"
+#include "capture/photos/report/import_page.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
@@ -161,7 +161,7 @@ Status run_import(const ImportCommandLine& given) {
     const Result<ImportReport> report = import_photos(options, &bar);
     if (!report) return report.error();
     if (page) {
-        const Result<std::string> text = import_page(options, *report);
+        const Result<std::string> text = import_page(options.photos, *report);
         if (!text) return text.error();
         if (Status status = page->write(std::as_bytes(std::span(*text))); !status) return status;
         if (Status status = page->commit(); !status) return status;

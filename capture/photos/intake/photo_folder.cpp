@@ -58,6 +58,12 @@ bool is_picture_name(const std::filesystem::path& name) {
     return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
+std::vector<std::string> file_names(const PhotoFolder& folder) {
+    std::vector<std::string> names;
+    for (const std::filesystem::path& photo : folder.photos) names.push_back(photo.filename().string());
+    return names;
+}
+
 Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder) {
     std::error_code failure;
     std::filesystem::directory_iterator entries(folder, failure);

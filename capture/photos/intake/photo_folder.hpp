@@ -1,6 +1,6 @@
 #pragma once
 // The pictures of one turn, as they lie in a folder: which files they are, in which order, and whether they fit
-// together. First stage of the import: photo_folder -> survey -> repeat -> backdrop -> cut_out -> nominal_rig.
+// together. The import begins with it (capture/photos/import.hpp).
 
 #include "rayspace/base/result.hpp"
 
@@ -26,6 +26,9 @@ struct PhotoFolder {
     int height = 0;
     bool has_alpha = false;  // of every picture
 };
+
+// [photograph], without the folder.
+std::vector<std::string> file_names(const PhotoFolder& folder);
 
 // Lists the folder and reads the pictures' headers. Fails where there are no pictures or more than kMaxViews, where a
 // header cannot be read, where one asks for the pixels to be turned (EXIF orientation other than 1), and where two

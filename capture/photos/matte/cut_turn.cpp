@@ -84,6 +84,7 @@ Result<CutTurn> cut_turn(const PhotoFolder& folder, const CutSource& source, con
     CutTurn turn{TurnOutline(folder.width, folder.height), std::vector<TurnOutline::Box>(folder.photos.size()),
                  std::vector<Image<Rgba8>>(folder.photos.size())};
     std::mutex mutex;
+    int at_border = 0;  // views whose object reaches the picture's border
     const auto cut_photo = [&](std::size_t i) -> Status {
         const std::string name = folder.photos[i].string();
         Result<Image<Rgba8>> photo = read_picture(folder.photos[i]);
@@ -106,12 +107,16 @@ Result<CutTurn> cut_turn(const PhotoFolder& folder, const CutSource& source, con
         turn.outline.merge(outline);
         turn.min_coverage = std::min(turn.min_coverage, covered);
         turn.max_coverage = std::max(turn.max_coverage, covered);
-        turn.at_border += reaches_border(outline.visible(), folder) ? 1 : 0;
+        at_border += reaches_border(outline.visible(), folder) ? 1 : 0;
         return {};
     };
     if (Status status = for_each_photo(folder, kCutBytesPerPixel, "cutting the object out", progress, cut_photo);
         !status) {
         return status.error();
+    }
+    if (at_border > 0) {
+        turn.notes.push_back("the object reaches the picture's border in " + std::to_string(at_border) + " of " +
+                             std::to_string(folder.photos.size()) + " pictures; it will look cut off there");
     }
     return turn;
 }

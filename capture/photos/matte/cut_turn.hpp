@@ -1,6 +1,6 @@
 #pragma once
-// The second pass over the photographs: every one is cut out and put by, and what the later stages ask of the whole
-// turn is gathered on the way. Stands between backdrop and nominal_rig.
+// The second pass over the photographs: every one is cut out and put by, and what the later stages need of the whole
+// turn is gathered on the way. Stands between backdrop and found_rig.
 
 #include "capture/photos/background/backdrop.hpp"
 #include "capture/photos/intake/photo_folder.hpp"
@@ -35,15 +35,15 @@ struct CutTurn {
     std::vector<Image<Rgba8>> small;      // [view], for find_turning()
     double min_coverage = 1;  // share of the picture's pixels with alpha of 128 and more: smallest of all views
     double max_coverage = 0;  // ... and largest
-    int at_border = 0;        // views whose object reaches the picture's border
+    std::vector<std::string> notes{};  // one line each: what the user should know
 };
 
 // The name of view 0, 1, ... within a set: "images/0000.png".
 std::string cut_picture_name(std::size_t view);
 
-// Puts all photographs, cut out, into `cuts`. Fails at a photograph that cannot
-// be read or has changed its size, that shows no object, whose mask is missing or of another size, or, unless it brings
-// its own alpha, nothing but the object.
+// Puts all photographs, cut out, into `cuts`. Fails at a photograph that cannot be read or has changed its size, that
+// shows no object, whose mask is missing or of another size, or, unless it brings its own alpha, nothing but the
+// object.
 Result<CutTurn> cut_turn(const PhotoFolder& folder, const CutSource& source, const CutPictures& cuts,
                          Progress* progress);
 

@@ -8,6 +8,10 @@
 
 namespace rs::capture {
 
+std::string to_string(Turning turning) {
+    return turning == Turning::kClockwise ? "clockwise" : "counter-clockwise";
+}
+
 double distance_for_unit_radius(double extent_px, double fl_px) {
     RS_CHECK(extent_px > 0 && fl_px > 0);
     return std::hypot(extent_px, fl_px) / extent_px;
@@ -93,6 +97,7 @@ void find_turning_sense(const NominalTurnRequest& request, const PhotoFolder& fo
 NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn) {
     const auto views = static_cast<double>(folder.photos.size());
     NominalTurn found;
+    found.fov_deg = request.fov_deg.value_or(kNominalFieldOfView_deg);
     found.step_deg = request.degrees_per_view.value_or(360.0 / views);
     const bool closed = std::abs(found.step_deg * views - 360) < 1.5 * found.step_deg && views >= 4;
     find_axis(request, folder, turn, closed, found);

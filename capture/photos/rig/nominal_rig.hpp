@@ -25,13 +25,16 @@ namespace rs::capture {
 
 // Seen from above.
 enum class Turning { kClockwise, kCounterClockwise };
+std::string to_string(Turning turning);  // "clockwise", "counter-clockwise"
+
+// Horizontal. Product pictures are taken from far away: 25 degrees is a lens of 80 mm before a 36 mm wide sensor.
+inline constexpr double kNominalFieldOfView_deg = 25;
 
 struct NominalRigOptions {
     int width = 0;  // px, of every picture
     int height = 0;
     int views = 0;
-    // Horizontal. Product pictures are taken from far away: 25 degrees is a lens of 80 mm before a 36 mm wide sensor.
-    double fov_deg = 25;
+    double fov_deg = kNominalFieldOfView_deg;
     double step_deg = 0;  // from view to view; 360 / views for a full turn
     double axis_x_px = 0;
     // How the *object* turns. Clockwise: its front goes to the left, as if the camera went around to the right
@@ -49,6 +52,7 @@ Rig make_nominal_rig(const NominalRigOptions& options, const TurnOutline::Box& v
 // What the cut-outs alone say about a turn that nobody calibrates: the axis' column and the sense of turning. The
 // nominal rig stands on it, and calibration begins with it.
 struct NominalTurn {
+    double fov_deg = kNominalFieldOfView_deg;
     double step_deg = 0;
     double axis_x_px = 0;
     double axis_spread_px = 0;
@@ -58,10 +62,12 @@ struct NominalTurn {
     std::vector<std::string> notes;  // of what is doubtful, one line each
 };
 
+// What is given; the rest is found or assumed.
 struct NominalTurnRequest {
-    std::optional<double> degrees_per_view;
-    std::optional<double> axis_x_px;
+    std::optional<double> fov_deg;           // horizontal, 1..120
+    std::optional<double> degrees_per_view;  // 0.01..180
     std::optional<Turning> turning;
+    std::optional<double> axis_x_px;
 };
 
 NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn);

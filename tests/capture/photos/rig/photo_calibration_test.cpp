@@ -1,7 +1,7 @@
 // What import takes for the rig: the surest that works, and what it says about that which did not.
 
 #include "capture/photos/import.hpp"
-#include "capture/photos/import_page.hpp"
+#include "capture/photos/report/import_page.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "tests/capture/calibration/board_photos.hpp"
@@ -47,7 +47,7 @@ TEST_F(PhotoCalibrationTest, PointsAreTakenFirstWhereNothingElseIsGiven) {
     EXPECT_EQ(rig->views[3].extras["source_file"], "03.png");
 
     // The page has the pictures and the tables.
-    const Result<std::string> page = import_page(options_, *report);
+    const Result<std::string> page = import_page(options_.photos, *report);
     ASSERT_TRUE(page.ok()) << page.error().message;
     for (const char* part : {"<table", "focal length, px", "620.0", "held", "median step", "Mattes on magenta",
                              "The axis and the points", "data:image/", "<svg", "There is nothing to warn of"}) {
@@ -113,7 +113,7 @@ TEST_F(PhotoCalibrationTest, AChoiceIsTakenOrFails) {
     const TurntableModel model = test::drum_model();
     EXPECT_NEAR(*axis_column(found.model.lens, found.model.pose, 128), *axis_column(model.lens, model.pose, 128), 0.5);
     EXPECT_TRUE(std::isinf(found.deviations.angles_rad[3]));
-    const auto page = import_page(options_, *outlines);
+    const auto page = import_page(options_.photos, *outlines);
     ASSERT_TRUE(page.ok()) << page.error().message;
     EXPECT_THAT(*page, HasSubstr("the outlines of the object alone"));
 
@@ -123,7 +123,7 @@ TEST_F(PhotoCalibrationTest, AChoiceIsTakenOrFails) {
     EXPECT_EQ(nominal->method, CalibrationMethod::kNominal);
     EXPECT_FALSE(nominal->calibration.calibration.has_value());
     EXPECT_THAT(nominal->notes, Contains(HasSubstr("takes nothing of what was given as known")));
-    const auto plain_page = import_page(options_, *nominal);
+    const auto plain_page = import_page(options_.photos, *nominal);
     ASSERT_TRUE(plain_page.ok()) << plain_page.error().message;
     EXPECT_THAT(*plain_page, AllOf(HasSubstr("nothing but assumptions"), Not(HasSubstr("Estimates"))));
 }
@@ -212,7 +212,7 @@ TEST_F(PhotoCalibrationTest, ABoardIsTakenBeforeAllElse) {
         EXPECT_NEAR(degrees(found.angles_rad[i]), degrees(photos.model.angles_rad[i]), 0.1) << i;
     }
     EXPECT_EQ(report->turning, Turning::kCounterClockwise);
-    const auto page = import_page(options_, *report);
+    const auto page = import_page(options_.photos, *report);
     ASSERT_TRUE(page.ok()) << page.error().message;
     EXPECT_THAT(*page, HasSubstr("the printed board on the plate"));
 

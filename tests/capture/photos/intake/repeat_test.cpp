@@ -1,4 +1,4 @@
-#include "capture/photos/background/repeat.hpp"
+#include "capture/photos/intake/repeat.hpp"
 
 #include "tests/capture/photos/turn_of_pictures.hpp"
 

@@ -1,4 +1,4 @@
-#include "capture/photos/background/repeat.hpp"
+#include "capture/photos/intake/repeat.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,13 +1,13 @@
 #pragma once
-// The rig of an imported set, and how it is told where its numbers come from.
+// The rig of an imported set, with where its numbers come from.
 
-#include "capture/photos/import.hpp"
+#include "capture/photos/report/import_report.hpp"
 #include "rayspace/geometry/rig.hpp"
 
 namespace rs::capture {
 
 // Equal steps, a level camera: the pictures stay as they are. `visible` is in px of the photographs.
-Rig nominal_import_rig(const ImportOptions& options, const ImportReport& report, const TurnOutline::Box& visible);
+Rig nominal_import_rig(const ImportReport& report, const TurnOutline::Box& visible);
 
 // As calibrated; `visible` is in px of the rectified pictures. Views whose photographs are left out are not there.
 Rig calibrated_import_rig(const ImportReport& report, const TurnOutline::Box& visible);

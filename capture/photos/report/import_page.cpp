@@ -1,4 +1,4 @@
-#include "capture/photos/import_page.hpp"
+#include "capture/photos/report/import_page.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -202,11 +202,11 @@ void add_plots(HtmlPage& page, const Calibration& found) {
     page.drawing(svg_of({"Observations", "photograph", "", {count}, 900, 220}));
 }
 
-Status add_photographs(HtmlPage& page, const ImportOptions& options, const ImportReport& report) {
+Status add_photographs(HtmlPage& page, const std::filesystem::path& photos, const ImportReport& report) {
     std::vector<CaptionedPicture> row;
     for (const int view : evenly_spread(static_cast<int>(report.source_names.size()), kAnnotated)) {
         const std::string& name = report.source_names[static_cast<std::size_t>(view)];
-        const Result<Image<Rgba8>> photo = read_picture(options.photos / name);
+        const Result<Image<Rgba8>> photo = read_picture(photos / name);
         if (!photo) return photo.error();
         row.push_back({annotated_photo(*photo, report, view), name});
     }
@@ -232,14 +232,14 @@ Status add_mattes(HtmlPage& page, const ImportReport& report) {
 
 }  // namespace
 
-Result<std::string> import_page(const ImportOptions& options, const ImportReport& report) {
-    HtmlPage page("Import of " + options.photos.string());
+Result<std::string> import_page(const std::filesystem::path& photos, const ImportReport& report) {
+    HtmlPage page("Import of " + photos.string());
     add_summary(page, report);
     if (report.calibration.calibration) {
         add_estimates(page, *report.calibration.calibration);
         add_plots(page, *report.calibration.calibration);
     }
-    if (Status status = add_photographs(page, options, report); !status) return status.error();
+    if (Status status = add_photographs(page, photos, report); !status) return status.error();
     if (Status status = add_mattes(page, report); !status) return status.error();
     return page.text();
 }

@@ -1,8 +1,7 @@
-#include "capture/photos/import_rig.hpp"
+#include "capture/photos/report/import_rig.hpp"
 
 #include "rayspace/base/conventions.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace rs::capture {
@@ -32,10 +31,10 @@ void describe(const ImportReport& report, nlohmann::json& made) {
 
 void name_views(const ImportReport& report, Rig& rig) {
     std::size_t view = 0;
-    for (const std::string& name : report.source_names) {
-        if (std::find(report.left_out.begin(), report.left_out.end(), name) != report.left_out.end()) continue;
+    for (std::size_t i = 0; i < report.source_names.size(); ++i) {
+        if (is_left_out(report, i)) continue;
         rig.views[view].file_path = cut_picture_name(view);
-        rig.views[view].extras["source_file"] = utf8(name);
+        rig.views[view].extras["source_file"] = utf8(report.source_names[i]);
         ++view;
     }
 }
@@ -49,12 +48,12 @@ std::optional<double> plate_height(const PhotoCalibration& calibration) {
 
 }  // namespace
 
-Rig nominal_import_rig(const ImportOptions& options, const ImportReport& report, const TurnOutline::Box& visible) {
+Rig nominal_import_rig(const ImportReport& report, const TurnOutline::Box& visible) {
     NominalRigOptions nominal;
     nominal.width = report.width;
     nominal.height = report.height;
     nominal.views = report.views;
-    nominal.fov_deg = options.fov_deg.value_or(kNominalFieldOfView_deg);
+    nominal.fov_deg = report.nominal.fov_deg;
     nominal.step_deg = report.nominal.step_deg;
     nominal.axis_x_px = report.nominal.axis_x_px;
     nominal.turning = report.nominal.turning;
@@ -77,10 +76,7 @@ Rig calibrated_import_rig(const ImportReport& report, const TurnOutline::Box& vi
     Rig rig = make_rig(model, report.frame, visible, plate_height(report.calibration));
     std::vector<RigView> kept;
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
-        if (std::find(report.left_out.begin(), report.left_out.end(), report.source_names[i]) ==
-            report.left_out.end()) {
-            kept.push_back(std::move(rig.views[i]));
-        }
+        if (!is_left_out(report, i)) kept.push_back(std::move(rig.views[i]));
     }
     rig.views = std::move(kept);
     name_views(report, rig);

@@ -1,0 +1,28 @@
+#include "capture/photos/intake/intake.hpp"
+
+#include "capture/photos/intake/repeat.hpp"
+
+#include <utility>
+
+namespace rs::capture {
+
+Result<Intake> take_in(PhotoFolder folder, Progress* progress) {
+    Result<Survey> survey = survey_photos(folder, progress);
+    if (!survey) return survey.error();
+    Intake taken{std::move(folder), std::move(*survey), {}, {}};
+    const std::vector<std::string>& ignored = taken.folder.ignored;
+    if (!ignored.empty()) {
+        taken.notes.push_back("left aside, not a picture: " + ignored.front() +
+                              (ignored.size() > 1 ? " and " + std::to_string(ignored.size() - 1) + " more" : ""));
+    }
+    if (test_repeat(taken.survey.thumbnails).last_repeats_first) {
+        std::vector<std::filesystem::path>& photos = taken.folder.photos;
+        taken.dropped_repeat = photos.back().filename().string();
+        taken.notes.push_back(taken.dropped_repeat + " repeats " + photos.front().filename().string() +
+                              " and is left out");
+        photos.pop_back();
+    }
+    return taken;
+}
+
+}  // namespace rs::capture

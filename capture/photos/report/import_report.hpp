@@ -1,0 +1,41 @@
+#pragma once
+// What an import found and wrote, for messages, the page and the rig's own record.
+
+#include "capture/photos/background/backdrop.hpp"
+#include "capture/photos/rig/found_rig.hpp"
+#include "capture/photos/rig/rectification.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace rs::capture {
+
+// With the notes of all stages.
+struct ImportReport : FoundRig {
+    int width = 0;  // px, of the photographs
+    int height = 0;
+    BackdropKind backdrop = BackdropKind::kAlpha;
+    Rgba8 backdrop_colour{};
+    bool backdrop_given = false;
+    bool masks_given = false;
+    std::string dropped_repeat{};  // name of the last photograph where it repeated the first; empty otherwise
+    std::vector<std::string> source_names{};  // [photograph] of all that took part in calibration
+    double min_coverage = 0;  // share of a photograph's pixels with alpha of 128 and more: smallest of all, ...
+    double max_coverage = 0;  // ... largest
+    std::vector<Image<Rgba8>> small_cut_outs{};  // [photograph], the longer side at most 512 px
+
+    // Of the set written.
+    int views = 0;
+    UprightFrame frame{};  // of its pictures, where they were rectified
+    double fl_px = 0;
+    double distance = 0;  // object radii
+};
+
+inline bool is_left_out(const ImportReport& report, std::size_t photo) {
+    return std::find(report.left_out.begin(), report.left_out.end(), report.source_names[photo]) !=
+           report.left_out.end();
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,99 @@
+#include "capture/photos/rig/found_rig.hpp"
+
+#include "capture/calibration/silhouettes/turn_diagnosis.hpp"
+#include "rayspace/base/conventions.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace rs::capture {
+namespace {
+
+double sense(const NominalTurn& nominal) {
+    return nominal.turning == Turning::kCounterClockwise ? 1 : -1;
+}
+
+Result<KnownInputs> known_inputs(const RigRequest& request, const NominalTurn& nominal, const PhotoFolder& folder) {
+    Result<KnownInputs> known = known_of_photographs(request.known, file_names(folder));
+    if (!known) return known;
+    if (request.fov_deg) known->f_px = 0.5 * folder.width / std::tan(0.5 * radians(*request.fov_deg));
+    if (request.turning) known->counter_clockwise = *request.turning == Turning::kCounterClockwise;
+    if (request.degrees_per_view) known->step_rad = sense(nominal) * radians(*request.degrees_per_view);
+    return known;
+}
+
+TurntableModel nominal_model(const KnownInputs& known, const NominalTurn& nominal, const PhotoFolder& folder) {
+    const double width = folder.width;
+    const double assumed_f_px = 0.5 * width / std::tan(0.5 * radians(kNominalFieldOfView_deg));
+    TurntableModel model;
+    model.lens =
+        with_known(Lens{folder.width, folder.height, assumed_f_px, 0.5 * width, 0.5 * folder.height, 0, 0}, known);
+    model.pose.pan_rad = std::atan((model.lens.cx - nominal.axis_x_px) / model.lens.f_px);
+    for (std::size_t i = 0; i < folder.photos.size(); ++i) {
+        model.angles_rad.push_back(sense(nominal) * static_cast<double>(i) * radians(nominal.step_deg));
+    }
+    return model;
+}
+
+void add_notes(FoundRig& rig, const std::vector<std::string>& notes) {
+    rig.notes.insert(rig.notes.end(), notes.begin(), notes.end());
+}
+
+// What stands where another photograph does adds nothing but a place where two pictures disagree.
+void leave_out_repeats(FoundRig& rig, const PhotoFolder& folder) {
+    const std::vector<std::string> names = file_names(folder);
+    for (const int view : repeated_views(rig.calibration.calibration->model.angles_rad)) {
+        rig.left_out.push_back(names[static_cast<std::size_t>(view)]);
+    }
+    if (rig.left_out.empty()) return;
+    rig.notes.push_back(rig.left_out.front() +
+                        (rig.left_out.size() > 1
+                             ? " and " + std::to_string(rig.left_out.size() - 1) + " more repeat other pictures"
+                             : " repeats another picture") +
+                        " and " + (rig.left_out.size() > 1 ? "are" : "is") + " left out of the set");
+}
+
+void take_nominal(FoundRig& rig, const KnownInputs& given) {
+    add_notes(rig, rig.nominal.notes);
+    if (given.f_px || given.pose || given.angles_rad) {
+        rig.notes.emplace_back(
+            "a nominal rig takes nothing of what was given as known; --fov, --degrees-per-view and --axis-x set its "
+            "numbers");
+    }
+    rig.method = CalibrationMethod::kNominal;
+    rig.step_deg = rig.nominal.step_deg;
+    rig.turning = rig.nominal.turning;
+}
+
+void take_calibrated(FoundRig& rig, const PhotoFolder& folder) {
+    const Calibration& calibration = *rig.calibration.calibration;
+    rig.method = calibration.method;
+    rig.step_deg = std::abs(degrees(calibration.step_rad));
+    rig.turning = calibration.step_rad > 0 ? Turning::kCounterClockwise : Turning::kClockwise;
+    add_notes(rig, calibration.warnings);
+    leave_out_repeats(rig, folder);
+}
+
+}  // namespace
+
+Result<FoundRig> find_rig(const RigRequest& request, const PhotoFolder& folder, const CutTurn& turn,
+                          const CutPictures& cuts, Progress* progress) {
+    FoundRig rig;
+    rig.nominal = find_nominal_turn(request, folder, turn);
+    Result<KnownInputs> known = known_inputs(request, rig.nominal, folder);
+    if (!known) return known.error();
+    const TurntableModel model = nominal_model(*known, rig.nominal, folder);
+    Result<PhotoCalibration> calibration =
+        calibrate_photos(folder, cuts, {request.calibration, std::move(*known), request.board, model}, progress);
+    if (!calibration) return calibration.error();
+    rig.calibration = std::move(*calibration);
+    add_notes(rig, rig.calibration.notes);
+    if (rig.calibration.calibration) {
+        take_calibrated(rig, folder);
+    } else {
+        take_nominal(rig, request.known.known);
+    }
+    return rig;
+}
+
+}  // namespace rs::capture
