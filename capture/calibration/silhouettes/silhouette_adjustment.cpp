@@ -23,9 +23,9 @@ struct Robust {
 };
 
 // Of the sum of all their squares.
-class OutlineLoss final : public ceres::LossFunction {
+class SilhouetteLoss final : public ceres::LossFunction {
 public:
-    OutlineLoss(const OutlineErrors& errors, std::size_t residuals)
+    SilhouetteLoss(const SilhouetteErrors& errors, std::size_t residuals)
         : errors_(errors), expected_(static_cast<double>(residuals) * errors.deviation_px * errors.deviation_px) {}
 
     void Evaluate(double sum, double out[3]) const override {
@@ -36,13 +36,13 @@ public:
     }
 
 private:
-    OutlineErrors errors_;
+    SilhouetteErrors errors_;
     double expected_;
 };
 
 class RobustResiduals final : public ceres::CostFunction {
 public:
-    RobustResiduals(OutlineAdjustment& of, const Eigen::VectorXd& z, double outlier_px)
+    RobustResiduals(SilhouetteAdjustment& of, const Eigen::VectorXd& z, double outlier_px)
         : of_(of), outlier_px_(outlier_px) {
         set_num_residuals(static_cast<int>(of.residuals(z).size()));
         mutable_parameter_block_sizes()->push_back(static_cast<int>(z.size()));
@@ -61,18 +61,18 @@ public:
     }
 
 private:
-    OutlineAdjustment& of_;
+    SilhouetteAdjustment& of_;
     double outlier_px_;
 };
 
 }  // namespace
 
-void OutlineAdjustment::expect(const OutlineErrors& errors, double disbelief) {
+void SilhouetteAdjustment::expect(const SilhouetteErrors& errors, double disbelief) {
     errors_ = errors;
     disbelief_ = disbelief;
 }
 
-const std::vector<double>& OutlineAdjustment::residuals(const Eigen::VectorXd& z) {
+const std::vector<double>& SilhouetteAdjustment::residuals(const Eigen::VectorXd& z) {
     if (residuals_.empty() || z_of_residuals_ != z) {
         residuals_ = comparison_.residuals(z);
         z_of_residuals_ = z;
@@ -80,12 +80,12 @@ const std::vector<double>& OutlineAdjustment::residuals(const Eigen::VectorXd& z
     return residuals_;
 }
 
-const Eigen::MatrixXd& OutlineAdjustment::slopes(const Eigen::VectorXd& z) {
+const Eigen::MatrixXd& SilhouetteAdjustment::slopes(const Eigen::VectorXd& z) {
     if (slopes_.size() > 0 && z_of_slopes_ == z) return slopes_;
     const Eigen::VectorXd& widths = comparison_.widths;
     const auto count = static_cast<Eigen::Index>(residuals(z).size());
     slopes_.resize(count, z.size());
-    const OutlineResiduals beside = comparison_.beside ? comparison_.beside(z) : comparison_.residuals;
+    const SilhouetteResiduals beside = comparison_.beside ? comparison_.beside(z) : comparison_.residuals;
     for (Eigen::Index k = 0; k < z.size(); ++k) {
         Eigen::VectorXd before = z, behind = z;
         before(k) -= widths(k);
@@ -99,16 +99,16 @@ const Eigen::MatrixXd& OutlineAdjustment::slopes(const Eigen::VectorXd& z) {
     return slopes_;
 }
 
-double OutlineAdjustment::cost(const Eigen::VectorXd& z) {
+double SilhouetteAdjustment::cost(const Eigen::VectorXd& z) {
     double loss[3];
-    OutlineLoss(errors_, residuals(z).size())
+    SilhouetteLoss(errors_, residuals(z).size())
         .Evaluate(Robust(residuals(z), errors_.outlier_px).values.square().sum(), loss);
     return loss[0] + z.squaredNorm() / disbelief_;
 }
 
-bool OutlineAdjustment::improve(Eigen::VectorXd& z, int most_steps, double enough) {
+bool SilhouetteAdjustment::improve(Eigen::VectorXd& z, int most_steps, double enough) {
     RobustResiduals robust(*this, z, errors_.outlier_px);
-    OutlineLoss loss(errors_, residuals(z).size());
+    SilhouetteLoss loss(errors_, residuals(z).size());
     ceres::NormalPrior known(Eigen::MatrixXd::Identity(z.size(), z.size()) / std::sqrt(disbelief_),
                              Eigen::VectorXd::Zero(z.size()));
     ceres::Problem::Options ownership;
@@ -132,10 +132,10 @@ bool OutlineAdjustment::improve(Eigen::VectorXd& z, int most_steps, double enoug
     return true;
 }
 
-Eigen::MatrixXd OutlineAdjustment::information(const Eigen::VectorXd& z) {
+Eigen::MatrixXd SilhouetteAdjustment::information(const Eigen::VectorXd& z) {
     const Robust robust(residuals(z), errors_.outlier_px);
     double loss[3];
-    OutlineLoss(errors_, residuals(z).size()).Evaluate(robust.values.square().sum(), loss);
+    SilhouetteLoss(errors_, residuals(z).size()).Evaluate(robust.values.square().sum(), loss);
     const Eigen::MatrixXd by_z = robust.slopes.matrix().asDiagonal() * slopes(z);
     return loss[1] * by_z.transpose() * by_z;
 }

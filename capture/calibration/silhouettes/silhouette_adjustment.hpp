@@ -1,6 +1,6 @@
 #pragma once
 // The one adjustment by which outlines tell numbers of a turn, whatever of the outlines is compared: rays with all
-// other outlines (silhouette_fit.hpp, outline_coherence.hpp) or tangent planes of pairs (outline_tangency.hpp).
+// other outlines (silhouette_fit.hpp, coherence_fit.hpp) or tangent planes of pairs (silhouette_tangency.hpp).
 //
 // Numbers are counted in deviations of what was known of them before: each is expected at 0 with a deviation of 1, and
 // independent of the others. Outlines leave residuals r, px. With S the mean of r^2 / (1 + r^2 / outlier_px^2) (Geman
@@ -23,7 +23,7 @@ namespace rs::capture {
 inline constexpr double kIndependentPerView = 24;
 
 // What outlines are off by.
-struct OutlineErrors {
+struct SilhouetteErrors {
     double independent = 0;  // points
     double outlier_px = 0;   // residuals far above it count no more
     double deviation_px = 0;
@@ -31,24 +31,24 @@ struct OutlineErrors {
 };
 
 // What is compared, as a function of the numbers z: residuals, px, as many whatever z is.
-using OutlineResiduals = std::function<std::vector<double>(const Eigen::VectorXd& z)>;
+using SilhouetteResiduals = std::function<std::vector<double>(const Eigen::VectorXd& z)>;
 
-struct OutlineComparison {
-    OutlineResiduals residuals;
+struct SilhouetteComparison {
+    SilhouetteResiduals residuals;
     // By how much each number is moved to either side for slopes: far enough to look past the steps of the residuals.
     Eigen::VectorXd widths;
     // Where there is something quicker: the residuals beside z, as far as what decides them at z does so beside it.
-    std::function<OutlineResiduals(const Eigen::VectorXd& z)> beside = nullptr;
+    std::function<SilhouetteResiduals(const Eigen::VectorXd& z)> beside = nullptr;
 };
 
 // Remembers what it asked last, so that nothing is asked twice. For one thread; the comparison may use several.
-class OutlineAdjustment {
+class SilhouetteAdjustment {
 public:
-    OutlineAdjustment(OutlineComparison comparison, const OutlineErrors& errors)
+    SilhouetteAdjustment(SilhouetteComparison comparison, const SilhouetteErrors& errors)
         : comparison_(std::move(comparison)), errors_(errors) {}
 
     // From now on. `disbelief`: the variance of what was known before as it turns out, 1 unless said.
-    void expect(const OutlineErrors& errors, double disbelief);
+    void expect(const SilhouetteErrors& errors, double disbelief);
 
     const std::vector<double>& residuals(const Eigen::VectorXd& z);
     const Eigen::MatrixXd& slopes(const Eigen::VectorXd& z);  // of residuals, by central differences
@@ -62,8 +62,8 @@ public:
     Eigen::MatrixXd information(const Eigen::VectorXd& z);
 
 private:
-    OutlineComparison comparison_;
-    OutlineErrors errors_;
+    SilhouetteComparison comparison_;
+    SilhouetteErrors errors_;
     double disbelief_ = 1;
     Eigen::VectorXd z_of_residuals_, z_of_slopes_;
     std::vector<double> residuals_;

@@ -1,7 +1,7 @@
 #include "capture/calibration/silhouettes/silhouette_angles.hpp"
 
 #include "capture/calibration/points/model_covariance.hpp"
-#include "capture/calibration/silhouettes/outline_coherence.hpp"
+#include "capture/calibration/silhouettes/coherence_fit.hpp"
 #include "capture/calibration/silhouettes/silhouette_fit.hpp"
 #include "capture/calibration/silhouettes/silhouette_turn.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -79,9 +79,9 @@ void admit(ModelDeviations& deviations, const TurntableModel& model, const Known
 
 }  // namespace
 
-std::optional<AnglesOfOutlines> angles_of_outlines(std::span<const Image<std::uint8_t>> masks,
-                                                   const TurntableModel& model, const ModelDeviations& deviations,
-                                                   const KnownInputs& known) {
+std::optional<SilhouetteAngles> angles_of_silhouettes(std::span<const Image<std::uint8_t>> masks,
+                                                      const TurntableModel& model, const ModelDeviations& deviations,
+                                                      const KnownInputs& known) {
     if (known.angles_rad || known.step_rad || known.equal_steps) return std::nullopt;
     const auto turn = SilhouetteTurn::of(masks, kDetail);
     if (!turn || turn->touches_border()) return std::nullopt;
@@ -96,7 +96,7 @@ std::optional<AnglesOfOutlines> angles_of_outlines(std::span<const Image<std::ui
         fit_coherence(model, places, expected(model, places, deviations, picture_px), *turn, picture_px, options);
     if (!fit) return std::nullopt;
     const double at_px = 0.5 * (lies_sideways(fit->model.pose) ? model.lens.width : model.lens.height);
-    AnglesOfOutlines found{fit->model, deviations_of(fit->model, places, fit->covariance, at_px)};
+    SilhouetteAngles found{fit->model, deviations_of(fit->model, places, fit->covariance, at_px)};
     admit(found.deviations, model, known, picture_px);
     return found;
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Single angles from outlines alone. The few numbers of silhouette_fit.hpp suppose the angles that were assumed; of a
-// body that is none of revolution outlines tell each of them (outline_coherence.hpp).
+// body that is none of revolution outlines tell each of them (coherence_fit.hpp).
 
 #include "capture/calibration/model/calibration.hpp"
 #include "rayspace/image/image.hpp"
@@ -14,7 +14,7 @@ namespace rs::capture {
 // How far assumed angles are off, one standard deviation of each.
 inline constexpr double kAssumedAngle_deg = 3;
 
-struct AnglesOfOutlines {
+struct SilhouetteAngles {
     TurntableModel model;
     ModelDeviations deviations;
 };
@@ -24,8 +24,8 @@ struct AnglesOfOutlines {
 // Numbers that `known` holds stay, the principal point and k2 do, too. Nothing where angles are known, where the
 // outlines tell little of them or come to no agreement, and where the object reaches the pictures' border. About 10 s
 // for 36 views on 2 cores.
-std::optional<AnglesOfOutlines> angles_of_outlines(std::span<const Image<std::uint8_t>> masks,
-                                                   const TurntableModel& model, const ModelDeviations& deviations,
-                                                   const KnownInputs& known);
+std::optional<SilhouetteAngles> angles_of_silhouettes(std::span<const Image<std::uint8_t>> masks,
+                                                      const TurntableModel& model, const ModelDeviations& deviations,
+                                                      const KnownInputs& known);
 
 }  // namespace rs::capture

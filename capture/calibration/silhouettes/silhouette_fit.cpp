@@ -23,7 +23,7 @@ struct FittedNumbers {
     std::vector<std::size_t> free;
     std::function<SilhouetteParameters(const Eigen::VectorXd& z)> at;
     Eigen::VectorXd start;
-    OutlineAdjustment adjustment;
+    SilhouetteAdjustment adjustment;
 };
 
 // Keeps all by reference.
@@ -49,8 +49,8 @@ FittedNumbers numbers_of(const SilhouetteProblem& problem, const SilhouetteParam
     };
     const auto left_out = std::count_if(rays.left_out.begin(), rays.left_out.end(), [](char is) { return is != 0; });
     const double views = static_cast<double>(problem.turn->views()) - static_cast<double>(left_out);
-    const OutlineErrors errors{kIndependentPerView * views, problem.outlier_px, kSilhouetteError_px};
-    return {free, at, start, OutlineAdjustment({residuals, widths}, errors)};
+    const SilhouetteErrors errors{kIndependentPerView * views, problem.outlier_px, kSilhouetteError_px};
+    return {free, at, start, SilhouetteAdjustment({residuals, widths}, errors)};
 }
 
 }  // namespace

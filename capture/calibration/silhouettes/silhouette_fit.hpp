@@ -1,7 +1,7 @@
 #pragma once
 // The few numbers of a turntable model that outlines can tell, fitted to them.
 
-#include "capture/calibration/silhouettes/silhouette_coherence.hpp"
+#include "capture/calibration/silhouettes/consistency_residuals.hpp"
 
 #include <array>
 #include <optional>

@@ -12,7 +12,7 @@
 namespace rs::capture {
 namespace {
 
-constexpr std::size_t kFewestOutlines = 6;
+constexpr std::size_t kFewestSilhouettes = 6;
 constexpr int kMargin_px = 24;
 constexpr float kHalfway = 0.5F;
 
@@ -132,9 +132,9 @@ std::string view_name(std::size_t i) {
 }  // namespace
 
 Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> masks, const SilhouetteDetail& detail) {
-    if (masks.size() < kFewestOutlines) {
+    if (masks.size() < kFewestSilhouettes) {
         return Error{"silhouettes: " + std::to_string(masks.size()) + " views say too little; take at least " +
-                     std::to_string(kFewestOutlines)};
+                     std::to_string(kFewestSilhouettes)};
     }
     Box whole;
     for (std::size_t i = 0; i < masks.size(); ++i) {
@@ -171,7 +171,7 @@ Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> m
         const int bottom = std::min(coverage.height(), whole.bottom / n + 1 + kMargin_px);
         const ConstImageView<float> part = coverage.view().crop(left, top, right - left, bottom - top);
         turn.edges_[i] = edge_points(part, {left, top}, detail.edges_per_view);
-        if (part.width() < 2 || part.height() < 2 || turn.edges_[i].size() < kFewestOutlines) {
+        if (part.width() < 2 || part.height() < 2 || turn.edges_[i].size() < kFewestSilhouettes) {
             found[i] = Error{view_name(i) + " has hardly any outline; check its cut-out"};
             return;
         }

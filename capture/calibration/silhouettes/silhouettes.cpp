@@ -23,11 +23,11 @@ constexpr std::array<double, 5> kTiltTries_deg = {0, 10, 20, 35, -10};          
 constexpr std::array<double, 7> kTiltsCompared_deg = {-30, -15, -5, 0, 5, 15, 30};                   // from the start
 constexpr std::size_t kBestTries = 4;
 constexpr double kSearchOutlier_px = 12;
-constexpr std::size_t kGroups = 6;         // of the jackknife
-constexpr double kGoodEnough_px = 1;       // of a start that needs no improvement, reduced px
-constexpr double kGoodOutlines_px = 0.35;  // good cut-outs leave no more, reduced px
-constexpr double kDisagree_px = 3;         // of a fit that is not to be believed, reduced px
-constexpr double kImprovement = 0.98;      // of the cost
+constexpr std::size_t kGroups = 6;            // of the jackknife
+constexpr double kGoodEnough_px = 1;          // of a start that needs no improvement, reduced px
+constexpr double kGoodSilhouettes_px = 0.35;  // good cut-outs leave no more, reduced px
+constexpr double kDisagree_px = 3;            // of a fit that is not to be believed, reduced px
+constexpr double kImprovement = 0.98;         // of the cost
 
 Lens scaled(const Lens& lens, double by) {
     Lens result = lens;
@@ -260,13 +260,13 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
     const std::array<double, Parameters::kCount> open = valley(fit, best_cost, along);
     // Outlines that fit worse than good ones should are surer of nothing.
-    const double doubt = std::max(1.0, rms_px(residuals) / kGoodOutlines_px);
+    const double doubt = std::max(1.0, rms_px(residuals) / kGoodSilhouettes_px);
     for (std::size_t k = 0; k < Parameters::kCount; ++k) {
         spread[k] = std::max(spread[k], doubt * open[k]);
         fit.deviation[k] *= doubt;
     }
     calibration.deviations = deviations_of(fit, spread, calibration.model, known, picture_px);
-    if (auto found = angles_of_outlines(masks, calibration.model, calibration.deviations, known)) {
+    if (auto found = angles_of_silhouettes(masks, calibration.model, calibration.deviations, known)) {
         calibration.model = std::move(found->model);
         calibration.deviations = std::move(found->deviations);
         of_turn = calibration.model;

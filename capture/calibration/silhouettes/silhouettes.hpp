@@ -1,6 +1,6 @@
 #pragma once
 // Calibration of a turn from outlines alone, for objects without texture: the model under which all outlines can be
-// those of one body (silhouette_coherence.hpp).
+// those of one body (consistency_residuals.hpp).
 //
 // What outlines tell: where the axis is and how it leans in the picture, well; how far the camera looks down and single
 // angles (silhouette_angles.hpp), fairly, unless the object is a body of revolution; the focal length, hardly. What

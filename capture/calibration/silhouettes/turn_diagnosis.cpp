@@ -214,9 +214,9 @@ std::string place_warning(std::span<const PicturePlace> places) {
            with_digits(100 * (most / least - 1), 0) + " %) one by one, as shops do; they are put back";
 }
 
-std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_outlines, int reduction) {
-    const double apart = std::abs(of_tracks.position_px - of_outlines.position_px);
-    const double believed = 3 * std::hypot(of_tracks.deviation_px, of_outlines.deviation_px);
+std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_silhouettes, int reduction) {
+    const double apart = std::abs(of_tracks.position_px - of_silhouettes.position_px);
+    const double believed = 3 * std::hypot(of_tracks.deviation_px, of_silhouettes.deviation_px);
     if (!(apart > std::max(believed, kAxesApart_px * reduction))) return std::nullopt;
     return "the object's texture turns about an axis " + with_digits(apart, 1) +
            " px beside that of its outlines, which is taken; stripes wound around the object mislead like this, but so "

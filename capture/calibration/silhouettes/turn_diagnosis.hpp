@@ -4,7 +4,7 @@
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/points/bundle.hpp"
 #include "capture/calibration/points/tracks.hpp"
-#include "capture/calibration/silhouettes/outline_symmetry.hpp"
+#include "capture/calibration/silhouettes/silhouette_symmetry.hpp"
 #include "rayspace/base/result.hpp"
 
 #include <optional>
@@ -40,7 +40,7 @@ std::string place_warning(std::span<const PicturePlace> places);
 
 // Where the texture turns about another axis than the outlines do, and further from it than both can be off: what may
 // be the matter. Nothing where they agree to half a px of the pictures that were looked at.
-std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_outlines, int reduction);
+std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_silhouettes, int reduction);
 
 // Views that stand where an earlier one does, within a tenth of the median step: the turntable had not turned, or the
 // turn goes on past its beginning.

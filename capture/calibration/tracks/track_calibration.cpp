@@ -6,7 +6,7 @@
 #include "capture/calibration/points/picture_places.hpp"
 #include "capture/calibration/points/start_search.hpp"
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
-#include "capture/calibration/tracks/outline_settling.hpp"
+#include "capture/calibration/tracks/silhouette_settling.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <algorithm>
@@ -256,7 +256,7 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
         std::move(bundle), NumberPlaces(options.free, std::vector<bool>(views, true)), {}, at_px, {}};
     solution.covariance = bundle_covariance(solution.bundle, options, kSharedError_px * turn.reduction);
     solution.deviations = deviations_of(solution.bundle.model, solution.places, solution.covariance, at_px);
-    const auto axis_disagrees = settle_with_outlines(solution, turn, kFewestTracks / 2);
+    const auto axis_disagrees = settle_with_silhouettes(solution, turn, kFewestTracks / 2);
     bundle = std::move(solution.bundle);
     if (progress != nullptr) progress->advance();
 

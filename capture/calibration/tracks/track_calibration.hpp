@@ -1,7 +1,7 @@
 #pragma once
 // Calibration of a turn from points of the object: start search, bundle, outliers, hold-out, judgement. The outlines of
-// a full turn have their say in where the axis is (outline_symmetry.hpp). Where no turn before a still camera explains
-// the points, pictures are taken to have been moved and scaled one by one, as shops do, and put back
+// a full turn have their say in where the axis is (silhouette_symmetry.hpp). Where no turn before a still camera
+// explains the points, pictures are taken to have been moved and scaled one by one, as shops do, and put back
 // (picture_places.hpp).
 
 #include "capture/calibration/model/calibration.hpp"

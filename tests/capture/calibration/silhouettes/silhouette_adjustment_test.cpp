@@ -18,7 +18,7 @@ struct Line {
     std::vector<double> others = {};
     int asked = 0;
 
-    OutlineComparison comparison() {
+    SilhouetteComparison comparison() {
         const auto residuals = [this](const Eigen::VectorXd& z) {
             ++asked;
             std::vector<double> all;
@@ -32,8 +32,8 @@ struct Line {
 
 constexpr double kFar_px = 1e6;  // no residual is an outlier
 
-Eigen::VectorXd adjusted(Line& line, const OutlineErrors& errors, double disbelief = 1) {
-    OutlineAdjustment adjustment(line.comparison(), errors);
+Eigen::VectorXd adjusted(Line& line, const SilhouetteErrors& errors, double disbelief = 1) {
+    SilhouetteAdjustment adjustment(line.comparison(), errors);
     adjustment.expect(errors, disbelief);
     Eigen::VectorXd z = Eigen::VectorXd::Zero(2);
     EXPECT_TRUE(adjustment.improve(z, 50, 1e-9));
@@ -42,13 +42,13 @@ Eigen::VectorXd adjusted(Line& line, const OutlineErrors& errors, double disbeli
 
 TEST(SilhouetteAdjustment, WeighsOutlinesAgainstWhatWasKnown) {
     Line line;
-    const OutlineErrors errors{4, kFar_px, 0.5};
+    const SilhouetteErrors errors{4, kFar_px, 0.5};
     // Each number has half of the four points: an information of 2 / 0.25 beside 1.
     const double share = 8.0 / 9.0;
     const Eigen::VectorXd z = adjusted(line, errors);
     EXPECT_NEAR(z(0), share * 1, 1e-6);
     EXPECT_NEAR(z(1), share * -2, 1e-6);
-    OutlineAdjustment adjustment(line.comparison(), errors);
+    SilhouetteAdjustment adjustment(line.comparison(), errors);
     const Eigen::MatrixXd information = adjustment.information(z);
     EXPECT_NEAR(information(0, 0), 8, 1e-6);
     EXPECT_NEAR(information(0, 1), 0, 1e-6);
@@ -60,23 +60,23 @@ TEST(SilhouetteAdjustment, WeighsOutlinesAgainstWhatWasKnown) {
 
 TEST(SilhouetteAdjustment, OutliersCountLittle) {
     Line line;
-    const OutlineErrors errors{1000, 1, 0.1};
+    const SilhouetteErrors errors{1000, 1, 0.1};
     const double before = adjusted(line, errors)(0);
     line.others.assign(30, 40);
     EXPECT_NEAR(adjusted(line, errors)(0), before, 0.001);
-    OutlineAdjustment adjustment(line.comparison(), errors);
+    SilhouetteAdjustment adjustment(line.comparison(), errors);
     // Of 130 residuals 30 are worth a whole outlier_px each, however far they are.
     EXPECT_NEAR(adjustment.cost(line.at), 1000 * 100 * 30 / 130.0 + 5, 30);
 }
 
 TEST(SilhouetteAdjustment, OutlinesAreBelievedAsFarAsTheyAgree) {
     Line line;
-    const OutlineErrors errors{40, kFar_px, 0.1, true};
-    OutlineAdjustment fine(line.comparison(), errors);
+    const SilhouetteErrors errors{40, kFar_px, 0.1, true};
+    SilhouetteAdjustment fine(line.comparison(), errors);
     EXPECT_NEAR(fine.information(line.at)(0, 0), 40 / 0.01 / 2, 1e-3);  // no more than 0.1 px allow
     line.others.assign(100, 0.5);
     line.others.insert(line.others.end(), 100, -0.5);
-    OutlineAdjustment coarse(line.comparison(), errors);
+    SilhouetteAdjustment coarse(line.comparison(), errors);
     EXPECT_NEAR(coarse.information(line.at)(0, 0), 40.0 / (200 * 0.25) * 50, 1e-3);
     // Where the cost is least its slope is none: n dS / S + 2 z.
     const Eigen::VectorXd z = adjusted(line, errors);
@@ -86,7 +86,7 @@ TEST(SilhouetteAdjustment, OutlinesAreBelievedAsFarAsTheyAgree) {
 
 TEST(SilhouetteAdjustment, AsksNothingTwiceAndRefusesWhatIsNotFinite) {
     Line line;
-    OutlineAdjustment adjustment(line.comparison(), {4, kFar_px, 0.5});
+    SilhouetteAdjustment adjustment(line.comparison(), {4, kFar_px, 0.5});
     const Eigen::VectorXd z = Eigen::VectorXd::Zero(2);
     adjustment.information(z);
     const int asked = line.asked;
@@ -95,7 +95,7 @@ TEST(SilhouetteAdjustment, AsksNothingTwiceAndRefusesWhatIsNotFinite) {
     adjustment.cost(z);
     EXPECT_EQ(line.asked, asked);
     line.others.push_back(std::numeric_limits<double>::quiet_NaN());
-    OutlineAdjustment none(line.comparison(), {4, kFar_px, 0.5});
+    SilhouetteAdjustment none(line.comparison(), {4, kFar_px, 0.5});
     Eigen::VectorXd there = z;
     EXPECT_FALSE(none.improve(there, 5, 1e-3));
     EXPECT_EQ(there, z);

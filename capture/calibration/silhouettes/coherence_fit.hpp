@@ -1,6 +1,6 @@
 #pragma once
 // What the outlines of all views together say about camera and angles: that they are outlines of one body
-// (silhouette_coherence.hpp). Points that can be followed for a short way only let the angles drift around the turn;
+// (consistency_residuals.hpp). Points that can be followed for a short way only let the angles drift around the turn;
 // outlines tie every view to all others.
 
 #include "capture/calibration/model/turntable_model.hpp"

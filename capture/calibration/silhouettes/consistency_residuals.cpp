@@ -1,4 +1,4 @@
-#include "capture/calibration/silhouettes/silhouette_coherence.hpp"
+#include "capture/calibration/silhouettes/consistency_residuals.hpp"
 
 #include "capture/calibration/silhouettes/ray_probe.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // What points alone have solved, brought to where the outlines of the turn see it too: first the axis, by the symmetry
-// of what all views cover together (outline_symmetry.hpp), then all numbers, by pairs of views (outline_tangency.hpp)
-// and by all views at once (outline_coherence.hpp).
+// of what all views cover together (silhouette_symmetry.hpp), then all numbers, by pairs of views
+// (silhouette_tangency.hpp) and by all views at once (coherence_fit.hpp).
 
 #include "capture/calibration/points/bundle.hpp"
 #include "capture/calibration/points/model_covariance.hpp"
@@ -26,7 +26,7 @@ struct TrackSolution {
 // Whatever outlines cannot tell, or do not agree on, stays as it is, and so does a step that would leave fewer than
 // `fewest_tracks`. The value is a line for the photographer where axis and outlines disagree. Works on the threads of
 // the calling tbb arena; deterministic.
-std::optional<std::string> settle_with_outlines(TrackSolution& solution, const TurnPictures& turn,
-                                                std::size_t fewest_tracks);
+std::optional<std::string> settle_with_silhouettes(TrackSolution& solution, const TurnPictures& turn,
+                                                   std::size_t fewest_tracks);
 
 }  // namespace rs::capture

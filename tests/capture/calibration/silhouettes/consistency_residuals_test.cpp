@@ -1,4 +1,4 @@
-#include "capture/calibration/silhouettes/silhouette_coherence.hpp"
+#include "capture/calibration/silhouettes/consistency_residuals.hpp"
 
 #include "rayspace/base/conventions.hpp"
 #include "tests/capture/calibration/drawn_figure.hpp"
@@ -66,7 +66,7 @@ TurntableModel bent(TurntableModel model) {
     return model;
 }
 
-TEST(SilhouetteCoherence, ResidualsAreThoseOfPlainSearch) {
+TEST(ConsistencyResiduals, ResidualsAreThoseOfPlainSearch) {
     const Scene scene;
     for (const TurntableModel& model : {in_px_of(scene.turn, scene.truth), in_px_of(scene.turn, bent(scene.truth))}) {
         const std::vector<double> fast = consistency_residuals_px(scene.turn, model, {});
@@ -88,7 +88,7 @@ TEST(SilhouetteCoherence, ResidualsAreThoseOfPlainSearch) {
     }
 }
 
-TEST(SilhouetteCoherence, WhatContradictsARayHereDoesSoBesideIt) {
+TEST(ConsistencyResiduals, WhatContradictsARayHereDoesSoBesideIt) {
     const Scene scene;
     const TurntableModel model = in_px_of(scene.turn, bent(scene.truth));
     RayDepths depths;

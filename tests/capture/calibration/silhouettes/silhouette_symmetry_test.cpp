@@ -1,6 +1,6 @@
 // The axis from what the outlines of a turn cover together, of bodies without any symmetry whose axis is known.
 
-#include "capture/calibration/silhouettes/outline_symmetry.hpp"
+#include "capture/calibration/silhouettes/silhouette_symmetry.hpp"
 
 #include "rayspace/base/conventions.hpp"
 
@@ -27,7 +27,7 @@ std::vector<Ball> balls() {
             {{-0.04, -0.46, -0.05}, 0.06}};
 }
 
-TurntableModel turn_of_outlines(int views, double roll_rad = 0.01) {
+TurntableModel turn_of_silhouettes(int views, double roll_rad = 0.01) {
     TurntableModel model;
     model.lens = {400, 320, 620, 200, 160, -0.1, 0};
     model.pose = {0.03, radians(20), roll_rad};
@@ -68,14 +68,14 @@ double error_px(const TurntableModel& truth, const AxisPlace& found) {
     return found.position_px - axis_position(truth.lens, truth.pose, found.at_px).value();
 }
 
-TEST(OutlineSymmetry, FindsTheAxisFromAStartBesideIt) {
-    const TurntableModel truth = turn_of_outlines(36);
+TEST(SilhouetteSymmetry, FindsTheAxisFromAStartBesideIt) {
+    const TurntableModel truth = turn_of_silhouettes(36);
     const Image<std::uint8_t> covered = covered_of(truth);
     for (const double beside_rad : {-0.008, 0.0, 0.008}) {  // 5 px
         TurntableModel start = truth;
         start.pose.pan_rad += beside_rad;
         start.lens.f_px *= 1.02;
-        const auto found = axis_of_outlines(covered, 1, start);
+        const auto found = axis_of_silhouettes(covered, 1, start);
         ASSERT_TRUE(found);
         EXPECT_LT(std::abs(error_px(truth, *found)), 0.25) << beside_rad;
         EXPECT_LT(found->deviation_px, 0.3);
@@ -83,58 +83,58 @@ TEST(OutlineSymmetry, FindsTheAxisFromAStartBesideIt) {
     }
 }
 
-TEST(OutlineSymmetry, FindsAnAxisThatLiesSideways) {
-    TurntableModel truth = turn_of_outlines(36, 0.5 * kPi - 0.01);
+TEST(SilhouetteSymmetry, FindsAnAxisThatLiesSideways) {
+    TurntableModel truth = turn_of_silhouettes(36, 0.5 * kPi - 0.01);
     truth.pose.pan_rad = 0.01;
     std::swap(truth.lens.width, truth.lens.height);
     std::swap(truth.lens.cx, truth.lens.cy);
     TurntableModel start = truth;
     start.pose.pan_rad += 0.006;
-    const auto found = axis_of_outlines(covered_of(truth), 1, start);
+    const auto found = axis_of_silhouettes(covered_of(truth), 1, start);
     ASSERT_TRUE(found);
     EXPECT_LT(std::abs(error_px(truth, *found)), 0.25);
 }
 
-TEST(OutlineSymmetry, CountsInPixelsOfThePhotographs) {
-    const TurntableModel truth = turn_of_outlines(36);
+TEST(SilhouetteSymmetry, CountsInPixelsOfThePhotographs) {
+    const TurntableModel truth = turn_of_silhouettes(36);
     TurntableModel photographs = truth;
     for (double* number : {&photographs.lens.f_px, &photographs.lens.cx, &photographs.lens.cy}) *number *= 3;
     photographs.lens.width *= 3;
     photographs.lens.height *= 3;
-    const auto found = axis_of_outlines(covered_of(truth), 3, photographs);
+    const auto found = axis_of_silhouettes(covered_of(truth), 3, photographs);
     ASSERT_TRUE(found);
     EXPECT_LT(std::abs(error_px(photographs, *found)), 0.75);
 }
 
-TEST(OutlineSymmetry, IsLessSureOfFewerViewsAndSilentWithoutAFullTurn) {
-    const TurntableModel many = turn_of_outlines(36), few = turn_of_outlines(12);
-    const auto of_many = axis_of_outlines(covered_of(many), 1, many);
-    const auto of_few = axis_of_outlines(covered_of(few), 1, few);
+TEST(SilhouetteSymmetry, IsLessSureOfFewerViewsAndSilentWithoutAFullTurn) {
+    const TurntableModel many = turn_of_silhouettes(36), few = turn_of_silhouettes(12);
+    const auto of_many = axis_of_silhouettes(covered_of(many), 1, many);
+    const auto of_few = axis_of_silhouettes(covered_of(few), 1, few);
     ASSERT_TRUE(of_many && of_few);
     EXPECT_GT(of_few->deviation_px, 3 * of_many->deviation_px);
     EXPECT_GT(3 * of_few->deviation_px, std::abs(error_px(few, *of_few)));
     TurntableModel part = many;
     part.angles_rad.resize(30);
-    EXPECT_FALSE(axis_of_outlines(covered_of(part), 1, part));
+    EXPECT_FALSE(axis_of_silhouettes(covered_of(part), 1, part));
 }
 
-TEST(OutlineSymmetry, DoesNotUseRowsCutOffByThePicture) {
-    TurntableModel truth = turn_of_outlines(36);
+TEST(SilhouetteSymmetry, DoesNotUseRowsCutOffByThePicture) {
+    TurntableModel truth = turn_of_silhouettes(36);
     truth.pose.pan_rad = 0.235;  // the widest rows reach beyond the left border
     const Image<std::uint8_t> covered = covered_of(truth);
     int cut_off = 0;
     for (int y = 0; y < covered.height(); ++y) cut_off += covered(0, y) >= 128 ? 1 : 0;
     ASSERT_GT(cut_off, 10);
-    const auto found = axis_of_outlines(covered, 1, truth);
+    const auto found = axis_of_silhouettes(covered, 1, truth);
     ASSERT_TRUE(found);
     EXPECT_LT(std::abs(error_px(truth, *found)), std::max(0.4, 2 * found->deviation_px));
 }
 
 // What is lacking on one side is seen as an axis half as far beside: the sign of the measure.
-TEST(OutlineSymmetry, FollowsWhatTheCutOutsLack) {
-    const TurntableModel truth = turn_of_outlines(36);
-    const auto whole = axis_of_outlines(covered_of(truth), 1, truth);
-    const auto lacking = axis_of_outlines(covered_of(truth, 4), 1, truth);
+TEST(SilhouetteSymmetry, FollowsWhatTheCutOutsLack) {
+    const TurntableModel truth = turn_of_silhouettes(36);
+    const auto whole = axis_of_silhouettes(covered_of(truth), 1, truth);
+    const auto lacking = axis_of_silhouettes(covered_of(truth, 4), 1, truth);
     ASSERT_TRUE(whole && lacking);
     EXPECT_NEAR(lacking->position_px - whole->position_px, 2, 0.4);
 }
@@ -151,7 +151,7 @@ TEST(AgreedAxis, WeighsWhatAgreesAndBelievesOutlinesWhereTextureGlides) {
 }
 
 TEST(AgreedAxis, IsReachedByThePanAlone) {
-    const TurntableModel model = turn_of_outlines(36);
+    const TurntableModel model = turn_of_silhouettes(36);
     const auto moved = with_axis_at(model, {200, 190, 0.1});
     ASSERT_TRUE(moved);
     EXPECT_NEAR(axis_position(moved->lens, moved->pose, 200).value(), 190, 1e-5);

@@ -1,4 +1,4 @@
-#include "capture/calibration/silhouettes/outline_coherence.hpp"
+#include "capture/calibration/silhouettes/coherence_fit.hpp"
 
 #include "rayspace/base/conventions.hpp"
 #include "tests/capture/calibration/drawn_figure.hpp"
@@ -77,7 +77,7 @@ std::vector<Image<std::uint8_t>> masks_of_figure() {
     return drawn(figure(), turn_of_figure(kCoherentViews));
 }
 
-TEST(OutlineCoherence, MendsAnglesThatDriftAroundTheTurn) {
+TEST(CoherenceFit, MendsAnglesThatDriftAroundTheTurn) {
     const TurntableModel truth = turn_of_figure(kCoherentViews);
     const TurntableModel start = drifted(truth);
     const auto [places, covariance] = known_by_short_tracks(start);
@@ -98,7 +98,7 @@ TEST(OutlineCoherence, MendsAnglesThatDriftAroundTheTurn) {
     EXPECT_GT(2 * std::sqrt(variance), angles_error_rad(fit->model, truth));
 }
 
-TEST(OutlineCoherence, IsTheSameOnAnyNumberOfThreads) {
+TEST(CoherenceFit, IsTheSameOnAnyNumberOfThreads) {
     const TurntableModel start = drifted(turn_of_figure(kCoherentViews));
     const auto [places, covariance] = known_by_short_tracks(start);
     const SilhouetteTurn turn = turn_of(masks_of_figure());
@@ -111,7 +111,7 @@ TEST(OutlineCoherence, IsTheSameOnAnyNumberOfThreads) {
 }
 
 // What a body of revolution shows is the same at any angle, and is no reason to turn or to bend anything.
-TEST(OutlineCoherence, ABodyOfRevolutionSaysNothing) {
+TEST(CoherenceFit, ABodyOfRevolutionSaysNothing) {
     const TurntableModel truth = turn_of_figure(kCoherentViews);
     const auto [places, covariance] = known_by_short_tracks(truth);
     const SilhouetteTurn turn = turn_of(drawn(bottle(), truth));
@@ -120,7 +120,7 @@ TEST(OutlineCoherence, ABodyOfRevolutionSaysNothing) {
     EXPECT_TRUE(fit_coherence(truth, places, covariance, of_figure, of_figure.reduction(), {}).has_value());
 }
 
-TEST(OutlineCoherence, AnglesThatAreHeldStay) {
+TEST(CoherenceFit, AnglesThatAreHeldStay) {
     const TurntableModel truth = turn_of_figure(kCoherentViews);
     BundleFreedom free;
     free.angles = AngleFreedom::kHeld;
@@ -130,7 +130,7 @@ TEST(OutlineCoherence, AnglesThatAreHeldStay) {
     EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), {}).has_value());
 }
 
-TEST(OutlineCoherence, OutlinesOfNoOneBodySayNothing) {
+TEST(CoherenceFit, OutlinesOfNoOneBodySayNothing) {
     const TurntableModel truth = turn_of_figure(kCoherentViews);
     const auto [places, covariance] = known_by_short_tracks(truth);
     std::vector<Image<std::uint8_t>> masks = masks_of_figure();

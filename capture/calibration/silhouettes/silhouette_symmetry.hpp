@@ -36,13 +36,13 @@ struct AxisPlace {
 // the scatter over parts of the object's height, and what views with gaps between them can miss of a rim. Nothing where
 // the views make no full turn (a gap above a tenth of it), or fewer than 40 rows are left. One thread; less than a
 // second for 2 million pixels. Thread-safe.
-std::optional<AxisPlace> axis_of_outlines(ConstImageView<std::uint8_t> covered, int reduction,
-                                          const TurntableModel& start);
+std::optional<AxisPlace> axis_of_silhouettes(ConstImageView<std::uint8_t> covered, int reduction,
+                                             const TurntableModel& start);
 
 // Where the axis is when it is seen at one place by tracks and at another by outlines. Their deviations weigh them, but
 // texture that glides alike around the whole object misleads tracks by more than they can know: by what they stand
-// apart from the outlines beyond two of the outlines' deviations. `of_tracks` and `of_outlines` have one at_px.
-AxisPlace agreed_axis(const AxisPlace& of_tracks, const AxisPlace& of_outlines);
+// apart from the outlines beyond two of the outlines' deviations. `of_tracks` and `of_silhouettes` have one at_px.
+AxisPlace agreed_axis(const AxisPlace& of_tracks, const AxisPlace& of_silhouettes);
 
 // `model` with its axis there, by the camera's pan alone: lens, tilt, roll and angles stay. Nothing where the picture
 // of the axis cannot be brought there.

@@ -24,11 +24,11 @@ namespace rs::capture {
 
 // The corners of the convex hull of what a view covers, px of the photograph, to a part of a pixel. Empty where the
 // view is empty or its object is cut off by the picture's border.
-using OutlineHull = std::vector<glm::dvec2>;
+using SilhouetteHull = std::vector<glm::dvec2>;
 
 // [view]; `turn` reduced by `reduction`. `model` only undoes the lens: hulls are convex without its distortion.
-std::vector<OutlineHull> outline_hulls(std::span<const CalibrationPicture> turn, int reduction,
-                                       const TurntableModel& model);
+std::vector<SilhouetteHull> silhouette_hulls(std::span<const CalibrationPicture> turn, int reduction,
+                                             const TurntableModel& model);
 
 struct ViewPair {
     std::size_t first = 0;
@@ -36,11 +36,11 @@ struct ViewPair {
 };
 
 // The pairs of views with hulls that are neither too near to each other nor opposite.
-std::vector<ViewPair> comparable_views(const TurntableModel& model, std::span<const OutlineHull> hulls);
+std::vector<ViewPair> comparable_views(const TurntableModel& model, std::span<const SilhouetteHull> hulls);
 
 // By how much the tangent planes of two views stand apart, px as seen in the photographs: two numbers per pair, 0 where
 // the object is not between the two planes that both see.
-std::vector<double> tangency_residuals(const TurntableModel& model, std::span<const OutlineHull> hulls,
+std::vector<double> tangency_residuals(const TurntableModel& model, std::span<const SilhouetteHull> hulls,
                                        std::span<const ViewPair> pairs);
 
 struct TangencyFit {
@@ -56,7 +56,7 @@ struct TangencyFit {
 // Nothing where fewer than 60 tangencies can be compared, where they do not come to agree within `worst_px`, or where
 // `model` does not stay before the camera. One thread; deterministic.
 std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const NumberPlaces& places,
-                                        const Eigen::MatrixXd& covariance, std::span<const OutlineHull> hulls,
+                                        const Eigen::MatrixXd& covariance, std::span<const SilhouetteHull> hulls,
                                         double worst_px);
 
 }  // namespace rs::capture

@@ -1,8 +1,8 @@
-#include "capture/calibration/silhouettes/outline_coherence.hpp"
+#include "capture/calibration/silhouettes/coherence_fit.hpp"
 
+#include "capture/calibration/silhouettes/consistency_residuals.hpp"
 #include "capture/calibration/silhouettes/loose_numbers.hpp"
 #include "capture/calibration/silhouettes/silhouette_adjustment.hpp"
-#include "capture/calibration/silhouettes/silhouette_coherence.hpp"
 
 #include <Eigen/Dense>
 
@@ -29,9 +29,9 @@ constexpr std::size_t kCoarseRaysPerView = 100;
 // say of the camera is in the small print of their errors: it has been seen to bend lens and tilt.
 constexpr double kTellsOfAngles = 0.5;
 
-// Shortfalls of some rays, near `depths` once they are known.
-OutlineComparison shortfalls(const LooseNumbers& numbers, const SilhouetteTurn& turn, double picture_px,
-                             const RaySelection& rays, RayDepths& depths) {
+// Consistency residuals of some rays, near `depths` once they are known.
+SilhouetteComparison consistency_comparison(const LooseNumbers& numbers, const SilhouetteTurn& turn, double picture_px,
+                                            const RaySelection& rays, RayDepths& depths) {
     const auto in_turn = [&numbers, picture_px](const Eigen::VectorXd& z) {
         TurntableModel model = numbers.at(z);
         for (double* const px : {&model.lens.f_px, &model.lens.cx, &model.lens.cy}) *px /= picture_px;
@@ -41,7 +41,7 @@ OutlineComparison shortfalls(const LooseNumbers& numbers, const SilhouetteTurn& 
         return consistency_residuals_px(turn, in_turn(z), rays, &depths);
     };
     // Only what contradicts a ray is asked again beside: near enough to go down by.
-    const auto beside = [&turn, &rays, &depths, in_turn](const Eigen::VectorXd& z) -> OutlineResiduals {
+    const auto beside = [&turn, &rays, &depths, in_turn](const Eigen::VectorXd& z) -> SilhouetteResiduals {
         auto verdicts = ray_verdicts(turn, in_turn(z), rays, depths, kVerdictMargin_px, kMostVerdicts);
         return [&turn, &rays, in_turn, verdicts = std::move(verdicts)](const Eigen::VectorXd& there) {
             return residuals_by_verdicts(turn, in_turn(there), rays, verdicts);
@@ -64,24 +64,25 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     if (places.count == 0 || covariance.rows() != places.count || !covariance.allFinite()) return std::nullopt;
     const LooseNumbers numbers(model, places, covariance, 0.5 * turn.width_px() * picture_px, options.most_directions);
     if (numbers.count() == 0) return std::nullopt;
-    const OutlineErrors errors{kIndependentPerView * static_cast<double>(turn.views()), kOutlier_px, kFinest_px, true};
+    const SilhouetteErrors errors{kIndependentPerView * static_cast<double>(turn.views()), kOutlier_px, kFinest_px,
+                                  true};
     Eigen::VectorXd z = Eigen::VectorXd::Zero(numbers.count());
     int steps = kMostSteps;
     const std::size_t every = options.few_rays_first ? most_rays_of_a_view(turn) / kCoarseRaysPerView : 1;
     if (every > 1) {
         const RaySelection few{every, {}};
         RayDepths depths;
-        const OutlineComparison coarse = shortfalls(numbers, turn, picture_px, few, depths);
-        if (!OutlineAdjustment(coarse, errors).improve(z, kMostSteps, kLittle)) return std::nullopt;
+        const SilhouetteComparison coarse = consistency_comparison(numbers, turn, picture_px, few, depths);
+        if (!SilhouetteAdjustment(coarse, errors).improve(z, kMostSteps, kLittle)) return std::nullopt;
         steps = kFineSteps;
     }
     const RaySelection all{1, {}};
     RayDepths depths;
-    OutlineComparison rays = shortfalls(numbers, turn, picture_px, all, depths);
-    if (!OutlineAdjustment(rays, errors).improve(z, steps, kLittle)) return std::nullopt;
+    SilhouetteComparison rays = consistency_comparison(numbers, turn, picture_px, all, depths);
+    if (!SilhouetteAdjustment(rays, errors).improve(z, steps, kLittle)) return std::nullopt;
     // Beside a body of revolution the few views that contradict it would seem to know how it stands: all are asked.
     rays.beside = nullptr;
-    OutlineAdjustment found(rays, errors);
+    SilhouetteAdjustment found(rays, errors);
     const Eigen::MatrixXd information = found.information(z);
     CoherenceFit fit{numbers.at(z), numbers.told(covariance, information, options.untold_together, 1, 1), 0};
     fit.consistency_residual_px = picture_px * rms_px(found.residuals(z));

@@ -1,8 +1,8 @@
-#include "capture/calibration/tracks/outline_settling.hpp"
+#include "capture/calibration/tracks/silhouette_settling.hpp"
 
-#include "capture/calibration/silhouettes/outline_coherence.hpp"
-#include "capture/calibration/silhouettes/outline_symmetry.hpp"
-#include "capture/calibration/silhouettes/outline_tangency.hpp"
+#include "capture/calibration/silhouettes/coherence_fit.hpp"
+#include "capture/calibration/silhouettes/silhouette_symmetry.hpp"
+#include "capture/calibration/silhouettes/silhouette_tangency.hpp"
 #include "capture/calibration/silhouettes/silhouette_turn.hpp"
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
 
@@ -45,23 +45,24 @@ std::optional<std::string> settle_axis(TrackSolution& solution, const TurnPictur
     const NumberPlaces& places = solution.places;
     if (places.camera[CameraNumber::kPan] < 0) return std::nullopt;
     const TurntableModel& found = solution.bundle.model;
-    const auto of_outlines = axis_of_outlines(covered_together(turn.pictures), turn.reduction, found);
-    if (!of_outlines) return std::nullopt;
-    const auto position = axis_position(found.lens, found.pose, of_outlines->at_px);
+    const auto of_silhouettes = axis_of_silhouettes(covered_together(turn.pictures), turn.reduction, found);
+    if (!of_silhouettes) return std::nullopt;
+    const auto position = axis_position(found.lens, found.pose, of_silhouettes->at_px);
     if (!position) return std::nullopt;
-    const double deviation_px = deviations_of(found, places, solution.covariance, of_outlines->at_px).axis_position_px;
-    const AxisPlace of_tracks{of_outlines->at_px, *position, deviation_px};
-    const AxisPlace agreed = agreed_axis(of_tracks, *of_outlines);
+    const double deviation_px =
+        deviations_of(found, places, solution.covariance, of_silhouettes->at_px).axis_position_px;
+    const AxisPlace of_tracks{of_silhouettes->at_px, *position, deviation_px};
+    const AxisPlace agreed = agreed_axis(of_tracks, *of_silhouettes);
     const auto model = with_axis_at(found, agreed);
     if (!model || !move_to(*model, solution.bundle, fewest_tracks)) return std::nullopt;
     ModelDeviations& deviations = solution.deviations;
     deviations.axis_position_px =
         std::hypot(agreed.deviation_px, deviations.roll_rad * (agreed.at_px - solution.at_px));
-    return axis_warning(of_tracks, *of_outlines, turn.reduction);
+    return axis_warning(of_tracks, *of_silhouettes, turn.reduction);
 }
 
-// Brings the whole model to where tracks and outlines together see it (outline_tangency.hpp), and the points with it.
-// The covariance is that of the tracks alone; the axis' position is known as the deviations say.
+// Brings the whole model to where tracks and outlines together see it (silhouette_tangency.hpp), and the points with
+// it. The covariance is that of the tracks alone; the axis' position is known as the deviations say.
 void settle_pairs(TrackSolution& solution, const TurnPictures& turn, std::size_t fewest_tracks) {
     Eigen::MatrixXd& covariance = solution.covariance;
     const TurntableModel& found = solution.bundle.model;
@@ -70,7 +71,7 @@ void settle_pairs(TrackSolution& solution, const TurnPictures& turn, std::size_t
         covariance.col(pan).setZero();
         covariance(pan, pan) = std::pow(solution.deviations.axis_position_px / found.lens.f_px, 2);
     }
-    const std::vector<OutlineHull> hulls = outline_hulls(turn.pictures, turn.reduction, found);
+    const std::vector<SilhouetteHull> hulls = silhouette_hulls(turn.pictures, turn.reduction, found);
     const auto fit = fit_tangency(found, solution.places, covariance, hulls, kWorstPairs_px * turn.reduction);
     if (fit) take(fit->model, fit->covariance, solution, fewest_tracks);
 }
@@ -81,22 +82,23 @@ SilhouetteDetail detail_of(std::size_t views) {
     return {views <= 72 ? 600 : 300, static_cast<std::size_t>(std::max(32.0, 400 * fewer * fewer))};
 }
 
-// The same with the outlines of all views together (outline_coherence.hpp).
+// The same with the outlines of all views together (coherence_fit.hpp).
 void settle_all(TrackSolution& solution, const TurnPictures& turn, std::size_t fewest_tracks) {
     std::vector<Image<std::uint8_t>> masks;
     for (const CalibrationPicture& picture : turn.pictures) masks.push_back(picture.alpha);
-    const auto outlines = SilhouetteTurn::of(masks, detail_of(masks.size()));
-    if (!outlines || outlines->touches_border()) return;
-    const double picture_px = outlines->reduction() * turn.reduction;
-    const auto fit = fit_coherence(solution.bundle.model, solution.places, solution.covariance, *outlines, picture_px,
-                                   {.worst_px = kWorstTogether_px * turn.reduction, .few_rays_first = true});
+    const auto silhouettes = SilhouetteTurn::of(masks, detail_of(masks.size()));
+    if (!silhouettes || silhouettes->touches_border()) return;
+    const double picture_px = silhouettes->reduction() * turn.reduction;
+    const auto fit =
+        fit_coherence(solution.bundle.model, solution.places, solution.covariance, *silhouettes, picture_px,
+                      {.worst_px = kWorstTogether_px * turn.reduction, .few_rays_first = true});
     if (fit) take(fit->model, fit->covariance, solution, fewest_tracks);
 }
 
 }  // namespace
 
-std::optional<std::string> settle_with_outlines(TrackSolution& solution, const TurnPictures& turn,
-                                                std::size_t fewest_tracks) {
+std::optional<std::string> settle_with_silhouettes(TrackSolution& solution, const TurnPictures& turn,
+                                                   std::size_t fewest_tracks) {
     std::optional<std::string> axis_disagrees = settle_axis(solution, turn, fewest_tracks);
     if (solution.covariance.size() == 0) return axis_disagrees;
     settle_pairs(solution, turn, fewest_tracks);

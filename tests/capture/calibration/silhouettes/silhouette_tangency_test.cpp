@@ -1,7 +1,7 @@
 // Camera and angles from tangent planes common to two outlines, of a cloud of points whose turn is known. The hull of a
 // cloud is a polyhedron, and tangent planes touch it at corners, so truth leaves no residual.
 
-#include "capture/calibration/silhouettes/outline_tangency.hpp"
+#include "capture/calibration/silhouettes/silhouette_tangency.hpp"
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
@@ -39,14 +39,14 @@ std::vector<glm::dvec3> cloud() {
 }
 
 // All points of the cloud as each view sees them: their hull is the outline's.
-std::vector<OutlineHull> hulls_of_cloud(const TurntableModel& model, double noise_px) {
+std::vector<SilhouetteHull> hulls_of_cloud(const TurntableModel& model, double noise_px) {
     std::mt19937 random(7);
     const auto noise = [&] {
         return noise_px * (2 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 1);
     };
-    std::vector<OutlineHull> hulls;
+    std::vector<SilhouetteHull> hulls;
     for (const double angle : model.angles_rad) {
-        OutlineHull hull;
+        SilhouetteHull hull;
         for (const glm::dvec3& p : cloud()) {
             const auto seen = project(model.lens, model.pose, turned(p, angle));
             EXPECT_TRUE(seen.has_value());
@@ -78,7 +78,7 @@ Eigen::MatrixXd roughly_known(const NumberPlaces& places, const TurntableModel& 
     return deviation.cwiseAbs2().asDiagonal();
 }
 
-TEST(OutlineTangency, TruthLeavesNoResidual) {
+TEST(SilhouetteTangency, TruthLeavesNoResidual) {
     const TurntableModel truth = turn_of_cloud();
     const auto hulls = hulls_of_cloud(truth, 0);
     const auto pairs = comparable_views(truth, hulls);
@@ -89,7 +89,7 @@ TEST(OutlineTangency, TruthLeavesNoResidual) {
     EXPECT_GT(largest(tangency_residuals(longer, hulls, pairs)), 0.1);
 }
 
-TEST(OutlineTangency, FitMendsFocalLengthAndAnglesThatDrift) {
+TEST(SilhouetteTangency, FitMendsFocalLengthAndAnglesThatDrift) {
     const TurntableModel truth = turn_of_cloud();
     TurntableModel start = truth;
     start.lens.f_px *= 1.012;
@@ -120,7 +120,7 @@ TurntableModel far_start(const TurntableModel& truth) {
     return start;
 }
 
-TEST(OutlineTangency, OutlinesAreJudgedByHowTheyAgreeInTheEnd) {
+TEST(SilhouetteTangency, OutlinesAreJudgedByHowTheyAgreeInTheEnd) {
     const TurntableModel truth = turn_of_cloud();
     const TurntableModel start = far_start(truth);
     const auto hulls = hulls_of_cloud(truth, 0.05);
@@ -135,7 +135,7 @@ TEST(OutlineTangency, OutlinesAreJudgedByHowTheyAgreeInTheEnd) {
     EXPECT_NEAR(fit->model.lens.f_px / truth.lens.f_px, 1, 0.005);
 }
 
-TEST(OutlineTangency, WhatClaimedTooMuchIsBelievedLess) {
+TEST(SilhouetteTangency, WhatClaimedTooMuchIsBelievedLess) {
     const TurntableModel truth = turn_of_cloud();
     const auto hulls = hulls_of_cloud(truth, 1);
     const NumberPlaces places = all_places();
@@ -148,17 +148,17 @@ TEST(OutlineTangency, WhatClaimedTooMuchIsBelievedLess) {
     EXPECT_GT(2 * std::sqrt(far->covariance(f, f)), std::abs(far->model.lens.f_px - truth.lens.f_px));
 }
 
-TEST(OutlineTangency, OutlinesThatDoNotAgreeSayNothing) {
+TEST(SilhouetteTangency, OutlinesThatDoNotAgreeSayNothing) {
     const TurntableModel truth = turn_of_cloud();
     const NumberPlaces places = all_places();
     const auto known = roughly_known(places, truth);
     EXPECT_FALSE(fit_tangency(truth, places, known, hulls_of_cloud(truth, 4), 0.3).has_value());
     EXPECT_TRUE(fit_tangency(truth, places, known, hulls_of_cloud(truth, 4), 30).has_value());
-    const std::vector<OutlineHull> none(kTangencyViews);
+    const std::vector<SilhouetteHull> none(kTangencyViews);
     EXPECT_FALSE(fit_tangency(truth, places, known, none, 0.3).has_value());
 }
 
-TEST(OutlineTangency, HullsLieWhereAlphaIsHalf) {
+TEST(SilhouetteTangency, HullsLieWhereAlphaIsHalf) {
     const TurntableModel model = turn_of_cloud();
     constexpr double kRadius_px = 40;
     const auto disc = [&](double x_px, double y_px) {
@@ -174,7 +174,7 @@ TEST(OutlineTangency, HullsLieWhereAlphaIsHalf) {
     std::vector<CalibrationPicture> turn;
     turn.push_back(disc(180.3, 140.6));
     turn.push_back(disc(20, 140));  // cut off
-    const auto hulls = outline_hulls(turn, 2, model);
+    const auto hulls = silhouette_hulls(turn, 2, model);
     ASSERT_EQ(hulls.size(), 2U);
     ASSERT_GT(hulls[0].size(), 20U);
     for (const glm::dvec2& p : hulls[0]) EXPECT_NEAR(glm::distance(p, glm::dvec2(360.6, 281.2)), 2 * kRadius_px, 0.3);

@@ -1,4 +1,4 @@
-#include "capture/calibration/silhouettes/outline_symmetry.hpp"
+#include "capture/calibration/silhouettes/silhouette_symmetry.hpp"
 
 #include "rayspace/base/conventions.hpp"
 
@@ -235,8 +235,8 @@ Image<std::uint8_t> covered_together(std::span<const CalibrationPicture> picture
     return covered;
 }
 
-std::optional<AxisPlace> axis_of_outlines(ConstImageView<std::uint8_t> covered, int reduction,
-                                          const TurntableModel& start) {
+std::optional<AxisPlace> axis_of_silhouettes(ConstImageView<std::uint8_t> covered, int reduction,
+                                             const TurntableModel& start) {
     const std::vector<double> gaps_rad = gaps(start.angles_rad);
     if (*std::max_element(gaps_rad.begin(), gaps_rad.end()) > kWidestGap * 2 * kPi) return std::nullopt;
     // A camera that looks down sees an axis beside the true one lean a little, so the axis is moved and looked at
@@ -263,14 +263,14 @@ std::optional<AxisPlace> axis_of_outlines(ConstImageView<std::uint8_t> covered, 
     return place;
 }
 
-AxisPlace agreed_axis(const AxisPlace& of_tracks, const AxisPlace& of_outlines) {
-    const double apart = of_outlines.position_px - of_tracks.position_px;
-    const double outlines2 = of_outlines.deviation_px * of_outlines.deviation_px;
+AxisPlace agreed_axis(const AxisPlace& of_tracks, const AxisPlace& of_silhouettes) {
+    const double apart = of_silhouettes.position_px - of_tracks.position_px;
+    const double silhouettes2 = of_silhouettes.deviation_px * of_silhouettes.deviation_px;
     const double stated2 = of_tracks.deviation_px * of_tracks.deviation_px;
-    const double tracks2 = std::max(stated2, apart * apart - kBelievedApart * kBelievedApart * outlines2);
-    const double sum = tracks2 + outlines2;
+    const double tracks2 = std::max(stated2, apart * apart - kBelievedApart * kBelievedApart * silhouettes2);
+    const double sum = tracks2 + silhouettes2;
     if (!(sum > 0)) return of_tracks;
-    return {of_tracks.at_px, of_tracks.position_px + apart * tracks2 / sum, std::sqrt(tracks2 * outlines2 / sum)};
+    return {of_tracks.at_px, of_tracks.position_px + apart * tracks2 / sum, std::sqrt(tracks2 * silhouettes2 / sum)};
 }
 
 std::optional<TurntableModel> with_axis_at(TurntableModel model, const AxisPlace& place) {

@@ -1,4 +1,4 @@
-#include "capture/calibration/silhouettes/outline_tangency.hpp"
+#include "capture/calibration/silhouettes/silhouette_tangency.hpp"
 
 #include "capture/calibration/silhouettes/loose_numbers.hpp"
 #include "capture/calibration/silhouettes/silhouette_adjustment.hpp"
@@ -76,7 +76,7 @@ std::vector<glm::dvec2> outermost(const Image<std::uint8_t>& alpha) {
 }
 
 // Andrew's monotone chain.
-OutlineHull convex_hull(std::vector<HullPoint> points) {
+SilhouetteHull convex_hull(std::vector<HullPoint> points) {
     std::sort(points.begin(), points.end(), [](const HullPoint& a, const HullPoint& b) {
         return a.plane.x < b.plane.x || (a.plane.x == b.plane.x && a.plane.y < b.plane.y);
     });
@@ -92,7 +92,7 @@ OutlineHull convex_hull(std::vector<HullPoint> points) {
     for (const HullPoint& point : points) add(point, 2);
     const std::size_t lower = hull.size() + 1;
     for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
-    OutlineHull corners;
+    SilhouetteHull corners;
     for (std::size_t i = 0; i + 1 < hull.size(); ++i) corners.push_back(hull[i].p);
     return corners;
 }
@@ -134,9 +134,9 @@ double deviation_of(std::vector<double> residuals) {
 }
 
 // How far the hulls reach to either side, px.
-double half_width_px(std::span<const OutlineHull> hulls) {
+double half_width_px(std::span<const SilhouetteHull> hulls) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    for (const OutlineHull& hull : hulls) {
+    for (const SilhouetteHull& hull : hulls) {
         for (const glm::dvec2& p : hull) {
             low = std::min(low, p.x);
             high = std::max(high, p.x);
@@ -160,9 +160,9 @@ double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covarian
 
 }  // namespace
 
-std::vector<OutlineHull> outline_hulls(std::span<const CalibrationPicture> turn, int reduction,
-                                       const TurntableModel& model) {
-    std::vector<OutlineHull> hulls(turn.size());
+std::vector<SilhouetteHull> silhouette_hulls(std::span<const CalibrationPicture> turn, int reduction,
+                                             const TurntableModel& model) {
+    std::vector<SilhouetteHull> hulls(turn.size());
     tbb::parallel_for(std::size_t{0}, turn.size(), [&](std::size_t view) {
         std::vector<HullPoint> points;
         for (const glm::dvec2& p : outermost(turn[view].alpha)) {
@@ -174,7 +174,7 @@ std::vector<OutlineHull> outline_hulls(std::span<const CalibrationPicture> turn,
     return hulls;
 }
 
-std::vector<ViewPair> comparable_views(const TurntableModel& model, std::span<const OutlineHull> hulls) {
+std::vector<ViewPair> comparable_views(const TurntableModel& model, std::span<const SilhouetteHull> hulls) {
     std::vector<ViewPair> pairs;
     for (std::size_t i = 0; i < hulls.size(); ++i) {
         for (std::size_t j = i + 1; j < hulls.size() && !hulls[i].empty(); ++j) {
@@ -185,7 +185,7 @@ std::vector<ViewPair> comparable_views(const TurntableModel& model, std::span<co
     return pairs;
 }
 
-std::vector<double> tangency_residuals(const TurntableModel& model, std::span<const OutlineHull> hulls,
+std::vector<double> tangency_residuals(const TurntableModel& model, std::span<const SilhouetteHull> hulls,
                                        std::span<const ViewPair> pairs) {
     const std::size_t views = hulls.size();
     std::vector<std::vector<glm::dvec3>> rays(views);
@@ -220,15 +220,15 @@ std::vector<double> tangency_residuals(const TurntableModel& model, std::span<co
 }
 
 std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const NumberPlaces& places,
-                                        const Eigen::MatrixXd& covariance, std::span<const OutlineHull> hulls,
+                                        const Eigen::MatrixXd& covariance, std::span<const SilhouetteHull> hulls,
                                         double worst_px) {
     if (places.count == 0 || covariance.rows() != places.count || !covariance.allFinite()) return std::nullopt;
     const std::vector<ViewPair> pairs = comparable_views(model, hulls);
     if (2 * pairs.size() < kFewestResiduals) return std::nullopt;
     const LooseNumbers numbers(model, places, covariance, half_width_px(hulls), places.count);
-    OutlineErrors errors{kWorthOfHull * kIndependentPerView * static_cast<double>(hulls.size()), 0, kFinestPlanes_px,
-                         true};
-    OutlineAdjustment adjustment(
+    SilhouetteErrors errors{kWorthOfHull * kIndependentPerView * static_cast<double>(hulls.size()), 0, kFinestPlanes_px,
+                            true};
+    SilhouetteAdjustment adjustment(
         {[&](const Eigen::VectorXd& z) { return tangency_residuals(numbers.at(z), hulls, pairs); },
          Eigen::VectorXd::Constant(numbers.count(), kPlaneWidth)},
         errors);
