@@ -57,13 +57,13 @@ void add_as_photos_options(CLI::App& synth, AsPhotosOptions& options) {
         ->capture_default_str()
         ->type_name("Q")
         ->needs(as_photos);
-    static const std::map<std::string, PlateSurface> kSurfaces = {{"none", PlateSurface::none},
-                                                                  {"plain", PlateSurface::plain},
-                                                                  {"rings", PlateSurface::rings},
-                                                                  {"speckled", PlateSurface::speckled}};
+    static const std::map<std::string, DiscSurface> kSurfaces = {{"none", DiscSurface::none},
+                                                                 {"plain", DiscSurface::plain},
+                                                                 {"rings", DiscSurface::rings},
+                                                                 {"speckled", DiscSurface::speckled}};
     synth
         .add_option_function<std::string>(
-            "--disc", [&photos](const std::string& name) { photos.plate = kSurfaces.at(name); },
+            "--disc", [&photos](const std::string& name) { photos.disc = kSurfaces.at(name); },
             "Photos: what turns under the object; rings look the same at every angle, speckles do not")
         ->check(CLI::IsMember({"plain", "rings", "speckled", "none"}))
         ->default_str("rings")

@@ -1,10 +1,10 @@
 #pragma once
-// Calibration of a turn with the printed board on the plate: the surest means. Corners (board_detection.hpp) -> the
+// Calibration of a turn with the printed board on the turntable: the surest means. Corners (board_detection.hpp) -> the
 // turntable's model and where the board lies.
 //
 // Unknown are f, k1, k2, the camera's pan, tilt and roll, one angle per view and the board's place; the principal point
-// is the picture's middle unless KnownInputs says otherwise. The board may lie anywhere on the plate, turned and not
-// quite level. A board that is seen from straight above or from the side does not tell the focal length: 15 to 70
+// is the picture's middle unless KnownInputs says otherwise. The board may lie anywhere on the turntable, turned and
+// not quite level. A board that is seen from straight above or from the side does not tell the focal length: 15 to 70
 // degrees above are good.
 
 #include "capture/calibration/board/board_detection.hpp"

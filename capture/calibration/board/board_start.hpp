@@ -3,7 +3,7 @@
 //
 // Each view's homography from the board's plane to the picture gives the camera's pose relative to the board once the
 // focal length is known, and the focal length itself follows from the homographies where the board is seen obliquely
-// (Zhang, "A flexible new technique for camera calibration", 2000). The board turns with the plate, so the axis is the
+// (Zhang, "A flexible new technique for camera calibration", 2000). The board turns with the disc, so the axis is the
 // direction, and the line, that stands still relative to the camera.
 
 #include "capture/calibration/board/board_detection.hpp"

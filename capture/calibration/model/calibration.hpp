@@ -14,7 +14,7 @@ namespace rs::capture {
 
 // From the surest to the least sure.
 enum class CalibrationMethod {
-    kBoard,        // a printed board on the plate
+    kBoard,        // a printed board on the turntable
     kGiven,        // lens, pose and angles are all known
     kTracks,       // points of the object followed around the turn
     kSilhouettes,  // consistency of all outlines; of round bodies the steps are assumed

@@ -39,8 +39,8 @@ void name_views(const ImportReport& report, Rig& rig) {
     }
 }
 
-// In the table frame, where a board on the plate tells it.
-std::optional<double> plate_height(const PhotoCalibration& calibration) {
+// In the table frame, where a board on the turntable shows it.
+std::optional<double> ground_height(const PhotoCalibration& calibration) {
     constexpr double kLevel = 0.9;
     if (!calibration.board || calibration.board->plane_normal.y < kLevel) return std::nullopt;
     return calibration.board->plane_offset / calibration.board->plane_normal.y;  // on the axis
@@ -73,7 +73,7 @@ Rig nominal_import_rig(const ImportReport& report, const TurnOutline::Box& visib
 Rig calibrated_import_rig(const ImportReport& report, const TurnOutline::Box& visible) {
     const Calibration& calibration = *report.calibration.calibration;
     const TurntableModel& model = calibration.model;
-    Rig rig = make_rig(model, report.frame, visible, plate_height(report.calibration));
+    Rig rig = make_rig(model, report.frame, visible, ground_height(report.calibration));
     std::vector<RigView> kept;
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         if (!is_left_out(report, i)) kept.push_back(std::move(rig.views[i]));

@@ -99,7 +99,7 @@ std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
 }
 
 // Where nobody knows the sense of turning it was guessed, and outlines may refute it: they agree with the other one
-// only, or else only with a camera that looks up from below the plate.
+// only, or else only with a camera that looks up from below the turntable.
 Result<Calibration> from_silhouettes(const TurnPictures& turn, const CalibrationRequest& request) {
     const Silhouettes outlines = silhouettes(turn);
     // The part of the photographs that the outlines show, for their sides must be the outlines' times a whole number.

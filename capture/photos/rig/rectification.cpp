@@ -172,7 +172,7 @@ Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, C
 }
 
 Rig make_rig(const TurntableModel& model, const UprightFrame& frame, const TurnOutline::Box& visible,
-             std::optional<double> plate_height) {
+             std::optional<double> ground_height) {
     RS_CHECK(!visible.empty() && visible.top < visible.bottom);
     const double extent_px = std::max(frame.lens.cx - visible.left, visible.right - frame.lens.cx);
     const double distance = distance_for_unit_radius(extent_px, frame.lens.f_px);
@@ -182,7 +182,7 @@ Rig make_rig(const TurntableModel& model, const UprightFrame& frame, const TurnO
     const TurntableModel upright{frame.lens, {}, model.angles_rad};
     Rig rig;
     rig.object_radius = 1;
-    if (plate_height) rig.foot_height = distance * (*plate_height - middle_height);
+    if (ground_height) rig.foot_height = distance * (*ground_height - middle_height);
     for (std::size_t i = 0; i < upright.angles_rad.size(); ++i) {
         RigView view;
         view.camera = object_camera(upright, i, distance, middle_height);

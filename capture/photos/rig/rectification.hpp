@@ -44,9 +44,9 @@ Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, C
 // One camera per view of the model, without file names, all upright, in object radii: object_radius is 1, the radius
 // about the axis that holds everything within `visible`, whose outermost column is tangent to it; Y = 0 where the
 // middle row of `visible` meets the axis. `visible` is in px of the rectified pictures (TurnOutline::visible() of
-// them), not empty, and reaches to one side of the axis at least. `plate_height` is that of the ground where it is
-// known, in the table frame (turntable_model.hpp); it becomes the rig's foot_height.
+// them), not empty, and reaches to one side of the axis at least. `ground_height` is where the object stands, if known,
+// in the table frame (turntable_model.hpp); it becomes the rig's foot_height.
 Rig make_rig(const TurntableModel& model, const UprightFrame& frame, const TurnOutline::Box& visible,
-             std::optional<double> plate_height = std::nullopt);
+             std::optional<double> ground_height = std::nullopt);
 
 }  // namespace rs::capture

@@ -22,21 +22,21 @@
 namespace rs::capture {
 namespace {
 
-const char* name_of(PlateSurface surface) {
+const char* name_of(DiscSurface surface) {
     switch (surface) {
-        case PlateSurface::none:
+        case DiscSurface::none:
             return "none";
-        case PlateSurface::plain:
+        case DiscSurface::plain:
             return "plain";
-        case PlateSurface::rings:
+        case DiscSurface::rings:
             return "rings";
-        case PlateSurface::speckled:
+        case DiscSurface::speckled:
             return "speckled";
     }
     return "";
 }
 
-nlohmann::json turntable_json(const SessionPlan& plan, const Plate& plate, const PhotoOptions& options,
+nlohmann::json turntable_json(const SessionPlan& plan, const Turntable& turntable, const PhotoOptions& options,
                               double dimming) {
     const Lens& lens = plan.model.lens;
     const CameraPose& pose = plan.model.pose;
@@ -58,34 +58,34 @@ nlohmann::json turntable_json(const SessionPlan& plan, const Plate& plate, const
                            {"jpeg_quality", options.jpeg_quality},
                            {"spp", options.samples_per_pixel},
                            {"seed", options.session.seed}};
-    json["plate"] = {{"surface", name_of(plate.surface)},
-                     {"radius", plate.radius},
-                     {"top", plate.top},
-                     {"thickness", plate.thickness}};
-    if (plate.board) {
+    json["plate"] = {{"surface", name_of(turntable.surface)},
+                     {"radius", turntable.radius},
+                     {"top", turntable.top},
+                     {"thickness", turntable.thickness}};
+    if (turntable.board) {
         nlohmann::json corners = nlohmann::json::array();
-        for (const glm::dvec3& corner : plate.board->corners) corners.push_back({corner.x, corner.y, corner.z});
+        for (const glm::dvec3& corner : turntable.board->corners) corners.push_back({corner.x, corner.y, corner.z});
         json["board"] = {{"corners", std::move(corners)},
-                         {"width_px", plate.board->picture.width()},
-                         {"height_px", plate.board->picture.height()}};
+                         {"width_px", turntable.board->picture.width()},
+                         {"height_px", turntable.board->picture.height()}};
     }
     return json;
 }
 
 // The truth of the turn. `dimming` is the factor on the scene's lights; `photo_of_view` names the photographs, relative
 // to the transforms.json. `places` is empty where photographs are as the still camera took them.
-Rig truth_rig(const SessionPlan& plan, const Plate& plate, double object_radius, const PhotoOptions& options,
+Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object_radius, const PhotoOptions& options,
               double dimming, const std::vector<std::string>& photo_of_view, std::span<const PicturePlace> places) {
     Rig rig;
     rig.object_radius = object_radius;
-    rig.foot_height = plate.top;
+    rig.foot_height = turntable.top;
     for (std::size_t i = 0; i < photo_of_view.size(); ++i) {
         RigView view;
         view.camera = pinhole_of(plan, i);
         view.file_path = photo_of_view[i];
         rig.views.push_back(std::move(view));
     }
-    rig.extras["turntable"] = turntable_json(plan, plate, options, dimming);
+    rig.extras["turntable"] = turntable_json(plan, turntable, options, dimming);
     if (!places.empty()) {
         nlohmann::json& listed = rig.extras["turntable"]["places"] = nlohmann::json::array();
         for (const PicturePlace& place : places) {
@@ -97,8 +97,8 @@ Rig truth_rig(const SessionPlan& plan, const Plate& plate, double object_radius,
 
 namespace fs = std::filesystem;
 
-// The outermost vertices at each height, as circles about the axis, and those of the plate.
-std::vector<AxisCircle> shown_circles(const Scene& object, const Plate& plate) {
+// The outermost vertices at each height, as circles about the axis, and those of the disc.
+std::vector<AxisCircle> shown_circles(const Scene& object, const Turntable& turntable) {
     constexpr double kBands_per_unit = 100;
     std::map<int, AxisCircle> widest;  // by height
     for (const Mesh& mesh : object.meshes) {
@@ -111,13 +111,14 @@ std::vector<AxisCircle> shown_circles(const Scene& object, const Plate& plate) {
     }
     std::vector<AxisCircle> circles;
     for (const auto& [band, circle] : widest) circles.push_back(circle);
-    if (plate.reach() > 0) circles.insert(circles.end(), {{plate.reach(), plate.top}, {plate.reach(), plate.foot()}});
+    if (turntable.reach() > 0)
+        circles.insert(circles.end(), {{turntable.reach(), turntable.top}, {turntable.reach(), turntable.bottom()}});
     return circles;
 }
 
-Result<Image<RgbaF>> make_backdrop(const PhotoOptions& options, const SessionPlan& plan, const Plate& plate) {
+Result<Image<RgbaF>> make_backdrop(const PhotoOptions& options, const SessionPlan& plan, const Turntable& turntable) {
     const Lens& lens = plan.model.lens;
-    if (options.backdrop == "wall") return wall_backdrop(plan, plate, options.session.seed);
+    if (options.backdrop == "wall") return wall_backdrop(plan, turntable, options.session.seed);
     if (options.backdrop == "blue") return even_backdrop(lens, {0.04F, 0.12F, 0.45F});
     if (options.backdrop == "white") return even_backdrop(lens, glm::vec3(0.88F));
     Result<Image<RgbaF>> picture = read_picture_linear(options.backdrop);
@@ -125,7 +126,7 @@ Result<Image<RgbaF>> make_backdrop(const PhotoOptions& options, const SessionPla
     return picture_backdrop(lens, std::move(picture).value());
 }
 
-// What the lights must be dimmed by so that bright parts of object and plate are not clipped: a photographer's meter,
+// What the lights must be dimmed by so that bright parts of object and disc are not clipped: a photographer's meter,
 // on a small first view.
 double metered_dimming(const Tracer& tracer, const SessionPlan& plan, const PhotoOptions& options) {
     constexpr int kCoarse = 8;
@@ -190,9 +191,9 @@ bool touches_edge(const Image<float>& shares) {
 // Everything that the views have in common.
 struct Session {
     SessionPlan plan;
-    Plate plate;
+    Turntable turntable;
     Image<RgbaF> backdrop;
-    Tracer tracer;      // of object, plate and board
+    Tracer tracer;      // of object, disc and board
     RayScene outlines;  // of the object alone
     double dimming;     // of the scene's lights
 };
@@ -243,26 +244,25 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
     Result<StagedFolder> staged = StagedFolder::create(folder);
     if (!staged) return staged.error();
 
-    Plate plate = fit_plate(object, object_radius, options.plate, options.session.seed);
+    Turntable turntable = fit_turntable(object, object_radius, options.disc, options.session.seed);
     if (!options.board.empty()) {
         Result<Image<RgbaF>> picture = read_picture_linear(options.board);
         if (!picture) return picture.error();
-        lay_board(plate, std::move(picture).value(), options.board_width * object_radius);
+        lay_board(turntable, std::move(picture).value(), options.board_width * object_radius);
     }
-    Result<SessionPlan> plan = plan_session(options.session, shown_circles(object, plate));
+    Result<SessionPlan> plan = plan_session(options.session, shown_circles(object, turntable));
     if (!plan) return plan.error();
-    Result<Image<RgbaF>> backdrop = make_backdrop(options, *plan, plate);
+    Result<Image<RgbaF>> backdrop = make_backdrop(options, *plan, turntable);
     if (!backdrop) return backdrop.error();
     Scene whole = object;
-    add_plate(whole, plate);
+    add_turntable(whole, turntable);
     Result<Tracer> tracer = Tracer::create(std::move(whole));
     if (!tracer) return tracer.error();
     Result<RayScene> outlines = RayScene::create(object);
     if (!outlines) return outlines.error();
     const double dimming = metered_dimming(*tracer, *plan, options);
-    Session session{std::move(plan).value(),     std::move(plate),
-                    std::move(backdrop).value(), std::move(tracer).value(),
-                    std::move(outlines).value(), dimming};
+    Session session{std::move(plan).value(),   std::move(turntable),        std::move(backdrop).value(),
+                    std::move(tracer).value(), std::move(outlines).value(), dimming};
 
     const auto views = session.plan.model.angles_rad.size();
     if (progress != nullptr) {
@@ -297,7 +297,7 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
     if (!(summary.mean_coverage > 0)) {
         return Error{folder.string() + ": no view shows the object; check the distance or the mesh"};
     }
-    const Rig rig = truth_rig(session.plan, session.plate, object_radius, options, session.dimming, names, places);
+    const Rig rig = truth_rig(session.plan, session.turntable, object_radius, options, session.dimming, names, places);
     if (Status written = write_rig(truth / kRigFileName, rig); !written) return written.error();
     if (Status committed = staged->commit(); !committed) return committed.error();
     if (progress != nullptr) progress->finish();

@@ -48,7 +48,7 @@ struct StillRoom {
     double unit;  // length of the scene that a feature of 1 spans
     double edge_z;
     double table_y;
-    double plate_radius;
+    double disc_radius;
     std::vector<Mark> marks;
     std::uint64_t seed;
 
@@ -56,7 +56,7 @@ struct StillRoom {
         const double grain = noise({p.x / unit * 1.2, p.z / unit * 6}, seed + kGrain) * 0.10;
         const double r = std::hypot(p.x, p.z);
         const double shade =
-            plate_radius > 0 ? 0.5 * std::exp(-std::max(r - plate_radius, 0.0) / (0.12 * plate_radius)) : 0.0;
+            disc_radius > 0 ? 0.5 * std::exp(-std::max(r - disc_radius, 0.0) / (0.12 * disc_radius)) : 0.0;
         return glm::dvec3(0.30, 0.24, 0.19) * ((1 + grain) * (1 - shade));
     }
     [[nodiscard]] glm::dvec3 wall(const glm::dvec2& q) const {
@@ -75,7 +75,7 @@ RgbaF opaque(const glm::dvec3& colour) {
 
 }  // namespace
 
-Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Plate& plate, std::uint64_t seed) {
+Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Turntable& turntable, std::uint64_t seed) {
     const Lens& lens = plan.model.lens;
     const CameraPose& pose = plan.model.pose;
     const glm::dvec3 eye(0, plan.camera_height, plan.distance);
@@ -83,13 +83,13 @@ Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Plate& plate, std::uin
 
     StillRoom room;
     room.unit = 0.25 * plan.distance;
-    room.table_y = plate.foot();
-    room.plate_radius = plate.surface == PlateSurface::none ? 0 : plate.radius;
+    room.table_y = turntable.bottom();
+    room.disc_radius = turntable.surface == DiscSurface::none ? 0 : turntable.radius;
     room.seed = seed;
-    // The line lies in the upper third of the picture, but always behind the plate and never beyond a few distances.
+    // The line lies in the upper third of the picture, but always behind the disc and never beyond a few distances.
     const glm::dvec3 to_line = ray(lens.cx, 0.3 * lens.height);
     const double steep = to_line.y < 0 ? (room.table_y - eye.y) / to_line.y : 1e9;
-    room.edge_z = std::clamp(eye.z + steep * to_line.z, -4 * plan.distance, -1.1 * plate.reach() - 0.1 * room.unit);
+    room.edge_z = std::clamp(eye.z + steep * to_line.z, -4 * plan.distance, -1.1 * turntable.reach() - 0.1 * room.unit);
     SeededDraws draws(seed, kMarks);
     for (int i = 0; i < 14; ++i) {
         Mark mark;

@@ -2,7 +2,7 @@
 // What stands still behind a turntable, as one picture in linear light.
 
 #include "capture/tracer/session/session_plan.hpp"
-#include "capture/tracer/session/turntable_plate.hpp"
+#include "capture/tracer/session/turntable.hpp"
 #include "rayspace/image/image.hpp"
 
 #include <algorithm>
@@ -18,8 +18,8 @@ inline double soft_step(double t) {
     return c * c * (3 - 2 * c);
 }
 
-// A table top that the plate stands on, with its shadow, and a wall behind: low contrast, out of focus, a few marks.
-Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Plate& plate, std::uint64_t seed);
+// A table top that the disc stands on, with its shadow, and a wall behind: low contrast, out of focus, a few marks.
+Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Turntable& turntable, std::uint64_t seed);
 
 // An even backdrop of this colour that falls off by a seventh towards the corners.
 Image<RgbaF> even_backdrop(const Lens& lens, const glm::vec3& colour);

@@ -30,7 +30,7 @@ struct BoardPhotos {
 
     [[nodiscard]] Photo taken(std::size_t view) const {
         Photo photo{drawn_drum(drum, model, view), Image<Rgba8>(model.lens.width, model.lens.height)};
-        const double plate = drum.middle - drum.height / 2;
+        const double ground = drum.middle - drum.height / 2;
         const double angle = model.angles_rad[view];
         constexpr int kSide = 3;
         for (int y = 0; y < photo.picture.height(); ++y) {
@@ -43,7 +43,7 @@ struct BoardPhotos {
                     const glm::dvec2 p(x + (s % kSide + 0.5) / kSide, y + (s / kSide + 0.5) / kSide);
                     const auto ray = capture::table_ray(model.lens, model.pose, p);
                     light += ray && ray->y < 0
-                                 ? light_at(capture::turned(glm::dvec3(0, 0, 1) + plate / ray->y * *ray, -angle))
+                                 ? light_at(capture::turned(glm::dvec3(0, 0, 1) + ground / ray->y * *ray, -angle))
                                  : kBackdrop;
                 }
                 const double share = pixel.a / 255.0;
@@ -66,7 +66,7 @@ private:
     static constexpr double kBackdrop = 0.3;
     static constexpr double kUnitsPerMm = 0.0026;
 
-    // Of a point of the plate; the board lies turned and off the middle.
+    // Of a point of the disc; the board lies turned and off the middle.
     [[nodiscard]] double light_at(const glm::dvec3& p) const {
         const glm::dvec3 q = capture::turned(p - glm::dvec3(0.01, 0, -0.015), 0.3) / kUnitsPerMm;
         const double per_mm = kDpi / 25.4;

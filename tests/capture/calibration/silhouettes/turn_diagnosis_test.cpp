@@ -78,7 +78,7 @@ TEST(TurnDiagnosis, NamesAStepGapAndPictureTakenTwice) {
     EXPECT_THAT(judge(truth, truth).warnings, Contains(HasSubstr("gap of 20.0 degrees between 011.jpg and 012.jpg")));
 
     truth = equal;
-    for (std::size_t i = 5; i < 30; ++i) truth.angles_rad[i] += radians(10);  // the plate had not turned
+    for (std::size_t i = 5; i < 30; ++i) truth.angles_rad[i] += radians(10);  // the turntable had not turned
     EXPECT_THAT(judge(truth, truth).warnings, Contains(HasSubstr("005.jpg stands where 004.jpg does")));
     EXPECT_THAT(repeated_views(truth.angles_rad), ElementsAre(5));
 

@@ -254,14 +254,14 @@ TEST(Rectification, TheRigSeesPointsWhereTheRectifiedPicturesShowThem) {
     }
 }
 
-TEST(Rectification, TheRigKnowsThePlate) {
+TEST(Rectification, TheRigKnowsTheGround) {
     const TurntableModel model = crooked_model();
     const auto frame = plan_upright_frame(model, std::array{TurnOutline::Box{90, 390, 40, 320}});
     ASSERT_TRUE(frame.ok());
     const TurnOutline::Box visible{60, 300, 30, 250};
     EXPECT_EQ(make_rig(model, *frame, visible).foot_height, std::nullopt);
     const Rig rig = make_rig(model, *frame, visible, -0.37);
-    // Where the axis meets the plate, in the photograph's camera and in the rig's.
+    // Where the axis meets the ground, in the photograph's camera and in the rig's.
     const auto seen = project(Lens(frame->lens), {}, {0, -0.37, 0});
     ASSERT_TRUE(seen.has_value() && rig.foot_height.has_value());
     const glm::dvec3 foot(0, *rig.foot_height, 0);

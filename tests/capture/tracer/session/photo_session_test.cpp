@@ -46,7 +46,7 @@ PhotoOptions clean_options() {
     options.samples_per_pixel = 64;
     options.noise_codes = 0;
     options.jpeg_quality = 0;
-    options.plate = PlateSurface::none;
+    options.disc = DiscSurface::none;
     return options;
 }
 
@@ -274,33 +274,33 @@ TEST_F(PhotoSession, AlphaIsWhatABlackAndAWhiteBackdropTell) {
     EXPECT_GT(edges, 100);
     EXPECT_NEAR(told_sum / truth_sum, 1, 0.003);
 
-    // A plate under the object changes the photograph, not the object's alpha.
-    options.plate = PlateSurface::speckled;
-    const fs::path with_plate = photograph("with-plate", scene, 1, options);
-    EXPECT_EQ(picture_in(with_plate / "truth" / "alpha" / "000.png"),
+    // A disc under the object changes the photograph, not the object's alpha.
+    options.disc = DiscSurface::speckled;
+    const fs::path on_disc = photograph("on-disc", scene, 1, options);
+    EXPECT_EQ(picture_in(on_disc / "truth" / "alpha" / "000.png"),
               picture_in(on_white / "truth" / "alpha" / "000.png"));
-    EXPECT_NE(picture_in(with_plate / "photos" / "000.png"), picture_in(on_white / "photos" / "000.png"));
+    EXPECT_NE(picture_in(on_disc / "photos" / "000.png"), picture_in(on_white / "photos" / "000.png"));
 }
 
-TEST_F(PhotoSession, TheObjectThrowsAShadowOnThePlateItTouches) {
+TEST_F(PhotoSession, TheObjectThrowsAShadowOnTheDiscItTouches) {
     Scene scene = scene_of(make_sphere(4), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
     scene.environment = constant_environment(0.8F);
     PhotoOptions options = clean_options();
     options.session.views = 1;
     options.session.aim_error_deg = 0;
     options.session.elevation_deg = 30;
-    options.plate = PlateSurface::plain;
+    options.disc = DiscSurface::plain;
     const fs::path set = photograph("set", scene, 1, options);
     const Truth truth = read_truth(set);
     const Image<Rgba8> photo = picture_in(set / "photos" / "000.png");
     const double top = truth.rig.extras.at("turntable").at("plate").at("top");
     EXPECT_NEAR(top, -1, 1e-3) << "the lowest point of the ball";
-    const auto plate_at = [&](double distance) {
+    const auto disc_at = [&](double distance) {
         const glm::dvec2 p = truth.photo_position({0, top, distance}, 0);
         return brightness(photo(static_cast<int>(p.x), static_cast<int>(p.y)));
     };
-    EXPECT_LT(plate_at(0.55), 0.75 * plate_at(1.1));  // near the contact, as far as it is seen, and at the rim
-    EXPECT_GT(plate_at(1.1), 0.2);
+    EXPECT_LT(disc_at(0.55), 0.75 * disc_at(1.1));  // near the contact, as far as it is seen, and at the rim
+    EXPECT_GT(disc_at(1.1), 0.2);
 }
 
 TEST_F(PhotoSession, TheSameSeedGivesTheSameBytesWhateverTheThreads) {

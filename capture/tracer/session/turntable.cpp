@@ -1,4 +1,4 @@
-#include "capture/tracer/session/turntable_plate.hpp"
+#include "capture/tracer/session/turntable.hpp"
 
 #include "capture/tracer/scene/normalise.hpp"
 #include "capture/tracer/session/seeded_draws.hpp"
@@ -15,10 +15,10 @@ namespace rs::capture {
 namespace {
 
 constexpr double kHair = 1e-4;  // against coinciding surfaces; a fortieth of a pixel in usual pictures
-constexpr int kSegments = 256;  // the plate's rim is true to 1e-4 of its radius
+constexpr int kSegments = 256;  // the disc's rim is true to 1e-4 of its radius
 constexpr int kTextureSide_px = 1024;
 
-enum PlatePurpose : std::uint64_t { kSpeckles = 11, kBoard };
+enum TurntablePurpose : std::uint64_t { kSpeckles = 11, kBoard };
 
 int add_material(Scene& scene, const std::string& name, const glm::vec3& colour, int texture = -1) {
     Material material;
@@ -85,30 +85,31 @@ Image<RgbaF> speckled_texture(std::uint64_t seed) {
     return pixels;
 }
 
-Mesh plate_top(const Plate& plate) {
+Mesh disc_top(const Turntable& turntable) {
     Mesh mesh;
-    mesh.name = "plate";
-    const auto y = static_cast<float>(plate.top);
+    mesh.name = "disc";
+    const auto y = static_cast<float>(turntable.top);
     mesh.positions.push_back({0, y, 0});
     mesh.uvs.push_back({0.5F, 0.5F});
     for (unsigned i = 0; i < kSegments; ++i) {
         const double angle = 2 * kPi * i / kSegments;
         const double x = std::sin(angle), z = std::cos(angle);
-        mesh.positions.push_back({static_cast<float>(plate.radius * x), y, static_cast<float>(plate.radius * z)});
+        mesh.positions.push_back(
+            {static_cast<float>(turntable.radius * x), y, static_cast<float>(turntable.radius * z)});
         mesh.uvs.push_back({static_cast<float>(0.5 + 0.5 * x), static_cast<float>(0.5 - 0.5 * z)});
         mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % kSegments});
     }
     return mesh;
 }
 
-Mesh plate_side(const Plate& plate) {
+Mesh disc_side(const Turntable& turntable) {
     Mesh mesh;
-    mesh.name = "plate side";
+    mesh.name = "disc side";
     for (unsigned i = 0; i < kSegments; ++i) {
         const double angle = 2 * kPi * i / kSegments;
         const glm::vec3 normal(static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle)));
-        for (const double height : {plate.top, plate.foot()}) {
-            const auto radius = static_cast<float>(plate.radius);
+        for (const double height : {turntable.top, turntable.bottom()}) {
+            const auto radius = static_cast<float>(turntable.radius);
             mesh.positions.push_back({normal.x * radius, static_cast<float>(height), normal.z * radius});
             mesh.normals.push_back(normal);
         }
@@ -129,60 +130,60 @@ Mesh board_mesh(const Board& board) {
 
 }  // namespace
 
-double Plate::reach() const {
-    double farthest = surface == PlateSurface::none ? 0.0 : radius;
+double Turntable::reach() const {
+    double farthest = surface == DiscSurface::none ? 0.0 : radius;
     if (board) {
         for (const glm::dvec3& corner : board->corners) farthest = std::max(farthest, std::hypot(corner.x, corner.z));
     }
     return farthest;
 }
 
-Plate fit_plate(const Scene& object, double object_radius, PlateSurface surface, std::uint64_t seed) {
-    Plate plate;
-    plate.surface = surface;
-    plate.radius = 1.15 * object_radius;
-    plate.top = foot_height(object) - kHair;
-    plate.thickness = 0.08 * object_radius;
-    plate.seed = seed;
-    return plate;
+Turntable fit_turntable(const Scene& object, double object_radius, DiscSurface surface, std::uint64_t seed) {
+    Turntable turntable;
+    turntable.surface = surface;
+    turntable.radius = 1.15 * object_radius;
+    turntable.top = foot_height(object) - kHair;
+    turntable.thickness = 0.08 * object_radius;
+    turntable.seed = seed;
+    return turntable;
 }
 
-void lay_board(Plate& plate, Image<RgbaF> picture, double width) {
-    SeededDraws draws(plate.seed, kBoard);
+void lay_board(Turntable& turntable, Image<RgbaF> picture, double width) {
+    SeededDraws draws(turntable.seed, kBoard);
     const double distance = width * draws.uniform(0.06, 0.14);
     const double way = draws.uniform(0, 2 * kPi);
     const double turn = draws.uniform(0, 2 * kPi);
     const double height = width * picture.height() / picture.width();
     const glm::dvec3 right(std::cos(turn), 0, -std::sin(turn));
     const glm::dvec3 down(std::sin(turn), 0, std::cos(turn));  // of the picture: towards +Z where it is not turned
-    const glm::dvec3 middle(distance * std::sin(way), plate.top, distance * std::cos(way));
-    plate.top -= kHair;  // between object and plate
+    const glm::dvec3 middle(distance * std::sin(way), turntable.top, distance * std::cos(way));
+    turntable.top -= kHair;  // between object and disc
     Board board;
     for (RgbaF& p : picture.pixels()) p.a = 1;
     board.picture = std::move(picture);
     const glm::dvec3 u = right * (width / 2), v = down * (height / 2);
     board.corners = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
-    plate.board = std::move(board);
+    turntable.board = std::move(board);
 }
 
-void add_plate(Scene& scene, const Plate& plate) {
-    if (plate.surface != PlateSurface::none) {
+void add_turntable(Scene& scene, const Turntable& turntable) {
+    if (turntable.surface != DiscSurface::none) {
         int texture = -1;
-        if (plate.surface == PlateSurface::rings) texture = add_texture(scene, "rings", ring_texture());
-        if (plate.surface == PlateSurface::speckled) {
-            texture = add_texture(scene, "speckles", speckled_texture(plate.seed));
+        if (turntable.surface == DiscSurface::rings) texture = add_texture(scene, "rings", ring_texture());
+        if (turntable.surface == DiscSurface::speckled) {
+            texture = add_texture(scene, "speckles", speckled_texture(turntable.seed));
         }
-        Mesh top = plate_top(plate);
-        top.material = add_material(scene, "plate", glm::vec3(texture < 0 ? 0.5F : 1.0F), texture);
+        Mesh top = disc_top(turntable);
+        top.material = add_material(scene, "disc", glm::vec3(texture < 0 ? 0.5F : 1.0F), texture);
         scene.meshes.push_back(std::move(top));
-        Mesh side = plate_side(plate);
-        side.material = add_material(scene, "plate side", glm::vec3(0.12F));
+        Mesh side = disc_side(turntable);
+        side.material = add_material(scene, "disc side", glm::vec3(0.12F));
         scene.meshes.push_back(std::move(side));
     }
-    if (plate.board) {
-        Mesh board = board_mesh(*plate.board);
+    if (turntable.board) {
+        Mesh board = board_mesh(*turntable.board);
         board.material =
-            add_material(scene, "board", glm::vec3(1.0F), add_texture(scene, "board", plate.board->picture));
+            add_material(scene, "board", glm::vec3(1.0F), add_texture(scene, "board", turntable.board->picture));
         scene.meshes.push_back(std::move(board));
     }
 }
