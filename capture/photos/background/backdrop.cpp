@@ -1,8 +1,8 @@
 #include "capture/photos/background/backdrop.hpp"
 
+#include "capture/photos/background/clean_plate.hpp"
 #include "capture/photos/background/disc_bridging.hpp"
-#include "capture/photos/background/plate.hpp"
-#include "capture/photos/background/turn_plate.hpp"
+#include "capture/photos/background/still_picture.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
 
 #include <tbb/parallel_for.h>
@@ -317,7 +317,7 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     Image<std::uint8_t> known;
     std::optional<TurntableDisc> disc;
     if (turn && shares.still >= kStillBorder) {
-        TurnPlate plate = plate_of_turn(samples, still.colour, found.untouched);
+        CleanPlate plate = clean_plate_of_turn(samples, still.colour, found.untouched);
         still.colour = std::move(plate.colour);
         known = std::move(plate.known);
         disc = plate.disc;

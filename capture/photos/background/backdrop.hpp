@@ -2,9 +2,9 @@
 // What stands behind the object: known to be transparent, one colour, or found in the pictures.
 //
 // The camera of a turntable stands still, so whatever is behind the object and does not turn with it (the wall, an even
-// turntable disc, the black frame of a frame grabber) is the same in every picture. The *plate* is that still picture:
-// per pixel the value that most pictures agree on, where it is of the colours seen along the border; filled in smoothly
-// from around where the object always hides it.
+// turntable disc, the black frame of a frame grabber) is the same in every picture. The *clean plate*, plate for short,
+// is that still picture: per pixel the value that most pictures agree on, where it is of the colours seen along the
+// border; filled in smoothly from around where the object always hides it.
 
 #include "capture/photos/intake/survey.hpp"
 #include "rayspace/base/result.hpp"

@@ -2,7 +2,7 @@
 
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/disc_plane.hpp"
-#include "capture/photos/background/plate.hpp"
+#include "capture/photos/background/still_picture.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
 #include "rayspace/base/median.hpp"
 

@@ -128,8 +128,8 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
     if (flat_grey_) flat_plate_ = flat_plate(plate_, untouched_, linear_rgb(*flat_grey_));
 }
 
-PlateView ObjectCutter::exposed_as(ConstImageView<Rgba8> photo) const {
-    PlateView plate = plate_;
+CleanPlateView ObjectCutter::exposed_as(ConstImageView<Rgba8> photo) const {
+    CleanPlateView plate = plate_;
     if (untouched_.empty()) return plate;
     const LinearRgb gain = exposure_gain(photo, plate_.light, untouched_);
     for (LinearRgb& p : plate.light.pixels()) {

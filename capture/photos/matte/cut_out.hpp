@@ -35,13 +35,13 @@ public:
 
 private:
     // The plate as bright as it is in this photograph.
-    [[nodiscard]] PlateView exposed_as(ConstImageView<Rgba8> photo) const;
+    [[nodiscard]] CleanPlateView exposed_as(ConstImageView<Rgba8> photo) const;
 
     BackdropKind kind_;
     MaskOptions options_;
-    PlateView plate_;
+    CleanPlateView plate_;
     std::optional<Rgba8> flat_grey_;
-    PlateView flat_plate_;           // where that is known
+    CleanPlateView flat_plate_;      // where that is known
     Image<std::uint8_t> untouched_;  // of the plate; empty where nobody can tell
     int band_px_;
 };

@@ -30,7 +30,7 @@ void add_if_large(Image<std::uint8_t>& mask, Image<std::uint8_t> whole) {
 }
 
 // How many pixels look different from what is behind the object.
-std::ptrdiff_t differing(ConstImageView<Rgba8> photo, const PlateView& plate) {
+std::ptrdiff_t differing(ConstImageView<Rgba8> photo, const CleanPlateView& plate) {
     std::ptrdiff_t count = 0;
     for (int y = 0; y < photo.height(); ++y) {
         for (int x = 0; x < photo.width(); ++x) {
@@ -43,10 +43,10 @@ std::ptrdiff_t differing(ConstImageView<Rgba8> photo, const PlateView& plate) {
 
 }  // namespace
 
-PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& grey) {
+CleanPlateView flat_plate(const CleanPlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& grey) {
     RS_CHECK(plate.light.width() == untouched.width() && plate.light.height() == untouched.height());
     const int width = plate.light.width(), height = plate.light.height();
-    PlateView flat;
+    CleanPlateView flat;
     flat.light = Image<LinearRgb>(width, height, grey);
     flat.noise_delta_e = Image<float>(width, height);
     const Lab look = lab_from_linear(grey);
@@ -60,7 +60,7 @@ PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouc
     return flat;
 }
 
-void add_grey_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, const PlateView& flat) {
+void add_grey_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, const CleanPlateView& flat) {
     constexpr double kHardlyAny = 0.2;  // of what differs: the rest cannot all be shadow
     constexpr double kDust = 0.002;     // of the picture
     if (mask.empty()) return;

@@ -11,11 +11,11 @@ namespace rs::capture {
 
 // What stands behind an object before `grey`: that colour, but the plate's own where nothing ever covers it
 // (`untouched`, of its size, is not 0) and it clearly differs, as a shop's mark.
-PlateView flat_plate(const PlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& grey);
+CleanPlateView flat_plate(const CleanPlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& grey);
 
 // Adds what find_object() before `flat` shows to `mask` (255 = object) where that lacks a large part of it. Where that
 // leaves hardly any of what differs from `flat`, as nothing of the object is clearly no shadow, its shadow comes along:
 // better than no object.
-void add_grey_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, const PlateView& flat);
+void add_grey_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, const CleanPlateView& flat);
 
 }  // namespace rs::capture

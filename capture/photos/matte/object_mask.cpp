@@ -37,7 +37,7 @@ float ramp(float value, float low, float high) {
     return std::clamp((value - low) / (high - low), 0.0F, 1.0F);
 }
 
-bool on_ground(const PlateView& plate, int x, int y) {
+bool on_ground(const CleanPlateView& plate, int x, int y) {
     return !plate.ground.empty() && plate.ground(x, y) != 0;
 }
 
@@ -224,8 +224,9 @@ cv::Mat1b thin_parts(const cv::Mat1b& part, int width_px) {
 // Shadows are broad: a narrow part that differs clearly from a plate of which noise and exposure are known is the
 // object's, wires and stripes of rods, even if a shadow of that depth would look the same. Not before a colour that
 // tells shadows from grey parts.
-void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const PlateView& plate, ConstImageView<Lab> plate_looks,
-                                  const MaskOptions& options, Image<float>& preference) {
+void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const CleanPlateView& plate,
+                                  ConstImageView<Lab> plate_looks, const MaskOptions& options,
+                                  Image<float>& preference) {
     constexpr int kThinShare = 45;  // of the picture's longer side: narrower than that is thin
     constexpr float kThinRather = 2;
     cv::Mat3f smooth;
@@ -312,12 +313,12 @@ struct Looks {
     Image<Lab> plate;
 };
 
-Looks looks_of(ConstImageView<Rgba8> photo, const PlateView& plate) {
+Looks looks_of(ConstImageView<Rgba8> photo, const CleanPlateView& plate) {
     RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
     return {lab_picture(photo), lab_picture(plate.light)};
 }
 
-Image<float> preference_by(const Looks& looks, ConstImageView<Rgba8> photo, const PlateView& plate,
+Image<float> preference_by(const Looks& looks, ConstImageView<Rgba8> photo, const CleanPlateView& plate,
                            const MaskOptions& anywhere) {
     const MaskOptions ground = options_on_ground(anywhere);
     const MaskOptions above = options_above_ground(anywhere);
@@ -357,11 +358,11 @@ Image<float> preference_by(const Looks& looks, ConstImageView<Rgba8> photo, cons
 
 }  // namespace
 
-Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options) {
+Image<float> object_preference(ConstImageView<Rgba8> photo, const CleanPlateView& plate, const MaskOptions& options) {
     return preference_by(looks_of(photo, plate), photo, plate, options);
 }
 
-Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options) {
+Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const CleanPlateView& plate, const MaskOptions& options) {
     RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
     Image<std::uint8_t> result(photo.width(), photo.height());
     if (result.empty()) return result;

@@ -50,7 +50,7 @@ struct MaskOptions {
 };
 
 // What is behind the object in one photograph, in its size.
-struct PlateView {
+struct CleanPlateView {
     Image<LinearRgb> light;         // exposed like the photograph
     Image<std::uint8_t> hidden;     // 255 where the object always is before it; empty: nobody can tell
     Image<std::uint8_t> ground;     // 255 where shadows fall; empty: they may fall anywhere
@@ -66,9 +66,9 @@ MaskOptions mask_options_for_flat_grey();
 
 // The preference, -kDecided..kDecided; the ends are certain.
 inline constexpr float kDecided = 4;
-Image<float> object_preference(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options);
+Image<float> object_preference(ConstImageView<Rgba8> photo, const CleanPlateView& plate, const MaskOptions& options);
 
 // 255 = object, 0 = backdrop.
-Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const PlateView& plate, const MaskOptions& options);
+Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const CleanPlateView& plate, const MaskOptions& options);
 
 }  // namespace rs::capture

@@ -1,6 +1,6 @@
 #include "capture/photos/background/backdrop.hpp"
 
-#include "capture/photos/background/plate.hpp"
+#include "capture/photos/background/still_picture.hpp"
 #include "tests/capture/photos/turn_of_pictures.hpp"
 
 #include <gmock/gmock.h>

@@ -235,7 +235,7 @@ TEST(ObjectMask, ANarrowPartIsNoShadow) {
             if (depth > 0) photo(x, y) = test::mixed(shaded, behind, depth);
         }
     }
-    PlateView plate;
+    CleanPlateView plate;
     plate.light = Image<LinearRgb>(kWidth, kHeight, linear_rgb(behind));
     Backdrop of_a_turn;
     of_a_turn.kind = BackdropKind::kColour;
@@ -267,7 +267,7 @@ TEST(ObjectMask, BetweenFeetTheGroundIsDark) {
                                   : Rgba8{150, 85, 40, 255};
         }
     }
-    PlateView plate;
+    CleanPlateView plate;
     plate.light = Image<LinearRgb>(kWidth, kHeight, linear_rgb(behind));
     plate.ground = Image<std::uint8_t>(kWidth, kHeight, 255);
     Backdrop of_a_turn;

@@ -1,6 +1,7 @@
 #pragma once
-// The plate of a turn, put together: the region that the object sweeps is told from the rest (swept_region.hpp), then
-// the plate grows from the rest inwards, and from what the rows show at both ends of the region (plate_growth.hpp).
+// The clean plate of a turn, put together: the region that the object sweeps is told from the rest (swept_region.hpp),
+// then the plate grows from the rest inwards, and from what the rows show at both ends of the region
+// (clean_plate_growth.hpp).
 
 #include "capture/photos/background/evened_samples.hpp"
 #include "capture/photos/background/turntable_disc.hpp"
@@ -11,7 +12,7 @@
 namespace rs::capture {
 
 // All pictures have the samples' size; masks hold 255 or 0.
-struct TurnPlate {
+struct CleanPlate {
     Image<Rgba8> colour;            // means something where it is known
     Image<std::uint8_t> known;      // where pictures show it
     Image<std::uint8_t> untouched;  // where nothing ever covers it
@@ -23,8 +24,8 @@ struct TurnPlate {
 
 // `still` is the picture that most samples agree on; `motionless` is not 0 where they all do, backdrop or not. At most
 // 64 samples.
-TurnPlate plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba8> still,
-                        ConstImageView<std::uint8_t> motionless);
+CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba8> still,
+                               ConstImageView<std::uint8_t> motionless);
 
 // Mean delta E between the samples and the plate, over those samples that show it, averaged over a neighbourhood; only
 // where `known` is not 0 the plate is asked, elsewhere what is known near by holds, or 0.

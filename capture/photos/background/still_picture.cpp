@@ -1,4 +1,4 @@
-#include "capture/photos/background/plate.hpp"
+#include "capture/photos/background/still_picture.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
 

@@ -1,6 +1,6 @@
-#include "capture/photos/background/plate_growth.hpp"
+#include "capture/photos/background/clean_plate_growth.hpp"
 
-#include "capture/photos/background/plate.hpp"
+#include "capture/photos/background/still_picture.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -65,7 +65,7 @@ Rgba8 smooth_mean(const EvenedSamples& samples, std::uint64_t witnesses, int x, 
 }  // namespace
 
 void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, ConstImageView<std::uint8_t> seeds,
-                ConstImageView<std::uint8_t> barred, GrownPlate& plate, Growth growth) {
+                ConstImageView<std::uint8_t> barred, GrownCleanPlate& plate, Growth growth) {
     const int width = samples.width();
     const int height = samples.height();
     RS_CHECK(guess.width() == width && guess.height() == height);
@@ -82,7 +82,7 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
         plate.witnesses(x, y) = witnesses;
         open[static_cast<std::size_t>(std::popcount(witnesses))].emplace_back(x, y);
     };
-    GrownPlate seeded{Image<Rgba8>(width, height), Image<std::uint64_t>(width, height)};
+    GrownCleanPlate seeded{Image<Rgba8>(width, height), Image<std::uint64_t>(width, height)};
     tbb::parallel_for(0, height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             if (seeds(x, y) == 0 || plate.witnesses(x, y) != 0) continue;
@@ -142,7 +142,7 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
     }
 }
 
-Image<Rgba8> sharp_colours(const EvenedSamples& samples, const GrownPlate& plate) {
+Image<Rgba8> sharp_colours(const EvenedSamples& samples, const GrownCleanPlate& plate) {
     Image<Rgba8> sharp(plate.colour.width(), plate.colour.height(), Rgba8{0, 0, 0, 255});
     tbb::parallel_for(0, sharp.height(), [&](int y) {
         for (int x = 0; x < sharp.width(); ++x) {

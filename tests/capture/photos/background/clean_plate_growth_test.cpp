@@ -1,4 +1,4 @@
-#include "capture/photos/background/plate_growth.hpp"
+#include "capture/photos/background/clean_plate_growth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,9 +47,9 @@ Image<std::uint8_t> seeds(bool right = true) {
     return mask;
 }
 
-GrownPlate grown(const EvenedSamples& samples, const Image<Rgba8>& guess, const Image<std::uint8_t>& seeds,
-                 const Image<std::uint8_t>& barred = Image<std::uint8_t>(kPlateWidth, kPlateHeight)) {
-    GrownPlate plate;
+GrownCleanPlate grown(const EvenedSamples& samples, const Image<Rgba8>& guess, const Image<std::uint8_t>& seeds,
+                      const Image<std::uint8_t>& barred = Image<std::uint8_t>(kPlateWidth, kPlateHeight)) {
+    GrownCleanPlate plate;
     grow_plate(samples, guess, seeds, barred, plate);
     return plate;
 }
@@ -57,7 +57,7 @@ GrownPlate grown(const EvenedSamples& samples, const Image<Rgba8>& guess, const 
 TEST(GrowPlate, FollowsTheBackdropBehindWhatMovesAndStopsAtWhatHidesIt) {
     const std::vector<Image<Rgba8>> photos = bars_and_a_post();
     const EvenedSamples samples(photos);
-    const GrownPlate plate = grown(samples, photos[0], seeds());
+    const GrownCleanPlate plate = grown(samples, photos[0], seeds());
     const Image<Rgba8> sharp = sharp_colours(samples, plate);
     for (int y = 0; y < kPlateHeight; ++y) {
         for (int x = 0; x < kPlateWidth; ++x) {
@@ -81,7 +81,7 @@ TEST(GrowPlate, KeepsOutOfWhatIsBarred) {
     for (int y = 20; y < 30; ++y) {
         for (int x = 20; x < 30; ++x) barred(x, y) = 255;
     }
-    const GrownPlate plate = grown(samples, photos[0], seeds(), barred);
+    const GrownCleanPlate plate = grown(samples, photos[0], seeds(), barred);
     EXPECT_EQ(plate.witnesses(25, 25), 0U);
     EXPECT_NE(plate.witnesses(25, 15), 0U);
 }
@@ -100,7 +100,7 @@ TEST(GrowPlate, DoesNotPassThroughANarrowGap) {
         }
     }
     const EvenedSamples samples(photos);
-    const GrownPlate plate = grown(samples, photos[0], seeds(false));
+    const GrownCleanPlate plate = grown(samples, photos[0], seeds(false));
     EXPECT_NE(plate.witnesses(30, 10), 0U);
     EXPECT_EQ(plate.witnesses(60, 10), 0U);
     EXPECT_EQ(plate.witnesses(60, 24), 0U);
@@ -122,9 +122,9 @@ TEST(GrowPlate, StaysNearAGuessIfAsked) {
     for (int y = 0; y < kPlateHeight; ++y) {
         for (int x = kSeedColumns; x < kPlateWidth; ++x) guess(x, y) = {110, 110, 110, 255};
     }
-    const GrownPlate free = grown(samples, guess, seeds(false));
+    const GrownCleanPlate free = grown(samples, guess, seeds(false));
     EXPECT_NE(free.witnesses(70, 24), 0U);
-    GrownPlate near;
+    GrownCleanPlate near;
     grow_plate(samples, guess, seeds(false), Image<std::uint8_t>(kPlateWidth, kPlateHeight), near, Growth::kNearGuess);
     EXPECT_NE(near.witnesses(22, 24), 0U);
     EXPECT_EQ(near.witnesses(40, 24), 0U);

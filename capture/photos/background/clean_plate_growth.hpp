@@ -1,5 +1,5 @@
 #pragma once
-// The plate within the region that the object sweeps: grown inwards from where the backdrop is seen all the time.
+// The clean plate within the region that the object sweeps: grown inwards from where the backdrop is seen all the time.
 //
 // Which of the colours that a pixel shows in turn is the backdrop's? The one that its neighbour nearer to the border
 // says: the backdrop goes on evenly, and a picture that shows it at one pixel mostly shows it at the next one too. So
@@ -12,7 +12,7 @@
 
 namespace rs::capture {
 
-struct GrownPlate {
+struct GrownCleanPlate {
     Image<Rgba8> colour;             // means something where `witnesses` is not 0
     Image<std::uint64_t> witnesses;  // [pixel] bit i: sample i shows the backdrop there
 };
@@ -24,10 +24,10 @@ enum class Growth { kFree, kNearGuess };
 // Adds the pixels where `seeds` is not 0, which are the backdrop of the colour `guess` (or almost so), to a plate of
 // their size or to an empty one, and grows it from there, but not to where `barred` is not 0. At most 64 samples.
 void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, ConstImageView<std::uint8_t> seeds,
-                ConstImageView<std::uint8_t> barred, GrownPlate& plate, Growth growth = Growth::kFree);
+                ConstImageView<std::uint8_t> barred, GrownCleanPlate& plate, Growth growth = Growth::kFree);
 
 // The plate's colours as sharp as the pictures are; it is grown by smoothed ones. Black where it has no witnesses.
-Image<Rgba8> sharp_colours(const EvenedSamples& samples, const GrownPlate& plate);
+Image<Rgba8> sharp_colours(const EvenedSamples& samples, const GrownCleanPlate& plate);
 
 // Where a guess of the plate is confirmed, of the pixels that `asked` is not 0 for: at least three samples show patches
 // of it. 255 or 0.

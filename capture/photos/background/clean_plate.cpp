@@ -1,8 +1,8 @@
-#include "capture/photos/background/turn_plate.hpp"
+#include "capture/photos/background/clean_plate.hpp"
 
+#include "capture/photos/background/clean_plate_growth.hpp"
 #include "capture/photos/background/disc_bridging.hpp"
-#include "capture/photos/background/plate.hpp"
-#include "capture/photos/background/plate_growth.hpp"
+#include "capture/photos/background/still_picture.hpp"
 #include "capture/photos/background/swept_region.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
 
@@ -22,7 +22,7 @@ constexpr float kExplained_delta_e = 6;
 constexpr float kDeepestShadow = 0.25F;
 constexpr float kBrightest = 1;  // no shadow is brighter than the plate
 
-Image<std::uint8_t> seen_in(const GrownPlate& plate) {
+Image<std::uint8_t> seen_in(const GrownCleanPlate& plate) {
     Image<std::uint8_t> seen(plate.witnesses.width(), plate.witnesses.height());
     std::transform(plate.witnesses.pixels().begin(), plate.witnesses.pixels().end(), seen.pixels().begin(),
                    [](std::uint64_t witnesses) { return witnesses != 0 ? std::uint8_t{255} : std::uint8_t{0}; });
@@ -143,14 +143,14 @@ Image<std::uint8_t> hidden_within(ConstImageView<std::uint8_t> motionless, Const
 
 }  // namespace
 
-TurnPlate plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba8> still,
-                        ConstImageView<std::uint8_t> motionless) {
+CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba8> still,
+                               ConstImageView<std::uint8_t> motionless) {
     const Image<std::uint8_t> moves = where(motionless, motionless, [](bool rests, bool) { return !rests; });
     Image<std::uint8_t> swept = swept_region(still, moves);
-    TurnPlate result;
+    CleanPlate result;
     result.untouched = where(motionless, swept, [](bool rests, bool within) { return rests && !within; });
     result.hidden = where(motionless, swept, [](bool rests, bool within) { return rests && within; });
-    GrownPlate plate;
+    GrownCleanPlate plate;
     grow_plate(samples, still, result.untouched, result.hidden, plate);
     Image<Rgba8> guess = plate.colour;
     Image<std::uint8_t> known = seen_in(plate);
