@@ -202,7 +202,7 @@ Result<Made> make_set(const Options& options, SceneFile file, Progress& progress
     Result<Rig> rig = choose_rig(options, file);
     if (!rig) return rig.error();
     rig->object_radius = file.object_radius;
-    rig->foot_height = file.foot_height;
+    rig->foot_height = file.ground_height;
 
     CaptureSetOptions set;
     set.render.samples_per_pixel = options.samples_per_pixel.value_or(file.camera.samples_per_pixel);

@@ -73,7 +73,7 @@ capture::SceneFile signpost() {
     const Result<double> radius = capture::normalise_meshes(object.scene);
     RS_CHECK(radius.ok());
     object.object_radius = *radius;
-    object.foot_height = capture::foot_height(object.scene);
+    object.ground_height = capture::ground_height(object.scene);
     return object;
 }
 

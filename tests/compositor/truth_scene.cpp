@@ -221,7 +221,7 @@ Status write_captured_object(const std::string& name, capture::SceneFile object,
         rig.views.insert(rig.views.end(), views.views.begin(), views.views.end());
     }
     rig.object_radius = object.object_radius;
-    rig.foot_height = object.foot_height;
+    rig.foot_height = object.ground_height;
     capture::CaptureSetOptions options;
     options.render.samples_per_pixel = capture.samples;
     options.render.seed = object.seed;

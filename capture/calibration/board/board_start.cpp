@@ -75,8 +75,8 @@ std::optional<BoardPose> pose_from(Eigen::Matrix3d h, double unit_mm) {
 }
 
 struct Axis {
-    Eigen::Vector3d direction;  // up, where the board's printed side looks
-    Eigen::Vector3d foot;       // the point nearest to the camera, mm
+    Eigen::Vector3d direction;      // up, where the board's printed side looks
+    Eigen::Vector3d closest_point;  // to the camera, mm
 };
 
 std::optional<Axis> axis_of(const std::vector<BoardPose>& poses) {
@@ -112,8 +112,8 @@ std::optional<Axis> axis_of(const std::vector<BoardPose>& poses) {
     cv::Mat_<double> solution;
     svd.backSubst(rhs, solution);
     const Eigen::Vector3d point(solution(3, 0), solution(4, 0), solution(5, 0));
-    axis.foot = point - axis.direction * axis.direction.dot(point);
-    return axis.foot.norm() > 1e-9 && axis.foot.allFinite() ? std::optional(axis) : std::nullopt;
+    axis.closest_point = point - axis.direction * axis.direction.dot(point);
+    return axis.closest_point.norm() > 1e-9 && axis.closest_point.allFinite() ? std::optional(axis) : std::nullopt;
 }
 
 double wrapped(double angle) {
@@ -180,10 +180,10 @@ std::optional<BoardTurn> board_start(std::span<const BoardCorners> views, const 
     const auto axis = axis_of(poses);
     if (!axis) return std::nullopt;
 
-    const double distance_mm = axis->foot.norm();
+    const double distance_mm = axis->closest_point.norm();
     Eigen::Matrix3d camera_from_table;
     camera_from_table.col(1) = axis->direction;
-    camera_from_table.col(2) = -axis->foot / distance_mm;
+    camera_from_table.col(2) = -axis->closest_point / distance_mm;
     camera_from_table.col(0) = camera_from_table.col(1).cross(camera_from_table.col(2));
     BoardTurn turn;
     turn.model.lens = lens;
@@ -204,7 +204,7 @@ std::optional<BoardTurn> board_start(std::span<const BoardCorners> views, const 
         turn.model.angles_rad[shown[i]] = before = angle;
         const Eigen::Matrix3d back = Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
         rotations += back * here;
-        middle += back * (camera_from_table.transpose() * (poses[i].translation - axis->foot));
+        middle += back * (camera_from_table.transpose() * (poses[i].translation - axis->closest_point));
     }
     middle /= static_cast<double>(poses.size()) * distance_mm;
     const Eigen::Matrix3d rotation = nearest_rotation(rotations);

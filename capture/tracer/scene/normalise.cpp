@@ -50,7 +50,7 @@ Result<double> normalise_meshes(Scene& scene, ObjectCentre which) {
     return object_radius;
 }
 
-double foot_height(const Scene& scene) {
+double ground_height(const Scene& scene) {
     double lowest = std::numeric_limits<double>::infinity();
     for_each_used_vertex(scene, [&](const glm::dvec3& p) { lowest = std::min(lowest, p.y); });
     return lowest;

@@ -19,6 +19,6 @@ enum class ObjectCentre {
 Result<double> normalise_meshes(Scene& scene, ObjectCentre which = ObjectCentre::bounding_box);
 
 // Y of the lowest vertex that a triangle uses: of the ground that the object stands on. There must be one.
-double foot_height(const Scene& scene);
+double ground_height(const Scene& scene);
 
 }  // namespace rs::capture

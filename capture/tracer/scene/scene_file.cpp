@@ -123,8 +123,8 @@ struct Room {
     double turn_deg = 0;
     double radius = 0;  // of the object, in its units
 
-    [[nodiscard]] glm::dmat4 object_from_room(double foot_height) const {
-        glm::dmat4 matrix = glm::translate(glm::dmat4(1), {0, foot_height, 0});
+    [[nodiscard]] glm::dmat4 object_from_room(double ground_height) const {
+        glm::dmat4 matrix = glm::translate(glm::dmat4(1), {0, ground_height, 0});
         matrix = glm::rotate(matrix, radians(-turn_deg), {0, 1, 0});
         matrix = glm::scale(matrix, glm::dvec3(1 / radius));
         return glm::translate(matrix, -glm::dvec3(at));
@@ -162,9 +162,9 @@ Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path
     Result<double> radius = normalise_meshes(file.scene, centre);
     if (!radius) return Error{path.string() + ": " + radius.error().message};
     file.object_radius = *radius;
-    file.foot_height = foot_height(file.scene);
+    file.ground_height = ground_height(file.scene);
     if (!room) return file;
-    surround(file.scene, std::move(room->scene), room->object_from_room(file.foot_height));
+    surround(file.scene, std::move(room->scene), room->object_from_room(file.ground_height));
     if (Status checked = check_scene(file.scene); !checked)
         return Error{path.string() + ": with its room: " + checked.error().message};
     return file;

@@ -19,7 +19,7 @@ namespace rs::capture {
 struct SceneFile {
     Scene scene;               // normalised: centred (normalise.hpp), farthest vertex at distance 1
     double object_radius = 1;  // the largest distance of a vertex from the Y axis
-    double foot_height = 0;    // Y of the lowest vertex
+    double ground_height = 0;  // Y of the lowest vertex
     CameraRecipe camera;
     std::optional<ToonStyle> toon;  // it is drawn as a cartoon
     std::uint64_t seed = 1;

@@ -142,7 +142,7 @@ Turntable fit_turntable(const Scene& object, double object_radius, DiscSurface s
     Turntable turntable;
     turntable.surface = surface;
     turntable.radius = 1.15 * object_radius;
-    turntable.top = foot_height(object) - kHair;
+    turntable.top = ground_height(object) - kHair;
     turntable.thickness = 0.08 * object_radius;
     turntable.seed = seed;
     return turntable;

@@ -264,9 +264,9 @@ TEST(Rectification, TheRigKnowsTheGround) {
     // Where the axis meets the ground, in the photograph's camera and in the rig's.
     const auto seen = project(Lens(frame->lens), {}, {0, -0.37, 0});
     ASSERT_TRUE(seen.has_value() && rig.foot_height.has_value());
-    const glm::dvec3 foot(0, *rig.foot_height, 0);
-    EXPECT_NEAR(rig.views[2].camera.project(foot).x, seen->x, 1e-9);
-    EXPECT_NEAR(rig.views[2].camera.project(foot).y, seen->y, 1e-9);
+    const glm::dvec3 ground(0, *rig.foot_height, 0);
+    EXPECT_NEAR(rig.views[2].camera.project(ground).x, seen->x, 1e-9);
+    EXPECT_NEAR(rig.views[2].camera.project(ground).y, seen->y, 1e-9);
 }
 
 TEST(Rectification, TheRigsUnitIsTheRadiusThatHoldsWhatIsSeen) {

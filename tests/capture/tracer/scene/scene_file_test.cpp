@@ -80,7 +80,7 @@ TEST_F(SceneFileTest, NormalisesToTheBoundingSphere) {
     EXPECT_NEAR(radius, 1.0F, 1e-6F);
     EXPECT_LT(glm::length(lower + upper), 1e-6F);
     EXPECT_NEAR(file->object_radius, 2 / std::sqrt(5.0), 1e-6);  // a 4 by 2 quad: half diagonal sqrt(5), half width 2
-    EXPECT_NEAR(file->foot_height, lower.y, 1e-6);
+    EXPECT_NEAR(file->ground_height, lower.y, 1e-6);
 }
 
 TEST_F(SceneFileTest, ReadsEveryKey) {
@@ -181,11 +181,11 @@ TEST_F(SceneFileTest, ARoomStandsAroundTheObject) {
     EXPECT_EQ(scene.materials[0].texture, 0);
     EXPECT_TRUE(scene.environment.pixels.empty()) << "the lamp is light enough";
     // 2 above the ground, and what is 2 along +X of the room lies to the turned object's side.
-    const float foot = static_cast<float>(file->foot_height);
-    EXPECT_NEAR(foot, -1 / std::sqrt(5.0F), 1e-6F);
+    const float ground = static_cast<float>(file->ground_height);
+    EXPECT_NEAR(ground, -1 / std::sqrt(5.0F), 1e-6F);
     const glm::vec3 above = scene.meshes[1].positions[0], beside = scene.meshes[1].positions[1];
-    EXPECT_LT(glm::distance(above, glm::vec3(0, foot + 1, 0)), 1e-5F);
-    EXPECT_LT(glm::distance(beside, glm::vec3(0, foot + 1, 1)), 1e-5F);
+    EXPECT_LT(glm::distance(above, glm::vec3(0, ground + 1, 0)), 1e-5F);
+    EXPECT_LT(glm::distance(beside, glm::vec3(0, ground + 1, 1)), 1e-5F);
     EXPECT_FALSE(load(R"({"object": {"mesh": "bare.obj"}})")->scene.has_surroundings());
 }
 
