@@ -218,7 +218,7 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
         ->default_str("auto");
     command->add_option(
         "--board", given->board,
-        "The board that lies on the plate: default, or how it differs from what rs-capture board prints, "
+        "The board that lies on the turntable: default, or how it differs from what rs-capture board prints, "
         "as squares=9x9,square-mm=18");
     command
         ->add_option(

@@ -146,7 +146,7 @@ TEST_F(ImportTool, TakesBoardAndMasksAndWritesAPage) {
     EXPECT_EQ(json.at("backdrop"), "masks");
     EXPECT_NEAR(json.at("calibration").at("tilt_deg").at("value"), 38, 0.3);
     const std::string page = text_of("page.html");
-    for (const char* part : {"the printed board on the plate", "<table", "<svg", "Mattes on magenta", "09.png"}) {
+    for (const char* part : {"the printed board on the turntable", "<table", "<svg", "Mattes on magenta", "09.png"}) {
         EXPECT_NE(page.find(part), std::string::npos) << part;
     }
     const auto rig = read_rig(folder_ / "set");

@@ -172,7 +172,7 @@ Result<BoardTurn> best_start(const Task& task) {
     if (best) return *best;
     if (refused) return *refused;
     return Error{
-        "board: no turn about one axis explains its corners; check that only the plate turned, and that the board "
+        "board: no turn about one axis explains its corners; check that only the turntable turned, and that the board "
         "lay still on it"};
 }
 
@@ -263,7 +263,7 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     if (!against.empty()) {
         return Error{
             "board: its corners in " + list_of(names, against) +
-            " contradict all others; leave those pictures out, or check that the board lay still on the plate"};
+            " contradict all others; leave those pictures out, or check that the board lay still on the turntable"};
     }
     // The residual variance, for the deviations: each observation has two coordinates, each unknown takes one.
     std::set<int> shown, corners;

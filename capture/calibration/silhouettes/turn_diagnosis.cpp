@@ -110,7 +110,7 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
         if (const auto moment = moment_of_change(agreeing_shares(bundle, candidates))) {
             text += "; was the camera or the tripod moved at about " + names[*moment] + "? Take the turn again";
         } else {
-            text += "; are they of one camera, one zoom and one object that stood still on the plate?";
+            text += "; are they of one camera, one zoom and one object that stood still on the turntable?";
         }
         return Error{text};
     }

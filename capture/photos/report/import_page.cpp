@@ -112,7 +112,7 @@ std::string deviation(double value, int digits) {
 std::string what_it_rests_on(CalibrationMethod method) {
     switch (method) {
         case CalibrationMethod::kBoard:
-            return "the printed board on the plate.";
+            return "the printed board on the turntable.";
         case CalibrationMethod::kGiven:
             return "numbers that were given; nothing was estimated.";
         case CalibrationMethod::kTracks:
@@ -154,7 +154,7 @@ void add_estimates(HtmlPage& page, const Calibration& found) {
         {"principal point y, px", number(lens.cy, 1), deviation(off.cy, 1)},
         {"radial distortion k1", number(lens.k1, 4), deviation(off.k1, 4)},
         {"radial distortion k2", number(lens.k2, 4), deviation(off.k2, 4)},
-        {"camera above the plate, degrees", number(degrees(pose.tilt_rad), 3), deviation(degrees(off.tilt_rad), 3)},
+        {"camera above the turntable, degrees", number(degrees(pose.tilt_rad), 3), deviation(degrees(off.tilt_rad), 3)},
         {"roll, degrees", number(degrees(pose.roll_rad), 3), deviation(degrees(off.roll_rad), 3)},
         {"axis' direction, degrees", "", deviation(degrees(off.axis_direction_rad), 3)},
     };

@@ -214,7 +214,7 @@ TEST_F(PhotoCalibrationTest, ABoardIsTakenBeforeAllElse) {
     EXPECT_EQ(report->turning, Turning::kCounterClockwise);
     const auto page = import_page(options_.photos, *report);
     ASSERT_TRUE(page.ok()) << page.error().message;
-    EXPECT_THAT(*page, HasSubstr("the printed board on the plate"));
+    EXPECT_THAT(*page, HasSubstr("the printed board on the turntable"));
 
     // One word wrong about the board, and nothing is found on it.
     options_.board->dictionary = "5x5_50";
