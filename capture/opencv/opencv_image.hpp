@@ -21,6 +21,11 @@ inline cv::Mat mat_over(ConstImageView<Rgba8> picture) {
             static_cast<std::size_t>(picture.stride()) * sizeof(Rgba8)};
 }
 
+// The same to be written to.
+inline cv::Mat writable_mat_over(ImageView<Rgba8> picture) {
+    return mat_over(ConstImageView<Rgba8>(picture));
+}
+
 // A mask's or a grey picture's own bytes as CV_8UC1; likewise.
 inline cv::Mat1b mat_over(ConstImageView<std::uint8_t> mask) {
     return {mask.height(), mask.width(), const_cast<std::uint8_t*>(mask.data()),

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -101,21 +102,22 @@ std::optional<double> common_step(const Task& task, const std::vector<double>& a
     return median(std::move(steps));
 }
 
-// Replaces the start's angles by those that are known or share a step; the board is turned so that the first view shown
-// looks as before.
-Status impose_angles(const Task& task, BoardTurn& turn) {
-    std::vector<double>& angles = turn.model.angles_rad;
-    const std::vector<double> measured = angles;
-    if (task.known.angles_rad) {
-        for (std::size_t i = 0; i < angles.size(); ++i)
-            angles[i] = (*task.known.angles_rad)[i] - task.known.angles_rad->front();
-    } else if (task.known.step_rad || task.known.equal_steps) {
-        const std::optional<double> step = task.known.step_rad ? task.known.step_rad : common_step(task, measured);
-        if (!step) return Error{"board: no two neighbouring views show it, so the step is not known; give the step"};
-        for (std::size_t i = 0; i < angles.size(); ++i) angles[i] = static_cast<double>(i) * *step;
-    } else {
-        return {};
+// with_known(), counting angles from the first view's; where they are known or share a step, the board turns along, so
+// that the views shown look as before.
+Status apply_known(const Task& task, BoardTurn& turn) {
+    const std::vector<double> measured = turn.model.angles_rad;
+    KnownInputs known = task.known;
+    if (known.angles_rad) {
+        for (double& angle : *known.angles_rad) angle -= task.known.angles_rad->front();
+    } else if (known.equal_steps && !known.step_rad) {
+        known.step_rad = common_step(task, measured);
+        if (!known.step_rad) {
+            return Error{"board: no two neighbouring views show it, so the step is not known; give the step"};
+        }
     }
+    turn.model = with_known(std::move(turn.model), known);
+    if (!known.angles_rad && !known.step_rad) return {};
+    const std::vector<double>& angles = turn.model.angles_rad;
     std::size_t first = 0;
     while (!shows_board(task.views[first], task.design)) ++first;
     // Turning by the mean difference; the first view's own alone would carry its error into all.
@@ -158,9 +160,8 @@ Result<BoardTurn> best_start(const Task& task) {
         lens.f_px = f_px;
         std::optional<BoardTurn> turn = board_start(task.views, task.design, lens);
         if (!turn) continue;
-        if (task.known.pose) turn->model.pose = *task.known.pose;
-        if (Status imposed = impose_angles(task, *turn); !imposed) {
-            if (!refused) refused = imposed.error();
+        if (Status applied = apply_known(task, *turn); !applied) {
+            if (!refused) refused = applied.error();
             continue;
         }
         const std::optional<double> cost = adjust(*turn, task.used, options);

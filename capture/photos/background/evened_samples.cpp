@@ -30,7 +30,7 @@ EvenedSamples::EvenedSamples(std::span<const Image<Rgba8>> samples)
     for (Codes& codes : codes_) codes.fill(divided_by(1));
     tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
         smooth_[i] = Image<Rgba8>(samples[i].width(), samples[i].height());
-        cv::Mat smooth(smooth_[i].height(), smooth_[i].width(), CV_8UC4, smooth_[i].data());
+        cv::Mat smooth = writable_mat_over(smooth_[i]);
         cv::GaussianBlur(mat_over(samples[i]), smooth, {3, 3}, 0, 0, cv::BORDER_REPLICATE);
     });
 }

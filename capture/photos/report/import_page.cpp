@@ -89,7 +89,7 @@ Image<Rgba8> annotated_photo(ConstImageView<Rgba8> photo, const ImportReport& re
     Image<Rgba8> small = scaled_down(photo, kAnnotatedSide_px);
     for (Rgba8& p : small.pixels()) p = over(p, {128, 128, 128, 255});
     const double scale = static_cast<double>(small.width()) / photo.width();
-    cv::Mat picture(small.height(), small.width(), CV_8UC4, small.data());
+    cv::Mat picture = writable_mat_over(small);
     if (report.calibration.tracks) draw_points(picture, *report.calibration.tracks, view, scale);
     draw_axis(picture, report, view, scale);
     return small;

@@ -1,9 +1,12 @@
 #include "capture/tracer/integrator/virtual_lights.hpp"
 
+#include "rayspace/base/median.hpp"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rs::capture {
 
@@ -85,11 +88,7 @@ void VirtualLights::find_camera_points(const RayPicture& picture) {
 void VirtualLights::find_bound(std::vector<float> distances) {
     const glm::vec3 diagonal = transport_.rays().upper() - transport_.rays().lower();
     float reach = glm::length(diagonal) / 2;
-    if (!distances.empty()) {
-        const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-        std::nth_element(distances.begin(), middle, distances.end());
-        reach = std::min(reach, *middle);
-    }
+    if (!distances.empty()) reach = std::min(reach, median(std::move(distances)));
     bound_ = kBound / std::max(reach * reach, 1e-12F);
 }
 
