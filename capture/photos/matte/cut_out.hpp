@@ -1,5 +1,5 @@
 #pragma once
-// From a photograph to a picture of the object alone: object_mask -> soft_edge -> foreground_colour.
+// From a photograph to a picture of the object alone: object_mask -> soft_edge -> unmix().
 
 #include "capture/photos/background/backdrop.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
