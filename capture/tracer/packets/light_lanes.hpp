@@ -1,6 +1,7 @@
 #pragma once
 // One light that falls on sixteen surfaces. The twins are LightSet::middle(), Surface::evaluate() and what Whitted's
-// ray tracing does between them; that of virtual lights stands beside its test (tests/capture/tracer/packets_test.cpp).
+// ray tracing does between them; that of virtual lights stands beside its test
+// (tests/capture/tracer/packets/packets_test.cpp).
 
 #include "capture/tracer/packets/surface_lanes.hpp"
 

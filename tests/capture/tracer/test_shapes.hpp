@@ -66,6 +66,11 @@ inline Mesh make_quad(glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
     return mesh;
 }
 
+// The plane y = 0, as far as light in a test reaches.
+inline Mesh floor_quad() {
+    return make_quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100});
+}
+
 inline Environment constant_environment(float radiance) {
     Environment environment;
     environment.pixels = Image<RgbaF>(1, 1, {radiance, radiance, radiance, 1});

@@ -23,9 +23,6 @@ RenderOptions direct_light(int samples) {
 Camera patch_camera() {
     return look_at_camera({0, 1, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
 }
-Mesh floor_quad() {
-    return make_quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100});
-}
 
 TEST(DirectionalLight, LambertSphereFollowsItsFormula) {
     Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.6F)));

@@ -19,12 +19,8 @@ RenderOptions whitted() {
     return options;
 }
 
-Mesh floor_quad() {
-    return make_quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100});
-}
-
 // A camera above the origin that sees a small patch of the floor there.
-Camera patch_camera() {
+Camera small_patch_camera() {
     return look_at_camera({0, 1, 0.5}, {0, 0, 0}, radians(0.1), 4, 4);
 }
 
@@ -36,10 +32,10 @@ TEST(Whitted, DirectLightIsThatOfTheFormulaWithoutNoise) {
     Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
     scene.lights = {point_light({0, 2, 1}, glm::vec3(3.0F)), directional_light({1, -1, 0}, glm::vec3(2.0F))};
     const double of_point = 3 / 5.0 * 2 / std::sqrt(5.0), of_sun = 2 * std::sqrt(0.5);
-    EXPECT_NEAR(brightness(scene, patch_camera()), 0.5 / kPi * (of_point + of_sun), 1e-3);
+    EXPECT_NEAR(brightness(scene, small_patch_camera()), 0.5 / kPi * (of_point + of_sun), 1e-3);
     RenderOptions with_ambient = whitted();
     with_ambient.ambient = glm::vec3(0.25F);
-    EXPECT_NEAR(brightness(scene, patch_camera(), with_ambient), 0.5 / kPi * (of_point + of_sun) + 0.125, 1e-3);
+    EXPECT_NEAR(brightness(scene, small_patch_camera(), with_ambient), 0.5 / kPi * (of_point + of_sun) + 0.125, 1e-3);
 }
 
 TEST(Whitted, ShadowsAreHard) {
@@ -62,19 +58,19 @@ TEST(Whitted, AreasAndSurfacesThatShineCountAsTheirMiddle) {
     const auto expected = 0.8 * 2 * 1 / (kPi * 9);
     Scene by_area = scene_of(floor_quad(), material_of(SurfaceKind::diffuse, glm::vec3(0.8F)));
     by_area.lights = {rectangle_light({-0.5F, 3, -0.5F}, {1, 0, 0}, {0, 0, 1}, glm::vec3(2.0F))};
-    EXPECT_NEAR(brightness(by_area, patch_camera()), expected, 1e-3);
+    EXPECT_NEAR(brightness(by_area, small_patch_camera()), expected, 1e-3);
     Scene by_mesh = scene_of(floor_quad(), material_of(SurfaceKind::diffuse, glm::vec3(0.8F)));
     Material lamp = material_of(SurfaceKind::diffuse, glm::vec3(0.0F));
     lamp.emission = glm::vec3(2.0F);
     by_mesh.materials.push_back(lamp);
     by_mesh.meshes.push_back(make_quad({-0.5F, 3, -0.5F}, {1, 0, 0}, {0, 0, 1}));
     by_mesh.meshes.back().material = 1;
-    EXPECT_NEAR(brightness(by_mesh, patch_camera()), expected, 1e-3);
+    EXPECT_NEAR(brightness(by_mesh, small_patch_camera()), expected, 1e-3);
     // A ball of radius 0.5 is a disc of that radius from everywhere.
     by_mesh.meshes.back() = make_sphere(4);
     by_mesh.meshes.back().material = 1;
     for (glm::vec3& p : by_mesh.meshes.back().positions) p = 0.5F * p + glm::vec3(0, 3, 0);
-    EXPECT_NEAR(brightness(by_mesh, patch_camera()), 0.8 * 2 * 0.25 / 9, 2e-3);
+    EXPECT_NEAR(brightness(by_mesh, small_patch_camera()), 0.8 * 2 * 0.25 / 9, 2e-3);
 }
 
 TEST(Whitted, MirrorsAndGlassAreFollowed) {
