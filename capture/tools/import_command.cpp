@@ -137,7 +137,7 @@ Status run_import(const ImportCommandLine& given) {
     options.backdrop = *backdrop;
     if (given.clockwise) options.turning = Turning::kClockwise;
     if (given.counter_clockwise) options.turning = Turning::kCounterClockwise;
-    std::optional<StagedFile> page;  // made before the work, so that a bad place for it is told at once
+    std::optional<StagedFile> page;  // made before the work, so that a bad place for it is reported at once
     if (!given.report.empty()) {
         Result<StagedFile> created = StagedFile::create(given.report);
         if (!created) return created.error();

@@ -57,7 +57,7 @@ Status check_output_keeps(const std::filesystem::path& output, const std::filesy
     return {};
 }
 
-// What the command line says; empty where the recipe decides.
+// What the command line gives; empty where the recipe decides.
 struct Options {
     std::filesystem::path scene;
     std::filesystem::path output;

@@ -3,9 +3,9 @@
 // turntable's model and where the board lies.
 //
 // Unknown are f, k1, k2, the camera's pan, tilt and roll, one angle per view and the board's place; the principal point
-// is the picture's middle unless KnownInputs says otherwise. The board may lie anywhere on the turntable, turned and
-// not quite level. A board that is seen from straight above or from the side does not tell the focal length: 15 to 70
-// degrees above are good.
+// is the picture's middle unless KnownInputs gives another. The board may lie anywhere on the turntable, turned and
+// not quite level. A board that is seen from straight above or from the side does not determine the focal length: 15 to
+// 70 degrees above are good.
 
 #include "capture/calibration/board/board_detection.hpp"
 #include "capture/calibration/model/calibration.hpp"

@@ -111,7 +111,7 @@ std::vector<Match> matches_of(const std::vector<FoundMarker>& markers, const std
 
 // From squares, counted from `centre`, to pixels: the homography of the matches nearest to it. Nothing where they are
 // too few or too far.
-// Matches farther than `limit_px` from what most of them say are wrong ones; 0: all count.
+// Matches farther than `limit_px` from what most of them agree on are wrong ones; 0: all count.
 std::optional<cv::Matx33d> homography_around(const cv::Point2d& centre, std::vector<Match> matches, std::size_t count,
                                              double reach, double limit_px) {
     std::erase_if(matches, [&](const Match& m) { return cv::norm(m.square - centre) > reach; });
@@ -125,7 +125,7 @@ std::optional<cv::Matx33d> homography_around(const cv::Point2d& centre, std::vec
         from.push_back(m.square - centre);
         to.push_back(m.pixel);
     }
-    // Points on one line tell nothing across it.
+    // Points on one line determine nothing across it.
     cv::Matx22d spread = cv::Matx22d::zeros();
     cv::Point2d mean;
     for (const cv::Point2d& p : from) mean += p * (1.0 / static_cast<double>(from.size()));
@@ -196,7 +196,7 @@ struct CornerSearch {
                                  limit_px > 0 ? kBoardDisagreement_px : 0);
     }
 
-    // How far a match stands from where the others expect it, over what is allowed; 0 where they cannot tell.
+    // How far a match stands from where the others expect it, over what is allowed; 0 where they do not know.
     static double disagreement(const Match& match, std::vector<Match> others) {
         std::erase_if(others, [&](const Match& m) { return m.square == match.square; });
         double allowed_px = 0;

@@ -23,7 +23,7 @@ struct SheetOptions {
 };
 
 // Errors: a design that check_board_design() refuses; an unknown paper; a board that does not fit the paper (the
-// message says what would fit).
+// message states what would fit).
 Result<std::string> board_pdf(const BoardDesign& design, const std::string& paper);
 Result<std::string> board_svg(const BoardDesign& design);
 
@@ -31,7 +31,7 @@ Result<std::string> board_svg(const BoardDesign& design);
 // [p, p + 1) * 25.4 / dpi millimetres from the border's outer edge. Error where a side exceeds kMaxPictureSide_px.
 Result<Image<Rgba8>> board_picture(const BoardDesign& design, double dpi);
 
-// Writes what the name's ending says: .pdf, .svg or .png. Errors as above, another ending, and of writing.
+// Writes what the name's ending names: .pdf, .svg or .png. Errors as above, another ending, and of writing.
 Status write_board(const std::filesystem::path& path, const SheetOptions& options);
 
 }  // namespace rs::capture

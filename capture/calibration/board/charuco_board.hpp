@@ -31,7 +31,7 @@ struct BoardDesign {
     bool operator==(const BoardDesign&) const = default;
 };
 
-// "squares=9x9,square-mm=18,marker=0.7,dictionary=4x4_50,blank-mm=0" in any order; what is not said keeps its default,
+// "squares=9x9,square-mm=18,marker=0.7,dictionary=4x4_50,blank-mm=0" in any order; what is not given keeps its default,
 // and "default" or nothing is the default board. `squares=9` is 9x9. The error names the word and what is valid.
 Result<BoardDesign> parse_board_design(const std::string& text);
 std::string to_string(const BoardDesign& design);  // what parse_board_design reads

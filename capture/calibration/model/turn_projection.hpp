@@ -1,5 +1,5 @@
 #pragma once
-// A turntable model made ready to be asked for many points in many views: sines and cosines are taken once.
+// A turntable model made ready to project many points into many views: sines and cosines are taken once.
 
 #include "capture/calibration/model/turntable_model.hpp"
 

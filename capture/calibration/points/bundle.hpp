@@ -51,7 +51,7 @@ struct BundleOptions {
     double enough = 1e-7;  // of the cost: a round that changes it by less is the last
 };
 
-// What lenses are like, told to the adjustment as weak observations so that what the pictures do not show stays at its
+// What lenses are like, given to the adjustment as weak observations so that what the pictures do not show stays at its
 // ordinary value: one standard deviation each.
 inline constexpr double kPriorK1 = 0.3;
 inline constexpr double kPriorK2 = 0.1;

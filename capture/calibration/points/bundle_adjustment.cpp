@@ -156,7 +156,7 @@ private:
     bool has_angle_;
 };
 
-// What lenses are like. Parameter block is the camera's free numbers; those held are told too, so that costs compare.
+// What lenses are like. Parameter block is the camera's free numbers; those held are given too, so that costs compare.
 class LensPrior final : public ceres::CostFunction {
 public:
     LensPrior(const ModelNow& now, const Lens& lens, const std::vector<std::size_t>& places, double noise_px)

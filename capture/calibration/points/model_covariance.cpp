@@ -133,7 +133,7 @@ double middle_angle(const TurntableModel& model, const Track& track) {
     return std::atan2(sine, cosine);
 }
 
-// What tracks say of the free numbers, their points eliminated.
+// What tracks show of the free numbers, their points eliminated.
 struct Evidence {
     Eigen::MatrixXd information;
     Eigen::VectorXd score;
@@ -223,7 +223,7 @@ std::optional<Evidence> evidence_of(const Bundle& bundle, const Reprojections& t
     return evidence;
 }
 
-// What the adjustment is told beforehand of the lens: the diagonal of its information.
+// What the adjustment is given beforehand of the lens: the diagonal of its information.
 Eigen::VectorXd prior_information(const TurntableModel& model, const NumberPlaces& places, double loss_px) {
     const std::array<double, 5> deviations{0, kPriorPrincipalPoint * model.lens.width,
                                            kPriorPrincipalPoint * model.lens.width, kPriorK1, kPriorK2};

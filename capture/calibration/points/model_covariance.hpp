@@ -1,5 +1,5 @@
 #pragma once
-// From the covariance of a turn's unknown numbers, however it was found, to the deviations that are told.
+// From the covariance of a turn's unknown numbers, however it was found, to the deviations that are reported.
 
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/points/bundle.hpp"
@@ -37,7 +37,7 @@ ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& p
 //
 // Points are eliminated, and of what is left three kinds of error are added up.
 //   - Of each track by itself: the robust "sandwich" H^-1 M H^-1 (Huber 1967, White 1980), M the sum over tracks of the
-//     outer product of what their observations say together, for a feature that is placed a little wrong is so in all
+//     outer product of what their observations show together, for a feature that is placed a little wrong is so in all
 //     views. H is how firmly the robust loss holds: far observations hardly do.
 //   - Of each side of the object: features near each other err alike, since the same shadow glides over them, and fur
 //     and petals seem to turn a little faster than they do. The turn is cut into twelve sectors, each of which errs as

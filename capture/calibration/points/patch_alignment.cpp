@@ -157,7 +157,7 @@ std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int 
         }
     });
 
-    // First how the surface lies and is curved around each point, as all views together say; then, with that held,
+    // First how the surface lies and is curved around each point, as all views together show; then, with that held,
     // where it is.
     std::vector<std::vector<std::optional<Alignment>>> found =
         align_all(turn, reduction, model, facets, patches, false);

@@ -1,6 +1,6 @@
 #pragma once
 // Observations made exact: the patch around a point as one view shows it is found again in every other view that may
-// see the point, to a few hundredths of a pixel. Stands between a first bundle, which says where to look, and the last
+// see the point, to a few hundredths of a pixel. Stands between a first bundle, which gives where to look, and the last
 // one.
 //
 // A feature detector places each observation by itself, so a track is as noisy as the detector, and it ends where the

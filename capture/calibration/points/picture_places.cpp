@@ -124,7 +124,7 @@ bool adjust_places(Bundle& bundle, std::vector<PicturePlace>& places, double los
         problem.SetParameterLowerBound(lens.data(), 0, 0.5 * model.lens.width);
         problem.SetParameterUpperBound(lens.data(), 0, std::max(kLongestLens_widths * model.lens.width, lens[0]));
     }
-    // Where the camera looks, the shifts say.
+    // The shifts show where the camera looks.
     problem.SetManifold(pose.data(), new ceres::SubsetManifold(3, {0}));
     if (known.step_rad || known.angles_rad) problem.SetParameterBlockConstant(&step);
     ceres::Solver::Options solver;

@@ -26,7 +26,7 @@ struct PlacedTurn {
 std::optional<PlacedTurn> find_places(std::span<const Track> tracks, const Lens& lens, std::size_t views, int reduction,
                                       const KnownInputs& known);
 
-// What `bundle`, of the pictures put back, says of how far their places are still off: [view], to be taken before
+// What `bundle`, of the pictures put back, shows of how far their places are still off: [view], to be taken before
 // theirs. `limit_px` is how far its observations may disagree. Nothing where the adjustment fails.
 std::optional<std::vector<PicturePlace>> remaining_places(const Bundle& bundle, double limit_px,
                                                           const KnownInputs& known);

@@ -18,7 +18,7 @@ namespace {
 constexpr double kRatio = 0.8;            // Lowe: best distance over second best
 constexpr double kGuidedRatio = 0.9;      // among the few that the model allows
 constexpr double kEpipolarBand_px = 1.5;  // at 1000 px of the longer side; grows with the picture
-constexpr int kFewestMatches = 12;        // below, a pair says nothing
+constexpr int kFewestMatches = 12;        // below, a pair shows nothing
 
 // Those that agree with one epipolar geometry (RANSAC with OpenCV's fixed seed).
 std::vector<FeatureMatch> consistent(const std::vector<FeatureMatch>& matches, const ViewFeatures& a,

@@ -23,7 +23,7 @@ constexpr double kFinest_px = 0.12;
 // Views that contradict a ray by this much less than the strongest do not become the strongest beside it.
 constexpr double kVerdictMargin_px = 1.5;
 constexpr std::size_t kMostVerdicts = 8;
-// A few rays say where the optimum is, all of them where it is exactly.
+// A few rays show where the optimum is, all of them where it is exactly.
 constexpr std::size_t kCoarseRaysPerView = 100;
 // Outlines that leave more than this of the angles' variance are of a body that looks alike from all sides. What they
 // say of the camera is in the small print of their errors: it has been seen to bend lens and tilt.
@@ -40,7 +40,7 @@ SilhouetteComparison consistency_comparison(const LooseNumbers& numbers, const S
     const auto residuals = [&turn, &rays, &depths, in_turn](const Eigen::VectorXd& z) {
         return consistency_residuals_px(turn, in_turn(z), rays, &depths);
     };
-    // Only what contradicts a ray is asked again beside: near enough to go down by.
+    // Only what contradicts a ray is compared again beside: near enough to go down by.
     const auto beside = [&turn, &rays, &depths, in_turn](const Eigen::VectorXd& z) -> SilhouetteResiduals {
         auto verdicts = ray_verdicts(turn, in_turn(z), rays, depths, kVerdictMargin_px, kMostVerdicts);
         return [&turn, &rays, in_turn, verdicts = std::move(verdicts)](const Eigen::VectorXd& there) {
@@ -80,7 +80,7 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     RayDepths depths;
     SilhouetteComparison rays = consistency_comparison(numbers, turn, picture_px, all, depths);
     if (!SilhouetteAdjustment(rays, errors).improve(z, steps, kLittle)) return std::nullopt;
-    // Beside a body of revolution the few views that contradict it would seem to know how it stands: all are asked.
+    // Beside a body of revolution the few views that contradict it would seem to know how it stands: all are compared.
     rays.beside = nullptr;
     SilhouetteAdjustment found(rays, errors);
     const Eigen::MatrixXd information = found.information(z);

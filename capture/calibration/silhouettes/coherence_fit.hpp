@@ -1,5 +1,5 @@
 #pragma once
-// What the outlines of all views together say about camera and angles: that they are outlines of one body
+// What the outlines of all views together show of camera and angles: that they are outlines of one body
 // (consistency_residuals.hpp). Points that can be followed for a short way only let the angles drift around the turn;
 // outlines tie every view to all others.
 
@@ -20,19 +20,19 @@ struct CoherenceFit {
 };
 
 struct CoherenceOptions {
-    double worst_px = 0.5;     // of the photographs: outlines that come to agree no better are not heeded
+    double worst_px = 0.5;     // of the photographs: outlines that come to agree no better are left out
     int most_directions = 14;  // combinations of numbers that are looked at; the work grows with them
-    // Outlines err together in ways no residual shows: they are taken to be off by so many times what they say.
+    // Outlines err together in ways no residual shows: they are taken to be off by so many times what they show.
     double untold_together = 6;
     // Begins with a hundred rays of a view: four times as quick where `model` is nearly right. From afar so few lead
-    // astray: a body of revolution then seems to tell its angles.
+    // astray: a body of revolution then seems to show its angles.
     bool few_rays_first = false;
 };
 
 // `model`, known with `covariance` of the numbers at `places`, and the outlines together: what both make likeliest,
 // along those combinations of numbers that `covariance` leaves loosest. Outlines are weighed by how well they agree.
 // `picture_px`: px of the photographs per px of `turn`. Nothing where the outlines do not come to agree within
-// worst_px, where they tell little of the angles (a body of revolution, angles that are held), or
+// worst_px, where they show little of the angles (a body of revolution, angles that are held), or
 // where `model` does not stay before the camera. Works on the threads of the calling tbb
 // arena; equal results whatever their number.
 std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const NumberPlaces& places,

@@ -38,7 +38,7 @@ struct RayVerdict {
 std::vector<RayVerdict> ray_verdicts(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays,
                                      const RayDepths& depths, double margin_px, std::size_t most);
 
-// The residuals of a model that differs little from the verdicts': what the verdicts' views alone say of them near
+// The residuals of a model that differs little from the verdicts': what the verdicts' views alone make them near
 // their depths, in a tenth of the time.
 std::vector<double> residuals_by_verdicts(const SilhouetteTurn& turn, const TurntableModel& model,
                                           const RaySelection& rays, const std::vector<RayVerdict>& verdicts);

@@ -24,13 +24,13 @@ public:
     [[nodiscard]] TurntableModel at(const Eigen::VectorXd& z) const { return stepped(model_, places_, step(z)); }
     [[nodiscard]] Eigen::VectorXd step(const Eigen::VectorXd& z) const { return columns_ * z; }
 
-    // `covariance` once outlines have told `information` of the combinations, if their variances were `disbelief` times
-    // as great as said, and outlines err together by `untold` times as much as they say. Of no combination more than
-    // `most` times what was so believed.
+    // `covariance` once outlines have given `information` of the combinations, if their variances were `disbelief`
+    // times as great as stated, and outlines err together by `untold` times as much as they show. Of no combination
+    // more than `most` times what was so believed.
     [[nodiscard]] Eigen::MatrixXd told(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& information,
                                        double untold, double disbelief, double most) const;
 
-    // How much of the angles' variance outlines leave that tell `information`, 0 .. 1.
+    // How much of the angles' variance outlines leave that give `information`, 0 .. 1.
     [[nodiscard]] double angles_left(const Eigen::MatrixXd& information) const;
 
 private:

@@ -178,7 +178,7 @@ std::pair<float, double> RayProbe::refined(double low, double high, int rounds) 
     float at_a = least_over_views(a, kBehind);
     float at_b = least_over_views(b, at_a);
     for (int i = 0; i < rounds && at_a < 0 && at_b < 0; ++i) {
-        // The smaller of both may be less than it says: it goes.
+        // The smaller of both may be less than it claims: it goes.
         if (at_a > at_b) {
             high = b;
             b = a;

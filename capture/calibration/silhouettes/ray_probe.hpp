@@ -58,7 +58,7 @@ private:
     };
     static float apart_px(const Seen& a, const Seen& b);
     void aim(const glm::dvec3& direction);
-    // Inline: what follows does not wait for one view's memory before it asks the next one.
+    // Inline: what follows does not wait for one view's memory before it reads the next one.
     [[nodiscard]] Seen seen(std::size_t j, double depth) const {
         const glm::vec3 p(sights_[j].centre + depth * directions_[j]);
         if (!(p.z < -1e-6F)) return {};
@@ -83,7 +83,7 @@ private:
     std::vector<std::size_t> sight_of_;            // [view]; sights_.size(): none
     std::vector<glm::dvec3> directions_;           // [sight], of those that are heeded
     std::vector<std::size_t> heeded_;              // sights, those that contradicted last first
-    std::size_t deciding_ = 0;                     // the first so many of heeded_ are asked
+    std::size_t deciding_ = 0;                     // the first so many of heeded_ are compared
     std::vector<std::pair<float, float>> bounds_;  // [place in heeded_]: what keep_deciding works with
 };
 

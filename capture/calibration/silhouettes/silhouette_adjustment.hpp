@@ -1,6 +1,6 @@
 #pragma once
-// The one adjustment by which outlines tell numbers of a turn, whatever of the outlines is compared: rays with all
-// other outlines (silhouette_fit.hpp, coherence_fit.hpp) or tangent planes of pairs (silhouette_tangency.hpp).
+// The one adjustment by which numbers of a turn are estimated from outlines, whatever of the outlines is compared: rays
+// with all other outlines (silhouette_fit.hpp, coherence_fit.hpp) or tangent planes of pairs (silhouette_tangency.hpp).
 //
 // Numbers are counted in deviations of what was known of them before: each is expected at 0 with a deviation of 1, and
 // independent of the others. Outlines leave residuals r, px. With S the mean of r^2 / (1 + r^2 / outlier_px^2) (Geman
@@ -41,13 +41,13 @@ struct SilhouetteComparison {
     std::function<SilhouetteResiduals(const Eigen::VectorXd& z)> beside = nullptr;
 };
 
-// Remembers what it asked last, so that nothing is asked twice. For one thread; the comparison may use several.
+// Remembers what it computed last, so that nothing is computed twice. For one thread; the comparison may use several.
 class SilhouetteAdjustment {
 public:
     SilhouetteAdjustment(SilhouetteComparison comparison, const SilhouetteErrors& errors)
         : comparison_(std::move(comparison)), errors_(errors) {}
 
-    // From now on. `disbelief`: the variance of what was known before as it turns out, 1 unless said.
+    // From now on. `disbelief`: the variance of what was known before as it turns out, 1 unless given.
     void expect(const SilhouetteErrors& errors, double disbelief);
 
     const std::vector<double>& residuals(const Eigen::VectorXd& z);
@@ -58,7 +58,7 @@ public:
     // gain less than `enough`. False, and z stays, where residuals are not finite. Deterministic.
     bool improve(Eigen::VectorXd& z, int most_steps, double enough);
 
-    // What the outlines alone tell of the numbers: half the curvature of their part of the cost, [number, number].
+    // What the outlines alone show of the numbers: half the curvature of their part of the cost, [number, number].
     Eigen::MatrixXd information(const Eigen::VectorXd& z);
 
 private:

@@ -17,8 +17,8 @@ namespace {
 
 const SilhouetteDetail kDetail{600, 200};
 
-// What was found under wrong angles is off by more than it says; and it was found from the same outlines, which are not
-// to count twice.
+// What was found under wrong angles is off by more than it states; and it was found from the same outlines, which are
+// not to count twice.
 constexpr double kWider = 3;
 constexpr double kDistortion = 0.1;  // k1 that lenses of photographs have
 constexpr double kWorst_px = 1;      // of the turn
@@ -27,7 +27,7 @@ constexpr double kUntoldTogether = 3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// f, tilt, roll and the axis' position where outlines say nothing.
+// f, tilt, roll and the axis' position where outlines show nothing.
 std::array<double, SilhouetteParameters::kCount> unknown_deviations(const TurntableModel& model, double picture_px) {
     std::array<double, SilhouetteParameters::kCount> all = kSilhouettePriors;
     all[SilhouetteParameters::kLogF] *= model.lens.f_px;
@@ -58,7 +58,7 @@ Eigen::MatrixXd expected(const TurntableModel& model, const NumberPlaces& places
     return covariance;
 }
 
-// What is not estimated is not known, either; and what is hardly surer than before has not been told.
+// What is not estimated is not known, either; and what is hardly surer than before has not been shown.
 void admit(ModelDeviations& deviations, const TurntableModel& model, const KnownInputs& known, double picture_px) {
     const auto unknown = unknown_deviations(model, picture_px);
     const auto told = [](double deviation, double before) {

@@ -13,12 +13,12 @@
 namespace rs::capture {
 namespace {
 
-// For slopes: wide enough to look past the steps of the distances, narrow enough for what is asked.
+// For slopes: wide enough to look past the steps of the distances, narrow enough for what is needed.
 constexpr std::array<double, SilhouetteParameters::kCount> kWidths = {0.3, 0.004, 0.002, 0.02, 0.002};
 // Of cost. The jackknife asks how the numbers move where one view in six is missing, which is worth little.
 constexpr double kEnough = 1e-3;
 
-// The free numbers by their priors, and what rays say of them.
+// The free numbers by their priors, and what rays show of them.
 struct FittedNumbers {
     std::vector<std::size_t> free;
     std::function<SilhouetteParameters(const Eigen::VectorXd& z)> at;

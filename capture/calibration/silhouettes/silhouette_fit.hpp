@@ -1,5 +1,5 @@
 #pragma once
-// The few numbers of a turntable model that outlines can tell, fitted to them.
+// The few numbers of a turntable model that outlines can show, fitted to them.
 
 #include "capture/calibration/silhouettes/consistency_residuals.hpp"
 
@@ -18,11 +18,11 @@ struct SilhouetteParameters {
 };
 
 // Where nothing is known, what is plausible: one standard deviation of each change. Weak, so that only what outlines do
-// not tell is held by it.
+// not show is held by it.
 inline constexpr std::array<double, SilhouetteParameters::kCount> kSilhouettePriors = {60, 0.5, 0.15, 0.35, 0.03};
 // Outlines are off by about this much, in px of the turn, while angles are as assumed; the unit of costs.
 inline constexpr double kSilhouetteError_px = 0.6;
-// Where a deviation is above this share of the prior's, the outlines have said nothing.
+// Where a deviation is above this share of the prior's, the outlines have shown nothing.
 inline constexpr double kToldNothing = 0.7;
 
 struct SilhouetteProblem {
@@ -40,7 +40,7 @@ double silhouette_cost(const SilhouetteProblem& problem, const SilhouetteParamet
 struct SilhouetteFit {
     SilhouetteParameters at;
     double cost = 0;
-    // One standard deviation by the curvature of the cost, [name]; infinity where the priors say it rather than the
+    // One standard deviation by the curvature of the cost, [name]; infinity where the priors give it rather than the
     // outlines; 0 where held.
     std::array<double, SilhouetteParameters::kCount> deviation{};
 };

@@ -104,7 +104,7 @@ private:
     double v_;
 };
 
-// The less upright a rim, the less a row says of where it is across.
+// The less upright a rim, the less a row shows of where it is across.
 void weigh(std::vector<RimRow>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const RimRow& above = rows[i > 0 ? i - 1 : i];
@@ -130,7 +130,7 @@ struct Offset {
     double deviation = 0;
 };
 
-// The robust mean (Cauchy) of what the rows say, and its deviation by the sums over bands of rows (the "sandwich").
+// The robust mean (Cauchy) of what the rows show, and its deviation by the sums over bands of rows (the "sandwich").
 Offset robust_offset(const std::vector<RimRow>& rows, double least_scatter) {
     std::vector<std::pair<double, double>> offsets, sizes;
     for (const RimRow& row : rows) offsets.emplace_back(0.5 * (row.left + row.right), row.weight);
@@ -184,7 +184,7 @@ double missed(const std::vector<double>& gaps_rad) {
     return 0.5 * std::sqrt(0.5 * std::max(0.0, mean4 - mean2 * mean2));
 }
 
-// What the rims say of one model.
+// What the rims show of one model.
 struct Reading {
     Offset offset;
     double v = 0;       // the middle of the rows

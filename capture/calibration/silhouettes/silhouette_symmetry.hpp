@@ -9,7 +9,7 @@
 // "Camera calibration from surfaces of revolution", 2003.)
 //
 // Rows are averaged robustly: a wisp on one view's cut-out, or a shadow beside the foot, touches few of them. What
-// outlines say of tilt, lens and angles is left to silhouettes.hpp; here it hardly matters.
+// outlines show of tilt, lens and angles is left to silhouettes.hpp; here it hardly matters.
 
 #include "capture/calibration/model/turntable_model.hpp"
 #include "capture/calibration/points/tracks.hpp"

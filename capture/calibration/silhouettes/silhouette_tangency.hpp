@@ -1,5 +1,5 @@
 #pragma once
-// What the outlines of any two views say about camera and angles: the planes through both camera centres that just
+// What the outlines of any two views show of camera and angles: the planes through both camera centres that just
 // touch the object are the same, whichever of the two views one looks from.
 //
 // The camera goes around the object in the object's frame. Of the pencil of planes through two of its places the two

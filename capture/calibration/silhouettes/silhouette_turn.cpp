@@ -67,7 +67,7 @@ bool is_edge(ConstImageView<float> coverage, int x, int y) {
     return differs(x - 1, y) || differs(x + 1, y) || differs(x, y - 1) || differs(x, y + 1);
 }
 
-// The distance to the nearest edge pixel plus what its coverage says about where in it the outline runs.
+// The distance to the nearest edge pixel plus what its coverage shows of where in it the outline runs.
 Image<float> signed_distance(ConstImageView<float> coverage) {
     cv::Mat1b far_from_edge(coverage.height(), coverage.width());
     for (int y = 0; y < coverage.height(); ++y) {

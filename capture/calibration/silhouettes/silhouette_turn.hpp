@@ -21,7 +21,7 @@ struct SilhouetteDetail {
 
 class SilhouetteTurn {
 public:
-    // Coverage 0..255, all views of one size. They are reduced by the whole factor that `detail` asks for, and cut to
+    // Coverage 0..255, all views of one size. They are reduced by the whole factor that `detail` requires, and cut to
     // the turn's box. Errors: fewer than 6 views, sizes that differ, a view that is empty or full.
     static Result<SilhouetteTurn> of(std::span<const Image<std::uint8_t>> masks, const SilhouetteDetail& detail = {});
 

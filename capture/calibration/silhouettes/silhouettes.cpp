@@ -80,7 +80,7 @@ SilhouetteFit search(SilhouetteProblem problem) {
 }
 
 // The best fits with the tilt held at several values. Outlines may leave a whole valley of tilts open, with another
-// axis and lens for each, and the curvature at one place in it says nothing of that.
+// axis and lens for each, and the curvature at one place in it shows nothing of that.
 std::vector<SilhouetteFit> fits_along_tilts(SilhouetteProblem problem, const SilhouetteFit& fit,
                                             const RaySelection& rays) {
     std::vector<SilhouetteFit> fits;

@@ -27,7 +27,7 @@ bool move_to(const TurntableModel& model, Bundle& bundle, std::size_t fewest_tra
     return true;
 }
 
-// What a fit has found. The axis' position has been asked of the same outlines before: it gets no surer.
+// What a fit has found. The axis' position has been estimated from the same outlines before: it gets no surer.
 void take(const TurntableModel& model, const Eigen::MatrixXd& covariance, TrackSolution& solution,
           std::size_t fewest_tracks) {
     if (!move_to(model, solution.bundle, fewest_tracks)) return;
@@ -62,7 +62,7 @@ std::optional<std::string> settle_axis(TrackSolution& solution, const TurnPictur
 }
 
 // Brings the whole model to where tracks and outlines together see it (silhouette_tangency.hpp), and the points with
-// it. The covariance is that of the tracks alone; the axis' position is known as the deviations say.
+// it. The covariance is that of the tracks alone; the axis' position is known as the deviations state.
 void settle_pairs(TrackSolution& solution, const TurnPictures& turn, std::size_t fewest_tracks) {
     Eigen::MatrixXd& covariance = solution.covariance;
     const TurntableModel& found = solution.bundle.model;

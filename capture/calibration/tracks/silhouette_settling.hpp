@@ -23,7 +23,7 @@ struct TrackSolution {
     ModelDeviations deviations;
 };
 
-// Whatever outlines cannot tell, or do not agree on, stays as it is, and so does a step that would leave fewer than
+// Whatever outlines cannot show, or do not agree on, stays as it is, and so does a step that would leave fewer than
 // `fewest_tracks`. The value is a line for the photographer where axis and outlines disagree. Works on the threads of
 // the calling tbb arena; deterministic.
 std::optional<std::string> settle_with_silhouettes(TrackSolution& solution, const TurnPictures& turn,

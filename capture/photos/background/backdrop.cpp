@@ -93,7 +93,7 @@ bool resembles(const Rgba8& pixel, const std::vector<Rgba8>& colours) {
 }
 
 // Where the exposure changes much from picture to picture, nothing agrees over time: what the border shows at the
-// median tells by how much.
+// median shows by how much.
 void even_out_border(EvenedSamples& samples) {
     constexpr float kMuch = 1.15F;
     Image<Rgba8> median(samples.width(), samples.height());

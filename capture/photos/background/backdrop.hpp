@@ -19,7 +19,7 @@ namespace rs::capture {
 enum class BackdropKind { kAlpha, kWhite, kBlack, kColour };
 std::string to_string(BackdropKind kind);  // "alpha", "white", "black", "colour"
 
-// What the user asked for. No kind: automatic. `colour` (sRGB) only with kColour.
+// What the user requested. No kind: automatic. `colour` (sRGB) only with kColour.
 struct BackdropRequest {
     std::optional<BackdropKind> kind;
     std::optional<Rgba8> colour;
@@ -55,7 +55,7 @@ struct Backdrop {
 
 // Automatic: the pictures' own alpha where at least 1 % of the pixels are transparent in most of the samples; otherwise
 // white or black where most of the border is; otherwise colour. Fails where the border is neither of few colours nor
-// still, where alpha is asked for and there is none, and where there are no samples. `where` names the folder in
+// still, where alpha is requested and there is none, and where there are no samples. `where` names the folder in
 // errors.
 Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& request, const std::string& where);
 

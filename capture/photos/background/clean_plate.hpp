@@ -28,7 +28,7 @@ CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba
                                ConstImageView<std::uint8_t> motionless);
 
 // Mean delta E between the samples and the plate, over those samples that show it, averaged over a neighbourhood; only
-// where `known` is not 0 the plate is asked, elsewhere what is known near by holds, or 0.
+// where `known` is not 0 the plate is compared, elsewhere what is known near by holds, or 0.
 Image<float> plate_noise(const EvenedSamples& samples, const Image<Rgba8>& plate, const Image<std::uint8_t>& known);
 
 }  // namespace rs::capture

@@ -2,7 +2,7 @@
 // The clean plate within the region that the object sweeps: grown inwards from where the backdrop is seen all the time.
 //
 // Which of the colours that a pixel shows in turn is the backdrop's? The one that its neighbour nearer to the border
-// says: the backdrop goes on evenly, and a picture that shows it at one pixel mostly shows it at the next one too. So
+// shows: the backdrop goes on evenly, and a picture that shows it at one pixel mostly shows it at the next one too. So
 // every pixel of the plate carries the pictures in which it is seen (its witnesses), and the next pixel belongs to it
 // if most of those witnesses show the same colour there. Where the object always hides the backdrop the witnesses
 // run out, and growing stops: the object's own colour, however many pictures agree on it, has none.

@@ -1,5 +1,5 @@
 #pragma once
-// What a turntable's disc says of the plate where the object hides it: the other pixels of the same circle show it.
+// What a turntable's disc shows of the plate where the object hides it: the other pixels of the same circle show it.
 
 #include "capture/photos/background/turntable_disc.hpp"
 #include "rayspace/image/image.hpp"

@@ -70,8 +70,8 @@ float cost_between(const Cell& a, const Cell& b) {
     return kEdge + kEven * std::exp(-0.5F * contrast * contrast);
 }
 
-// Column of the turntable's axis: what turns sweeps as much to its left as to its right. Only the upper half is asked,
-// for shadows fall to one side.
+// Column of the turntable's axis: what turns sweeps as much to its left as to its right. Only the upper half is
+// compared, for shadows fall to one side.
 std::optional<double> axis_of(const cv::Mat1b& swept) {
     const cv::Rect box = cv::boundingRect(swept);
     std::vector<double> middles;

@@ -31,7 +31,7 @@ struct PhotoFolder {
 std::vector<std::string> file_names(const PhotoFolder& folder);
 
 // Lists the folder and reads the pictures' headers. Fails where there are no pictures or more than kMaxViews, where a
-// header cannot be read, where one asks for the pixels to be turned (EXIF orientation other than 1), and where two
+// header cannot be read, where one requests turned pixels (EXIF orientation other than 1), and where two
 // sizes differ (naming both files and sizes). Pixels are not looked at.
 Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder);
 

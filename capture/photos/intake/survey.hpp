@@ -23,7 +23,7 @@ inline constexpr int kMaxSamples = 48;
 // The outermost pixels of a photograph, which the object seldom reaches.
 struct Border {
     Rgba8 median;       // per channel
-    bool flat = false;  // shows a backdrop of one colour, as border_of() says
+    bool flat = false;  // shows a backdrop of one colour, as border_of() finds
 };
 
 struct Survey {

@@ -1,6 +1,6 @@
 #pragma once
 // What both sides of a border look like near each pixel of a band along it: means and covariances under a Gaussian
-// window, computed only where they are asked for. Only for .cpp files of this folder: no header that others include may
+// window, computed only where they are needed. Only for .cpp files of this folder: no header that others include may
 // need OpenCV.
 
 #include <opencv2/core.hpp>

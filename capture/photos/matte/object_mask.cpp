@@ -15,7 +15,7 @@
 namespace rs::capture {
 namespace {
 
-// What the colour says on a small island of the plate's colour.
+// What the colour shows on a small island of the plate's colour.
 constexpr float kIsland = -0.1F;
 
 // For a plate that is known from a turn and neither white nor black.

@@ -36,7 +36,7 @@ struct MaskOptions {
     float max_shade = 1.15F;
     float crevice_shade = 0.3F;  // what has less light left is rather a crevice of the object
     // What is narrow and differs by more from the plate is no shadow; 0: it may be one. On the ground there are slivers
-    // of shadow, so more is asked there.
+    // of shadow, so more is required there.
     float thin_delta_e = 0;
     float thin_on_ground_delta_e = 0;
     CutOptions cut{};

@@ -19,14 +19,14 @@ constexpr float kIndistinct = 0.02F;
 // A side's colours scatter along few directions near by; in every direction at least by this share of all of it.
 constexpr float kEveryDirection = 0.05F;
 
-// Photographs keep colours at half the resolution of their brightness: colour alone says alpha to within this.
+// Photographs keep colours at half the resolution of their brightness: colour alone shows alpha to within this.
 constexpr float kChromaDoubt = 0.2F;
 
 // By distance alone: of an edge without blur, a pixel's own width mixes.
 constexpr float kAlphaPerPx = 0.75F;
 
 // The mask's border lies up to a pixel outside the object: a pixel with little of the object does not look like the
-// backdrop any more. So colours say where it is first and are heeded more then: standard deviations of what the
+// backdrop any more. So colours show where it is first and count more then: standard deviations of what the
 // distance says are taken for so many times what they are where edges are clear.
 constexpr std::array<float, 2> kLeeway{3.0F, 1.5F};
 
@@ -55,7 +55,7 @@ LinearRgb rgb(const cv::Vec3f& v) {
     return {v[0], v[1], v[2]};
 }
 
-// What a pixel's colour says of its alpha.
+// What a pixel's colour shows of its alpha.
 struct AlphaReading {
     float alpha = 0;
     float variance = 0;

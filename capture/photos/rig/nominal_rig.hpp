@@ -1,7 +1,7 @@
 #pragma once
 // A rig for a turntable that nobody measured: equal steps around a vertical axis, a level camera, a plausible lens.
 //
-// It says where rays go well enough to show the object turning; what it does not know (the lens, the height of the
+// It gives where rays go well enough to show the object turning; what it does not know (the lens, the height of the
 // camera) it assumes:
 //   - The camera is level with the middle of what the pictures show and looks at the axis. It may really look down;
 //     then the object seems a little tilted, from every side alike.
@@ -49,7 +49,7 @@ double distance_for_unit_radius(double extent_px, double fl_px);
 // least.
 Rig make_nominal_rig(const NominalRigOptions& options, const TurnOutline::Box& visible);
 
-// What the cut-outs alone say about a turn that nobody calibrates: the axis' column and the sense of turning. The
+// What the cut-outs alone show of a turn that nobody calibrates: the axis' column and the sense of turning. The
 // nominal rig stands on it, and calibration begins with it.
 struct NominalTurn {
     double fov_deg = kNominalFieldOfView_deg;

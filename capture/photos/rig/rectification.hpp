@@ -24,7 +24,7 @@ struct UprightFrame {
     double scale = 1;  // px per px of the photograph at the object's middle, along the direction in which it is lower
 };
 
-// Room around the object, px: for what the boxes' corners do not say about curved edges, and for filters.
+// Room around the object, px: for what the boxes' corners do not show of curved edges, and for filters.
 inline constexpr int kUprightMargin_px = 8;
 
 // `object_boxes` hold the object's pixels of one or several views each, in px of the photographs (model.lens); empty
@@ -36,7 +36,7 @@ Result<UprightFrame> plan_upright_frame(const TurntableModel& model, std::span<c
 
 // A photograph's cut-out (sRGB, straight alpha, of model.lens' size) as the upright camera sees it: sampled once by
 // sample_premultiplied(), transparent where the photograph does not reach; then the object's colours are continued
-// under alpha 0 by bleed_colours(). `place` says how the photograph was moved from
+// under alpha 0 by bleed_colours(). `place` states how the photograph was moved from
 // where the still camera of the model took it. About 0.2 s per megapixel of the frame. Thread-safe.
 Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, ConstImageView<Rgba8> cut_out,
                        const PicturePlace& place = {});

@@ -1,7 +1,7 @@
 #pragma once
 // Which way the object turns, read from the pictures.
 //
-// The silhouettes cannot say it, nor can any rigid structure seen from far away: every turning shape has a twin,
+// The silhouettes cannot show it, nor can any rigid structure seen from far away: every turning shape has a twin,
 // mirrored in depth, that turns the other way and looks the same. Two things break the tie, and both are measured on
 // small patches that are found again in the next picture:
 //   - The camera stands higher than the foot of the object, so on the lower half what comes nearer sinks in the

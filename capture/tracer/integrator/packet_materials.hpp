@@ -1,5 +1,5 @@
 #pragma once
-// What of a scene's materials shading by packets (packets/surface_lanes.hpp) asks for, material by material.
+// What of a scene's materials shading by packets (packets/surface_lanes.hpp) needs, material by material.
 
 #include "capture/tracer/integrator/transport.hpp"
 #include "capture/tracer/packets/light_lanes.hpp"

@@ -14,7 +14,7 @@ namespace rs::capture {
 
 class PathTracer final : public Integrator {
 public:
-    // `guides`: it says what surfaces are, for pictures that are filtered.
+    // `guides`: it describes what surfaces are, for pictures that are filtered.
     PathTracer(const LightTransport& transport, int max_bounces, bool guides = false)
         : transport_(transport), max_bounces_(max_bounces), guides_(guides) {}
 

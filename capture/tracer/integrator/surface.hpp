@@ -37,7 +37,7 @@ struct SurfaceSample {
 
 class Surface {
 public:
-    // `colour` is the material's times the texture's. `leaving` tells that wo is inside of the glass.
+    // `colour` is the material's times the texture's. `leaving` states that wo is inside of the glass.
     Surface(const SurfaceModel& model, const glm::vec3& colour, const glm::vec3& wo, bool leaving);
 
     [[nodiscard]] bool is_specular() const {

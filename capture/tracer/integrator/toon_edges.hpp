@@ -59,7 +59,7 @@ private:
                                          const Ray& ray) const;
     // Whether (run, a) and (run, b) have more than the angle between them.
     [[nodiscard]] bool slopes_turn(float run, float a, float b) const;
-    // Whether the normals at two rays do, and if asked for the slopes of the facets there.
+    // Whether the normals at two rays do, and if requested the slopes of the facets there.
     [[nodiscard]] bool normals_turn(const Diameter& diameter, int first, int last, const Ray& ray,
                                     bool and_facets = false) const;
 

@@ -54,7 +54,7 @@ struct RenderOptions {
 
 struct Rendering {
     Image<RgbaF> picture;  // linear light, straight alpha = share of camera rays that hit a surface
-    // Axial, of the first surface through the pixel's centre at time 0; 0 = none; empty if not asked for.
+    // Axial, of the first surface through the pixel's centre at time 0; 0 = none; empty if not requested.
     Image<float> depth;
 };
 
@@ -85,7 +85,7 @@ public:
     bool accumulate(const Camera& camera, const RenderOptions& options, int count, Accumulation& into,
                     Progress* progress = nullptr, const std::atomic<bool>* stop = nullptr) const;
 
-    // Other lights than the scene came with; they must be as check_light() wants them. Not while anything is drawn.
+    // Other lights than the scene came with; they must be as check_light() requires them. Not while anything is drawn.
     void set_lights(std::vector<Light> lights);
     // Another environment, whose pixels are finite and not negative, or the same one brighter and turned (the fields of
     // Environment), which costs nothing. Not while anything is drawn.

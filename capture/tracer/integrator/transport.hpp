@@ -49,7 +49,7 @@ public:
         trace_one_by_one(rays, arrived);
     }
 
-    // Whether it says what the first rough surface of each ray is.
+    // Whether it describes what the first rough surface of each ray is.
     [[nodiscard]] virtual bool gives_guides() const { return false; }
 
 protected:
@@ -121,7 +121,7 @@ public:
     Met meet(const Segment& segment, const MediumStack& media, glm::vec3& throughput, glm::vec3& radiance,
              SurfacePoint& point) const;
 
-    // The same where `hit` tells whether `point` is what the segment meets first.
+    // The same where `hit` states whether `point` is what the segment meets first.
     Met arrive(const Segment& segment, bool hit, const MediumStack& media, glm::vec3& throughput, glm::vec3& radiance,
                const SurfacePoint& point) const;
 

@@ -92,7 +92,7 @@ void VirtualLights::find_bound(std::vector<float> distances) {
     bound_ = kBound / std::max(reach * reach, 1e-12F);
 }
 
-// How many photons give as many virtual lights as are wanted, and what one brings. The same for every group.
+// How many photons give as many virtual lights as are requested, and what one brings. The same for every group.
 void VirtualLights::plan_photons() {
     std::vector<Found> found;
     double sum = 0;

@@ -39,7 +39,7 @@ std::optional<LightSample> LightSet::middle(std::size_t number, const glm::vec3&
     const Source& source = sources_[number];
     if (source.kind == SourceKind::environment || source.kind == SourceKind::emitters) return std::nullopt;
     if (source.kind == SourceKind::distant) return sample_light(lights_[source.index], position, 1.0F);
-    // Before a web is asked.
+    // Before a web is looked up.
     if (!(estimate(source, position) > 0.0F)) return std::nullopt;
     if (source.kind == SourceKind::local) return sample_light(lights_[source.index], position, 1.0F);
     return sample_area(areas_[source.index], position, 1.0F, glm::vec2(0.0F));

@@ -1,6 +1,6 @@
 #pragma once
-// All light sources of a scene: draws one for next-event estimation, and tells the densities that multiple importance
-// sampling needs when a path meets a source by itself.
+// All light sources of a scene: draws one for next-event estimation, and computes the densities that multiple
+// importance sampling needs when a path meets a source by itself.
 //
 // A source is drawn with probability 1/2 (1/n + its share of the estimated irradiance) where it is needed: n counts the
 // sources that may reach the place, so that a lamp among many is found where it shines. Radiance samples carry the
@@ -87,10 +87,10 @@ public:
     // Each source but the environment as one point that stands for all of it: areas, and each mesh that shines, by
     // their middle. `radiance / pdf` is irradiance. Nothing where it does not light the place.
     [[nodiscard]] std::optional<LightSample> middle(std::size_t number, const glm::vec3& position) const;
-    // The same for sixteen surfaces, at their near_start, as far as they are wanted; lanes on which the light has no
+    // The same for sixteen surfaces, at their near_start, as far as they are requested; lanes on which the light has no
     // effect may be left out. False where no lane is lit.
     bool middle(std::size_t number, const SurfaceLanes& surfaces, const MaskLanes& wanted, LightLanes& arrives) const;
-    // The same, but each area by a point of it, and all meshes that shine by one point together; `draw` says where.
+    // The same, but each area by a point of it, and all meshes that shine by one point together; `draw` chooses where.
     [[nodiscard]] std::optional<LightSample> point(std::size_t number, const glm::vec3& position,
                                                    const std::function<glm::vec2()>& draw) const;
 

@@ -1,4 +1,4 @@
-// The half of RayScene that asks for many rays at a time.
+// The half of RayScene that traces many rays at a time.
 #include "capture/tracer/rays/ray_scene.hpp"
 #include "rayspace/base/check.hpp"
 

@@ -17,7 +17,7 @@
 namespace rs::capture {
 
 // Positions are the file's own. Errors: the file is missing or not understood, it has no faces, a vertex is not finite,
-// a texture is missing (the message names the texture and the file that asks for it). An OBJ file whose MTL file is
+// a texture is missing (the message names the texture and the file that names it). An OBJ file whose MTL file is
 // missing is read without it, as diffuse grey.
 Result<Scene> read_mesh_file(const std::filesystem::path& path);
 

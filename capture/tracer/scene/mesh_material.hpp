@@ -1,5 +1,5 @@
 #pragma once
-// The materials of an Assimp scene as our own, with the textures they ask for. Part of mesh_file.
+// The materials of an Assimp scene as our own, with the textures they name. Part of mesh_file.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-// The pictures that the materials of an Assimp scene ask for. Part of mesh_file.
+// The pictures that the materials of an Assimp scene name. Part of mesh_file.
 
 struct aiScene;
 

@@ -25,7 +25,7 @@ struct PlyProperty {
     PlyScalar type = PlyScalar::float32;
     std::optional<PlyScalar> count_type;  // of a list
     [[nodiscard]] bool is_list() const { return count_type.has_value(); }
-    // The list that says which vertices a face or a strip has.
+    // The list that names which vertices a face or a strip has.
     [[nodiscard]] bool is_vertex_list() const { return name == "vertex_indices" || name == "vertex_index"; }
 };
 struct PlyElement {
@@ -41,7 +41,7 @@ struct PlyHeader {
     std::size_t size_bytes = 0;
 };
 
-// What is wrong, or nothing. A mesh is asked for: `vertex` with one number each for x, y and z, before exactly one of
+// What is wrong, or nothing. A mesh is required: `vertex` with one number each for x, y and z, before exactly one of
 // `face` and `tristrips` with an integer list vertex_indices or vertex_index; no two elements of one name.
 std::optional<std::string> parse_ply_header(std::string_view file, PlyHeader& header);
 

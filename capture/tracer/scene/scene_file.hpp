@@ -1,6 +1,6 @@
 #pragma once
-// SCENE arguments: a mesh file, or a recipe (.json) that says object, materials, camera, lights, environment, room. The
-// recipe's schema is in capture/README.md.
+// SCENE arguments: a mesh file, or a recipe (.json) that gives object, materials, camera, lights, environment, room.
+// The recipe's schema is in capture/README.md.
 
 #include "capture/tracer/scene/recipe_parts.hpp"
 #include "capture/tracer/scene/scene.hpp"
