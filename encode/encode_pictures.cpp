@@ -2,9 +2,8 @@
 
 #include "encode/set/soft_coverage.hpp"
 #include "rayspace/base/parallel.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/codec/stream/coded_chunks.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -33,7 +32,7 @@ constexpr int kSoftAlphaBits = 6;
 double soft_share(const std::vector<SourcePicture>& sources) {
     std::atomic<std::int64_t> soft = 0;
     std::atomic<std::int64_t> shown = 0;
-    tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t v) {
+    for_each_index(sources.size(), [&](std::size_t v) {
         const Image<std::uint8_t> patches = soft_patches(sources[v].coverage, kSoftRadius_px);
         soft += std::ranges::count(patches.pixels(), 255);
         shown += std::ranges::count_if(sources[v].coverage.pixels(), [](int alpha) { return alpha >= kFaintest; });
@@ -109,8 +108,7 @@ public:
 private:
     void prepare_sources(int alpha_bits) {
         if (std::exchange(source_bits_, alpha_bits) == alpha_bits) return;
-        tbb::parallel_for(std::size_t{0}, sources_.size(),
-                          [&](std::size_t v) { set_alpha_bits(sources_[v], alpha_bits); });
+        for_each_index(sources_.size(), [&](std::size_t v) { set_alpha_bits(sources_[v], alpha_bits); });
     }
 
     // The coarsest step for which `holds`, which holds below some step and not above it; `off`: by how many steps of

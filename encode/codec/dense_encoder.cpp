@@ -6,12 +6,11 @@
 #include "encode/codec/source_picture.hpp"
 #include "encode/codec/tile_encoder.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/codec/bool_encoder.hpp"
 #include "rayspace/codec/context_states.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
 #include "rayspace/codec/stream/decode_picture.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +47,7 @@ public:
         coded_.levels.assign(object.views.size(), 0);
         coded_.pictures.resize(object.views.size());
         plan();
-        tbb::parallel_for(std::size_t{0}, work_.size(), [&](std::size_t v) {
+        for_each_index(work_.size(), [&](std::size_t v) {
             for (auto& plane : work_[v].reconstruction) {
                 plane = Image<std::uint8_t>(coded_.coded_width(), coded_.coded_height());
             }
@@ -157,7 +156,7 @@ private:
 
     // What pictures are predicted from where not all their tiles are coded.
     void start_with_sources() {
-        tbb::parallel_for(std::size_t{0}, work_.size(), [&](std::size_t v) {
+        for_each_index(work_.size(), [&](std::size_t v) {
             for (std::size_t p = 0; p < 3; ++p) work_[v].reconstruction[p] = sources_[v].planes[p];
             for (int y = 0; y < coded_.coded_height(); ++y) {
                 for (int x = 0; x < coded_.coded_width(); ++x) {
@@ -176,7 +175,7 @@ private:
             if (sampled == 1) clear_absent_tiles(tasks);
             const std::vector<Job>& jobs = jobs_[static_cast<std::size_t>(level)];
             const auto step = static_cast<std::size_t>(sampled);
-            tbb::parallel_for(std::size_t{0}, (jobs.size() + step - 1) / step, [&](std::size_t j) {
+            for_each_index((jobs.size() + step - 1) / step, [&](std::size_t j) {
                 const auto [v, t] = jobs[j * step];
                 DenseWorkPicture& work = work_[v];
                 work.decisions[t].clear();
@@ -251,7 +250,7 @@ private:
     }
 
     void write_tiles() {
-        tbb::parallel_for(std::size_t{0}, work_.size(), [&](std::size_t v) {
+        for_each_index(work_.size(), [&](std::size_t v) {
             CodedPicture& picture = coded_.pictures[v];
             for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
                 if (!picture.tiles[t].present) continue;
@@ -293,7 +292,7 @@ EncodedPictures encode_dense(const RaySpaceObject& object, const std::vector<Sou
 codec::CodedPictures encode_dense(const RaySpaceObject& object, const std::function<Image<Rgba8>(int)>& picture,
                                   const DenseSettings& settings, Progress* progress) {
     std::vector<SourcePicture> sources(object.views.size());
-    tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t v) {
+    for_each_index(sources.size(), [&](std::size_t v) {
         sources[v] = source_picture(picture(static_cast<int>(v)), settings.alpha_bits);
     });
     return encode_dense(object, sources, settings, progress).coded;

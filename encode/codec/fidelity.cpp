@@ -1,9 +1,8 @@
 #include "encode/codec/fidelity.hpp"
 
+#include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
 #include "rayspace/object/yuv.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +15,7 @@ double coded_psnr(const std::vector<SourcePicture>& sources, int width, int heig
                   const std::function<codec::ConstPlaneViews(std::size_t view)>& reconstruction) {
     // Integer sums: the same on any number of threads.
     std::vector<std::array<std::int64_t, 2>> sums(sources.size());  // squared error, samples
-    tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t v) {
+    for_each_index(sources.size(), [&](std::size_t v) {
         const SourcePicture& source = sources[v];
         const codec::ConstPlaneViews planes = reconstruction(v);
         for (int y = 0; y < height; ++y) {

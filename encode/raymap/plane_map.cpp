@@ -1,9 +1,8 @@
 #include "encode/raymap/plane_map.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/geometry/ray_space.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +74,7 @@ Ring make_plane_map(const Rig& upright, const ViewRing& view_ring, const PlaneMa
                           static_cast<std::size_t>(options.u_cells),
                       kNoPicture);
 
-    tbb::parallel_for(0, options.planes * options.x_cells, [&](int row) {
+    for_each_index(options.planes * options.x_cells, [&](int row) {
         const int k = row / options.x_cells;
         const int xi = row % options.x_cells;
         const double x = -x_half + (xi + 0.5) * 2 * x_half / options.x_cells;

@@ -5,9 +5,8 @@
 #include "encode/set/soft_coverage.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/geometry/ray_space.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -117,8 +116,7 @@ Status RingSearch::complete_cut_outs(Progress* progress, const Keep& keep) {
     missing_ = std::move(*missing);
 
     std::vector<Image<float>> parts(views_.size());
-    tbb::parallel_for(std::size_t{0}, views_.size(),
-                      [&](std::size_t n) { parts[n] = lost_part(half.views_[n].view, missing_[n]); });
+    for_each_index(views_.size(), [&](std::size_t n) { parts[n] = lost_part(half.views_[n].view, missing_[n]); });
     std::vector<std::size_t> lacking;
     for (std::size_t n = 0; n < views_.size(); ++n) {
         if (share_of(parts[n], half.views_[n].view) >= kLargePart) lacking.push_back(n);
@@ -152,15 +150,14 @@ Result<std::vector<Image<float>>> RingSearch::find_missing(const RingSearch& who
     if (Status status = search("depth at half size", progress, false); !status) return status.error();
     const auto hull = sampled(VisualHull(silhouettes, narrow_px), kHullSpacing_px);
     std::vector<std::vector<RuledOutPoint>> points(views_.size());
-    tbb::parallel_for(0, count(), [&](int n) {
+    for_each_index(count(), [&](int n) {
         const Neighbours neighbours = neighbours_of(n);
         if (neighbours.beside.size() < 2) return;
         const auto v = static_cast<std::size_t>(n);
         points[v] = ruled_out(views_[v], neighbours.beside, range_of(n, neighbours).step, *sampled_hull_, *hull);
     });
     std::vector<Image<float>> missing(views_.size());
-    tbb::parallel_for(std::size_t{0}, views_.size(),
-                      [&](std::size_t n) { missing[n] = missing_depths(views_[n].view, points); });
+    for_each_index(views_.size(), [&](std::size_t n) { missing[n] = missing_depths(views_[n].view, points); });
     return missing;
 }
 

@@ -7,9 +7,8 @@
 #include "encode/raymap/semi_global.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/format/shape_coding.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -279,9 +278,9 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
     map.cells.resize(lines * line_cells);
 
     std::vector<double> floating(ring.size());
-    tbb::parallel_for(std::size_t{0}, ring.size(), [&](std::size_t n) { floating[n] = floating_share(ring[n].depth); });
+    for_each_index(ring.size(), [&](std::size_t n) { floating[n] = floating_share(ring[n].depth); });
 
-    tbb::parallel_for(std::size_t{0}, ring.size(), [&](std::size_t n) {
+    for_each_index(ring.size(), [&](std::size_t n) {
         const ShapeGap& gap = map.gaps[n];
         LineSurfaces surfaces(grid);
         for (int s = 0; s < gap.lines; ++s) {

@@ -1,9 +1,7 @@
 #include "capture/calibration/points/bundle.hpp"
 
 #include "rayspace/base/median.hpp"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>
 #include <array>
@@ -124,8 +122,8 @@ template <class Make>
 Bundle gathered(const TurntableModel& model, std::span<const Track> tracks, const Make& make) {
     std::vector<std::optional<std::pair<Track, glm::dvec3>>> made(tracks.size());
     constexpr std::size_t kGrain = 64;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tracks.size(), kGrain), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) made[i] = make(tracks[i]);
+    for_each_range(tracks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) made[i] = make(tracks[i]);
     });
     Bundle bundle{model, {}, {}};
     for (auto& each : made) {

@@ -1,8 +1,8 @@
 #include "capture/calibration/points/features.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 
-#include <tbb/parallel_for.h>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -111,7 +111,7 @@ private:
 std::vector<ViewFeatures> find_features(std::span<const CalibrationPicture> turn, const FollowOptions& options,
                                         Progress* progress) {
     std::vector<ViewFeatures> views(turn.size());
-    tbb::parallel_for(std::size_t{0}, turn.size(), [&](std::size_t i) {
+    for_each_index(turn.size(), [&](std::size_t i) {
         views[i] = features_of(turn[i], options);
         if (progress != nullptr) progress->advance();
     });

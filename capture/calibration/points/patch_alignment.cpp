@@ -2,8 +2,7 @@
 
 #include "capture/calibration/points/patch.hpp"
 #include "rayspace/base/conventions.hpp"
-
-#include <tbb/parallel_for.h>
+#include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +82,7 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
                                                              bool curvature_is_known) {
     std::vector<std::vector<std::optional<Alignment>>> found(turn.size());
     const TurnProjection projection(model);
-    tbb::parallel_for(std::size_t{0}, turn.size(), [&](std::size_t view) {
+    for_each_index(turn.size(), [&](std::size_t view) {
         const PatchPicture picture(turn[view]);
         found[view].resize(facets.size());
         for (std::size_t i = 0; i < facets.size(); ++i) {
@@ -148,7 +147,7 @@ std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int 
     for (std::size_t i = 0; i < points; ++i) facets[i] = facet_of(bundle, i, reduction);
 
     std::vector<std::optional<Patch>> patches(points);
-    tbb::parallel_for(std::size_t{0}, turn.size(), [&](std::size_t view) {
+    for_each_index(turn.size(), [&](std::size_t view) {
         const PatchPicture picture(turn[view]);
         for (std::size_t i = 0; i < points; ++i) {
             if (!facets[i] || facets[i]->reference.view != static_cast<int>(view)) continue;
@@ -162,7 +161,7 @@ std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int 
     std::vector<std::vector<std::optional<Alignment>>> found =
         align_all(turn, reduction, model, facets, patches, false);
     const TurnProjection projection(model);
-    tbb::parallel_for(std::size_t{0}, points, [&](std::size_t i) {
+    for_each_index(points, [&](std::size_t i) {
         if (facets[i]) shape(*facets[i], projection, reduction, found, i);
     });
     found = align_all(turn, reduction, model, facets, patches, true);

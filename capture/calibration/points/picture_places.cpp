@@ -4,9 +4,9 @@
 #include "capture/calibration/points/bundle.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 
 #include <ceres/ceres.h>
-#include <tbb/parallel_for.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -205,8 +205,7 @@ std::optional<PlacedTurn> find_places(std::span<const Track> tracks, const Lens&
     const double coarsest = kCoarsest * lens.width;
     const double finest = kFinestPlaces_px * reduction;
     std::vector<Attempt> tried = attempts(lens, views, known);
-    tbb::parallel_for(std::size_t{0}, tried.size(),
-                      [&](std::size_t i) { improve(tried[i], few, coarsest, finest, known); });
+    for_each_index(tried.size(), [&](std::size_t i) { improve(tried[i], few, coarsest, finest, known); });
     Attempt& best = *std::max_element(tried.begin(), tried.end(),
                                       [](const Attempt& a, const Attempt& b) { return a.agreeing < b.agreeing; });
     if (best.agreeing == 0 || !improve(best, tracks, 4 * finest, finest, known)) return std::nullopt;
@@ -227,7 +226,7 @@ TurnPictures put_back(const TurnPictures& turn, std::span<const PicturePlace> pl
     TurnPictures back = turn;
     const double reduction = turn.reduction;
     const glm::dvec2 middle = glm::dvec2(turn.width, turn.height) / (2 * reduction);
-    tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+    for_each_index(places.size(), [&](std::size_t i) {
         const PicturePlace place{places[i].shift_px / reduction, places[i].scale};
         const glm::dvec2 origin = place.seen({0.5, 0.5}, middle) - 0.5;  // where the first pixel's middle is seen
         const cv::Matx23d seen(place.scale, 0, origin.x, 0, place.scale, origin.y);

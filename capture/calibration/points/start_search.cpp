@@ -1,8 +1,7 @@
 #include "capture/calibration/points/start_search.hpp"
 
 #include "rayspace/base/conventions.hpp"
-
-#include <tbb/parallel_for.h>
+#include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>
 #include <array>
@@ -106,7 +105,7 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
 
     std::vector<Bundle> bundles(tried.size());
     std::vector<double> costs(tried.size(), 1e30);
-    tbb::parallel_for(std::size_t{0}, tried.size(), [&](std::size_t i) {
+    for_each_index(tried.size(), [&](std::size_t i) {
         bundles[i] = make_bundle(tried[i].model, fewest);
         // Most tracks must be possible at all, else a rig that explains three of them would win.
         if (bundles[i].tracks.size() * 2 < fewest.size()) return;
@@ -128,7 +127,7 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
         order.insert(order.end(), of_sense.begin(), of_sense.end());
     }
     std::vector<int> agreeing(order.size(), 0);
-    tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t k) {
+    for_each_index(order.size(), [&](std::size_t k) {
         Bundle& bundle = bundles[order[k]];
         BundleOptions own = options;
         for (const double limit_px : kLimits_px) {

@@ -3,8 +3,8 @@
 #include "capture/calibration/points/features.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 
-#include <tbb/parallel_for.h>
 #include <opencv2/calib3d.hpp>
 
 #include <algorithm>
@@ -158,7 +158,7 @@ Result<FollowedPoints> PointFollower::follow(Progress* progress) const {
     for (const ViewFeatures& view : state_->views) found.features.push_back(static_cast<int>(view.positions.size()));
     std::vector<std::vector<FeatureMatch>> matches(found.pairs.size());
     try {
-        tbb::parallel_for(std::size_t{0}, found.pairs.size(), [&](std::size_t i) {
+        for_each_index(found.pairs.size(), [&](std::size_t i) {
             PairOfViews& pair = found.pairs[i];
             const ViewFeatures& a = state_->views[static_cast<std::size_t>(pair.first)];
             const ViewFeatures& b = state_->views[static_cast<std::size_t>(pair.second)];
@@ -178,7 +178,7 @@ Result<std::vector<Track>> PointFollower::follow_guided(const TurntableModel& mo
                                                         double band_px) const {
     std::vector<std::vector<FeatureMatch>> matches(state_->pairs.size());
     try {
-        tbb::parallel_for(std::size_t{0}, state_->pairs.size(), [&](std::size_t i) {
+        for_each_index(state_->pairs.size(), [&](std::size_t i) {
             const PairOfViews& pair = state_->pairs[i];
             const ViewFeatures& a = state_->views[static_cast<std::size_t>(pair.first)];
             const ViewFeatures& b = state_->views[static_cast<std::size_t>(pair.second)];

@@ -1,8 +1,7 @@
 #include "capture/calibration/silhouettes/consistency_residuals.hpp"
 
 #include "capture/calibration/silhouettes/ray_probe.hpp"
-
-#include <tbb/parallel_for.h>
+#include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +48,7 @@ public:
     // visit(probe, direction or nothing, number) for all rays, on several threads; the probe is the ray's view's.
     template <typename Visit>
     void visit(const Visit& visit) const {
-        tbb::parallel_for(std::size_t{0}, views_.size(), [&](std::size_t i) {
+        for_each_index(views_.size(), [&](std::size_t i) {
             if (views_[i].directions.empty()) return;
             const std::vector<Sight> sights = sights_of(model_, i, left_out_);
             RayProbe probe(turn_, model_.lens, sights);

@@ -4,9 +4,8 @@
 #include "capture/calibration/silhouettes/silhouette_adjustment.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -163,7 +162,7 @@ double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covarian
 std::vector<SilhouetteHull> silhouette_hulls(std::span<const CalibrationPicture> turn, int reduction,
                                              const TurntableModel& model) {
     std::vector<SilhouetteHull> hulls(turn.size());
-    tbb::parallel_for(std::size_t{0}, turn.size(), [&](std::size_t view) {
+    for_each_index(turn.size(), [&](std::size_t view) {
         std::vector<HullPoint> points;
         for (const glm::dvec2& p : outermost(turn[view].alpha)) {
             const glm::dvec2 in_photo = p * static_cast<double>(reduction);
@@ -213,8 +212,8 @@ std::vector<double> tangency_residuals(const TurntableModel& model, std::span<co
             residuals[2 * n + is_second] = a && b ? (std::atan(a->slope) - std::atan(b->slope)) * px_per_rad : 0;
         }
     };
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pairs.size(), kGrain), [&](const auto& range) {
-        for (std::size_t n = range.begin(); n < range.end(); ++n) compare(n);
+    for_each_range(pairs.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) compare(n);
     });
     return residuals;
 }

@@ -1,6 +1,6 @@
 #include "capture/calibration/silhouettes/silhouette_turn.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 
-#include <tbb/parallel_for.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -165,7 +165,7 @@ Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> m
     const int left = std::max(0, whole.left / n - kMargin_px);
     const int top = std::max(0, whole.top / n - kMargin_px);
     turn.origin_ = glm::vec2(left, top);
-    tbb::parallel_for(std::size_t{0}, masks.size(), [&](std::size_t i) {
+    for_each_index(masks.size(), [&](std::size_t i) {
         const Image<float> coverage = reduced(masks[i], n);
         const int right = std::min(coverage.width(), whole.right / n + 1 + kMargin_px);
         const int bottom = std::min(coverage.height(), whole.bottom / n + 1 + kMargin_px);

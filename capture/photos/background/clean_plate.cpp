@@ -5,8 +5,8 @@
 #include "capture/photos/background/still_picture.hpp"
 #include "capture/photos/background/swept_region.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 
-#include <tbb/parallel_for.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -48,7 +48,7 @@ struct Explained {
 Explained explained_by(ConstImageView<Rgba8> plate, ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> hidden) {
     Explained explained{cv::Mat1b(plate.height(), plate.width(), std::uint8_t{0}),
                         cv::Mat1b(plate.height(), plate.width(), std::uint8_t{0})};
-    tbb::parallel_for(0, plate.height(), [&](int y) {
+    for_each_index(plate.height(), [&](int y) {
         for (int x = 0; x < plate.width(); ++x) {
             if (hidden(x, y) == 0) continue;
             const Explanation e =
@@ -186,7 +186,7 @@ Image<float> plate_noise(const EvenedSamples& samples, const Image<Rgba8>& plate
     cv::Mat1f sums(plate.height(), plate.width(), 0.0F);
     cv::Mat1f counts(plate.height(), plate.width(), 0.0F);
     const std::size_t step = std::max<std::size_t>(1, samples.count() / kEnoughSamples);
-    tbb::parallel_for(0, plate.height(), [&](int y) {
+    for_each_index(plate.height(), [&](int y) {
         for (int x = 0; x < plate.width(); ++x) {
             if (known(x, y) == 0) continue;
             const Lab behind = lab_from_linear(linear_rgb(plate(x, y)));

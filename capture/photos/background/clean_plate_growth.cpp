@@ -1,8 +1,7 @@
 #include "capture/photos/background/clean_plate_growth.hpp"
 
 #include "capture/photos/background/still_picture.hpp"
-
-#include <tbb/parallel_for.h>
+#include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>
 #include <array>
@@ -83,7 +82,7 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
         open[static_cast<std::size_t>(std::popcount(witnesses))].emplace_back(x, y);
     };
     GrownCleanPlate seeded{Image<Rgba8>(width, height), Image<std::uint64_t>(width, height)};
-    tbb::parallel_for(0, height, [&](int y) {
+    for_each_index(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             if (seeds(x, y) == 0 || plate.witnesses(x, y) != 0) continue;
             const std::uint64_t witnesses = witnesses_of(samples, guess(x, y), x, y, kExpected_codes);
@@ -144,7 +143,7 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
 
 Image<Rgba8> sharp_colours(const EvenedSamples& samples, const GrownCleanPlate& plate) {
     Image<Rgba8> sharp(plate.colour.width(), plate.colour.height(), Rgba8{0, 0, 0, 255});
-    tbb::parallel_for(0, sharp.height(), [&](int y) {
+    for_each_index(sharp.height(), [&](int y) {
         for (int x = 0; x < sharp.width(); ++x) {
             const std::uint64_t witnesses = plate.witnesses(x, y);
             if (witnesses == 0) continue;
@@ -162,7 +161,7 @@ Image<std::uint8_t> confirm_plate(const EvenedSamples& samples, ConstImageView<R
     const int height = plate.height();
     // Bit i: sample i shows what was expected there; then the same all around; then wherever that is near.
     Image<std::uint64_t> alike(width, height);
-    tbb::parallel_for(0, height, [&](int y) {
+    for_each_index(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             alike(x, y) = witnesses_of(samples, plate(x, y), x, y, kExpected_codes);
         }

@@ -2,9 +2,9 @@
 
 #include "capture/opencv/opencv_image.hpp"
 #include "rayspace/base/check.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/image/linear_light.hpp"
 
-#include <tbb/parallel_for.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ EvenedSamples::EvenedSamples(std::span<const Image<Rgba8>> samples)
     : samples_(samples), smooth_(samples.size()), codes_(samples.size()) {
     RS_CHECK(!samples.empty());
     for (Codes& codes : codes_) codes.fill(divided_by(1));
-    tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+    for_each_index(samples.size(), [&](std::size_t i) {
         smooth_[i] = Image<Rgba8>(samples[i].width(), samples[i].height());
         cv::Mat smooth = writable_mat_over(smooth_[i]);
         cv::GaussianBlur(mat_over(samples[i]), smooth, {3, 3}, 0, 0, cv::BORDER_REPLICATE);

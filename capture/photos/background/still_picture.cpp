@@ -1,8 +1,8 @@
 #include "capture/photos/background/still_picture.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 
-#include <tbb/parallel_for.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ StillPicture agree_over_time(const EvenedSamples& samples) {
     const int width = samples.width();
     const int height = samples.height();
     StillPicture still{Image<Rgba8>(width, height), Image<float>(width, height)};
-    tbb::parallel_for(0, height, [&](int y) {
+    for_each_index(height, [&](int y) {
         PixelOverTime pixel(samples.count());
         for (int x = 0; x < width; ++x) {
             for (std::size_t i = 0; i < samples.count(); ++i) pixel.set(i, samples.smooth(i, x, y));

@@ -3,8 +3,8 @@
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/disc_plane.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 
-#include <tbb/parallel_for.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -274,7 +274,7 @@ std::optional<TurntableDisc> find_turntable_disc(ConstImageView<Rgba8> plate, Co
     std::vector<double> rows;
     for (double y = box.y + 0.5 * box.height; y < box.y + 1.15 * box.height; y += 4 * step_px) rows.push_back(y);
     std::vector<Found> best(rows.size());
-    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+    for_each_index(rows.size(), [&](std::size_t i) {
         for (int column = -1; column <= 1; ++column) {
             for (double tilt_deg = 6; tilt_deg <= 48; tilt_deg += 3) {
                 TurntableDisc disc{f_px,    tilt_deg * std::numbers::pi / 180,

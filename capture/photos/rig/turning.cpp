@@ -1,6 +1,6 @@
 #include "capture/photos/rig/turning.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 
-#include <tbb/parallel_for.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -131,7 +131,7 @@ TurningEvidence find_turning(std::span<const Image<Rgba8>> turn, double axis_x_p
                          static_cast<int>(std::lround(0.4 * fastest_px)) + 3);
 
     std::vector<std::vector<Motion>> found(pairs);
-    tbb::parallel_for(std::size_t{0}, pairs, [&](std::size_t k) {
+    for_each_index(pairs, [&](std::size_t k) {
         const std::size_t i = k * neighbours / pairs;
         found[k] = motions_between(turn[i], turn[(i + 1) % count], axis_x_px, reach);
     });

@@ -1,8 +1,7 @@
 #include "capture/tracer/integrator/virtual_lights.hpp"
 
 #include "rayspace/base/median.hpp"
-
-#include <tbb/parallel_for.h>
+#include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -123,7 +122,7 @@ std::vector<VirtualLights::Found> VirtualLights::lights_of(std::uint64_t sequenc
     constexpr int kAtOnce = 32;
     const int chunks = (count + kAtOnce - 1) / kAtOnce;
     std::vector<std::vector<Found>> of_chunk(static_cast<std::size_t>(chunks));
-    tbb::parallel_for(0, chunks, [&](int chunk) {
+    for_each_index(chunks, [&](int chunk) {
         PacketLight scratch(transport_.rays(), materials_);
         std::vector<VirtualLight> lights;
         for (int i = chunk * kAtOnce; i < std::min((chunk + 1) * kAtOnce, count); ++i) {

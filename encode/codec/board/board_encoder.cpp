@@ -7,10 +7,9 @@
 #include "encode/codec/fidelity.hpp"
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/ring_references.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/codec/board/board_tile.hpp"
 #include "rayspace/codec/stream/decode_picture.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -90,7 +89,7 @@ public:
 private:
     template <class Wanted, class Work>
     void for_pictures(const Wanted& wanted, const Work& work) {
-        tbb::parallel_for(std::size_t{0}, work_.size(), [&](std::size_t v) {
+        for_each_index(work_.size(), [&](std::size_t v) {
             if (wanted(v)) work(v);
         });
     }

@@ -1,6 +1,5 @@
 #include "encode/codec/board/board_stages.hpp"
-
-#include <tbb/parallel_for.h>
+#include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -106,7 +105,7 @@ StageBooks train_stages(std::span<const TrainingBlock> blocks,
     std::vector<int> used(blocks.size(), stages);  // stages of each block
     for (int round = 0; round <= kTrainingRounds; ++round) {
         if (round > 0) {
-            tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+            for_each_index(blocks.size(), [&](std::size_t b) {
                 const StagedBlock staged = walk_stages(books, blocks[b].residual);
                 const int c = cheapest_class(staged, classes, blocks[b].may, lambda);
                 used[b] = stages_of(classes[static_cast<std::size_t>(c)]);
@@ -131,7 +130,7 @@ StageBooks train_stages(std::span<const TrainingBlock> blocks,
                 prune_book(group[at], vectors, share * lambda * kPackedByte * vectors.dimensions);
             }
             const TrainedBook& book = group[at];
-            tbb::parallel_for(std::size_t{0}, residuals.size(), [&](std::size_t b) {
+            for_each_index(residuals.size(), [&](std::size_t b) {
                 if (used[b] <= stage) return;
                 if (!quarters) {
                     code_block(book, residuals[b]);

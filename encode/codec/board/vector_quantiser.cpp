@@ -1,6 +1,5 @@
 #include "encode/codec/board/vector_quantiser.hpp"
-
-#include <tbb/parallel_for.h>
+#include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -26,7 +25,7 @@ struct BlockSums {
 BlockSums sum_cells(const TrainedBook& book, const WeightedVectors& vectors) {
     std::vector<Nearest> nearest(vectors.count());
     const auto dimensions = static_cast<std::size_t>(book.dimensions);
-    tbb::parallel_for(std::size_t{0}, nearest.size(), [&](std::size_t i) {
+    for_each_index(nearest.size(), [&](std::size_t i) {
         nearest[i] = nearest_entry(book, &vectors.values[i * dimensions], &vectors.weights[i * dimensions]);
     });
     BlockSums sums;
@@ -132,7 +131,7 @@ std::size_t prune_book(TrainedBook& book, const WeightedVectors& vectors, double
     };
     const auto dimensions = static_cast<std::size_t>(book.dimensions);
     std::vector<Gain> gains(vectors.count());
-    tbb::parallel_for(std::size_t{0}, gains.size(), [&](std::size_t i) {
+    for_each_index(gains.size(), [&](std::size_t i) {
         const std::int16_t* const values = &vectors.values[i * dimensions];
         const std::int16_t* const weights = &vectors.weights[i * dimensions];
         Nearest best{0, std::numeric_limits<std::int64_t>::max()};

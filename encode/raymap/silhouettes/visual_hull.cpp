@@ -1,6 +1,5 @@
 #include "encode/raymap/silhouettes/visual_hull.hpp"
-
-#include <tbb/parallel_for.h>
+#include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -95,7 +94,7 @@ void spread_out(std::vector<T>& in_turning_order) {
 VisualHull::VisualHull(const std::vector<const WorkView*>& views, int margin_px, int tolerated)
     : tolerated_(tolerated) {
     silhouettes_.resize(views.size());
-    tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t n) {
+    for_each_index(views.size(), [&](std::size_t n) {
         const WorkView& view = *views[n];
         if (!has_object(view)) return;
         Silhouette& silhouette = silhouettes_[n];
@@ -190,7 +189,7 @@ double contradicted_share(const std::vector<const WorkView*>& views, const Visua
     constexpr int kEveryColumn = 8;
     std::vector<std::int64_t> pixels(views.size(), 0);
     std::vector<std::int64_t> contradicted(views.size(), 0);
-    tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
+    for_each_index(views.size(), [&](std::size_t v) {
         const WorkView& view = *views[v];
         std::vector<Interval> heights;
         std::vector<int> unseen;  // rows of the column's object pixels at no depth of which the hull is

@@ -1,8 +1,7 @@
 #include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 
 #include "rayspace/codec/board/board_tile.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cstring>
@@ -35,7 +34,7 @@ void decode_tile(const CodedPictures& coded, std::size_t view, std::size_t tile,
 std::vector<Planes> decode_planes(const CodedPictures& coded, const DecodeTile& decode) {
     std::vector<Planes> decoded(coded.pictures.size());
     for (int level = 0; level < kProgressiveLevels; ++level) {
-        tbb::parallel_for(std::size_t{0}, decoded.size(), [&](std::size_t v) {
+        for_each_index(decoded.size(), [&](std::size_t v) {
             const CodedPicture& picture = coded.pictures[v];
             if (coded.levels[v] != level || !picture.loaded()) return;
             for (auto& plane : decoded[v]) plane = Image<std::uint8_t>(coded.coded_width(), coded.coded_height());
@@ -55,7 +54,7 @@ void decode_pictures(RaySpaceObject& object) {
         decode_planes(coded, [&](std::size_t view, std::size_t tile, const auto& references, const PlaneViews& out) {
             decode_tile(coded, view, tile, references, nullptr, out);
         });
-    tbb::parallel_for(std::size_t{0}, decoded.size(), [&](std::size_t v) {
+    for_each_index(decoded.size(), [&](std::size_t v) {
         if (decoded[v][0].empty()) return;
         PlanarPicture& picture = object.pictures[v];
         picture.chroma_shift = 0;
