@@ -37,7 +37,7 @@ struct BuildOptions {
 
 struct BuiltObject {
     RaySpaceObject object;
-    std::vector<std::string> warnings;  // one line each: what a user may want to change
+    std::vector<std::string> warnings;  // one line each: what a user may change
     std::vector<FoundDepth> depths;     // of a few views, where there is a shape map
     CompletedPictures completed;        // for CaptureSet::completed before encode_pictures()
 };

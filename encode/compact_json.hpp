@@ -1,5 +1,5 @@
 #pragma once
-// The text of a rig as an object holds it: what it says to nine digits, in few bytes. A millionth of a pixel is far
+// The text of a rig as an object holds it: what it states to nine digits, in few bytes. A millionth of a pixel is far
 // below what a calibration knows, and the text weighs as much as a picture.
 
 #include <string>

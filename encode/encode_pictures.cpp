@@ -149,7 +149,7 @@ private:
     codec::Profile profile_;
     int effort_;
     std::optional<int> alpha_bits_;
-    double wanted_db_ = 0;  // 0: no fidelity is asked for
+    double wanted_db_ = 0;  // 0: no fidelity is requested
     int source_bits_ = 0;   // those that the sources have now
     Progress* progress_;
     std::map<int, EncodedPictures> tried_;

@@ -28,7 +28,7 @@ inline constexpr double kMaxQuality = 100;
 double step_of_quality(double quality);
 
 // Encodes the pictures of `set`, of which `object` (views, rings, size) was built; alpha in `alpha_bits` bits, or in as
-// many as suit the pictures, the profile, the step and the fidelity asked for. For a goal of fidelity or size it
+// many as suit the pictures, the profile, the step and the requested fidelity. For a goal of fidelity or size it
 // encodes up to some six times. Fails where a picture cannot be read, or the goal cannot be reached. Memory: some 10
 // bytes a sample, and twice the bytes of the result per sample.
 Result<EncodedPictures> encode_pictures(const CaptureSet& set, const RaySpaceObject& object, const PictureGoal& goal,

@@ -31,7 +31,7 @@ public:
         return magnitude < kTabled ? levels(kind, band, near, must_be)[static_cast<std::size_t>(magnitude)]
                                    : large_level(kind, band, near, must_be, magnitude);
     }
-    // Of the scan place of a block's last level; the kind says how large the block is.
+    // Of the scan place of a block's last level; the kind states how large the block is.
     [[nodiscard]] float last_place(int kind, int place) const {
         return last_[static_cast<std::size_t>(kPlaces * kind + place)];
     }

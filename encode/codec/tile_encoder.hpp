@@ -1,5 +1,6 @@
 #pragma once
-// Makes the choices of each unit of a tile, by weighted squared error and bits, and reconstructs it as the decoder will.
+// Chooses how each unit of a tile is coded, by weighted squared error and bits, and reconstructs it as the decoder
+// will.
 
 #include "encode/codec/coders.hpp"
 #include "encode/codec/search_effort.hpp"

@@ -80,7 +80,7 @@ void approach_all(const ColumnDepths& found, std::uint8_t* least) {
     }
 }
 
-// What neighbours of one kind say of a run of rows.
+// What neighbours of one kind give for a run of rows.
 struct KindRun {
     std::uint8_t cost[kRun];
     std::uint8_t known[kRun];

@@ -12,7 +12,7 @@ namespace rs::encode {
 inline constexpr int kMostCost = 60;
 inline constexpr int kOutsideCost = 2 * kMostCost;
 
-// What one neighbour says of a pixel at a depth: a cost 0 .. kMostCost, or one of these.
+// What one neighbour gives for a pixel at a depth: a cost 0 .. kMostCost, or one of these.
 inline constexpr std::uint8_t kUnknownMatch = 255;  // the pixel is not of the object, or the point not in the frame
 inline constexpr std::uint8_t kOutsideMatch = 254;  // the point is not of the neighbour's object
 
@@ -48,7 +48,7 @@ void approach_depths(const ColumnDepths& found, std::uint8_t* least);
 
 // costs[n * rows + row] of `beside` neighbours of the one kind and then `across` of the other -> merged[row].
 // Of a kind the best counts three quarters and the worst, at most 20 more, a quarter; of both kinds the mean. Where a
-// neighbour says that the point is outside: kOutsideCost.
+// neighbour finds that the point is outside: kOutsideCost.
 void merge_matches(const std::uint8_t* costs, int rows, int beside, int across, std::uint8_t* merged);
 
 }  // namespace rs::encode

@@ -59,7 +59,7 @@ struct Neighbours {
 // The colours. Each neighbour gives a cost, the mean absolute difference of R, G and B, at most kMostCost; one that
 // does not have the point in its frame gives none, one that shows it transparent makes it cost kOutsideCost. Surfaces
 // are seen by the pictures to one side at least, so the better side counts for most. Where there are neighbours of both
-// kinds the mean of the two is taken: edges that lie level tell only those across something.
+// kinds the mean of the two is taken: edges that lie level distinguish only those across something.
 // What costs kOutsideCost stays as it is.
 void match_colours(CostVolume& volume, const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
 

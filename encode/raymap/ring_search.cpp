@@ -20,7 +20,7 @@ constexpr double kMostContradicted = 0.01;
 constexpr double kExactSilhouettes = 1e-4;  // contradicted less, they lack nothing: 1e-5 traced, .0005 and more cut out
 constexpr double kHullSpacing_px = 0.5;     // of the working pictures
 constexpr double kRepairSpacing_px = 1;     // of those of half the size
-constexpr int kHullLevels = 128;            // of depth, where silhouettes are asked whether they agree
+constexpr int kHullLevels = 128;            // of depth, where silhouettes are tested for agreement
 constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of the set
 constexpr int kOverruledMargin_px = 4;
 constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
@@ -31,7 +31,7 @@ constexpr double kLargePart = 0.1;   // of what there is of the object
 constexpr double kMostLacking =
     0.2;  // of the pictures, five at least for one; else cameras do not stand where the rig has them
 constexpr double kWidestBetweenRings_deg = 20;
-constexpr int kNearSoft_px = 8;  // what is soft is told from what is around it, too
+constexpr int kNearSoft_px = 8;  // what is soft is found from what is around it, too
 
 // Seen from the middle of the object, in radians.
 double angle_between(const WorkView& a, const WorkView& b) {

@@ -35,18 +35,18 @@ public:
     // The hull; `rings` are those next below and above, where there are such.
     void choose_hull(const std::vector<const RingSearch*>& rings);
 
-    // Finds what cut-outs lack, as points tell that the object's pictures of half the size show, and paints large parts
+    // Finds what cut-outs lack, by points that the object's pictures of half the size show, and paints large parts
     // of it (lost_parts.hpp), if few pictures lack one: else the rig is at fault. Those pictures are passed to `keep`,
     // one after the other. Not for the soft layer.
     Status complete_cut_outs(Progress* progress, const Keep& keep);
     // Where the silhouettes agree, what was found is added to them (silhouette_repair.hpp), not to the pictures.
     void mend_silhouettes();
 
-    // The depths that the colours say.
+    // The depths that the colours show.
     Status match(Progress* progress);
 
     // The same again, now that there are depths that pictures can agree about: every second picture with what the
-    // colours say of its neighbours, then the others with what those have found. If all went at once, neighbours would
+    // colours show of its neighbours, then the others with what those have found. If all went at once, neighbours would
     // take over one another's faults. A few evenly spread depths are kept for people.
     Status agree(Progress* progress, std::vector<FoundDepth>& samples);
 
@@ -68,7 +68,7 @@ private:
     Result<std::optional<Image<Rgba8>>> completed(std::size_t n, const RingSearch& half,
                                                   const Image<float>& part) const;
 
-    // What the colours say of each level that the hull allows.
+    // What the colours show of each level that the hull allows.
     [[nodiscard]] CostVolume colour_costs(int n, const Neighbours& neighbours, const DepthRange& range) const;
     void keep_layer(Image<float>& depth, const Image<std::uint8_t>& soft) const;
     // Of this ring and the others.

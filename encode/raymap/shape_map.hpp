@@ -3,7 +3,7 @@
 //
 // For every picture of a ring: the visual hull of all silhouettes, those of the rings next below and above among them,
 // bounds the depths, with what single cut-outs lack given back to them (silhouette_repair.hpp, lost_parts.hpp); the
-// colours of the pictures to either side and below and above say which depth agrees (cost_volume.hpp); smoothness
+// colours of the pictures to either side and below and above show which depth agrees (cost_volume.hpp); smoothness
 // decides where colour does not (semi_global.hpp). Then all is searched again with what the neighbours were found to
 // show, so that pictures agree about surfaces. A ring whose silhouettes contradict this one's, because only each for
 // itself is calibrated, is left out. Then every line between two pictures takes over what both have found

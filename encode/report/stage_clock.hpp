@@ -15,7 +15,7 @@ struct StageTime {
     double seconds = 0;
 };
 
-// start() and finish() from one thread, advance() from any, as Progress says. Time between a stage's end and the next
+// start() and finish() from one thread, advance() from any, as Progress states. Time between a stage's end and the next
 // one's start belongs to neither. A stage that comes again is added to its first time.
 class StageClock final : public Progress {
 public:

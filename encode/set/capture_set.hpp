@@ -42,10 +42,10 @@ Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress*
 inline constexpr std::int64_t kEncodingBytesPerPixel = 16;
 
 // An error where encoding the set takes more than `memory_bytes`: cameras on a hemisphere have upright pictures many
-// times as high as those that were taken. open_capture_set() asks for the machine's memory.
+// times as high as those that were taken. open_capture_set() looks up the machine's memory.
 Status check_memory(const CaptureSet& set, std::int64_t memory_bytes);
 
-// The name of the set's folder, however that was told: what objects and pages are called where nobody names them.
+// The name of the set's folder, however that was given: what objects and pages are called where nobody names them.
 std::string name_of(const CaptureSet& set);
 
 // Picture `view` of the set, seen by upright.views[view].camera. Thread-safe.

@@ -30,7 +30,7 @@ Result<std::vector<Method>> parse_methods(const std::string& text);
 
 struct EvaluationOptions {
     std::vector<Method> methods{Method::kPhoto, Method::kPlane, Method::kShape};
-    int planes = 12;  // of the objects that are built; cells as usual_plane_map() says
+    int planes = 12;  // of the objects that are built; cells as usual_plane_map() gives
 };
 
 struct AnsweredView {

@@ -1,5 +1,5 @@
 #pragma once
-// The options of `rs-encode build` that say how pictures are stored.
+// The options of `rs-encode build` that choose how pictures are stored.
 
 #include "encode/encode_pictures.hpp"
 #include "rayspace/base/result.hpp"

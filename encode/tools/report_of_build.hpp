@@ -44,7 +44,7 @@ void add_scores(const CaptureSet& set, const HoldOut& hold_out, const std::strin
                 std::vector<MethodScores> scores, KeptAnswers answers, BuildReport& report);
 
 // Builds objects from every other view, scores the rest and keeps some of the answers. A set with too few views is no
-// error: the report says so.
+// error: the report states it.
 Status add_held_out_views(const CaptureSet& set, int planes, BuildReport& report, Progress* progress);
 
 // Hull and depth of a few views, as build_object() found them.

@@ -30,7 +30,7 @@ constexpr double degrees(double radians) {
     return radians * (180.0 / kPi);
 }
 
-// Largest sizes that any reader of this project accepts; what is larger is refused with a message that says so.
+// Largest sizes that any reader of this project accepts; what is larger is refused with a message that states it.
 inline constexpr int kMaxPictureSide_px = 8192;
 inline constexpr int kMaxViews = 4096;
 inline constexpr int kMinPlanes = 3;

@@ -10,7 +10,7 @@
 namespace rs {
 namespace {
 
-constexpr int kCompressionLevel = 19;  // above it libzstd asks decoders for larger windows
+constexpr int kCompressionLevel = 19;  // above it libzstd makes decoders need larger windows
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 #pragma once
-// Alpha as a mask: a bit per sample that says whether it is covered by half or more, and what is made of it when a
+// Alpha as a mask: a bit per sample that states whether it is covered by half or more, and what is made of it when a
 // tile's masks are known. Integer and normative: encode/FORMAT.md, section "Masks". No function here allocates.
 
 #include "rayspace/codec/code/dense_code.hpp"

@@ -2,7 +2,7 @@
 // The binary arithmetic decoder of coded pictures: encode/FORMAT.md, section "Bits".
 //
 // What is likely comes from outside (context_states.hpp) and begins anew with every tile, so any tile can be begun
-// without its neighbours. Reading past the end gives zeros, as many as are asked for: a decoder never fails, and what
+// without its neighbours. Reading past the end gives zeros, as many as are read: a decoder never fails, and what
 // it makes of damaged bytes is bounded by the syntax that is read through it.
 
 #include <bit>

@@ -117,7 +117,7 @@ private:
         }
     }
 
-    // What is shown where no more than the mask is said: in blocks that are not mixed, and have none beside them.
+    // What is shown where no more than the mask is coded: in blocks that are not mixed, and have none beside them.
     void mask(const PredictionUnit& unit, const UnitChoice& choice) {
         for (int i = 0; i < unit.blocks() * unit.blocks(); ++i) {
             const int bx = unit.bx + (i & (unit.blocks() - 1));

@@ -27,7 +27,7 @@ public:
     Status write_at(std::uint64_t offset, std::span<const std::byte> bytes);
     [[nodiscard]] std::uint64_t size_bytes() const { return size_bytes_; }
     [[nodiscard]] const std::filesystem::path& target() const { return path_; }
-    // Where the bytes stand until commit(); for libraries that want to write the file themselves.
+    // Where the bytes stand until commit(); for libraries that write the file themselves.
     [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_; }
     Status commit();
 

@@ -10,8 +10,8 @@
 namespace rs {
 
 // A descriptor open for reading, which the caller closes. Refuses what is no regular file (a pipe would wait for ever,
-// a device may never end), and says so. What is only looked at to tell whether it may be replaced is no input.
-// Thread-safe, as everything here.
+// a device may never end), and the error states it. What is only looked at to see whether it may be replaced is no
+// input. Thread-safe, as everything here.
 Result<int> open_input(const std::filesystem::path& path, bool is_input = true);
 
 // The same check for what a library opens by its name.

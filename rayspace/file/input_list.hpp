@@ -1,6 +1,6 @@
 #pragma once
 // What a piece of work was made of: the files that a tool has read, with their sums, so that whoever would start it
-// again can tell whether anything has changed.
+// again can see whether anything has changed.
 //
 // Text: "rayspace inputs 1", then a line "XXH64 BYTES MODIFIED_NS PATH" for each file, sorted by path. Paths are
 // absolute; control characters and '%' in them stand as %XX.

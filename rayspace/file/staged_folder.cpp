@@ -28,7 +28,7 @@ void remove_quietly(const fs::path& path) {
     fs::remove_all(path, ignored);
 }
 
-// Lists the files of a folder that we made, "XXH64 NAME" to a line, so that a later commit() can tell what it may
+// Lists the files of a folder that we made, "XXH64 NAME" to a line, so that a later commit() can see what it may
 // replace: a file that was added or changed since is somebody's work.
 constexpr const char* kManifest = ".rayspace-files";
 constexpr std::uint64_t kManifestCap_bytes = 64 << 20;

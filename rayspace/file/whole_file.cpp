@@ -28,7 +28,7 @@ Result<std::vector<std::byte>> read_whole(const std::filesystem::path& path, std
                           " bytes, the most that is read here; check that it is the right file"};
     if (static_cast<std::uint64_t>(info.st_size) > cap_bytes) return too_large;
 
-    // Files of /proc say size 0: read until the end in any case, growing as bytes arrive.
+    // Files of /proc state size 0: read until the end in any case, growing as bytes arrive.
     std::vector<std::byte> bytes(static_cast<std::size_t>(info.st_size));
     std::size_t filled = 0;
     for (;;) {

@@ -24,7 +24,7 @@ struct ChunkKey {
 };
 
 // The chunks of an object in the order of the file. Needs the rings' view lists and the levels of coded pictures;
-// `has` tells whether there is one of a kind that may lack.
+// `has` returns whether there is one of a kind that may lack.
 std::vector<ChunkKey> chunk_order(const RaySpaceObject& object,
                                   const std::function<bool(const ChunkKind& kind, std::uint32_t index)>& has);
 // Of an object in memory.
@@ -33,7 +33,7 @@ std::vector<ChunkKey> chunk_order(const RaySpaceObject& object);
 // The payload of one of these, as write_object() stores it.
 Payload chunk_payload(const RaySpaceObject& object, ChunkKey key);
 
-// The level at which the n-th view of a ring is loaded: a coded picture says it itself.
+// The level at which the n-th view of a ring is loaded: a coded picture states it itself.
 int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n);
 
 }  // namespace rs::object_chunks

@@ -22,7 +22,7 @@ using ChunkName = std::array<char, 4>;
 
 struct ChunkEntry {
     ChunkName name{};
-    std::uint32_t index = 0;         // tells chunks of one name apart: picture number, ring number
+    std::uint32_t index = 0;         // distinguishes chunks of one name: picture number, ring number
     std::uint64_t offset_bytes = 0;  // from the start of the file
     std::uint64_t size_bytes = 0;
     std::uint64_t checksum = 0;  // XXH64, seed 0, of the payload
@@ -33,7 +33,7 @@ inline constexpr std::uint64_t kMaxChunk_bytes = std::uint64_t{1} << 30;
 inline constexpr std::uint64_t kMaxContainer_bytes = std::uint64_t{1} << 36;
 
 // Writes chunks in the order in which they are added; the table's place is reserved at the start, so the number of
-// chunks is told beforehand. Nothing appears under `path` before commit().
+// chunks is given beforehand. Nothing appears under `path` before commit().
 class ContainerWriter {
 public:
     static Result<ContainerWriter> create(const std::filesystem::path& path, std::uint32_t chunk_count);
@@ -50,7 +50,7 @@ private:
 };
 
 // Reads and checks the header and the table when opened; payloads are read and checked one by one on demand, so a
-// reader needs no more memory than the chunks it asks for. read() may be called from several threads.
+// reader needs no more memory than the chunks it reads. read() may be called from several threads.
 class ContainerReader {
 public:
     static Result<ContainerReader> open(const std::filesystem::path& path);

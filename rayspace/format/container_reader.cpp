@@ -51,7 +51,7 @@ struct ContainerReader::Source {
         return bytes;
     }
 
-    // `rest` says what is wrong: "FILE: chunk PICT 3: ..." or "FILE: ...".
+    // `rest` states what is wrong: "FILE: chunk PICT 3: ..." or "FILE: ...".
     [[nodiscard]] Error wrong(const std::string& rest) const { return Error{where + ": " + rest}; }
 
     Status read_header(std::uint32_t& chunk_count, std::uint64_t& table_checksum) const;

@@ -38,7 +38,7 @@ private:
     std::vector<std::uint16_t> lengths_;  // of the last run of each view
     std::uint16_t first_ = 0;             // the view of the last row's first run
     std::uint16_t view_ = 0;              // of the last run
-    bool begins_row_ = false;             // the run whose view was asked for last
+    bool begins_row_ = false;             // the run whose view was requested last
 };
 
 // The n-th number of a plane.

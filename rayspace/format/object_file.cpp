@@ -85,7 +85,7 @@ private:
         return container_.read(entry);
     }
 
-    // What the chunk says that it needs is held against the cap before it is allocated: a few bytes may say much.
+    // What the chunk states that it needs is held against the cap before it is allocated: a few bytes may state much.
     Status read_chunk(const ChunkKind& kind, std::uint32_t index) {
         const ChunkEntry* const entry = container_.find(kind.name, index);
         if (entry == nullptr) {
@@ -166,7 +166,7 @@ private:
         return Error{container_.where() + ": has no chunk " + named(expected[next]) + " in its place"};
     }
 
-    // What the maps and pictures need, but for what their chunks say themselves.
+    // What the maps and pictures need, but for what their chunks state themselves.
     Status check_memory() {
         // No product here reaches 2^64: every factor is capped by conventions.hpp.
         for (const Ring& ring : unread_.object.rings) {

@@ -81,7 +81,7 @@ private:
     std::string place_;
 };
 
-// What one object, the file or a frame, says about the lens.
+// What one object, the file or a frame, states about the lens.
 struct Intrinsics {
     std::optional<int> w, h;
     std::optional<double> fl_x, fl_y, cx, cy, angle_x_rad, angle_y_rad;

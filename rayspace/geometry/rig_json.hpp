@@ -12,7 +12,7 @@ struct PictureSize {
     int height = 0;
 };
 
-// Asked once, for the first frame, when neither the file nor that frame says how large the pictures are.
+// Called once, for the first frame, when neither the file nor that frame states how large the pictures are.
 using FindPictureSize = std::function<Result<PictureSize>(const RigView& first)>;
 
 Result<Rig> parse_rig(const std::string& text, const std::string& where, const FindPictureSize& find_size);

@@ -1,5 +1,5 @@
 #pragma once
-// The sRGB transfer curve to 8-bit codes by table, where many pixels are asked for.
+// The sRGB transfer curve to 8-bit codes by table, where many pixels are needed.
 
 #include <array>
 #include <cstddef>
@@ -20,7 +20,7 @@ const CodeThresholds& code_thresholds();
 }  // namespace detail
 
 // Rounded to the nearest code; values outside of 0..1 are clamped, NaN gives 0. Exactly what srgb8_from_linear()
-// of linear_light.hpp says, in a tenth of the time.
+// of linear_light.hpp gives, in a tenth of the time.
 inline std::uint8_t srgb8_by_table(float linear) {
     if (!(linear > 0)) return 0;
     if (linear >= 1) return 255;

@@ -1,5 +1,5 @@
 #pragma once
-// A light as a list of lights says it (compositor/scene/light/lights_file.hpp): in the units of lamps, with the names
+// A light as a list of lights states it (compositor/scene/light/lights_file.hpp): in the units of lamps, with the names
 // of files. This is what is edited and saved. A Light is computed from it, from the same entry always the same. Which
 // of the numbers a kind has, and what they are called: light_model.hpp.
 
@@ -27,7 +27,7 @@ struct LightEntry {
     std::string name{};    // may be empty
     glm::dvec3 colour{1};  // a factor in linear light, 0..kStrongest
     // Where there is no `radiance`. Directional: lux on a surface that faces it; points and spots: candela; areas:
-    // lumens; luminaires: a factor on what the file says, a dimmer.
+    // lumens; luminaires: a factor on what the file states, a dimmer.
     double power = 1;
     // Areas: W / (m^2 sr). Points and spots: VRML97's intensity times colour, what white matter shows that faces the
     // light where 1 / attenuation is 1; it is nowhere more.
@@ -49,7 +49,7 @@ struct LightEntry {
     bool operator==(const LightEntry&) const = default;
 };
 
-// What the entry says; its numbers within the limits above. All here are pure and thread-safe.
+// What the entry states; its numbers within the limits above. All here are pure and thread-safe.
 Light light_of(const LightEntry& entry);
 
 // An entry for a light that comes from elsewhere. Of it light_of() gives the same colours, places and directions, bit

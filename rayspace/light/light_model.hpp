@@ -1,9 +1,9 @@
 #pragma once
 // What a kind of light is, to all who trace by it, draw it, write it down or edit it: they know its form and its words,
-// and ask this for the rest. A new kind is a value of LightKind, a class like those here, and its row in
+// and take the rest from this. A new kind is a value of LightKind, a class like those here, and its row in
 // light_models.cpp.
 //
-// Pure and thread-safe. Lights are as check_light() wants them.
+// Pure and thread-safe. Lights are as check_light() needs them.
 
 #include "rayspace/light/light.hpp"
 #include "rayspace/light/light_entry.hpp"
@@ -33,7 +33,7 @@ struct LightNumber {
     double LightEntry::*at_most = nullptr;  // not above this one, and the same where it is left out
 };
 
-// How lists and panels say it.
+// How lists and panels name it.
 struct LightWords {
     const char* kind;
     const char* power;                    // what LightEntry::power counts
@@ -50,7 +50,7 @@ struct LightWords {
     std::span<const LightNumber> numbers{};
 };
 
-// Of kPoint. At distance d what `colour` says is over max(attenuation.x + attenuation.y d + attenuation.z d^2,
+// Of kPoint. At distance d what `colour` states is over max(attenuation.x + attenuation.y d + attenuation.z d^2,
 // least_attenuation); beyond `radius`, and outside of the cone about axis(), nothing arrives.
 struct LightReach {
     glm::vec3 attenuation{0, 0, 1};
@@ -80,7 +80,7 @@ public:
     LightModel(const LightModel&) = delete;
     LightModel& operator=(const LightModel&) = delete;
 
-    // Why the light cannot be used, beyond what is asked of all kinds.
+    // Why the light cannot be used, beyond what all kinds need.
     [[nodiscard]] virtual Status check(const Light& light) const = 0;
     // Unit length; anything where nothing is aimed.
     [[nodiscard]] virtual glm::dvec3 axis(const Light& light) const { return light.towards; }

@@ -96,7 +96,7 @@ std::vector<Plane> planes_of_circle(const std::vector<double>& horizontal_deg) {
             if (angle > 360 + kAngleTolerance_deg) angle -= 360;
         }
         std::sort(planes.begin(), planes.end());
-        // The seam, which may lie between two planes, is doubled or put in by whoever asks beyond the ends.
+        // The seam, which may lie between two planes, is doubled or put in by whoever looks beyond the ends.
         return planes;
     }
     if (is_angle(last, 90)) add_mirrored(90);

@@ -43,7 +43,7 @@ public:
     static constexpr std::size_t kMostValues = 1U << 20U;  // of a table
 
     // Refuses tables whose angles are out of order or range, values that are negative or not finite, and webs without
-    // light. The message says what, without a file's name.
+    // light. The message states what, without a file's name.
     static Result<PhotometricWeb> create(const PhotometricTable& table);
 
     // `direction` is away from the luminaire, in its frame, of any length but 0. Thread-safe, as all that follows.

@@ -54,7 +54,7 @@ private:
     std::size_t at_ = 0;
 };
 
-// A .glb (glTF 2.0, 4.4; 1.0 has its JSON's length in the same place): Assimp allocates what a chunk's length says
+// A .glb (glTF 2.0, 4.4; 1.0 has its JSON's length in the same place): Assimp allocates what a chunk's length states
 // before it looks whether the file has it.
 bool is_whole_glb(std::span<const std::byte> bytes) {
     constexpr std::size_t kHeader_bytes = 12, kChunkHeader_bytes = 8;

@@ -41,7 +41,7 @@ ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes
 std::string shown_error(const char* words);
 
 // What `importer` has just read, without post-processing, after the aiProcess `steps`; null where Assimp refuses it.
-// Its structure is validated, faces of two corners are lines (as its OBJ reader does not say), and a vertex or a
+// Its structure is validated, faces of two corners are lines (which its OBJ reader does not report), and a vertex or a
 // texture coordinate that is not finite is an error, which steps would merge with its neighbours; `file` names it.
 Result<const aiScene*> post_processed(Assimp::Importer& importer, unsigned steps, const std::string& file);
 

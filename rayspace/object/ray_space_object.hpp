@@ -6,7 +6,7 @@
 // exact.
 //
 // A captured picture i is a line of ray space: through the point x of reference plane k it has exactly one ray. So the
-// RS map of a plane needs to say only *which picture* answers a cell (x, u); the CapturedLine of (picture, plane) then
+// RS map of a plane needs to hold only *which picture* answers a cell (x, u); the CapturedLine of (picture, plane) then
 // gives column and vertical scale of the ray through x exactly, without the rounding of a column stored per cell.
 
 #include "rayspace/codec/code/coded_pictures.hpp"

@@ -2,8 +2,8 @@
 // The RS map with height: at what depth the two captured rays that answer a view ray meet it.
 //
 // The paper's RS map has one depth per object, the reference plane's. Here ray space gets its third dimension, height:
-// for every ray of a vertical plane (two numbers) and every band of height there is a cell that says how far along the
-// ray the surface is.
+// for every ray of a vertical plane (two numbers) and every band of height there is a cell that states how far along
+// the ray the surface is.
 //
 // A *gap* is the piece of ray space between two neighbouring views of a ring, `first` and `second` in turning order.
 // It is sampled along `lines`: line s of S lies at the fraction (s + 1/2) / S between the two captured lines. A ray of

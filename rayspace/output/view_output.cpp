@@ -41,7 +41,7 @@ Rig rig_of_views(const std::vector<Camera>& cameras) {
 
 Status write_view_video(const std::string& output, double frames_per_second, const std::vector<Camera>& cameras,
                         const RenderView& render, Progress& progress) {
-    // H.264 at 4:2:0 wants even sizes: the last odd row or column is dropped.
+    // H.264 at 4:2:0 needs even sizes: the last odd row or column is dropped.
     const int width = cameras.front().width & ~1;
     const int height = cameras.front().height & ~1;
     Result<VideoWriter> video = VideoWriter::open(output, width, height, frames_per_second);

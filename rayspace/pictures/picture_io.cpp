@@ -43,7 +43,7 @@ LoadedBackend load_backend() {
         // libraries run threads and exit handlers.
         void* const module = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
         if (module == nullptr) {
-            // A module that is there but lacks a library says more than two that are not there.
+            // A module that is there but lacks a library explains more than two that are not there.
             const char* const message = ::dlerror();
             if (why.empty() || fs::exists(candidate, ignored)) why = message != nullptr ? message : "unknown reason";
             continue;
@@ -53,7 +53,7 @@ LoadedBackend load_backend() {
         if (backend != nullptr && backend->version == pictures::kBackendVersion) return {backend, {}};
         why = candidate.string() + " belongs to another version of these tools";
     }
-    // What the loader says where the address space or the memory of a process is limited.
+    // What the loader reports where the address space or the memory of a process is limited.
     if (why.find("failed to map segment") != std::string::npos || why.find("annot allocate") != std::string::npos) {
         return {nullptr, "not enough memory to load what reads and writes pictures; raise the limit (ulimit -v)"};
     }

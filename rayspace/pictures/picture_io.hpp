@@ -25,8 +25,8 @@ struct PictureInfo {
     int height = 0;
     int channels = 0;
     bool has_alpha = false;
-    // EXIF: how the stored pixels want to be shown. 1 as they are, 3 upside down, 6 and 8 on their side, 2, 4, 5 and 7
-    // mirrored too. 1 where the file says nothing, or nothing valid.
+    // EXIF: how the stored pixels are to be shown. 1 as they are, 3 upside down, 6 and 8 on their side, 2, 4, 5 and 7
+    // mirrored too. 1 where the file states nothing, or nothing valid.
     int orientation = 1;
 };
 

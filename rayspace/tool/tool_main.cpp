@@ -18,7 +18,7 @@
 namespace rs {
 namespace {
 
-// Messages may quote what a library said; whatever line breaks that holds, an error is one line.
+// Messages may quote what a library reported; whatever line breaks that holds, an error is one line.
 std::string folded(const std::string& message) {
     std::string line;
     for (const char c : message) {
@@ -63,7 +63,7 @@ bool take(std::string_view& text, char expected) {
     return true;
 }
 
-// For whoever started the tool and wants to know (input_list.hpp).
+// For whoever started the tool and needs to know (input_list.hpp).
 Status list_inputs() {
     const char* const list = std::getenv(kInputListVariable);
     if (list == nullptr) return {};

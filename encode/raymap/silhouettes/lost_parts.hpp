@@ -1,7 +1,7 @@
 #pragma once
 // Large parts that a cut-out lacks, given back to its picture. A black back plate before black, or one that has turned
 // as white as the backdrop, is cut off in the pictures where it does and whole in those beside them: there it would
-// vanish, and come back. What pictures agree about (silhouette_repair.hpp) says which part it is and how deep; the
+// vanish, and come back. What pictures agree about (silhouette_repair.hpp) shows which part it is and how deep; the
 // colours are those of the nearest pictures that show it.
 
 #include "encode/raymap/silhouettes/work_view.hpp"

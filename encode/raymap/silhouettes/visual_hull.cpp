@@ -72,7 +72,7 @@ std::size_t remove(std::vector<Interval>& from, std::size_t first, const Interva
     return n;
 }
 
-// Neighbours say nearly the same. In this order most places outside of the object are ruled out by the first few.
+// Neighbours show nearly the same. In this order most places outside of the object are ruled out by the first few.
 template <class T>
 void spread_out(std::vector<T>& in_turning_order) {
     constexpr double kGolden = 0.6180339887498949;
@@ -200,7 +200,7 @@ double contradicted_share(const std::vector<const WorkView*>& views, const Visua
             }
             pixels[v] += static_cast<std::int64_t>(unseen.size());
             const HorizontalRay ray = view.ray_of(column + 0.5);
-            // From the middle outwards: most are seen there, and the rest of the levels need not be asked for.
+            // From the middle outwards: most are seen there, and the rest of the levels need not be computed.
             for (int n = 0; n < range.count && !unseen.empty(); ++n) {
                 const int level = range.count / 2 + (n % 2 == 0 ? n / 2 : -(n + 1) / 2);
                 const double depth = range.at(level);

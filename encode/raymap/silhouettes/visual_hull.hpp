@@ -31,7 +31,7 @@ public:
     // soft edges leave unsure. What lies outside of a picture's frame may be object. Views without any object pixel say
     // nothing and are left out. `views` must outlive the hull.
     // A place is ruled out where more than `tolerated` silhouettes forbid it: cut-outs that lack a part in some
-    // pictures, or cameras that stand elsewhere than the rig says, else leave nothing.
+    // pictures, or cameras that stand elsewhere than the rig states, else leave nothing.
     VisualHull(const std::vector<const WorkView*>& views, int margin_px, int tolerated = 0);
 
     // The heights above a place that the silhouettes allow, ascending and disjoint; of `within` only.
@@ -42,7 +42,7 @@ private:
     struct Silhouette {
         const WorkView* view = nullptr;
         // Heights above the camera's centre per axial depth, ascending within a column, column after column; and where
-        // each column's end. Many places are asked for: they lie close together in memory.
+        // each column's end. Many places are computed: they lie close together in memory.
         std::vector<Interval> forbidden;
         std::vector<std::uint32_t> ends;
         [[nodiscard]] std::span<const Interval> forbidden_slopes(int column) const {
@@ -60,7 +60,7 @@ private:
     int tolerated_ = 0;
 };
 
-// A hull above the points of a square grid, for the many places that are asked for: a tenth of the time of asking every
+// A hull above the points of a square grid, for the many places that are needed: a tenth of the time of computing every
 // silhouette for each. Thread-safe.
 class SampledHull {
 public:
@@ -82,8 +82,8 @@ public:
 private:
     static constexpr int kTileSide = 32;  // points
 
-    // A square of points: what is asked for along a ray, and along the next one, lies close together in memory. Many
-    // are never asked for: each is sampled when it is.
+    // A square of points: what is read along a ray, and along the next one, lies close together in memory. Many
+    // are never needed: each is sampled when it is.
     struct Tile {
         std::atomic<bool> sampled = false;
         std::once_flag once;

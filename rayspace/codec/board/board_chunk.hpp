@@ -7,10 +7,10 @@
 
 namespace rs::codec {
 
-// The books must have the sizes that the classes ask for.
+// The books must have the sizes that the classes need.
 void put_board_code(const BoardCode& code, ByteWriter& out);
 
-// To the end of the payload. Memory: at most 270 KB, whatever the bytes say.
+// To the end of the payload. Memory: at most 270 KB, whatever the bytes are.
 Status take_board_code(ByteReader& in, BoardCode& code);
 
 // How many block and quarter stages the records of a kind (0: flat, 1: predicted) use at most, of all classes.

@@ -19,7 +19,7 @@ inline constexpr int kMaxQuarterStages = 4;  // of quarters of blocks, 4x4
 // What a record of one class holds.
 struct RecordClass {
     bool predicted = false;  // from another picture; else from a flat colour
-    bool alpha = false;      // says which samples are covered; else all are
+    bool alpha = false;      // states which samples are covered; else all are
     int block_stages = 0;    // 0 .. kMaxBlockStages
     int quarter_stages = 0;  // 0 .. kMaxQuarterStages
     bool operator==(const RecordClass&) const = default;

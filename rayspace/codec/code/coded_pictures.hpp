@@ -44,7 +44,7 @@ struct CodedPictures {
     int height = 0;
     int tile_width_log2 = 5;   // kMinTileLog2 .. kMaxTileLog2
     int tile_height_log2 = 5;  // the same
-    DenseCode dense;           // one of the two, as `profile` says
+    DenseCode dense;           // one of the two, by `profile`
     BoardCode board;
     std::vector<std::uint8_t> levels;    // [view]: progressive level, 0 .. 3; a picture is predicted from lower ones
     std::vector<CodedPicture> pictures;  // [view]

@@ -1,6 +1,6 @@
 #pragma once
-// What all dense pictures of an object share (chunk CODE), and what each says of itself before its tiles (chunk PICT):
-// encode/FORMAT.md, sections "CODE" and "PICT".
+// What all dense pictures of an object share (chunk CODE), and what each states of itself before its tiles (chunk
+// PICT): encode/FORMAT.md, sections "CODE" and "PICT".
 
 #include "rayspace/codec/code/contexts.hpp"
 #include "rayspace/codec/code/tile_grid.hpp"

@@ -16,8 +16,8 @@ namespace rs::codec {
 TilePlace place_of_tile(const CodedPictures& coded, std::size_t tile);
 
 // Decodes a tile of picture `view`, which must be loaded. references[r]: the samples of the picture
-// coded.pictures[view].head.reference[r], decoded at least where `listener` (may be null) is told that they are needed.
-// Writes only the tile's samples of `out`; may be called from several threads at once.
+// coded.pictures[view].head.reference[r], decoded at least where `listener` (may be null) is informed that they are
+// needed. Writes only the tile's samples of `out`; may be called from several threads at once.
 void decode_tile(const CodedPictures& coded, std::size_t view, std::size_t tile,
                  const std::array<ConstPlaneViews, 2>& references, ReferenceListener* listener, const PlaneViews& out);
 

@@ -70,7 +70,7 @@ std::int64_t larger_depth_q50(const CapturedLine& line, const Ring& ring, int xi
 }
 
 // Every cell is empty or names a view of the ring that has some of the cell before it. (Where a point comes closer to
-// the camera than the arithmetic can say, the renderer itself takes the ray for empty.)
+// the camera than the arithmetic can express, the renderer itself takes the ray for empty.)
 Status check_cells(const RaySpaceObject& object, std::uint32_t index) {
     const Ring& ring = object.rings[index];
     constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();

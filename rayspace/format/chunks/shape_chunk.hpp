@@ -31,8 +31,8 @@ struct CodedShapeCells {
 Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Ring& ring);
 Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape);
 
-// ring.shape is empty in all its members, or has the sizes that the ring and its own numbers ask for and all numbers
-// within their ranges. The ring's own numbers must have been checked. The error says what is wrong, without a place.
+// ring.shape is empty in all its members, or has the sizes that the ring and its own numbers need and all numbers
+// within their ranges. The ring's own numbers must have been checked. The error states what is wrong, without a place.
 // Cost: one look at every cell.
 Status check_shape(const Ring& ring);
 

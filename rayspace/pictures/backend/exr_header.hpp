@@ -1,6 +1,6 @@
 #pragma once
-// Whether an OpenEXR file's header can be true, told before OpenEXR sees it: that reserves and clears what a header
-// claims, 2 GB for a comment, before it looks whether the file has as much. Part of librayspace_pictures.so.
+// Whether an OpenEXR file's header can be true, found out before OpenEXR sees it: that reserves and clears what a
+// header claims, 2 GB for a comment, before it looks whether the file has as much. Part of librayspace_pictures.so.
 
 #include "rayspace/base/result.hpp"
 

@@ -40,7 +40,7 @@ auto guarded(const std::string& shown, Function&& function) -> decltype(function
 
 struct OpenedPicture {
     std::unique_ptr<OIIO::ImageInput> input;
-    int width = 0;  // of the display window: what the file wants to be seen
+    int width = 0;  // of the display window: what is to be seen of the file
     int height = 0;
 };
 

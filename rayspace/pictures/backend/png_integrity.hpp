@@ -1,5 +1,5 @@
 #pragma once
-// Whether a PNG file arrived whole, told before libpng sees it: libpng writes its complaints to stderr, and some
+// Whether a PNG file arrived whole, found out before libpng sees it: libpng writes its complaints to stderr, and some
 // readers give out what they have of a picture that is cut short. Part of librayspace_pictures.so.
 
 #include "rayspace/base/result.hpp"

@@ -17,7 +17,7 @@ extern "C" {
 namespace rs::pictures {
 namespace {
 
-// x264's rate factor at which a frame cannot be told from its still but beside it.
+// x264's rate factor at which a frame differs from its still only where both are seen side by side.
 constexpr const char* kRateFactor = "15";
 // An orbit's frames took longer to code than to render with x264's own choice; this one costs .4 dB of 38 and 1 % of
 // bits.
@@ -174,7 +174,7 @@ private:
 
 Result<std::unique_ptr<VideoEncoder>> open_video(const std::string& path, const std::string& shown,
                                                  const VideoOptions& options) {
-    // Errors are told once, by us: FFmpeg shall not write to stderr on its own.
+    // Errors are reported once, by us: FFmpeg shall not write to stderr on its own.
     av_log_set_level(AV_LOG_QUIET);
     auto encoder = std::make_unique<LibavEncoder>(shown, options);
     if (Status status = encoder->open(path); !status) return status.error();
