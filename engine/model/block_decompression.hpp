@@ -71,6 +71,7 @@ struct RecordChains : FifoRack {
 };
 
 struct BlockDecompression : RecordChains {
+    static constexpr int kSampleBits = YuvaPixel::kBitsOfCoded;
     BlockDecompression(const RegisterFile& registers, Fifo<ColumnWalk>& walks, Fifo<YuvaPixel>& samples);
     void add_to(Simulator& simulator);
     void add_ports(std::vector<ReadPort>& ports);

@@ -28,7 +28,7 @@ Image<Rgba8> picture_of(const HostPicture& words, const BoardView& view) {
 Board::Board(const BoardConfig& config, std::uint64_t shuffle_seed)
     : top_(std::make_unique<BoardTop>(config, shuffle_seed)),
       layout_(layout_of(config.limits.kind)),
-      map_(config.memory, config.limits.unpacks()),
+      map_(config.memory),
       slots_(static_cast<std::size_t>(config.limits.objects)) {}
 
 Result<int> Board::take_slot(const RaySpaceObject& object) {

@@ -28,8 +28,7 @@ namespace rs::engine::model {
 // The FIFOs between a column's start and its pixels, and the blocks that they join: a pipe. What lies between `walks`
 // and `samples` depends on the pictures: SampleReading, or block decompression.
 struct PipeFifos : FifoRack {
-    explicit PipeFifos(bool coded_pictures)
-        : samples(*this, "samples", 4, coded_pictures ? YuvaPixel::kBitsOfCoded : YuvaPixel::kBits) {}
+    explicit PipeFifos(int sample_bits) : samples(*this, "samples", 4, sample_bits) {}
     Fifo<ViewJob> jobs{*this, "jobs", 2, ViewJob::kBits};
     Fifo<ColumnRay> columns{*this, "columns", 2, ColumnRay::kBits};
     Fifo<RayPoint> points{*this, "points", 2, RayPoint::kBits};
@@ -49,8 +48,10 @@ struct PipeFifos : FifoRack {
 
 // Of pictures that are not compressed: from a column's walk to its samples, pixel by pixel.
 struct SampleReading : FifoRack {
-    SampleReading(const RegisterFile& registers, PipeFifos& pipe);
+    static constexpr int kSampleBits = YuvaPixel::kBits;
+    SampleReading(const RegisterFile& registers, Fifo<ColumnWalk>& walks, Fifo<YuvaPixel>& samples);
     void add_to(Simulator& simulator);
+    void add_ports(std::vector<ReadPort>& ports);
 
     Fifo<PlacedColumn> placed{*this, "placed", 4, PlacedColumn::kBits};
     Fifo<PixelPair> pairs{*this, "pairs", 4, PixelPair::kBits};
@@ -63,35 +64,63 @@ struct SampleReading : FifoRack {
     SampleSelect sample_select;
 };
 
-struct Pipe {
-    Pipe(const RegisterFile& registers, bool coded_pictures);
-    PipeFifos fifos;
+// What draws: pipes with their memory channels. Views go in, and come out when they are in the image buffer.
+struct BoardBody : FifoRack {
+    virtual ~BoardBody() = default;
+    virtual Fifo<ViewJob>& views_in() = 0;
+    virtual Fifo<Done>& views_out() = 0;
+    virtual std::vector<DmaPort> dma_ports() = 0;
+    virtual void add_pipes(Simulator& simulator) = 0;
+    virtual void add_loading(Simulator& /*simulator*/) {}  // what stands between the disk and several channels
+    [[nodiscard]] virtual int channels() const = 0;
+    [[nodiscard]] virtual const MemoryController& memory_of(int channel) const = 0;
+    [[nodiscard]] virtual Sdram& sdram_of(int channel) = 0;
+    [[nodiscard]] virtual std::optional<PipeMemoryBits> memory_of_a_pipe() const { return std::nullopt; }
+};
+
+// One pipe and one memory channel: the boards of 2000. `Reading`: SampleReading or BlockDecompression.
+template <class Reading>
+struct SingleBoard final : BoardBody {
+    SingleBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
+                Fifo<Done>& object_loaded);
+    Fifo<ViewJob>& views_in() override { return fifos.jobs; }
+    Fifo<Done>& views_out() override { return fifos.view_written; }
+    std::vector<DmaPort> dma_ports() override { return {{&host_reads, &host_words}}; }
+    void add_pipes(Simulator& simulator) override;
+    [[nodiscard]] int channels() const override { return 1; }
+    [[nodiscard]] const MemoryController& memory_of(int) const override { return memory; }
+    [[nodiscard]] Sdram& sdram_of(int) override { return sdram; }
+
+    Sdram sdram;
+    Fifo<MemoryRead> host_reads{*this, "host_reads", 4, MemoryRead::kBits};
+    Fifo<MemoryWord> host_words{*this, "host_words", 8, MemoryWord::kBits};
+    PipeFifos fifos{Reading::kSampleBits};
     RasterGenerator raster_generator;
     RayPosition ray_position;
     MapReader map_reader;
     LineReader line_reader;
     VerticalCompensation vertical_compensation;
-    std::optional<SampleReading> sample_reading;  // one of the two
-    std::optional<BlockDecompression> block_decompression;
+    Reading reading;
     ColourConversion colour_conversion;
     ImageWriter image_writer;
-};
-
-// One pipe and one memory channel: the boards of 2000.
-struct SingleBoard : FifoRack {
-    SingleBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
-                Fifo<Done>& object_loaded);
-    Sdram sdram;
-    Fifo<MemoryRead> host_reads{*this, "host_reads", 4, MemoryRead::kBits};
-    Fifo<MemoryWord> host_words{*this, "host_words", 8, MemoryWord::kBits};
-    Pipe pipe;
     MemoryController memory;
 };
 
-// Several, each pipe with a channel of its own: the parallel board.
-struct ParallelBoard : FifoRack {
+// Several pipes, each with a channel of its own: the parallel board.
+struct ParallelBoard final : BoardBody {
     ParallelBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
                   Fifo<Done>& object_loaded);
+    Fifo<ViewJob>& views_in() override { return jobs; }
+    Fifo<Done>& views_out() override { return view_written; }
+    std::vector<DmaPort> dma_ports() override;
+    void add_pipes(Simulator& simulator) override;
+    void add_loading(Simulator& simulator) override { simulator.add(Domain::board, load_broadcast); }
+    [[nodiscard]] int channels() const override { return static_cast<int>(pipes.size()); }
+    [[nodiscard]] const MemoryController& memory_of(int channel) const override { return pipe(channel).memory; }
+    [[nodiscard]] Sdram& sdram_of(int channel) override { return pipe(channel).sdram; }
+    [[nodiscard]] std::optional<PipeMemoryBits> memory_of_a_pipe() const override { return pipe_memory_bits(pipe(0)); }
+    [[nodiscard]] ParallelPipe& pipe(int n) const { return *pipes[static_cast<std::size_t>(n)]; }
+
     Fifo<ViewJob> jobs{*this, "jobs", 2, ViewJob::kBits};
     Fifo<Done> view_written{*this, "view_written", 2, Done::kBits};
     std::vector<std::unique_ptr<ParallelPipe>> pipes;
@@ -115,21 +144,16 @@ struct BoardTop : FifoRack {
     Fifo<Done> object_loaded{*this, "object_loaded", 2, Done::kBits};
     Fifo<Done> object_ready;
 
-    std::unique_ptr<SingleBoard> single;  // one of the two
-    std::unique_ptr<ParallelBoard> parallel;
+    std::unique_ptr<BoardBody> body;
     RenderControl render_control;
     HostDma host_dma;
     DiskController disk_controller;
     HostBus host_bus;
     Simulator simulator;
 
-    [[nodiscard]] int channels() const { return parallel ? static_cast<int>(parallel->pipes.size()) : 1; }
-    [[nodiscard]] const MemoryController& memory(int channel = 0) const {
-        return parallel ? parallel->pipes[static_cast<std::size_t>(channel)]->memory : single->memory;
-    }
-    [[nodiscard]] Sdram& sdram(int channel = 0) {
-        return parallel ? parallel->pipes[static_cast<std::size_t>(channel)]->sdram : single->sdram;
-    }
+    [[nodiscard]] int channels() const { return body->channels(); }
+    [[nodiscard]] const MemoryController& memory(int channel = 0) const { return body->memory_of(channel); }
+    [[nodiscard]] Sdram& sdram(int channel = 0) { return body->sdram_of(channel); }
 };
 
 }  // namespace rs::engine::model

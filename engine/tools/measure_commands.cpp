@@ -1,7 +1,7 @@
 #include "engine/tools/commands.hpp"
 
 #include "engine/core/views/compare.hpp"
-#include "engine/model/limits/board_limits.hpp"
+#include "engine/model/layout/object_image.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -55,12 +55,13 @@ Status run_compare(const CompareArguments& arguments) {
 
 Status run_board(const std::vector<std::string>& paths) {
     const BoardLimits limits;
+    const model::ObjectLayout& layout = model::layout_of(limits.kind);
     std::vector<RaySpaceObject> objects;
     std::printf("%-28s %9s %9s %9s %9s %9s  MB\n", "object", "luma", "chroma", "alpha", "RS map", "total");
     for (const std::string& path : paths) {
         Result<RaySpaceObject> object = read_object(path, {.max_level = -1});
         if (!object) return object.error();
-        const BoardFootprint f = board_footprint(*object, limits);
+        const model::BoardFootprint f = layout.footprint(*object);
         const auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / 1e6; };
         std::printf("%-28s %9.2f %9.2f %9.2f %9.2f %9.2f\n", printable(object->name).c_str(), megabytes(f.luma_bytes),
                     megabytes(f.chroma_bytes), megabytes(f.alpha_bytes), megabytes(f.map_bytes),
@@ -69,9 +70,9 @@ Status run_board(const std::vector<std::string>& paths) {
     }
     std::printf("%-28s %49.2f\n", "image buffer", static_cast<double>(image_buffer_bytes(limits)) / 1e6);
     for (const RaySpaceObject& object : objects) {
-        if (Status status = fits_board(object, limits); !status) return status;
+        if (Status status = layout.fits(object, limits); !status) return status;
     }
-    if (Status status = fit_board_together(objects, limits); !status) return status;
+    if (Status status = layout.fit_together(objects, limits); !status) return status;
     std::printf("all fit on the published board (%llu bytes)\n", static_cast<unsigned long long>(limits.memory_bytes));
     return {};
 }

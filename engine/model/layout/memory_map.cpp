@@ -2,23 +2,15 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 namespace rs::engine::model {
-namespace {
-
-using Names = std::array<const char*, kObjectRegions>;
-constexpr Names kRawNames = {"luma", "chroma", "alpha", "tables"};
-constexpr Names kCodedNames = {"flat tiles", "predicted tiles", "tile table", "tables"};
-
-}  // namespace
-
-MemoryMap::MemoryMap(const MemorySettings& settings, bool coded_pictures)
-    : names_(coded_pictures ? kCodedNames : kRawNames) {
-    const std::array<RegionBanks, kObjectRegions> banks = object_regions(settings.regions, coded_pictures);
+MemoryMap::MemoryMap(const MemorySettings& settings) {
     for (std::size_t n = 0; n < kObjectRegions; ++n) {
-        spaces_[n].all = {static_cast<std::uint64_t>(banks[n].first) * settings.shape.words_per_bank(),
-                          static_cast<std::uint64_t>(banks[n].count) * settings.shape.words_per_bank()};
+        const RegionBanks& banks = settings.regions.objects[n];
+        spaces_[n].name = banks.name;
+        std::replace(spaces_[n].name.begin(), spaces_[n].name.end(), '_', ' ');
+        spaces_[n].all = {static_cast<std::uint64_t>(banks.first) * settings.shape.words_per_bank(),
+                          static_cast<std::uint64_t>(banks.count) * settings.shape.words_per_bank()};
     }
 }
 
@@ -36,7 +28,7 @@ Result<Placement> MemoryMap::take(const std::array<std::uint64_t, kObjectRegions
         }
         if (space.all.first + space.all.words - at < words[n]) {
             return Error{name + ": board memory is full: it needs " + std::to_string(words[n] * 8) + " bytes of " +
-                         names_[n] + " in one piece, and " + std::to_string(free_words(static_cast<Region>(n)) * 8) +
+                         space.name + " in one piece, and " + std::to_string(free_words(static_cast<Region>(n)) * 8) +
                          " of " + std::to_string(space.all.words * 8) +
                          " are free; evict an object, or encode it smaller"};
         }

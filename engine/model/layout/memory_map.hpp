@@ -12,7 +12,6 @@
 namespace rs::engine::model {
 
 enum class Region { luma, chroma, alpha, tables, flat_tiles = luma, predicted_tiles = chroma, tile_table = alpha };
-inline constexpr std::size_t kObjectRegions = 4;
 
 struct Placement {
     std::array<WordAddress, kObjectRegions> first{};
@@ -21,7 +20,7 @@ struct Placement {
 
 class MemoryMap {
 public:
-    explicit MemoryMap(const MemorySettings& settings, bool coded_pictures = false);
+    explicit MemoryMap(const MemorySettings& settings);
 
     // Finds a place for so many words per region. Fails, and takes nothing, where a region has none; `name` is the
     // object's, for the error.
@@ -40,10 +39,10 @@ private:
         std::uint64_t words = 0;
     };
     struct Space {
+        std::string name;
         Run all;
         std::vector<Run> taken;  // in order
     };
-    const std::array<const char*, kObjectRegions>& names_;
     std::array<Space, kObjectRegions> spaces_;
 };
 

@@ -3,6 +3,8 @@
 #include "engine/model/blocks/shared/map_reader.hpp"
 #include "engine/model/layout/coded_object_image.hpp"
 #include "engine/model/layout/parallel_object_image.hpp"
+#include "engine/model/limits/coded_layout.hpp"
+#include "engine/model/limits/parallel_layout.hpp"
 #include "engine/model/signals/messages.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
 
@@ -118,9 +120,45 @@ void set_map_registers(const RaySpaceObject& object, ObjectRegisters& r) {
     r.u_cells_per_unit_q12 = ring.u_cells_per_unit_q12;
 }
 
+Status ObjectLayout::fit_together(std::span<const RaySpaceObject> objects, const BoardLimits& limits) const {
+    if (objects.size() > static_cast<std::size_t>(limits.objects)) {
+        return Error{std::to_string(objects.size()) + " objects, more than the board's " +
+                     std::to_string(limits.objects) + "; load fewer at a time"};
+    }
+    std::uint64_t needed_bytes = image_buffer_bytes(limits);
+    for (const RaySpaceObject& object : objects) needed_bytes += footprint(object).total_bytes();
+    if (needed_bytes > limits.memory_bytes) {
+        return Error{"the objects and the image buffer need " + std::to_string(needed_bytes) +
+                     " bytes of board memory, more than its " + std::to_string(limits.memory_bytes) +
+                     "; load fewer objects or encode them smaller"};
+    }
+    return {};
+}
+
+Status ObjectLayout::fits(const RaySpaceObject& object, const BoardLimits& limits) const {
+    if (Status status = within_limits(object, limits); !status) return status;
+    return fit_together({&object, 1}, limits);
+}
+
 namespace {
 
 using Words = std::array<std::uint64_t, kObjectRegions>;
+
+// Of their maps, and of `line_words` words for each view and for each of its lines.
+BoardFootprint maps_and_lines(const RaySpaceObject& object, std::uint64_t line_words) {
+    BoardFootprint footprint;
+    for (const Ring& ring : object.rings) {
+        footprint.map_bytes += ring.cells.size();
+        footprint.lines_bytes += 8 * line_words * ring.views.size() * (1 + static_cast<std::uint64_t>(ring.planes));
+    }
+    return footprint;
+}
+
+void add_coded(const codec::CodedPictures& coded, BoardFootprint& footprint) {
+    footprint.tile_bytes = 8 * (picture_words(coded, false) + picture_words(coded, true));
+    footprint.tile_table_bytes = 8 * tile_table_words(coded);
+    footprint.book_bytes = 8 * book_words(coded.board);
+}
 
 // The boards of 2000: one ring, its map and lines in one table, the pictures as the derived class has them.
 class LayoutOf2000 : public ObjectLayout {
@@ -128,7 +166,7 @@ public:
     [[nodiscard]] Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const override {
         if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
         if (Status status = has_pictures(object); !status) return status;
-        if (Status status = fits_board(object, limits); !status) return status;
+        if (Status status = fits(object, limits); !status) return status;
         if (object.rings.front().shape.empty()) return {};
         return Error{object.name +
                      ": has a shape map, which the published board does not know (it takes objects to lie on "
@@ -165,6 +203,17 @@ protected:
 
 class RawLayout final : public LayoutOf2000 {
 public:
+    [[nodiscard]] BoardFootprint footprint(const RaySpaceObject& object) const override {
+        const std::uint64_t pictures = object.views.size();
+        const auto area = [](int width, int height) {
+            return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+        };
+        BoardFootprint footprint = maps_and_lines(object, 2);
+        footprint.luma_bytes = pictures * area(object.width, object.height);
+        footprint.chroma_bytes = pictures * 2 * area(half_size(object.width), half_size(object.height));
+        footprint.alpha_bytes = pictures * ((area(object.width, object.height) * kAlphaBits + 7) / 8);
+        return footprint;
+    }
     [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override {
         return with_board_alpha(std::move(object));
     }
@@ -186,6 +235,14 @@ private:
 };
 
 class CodedLayout final : public LayoutOf2000 {
+public:
+    [[nodiscard]] BoardFootprint footprint(const RaySpaceObject& object) const override {
+        BoardFootprint footprint = maps_and_lines(object, 2);
+        add_coded(*object.coded, footprint);
+        return footprint;
+    }
+
+private:
     [[nodiscard]] Status has_pictures(const RaySpaceObject& object) const override {
         return has_board_pictures(object);
     }
@@ -200,6 +257,16 @@ class CodedLayout final : public LayoutOf2000 {
 
 class ParallelLayout final : public ObjectLayout {
 public:
+    [[nodiscard]] BoardFootprint footprint(const RaySpaceObject& object) const override {
+        BoardFootprint footprint = maps_and_lines(object, 4);
+        if (object.coded != nullptr) {
+            add_coded(*object.coded, footprint);
+        } else {
+            footprint.luma_bytes = 8 * object.views.size() * raw_picture_words(object.width, object.height);
+        }
+        for (const Ring& ring : object.rings) footprint.shape_bytes += 8 * cell_words(ring.shape);
+        return footprint;
+    }
     [[nodiscard]] Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const override {
         if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
         if (object.coded != nullptr && object.coded->profile != codec::Profile::kBoard) {
@@ -209,7 +276,7 @@ public:
         }
         const bool coded = object.coded != nullptr;
         if (Status status = coded ? has_board_pictures(object) : has_raw_pictures(object); !status) return status;
-        return fits_board(object, limits);
+        return fits(object, limits);
     }
     [[nodiscard]] Words words(const RaySpaceObject& object) const override { return parallel_object_words(object); }
     [[nodiscard]] ObjectImage image(const RaySpaceObject& object, const Placement& placement) const override {

@@ -4,9 +4,12 @@
 
 #include "engine/model/blocks/memory/disk_controller.hpp"
 #include "engine/model/layout/memory_map.hpp"
+#include "engine/model/limits/board_limits.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace rs::engine::model {
@@ -18,6 +21,24 @@ void set_map_registers(const RaySpaceObject& object, ObjectRegisters& registers)
 
 // Fails where pictures are not there as Y, U and V at half size, and alpha.
 Status has_raw_pictures(const RaySpaceObject& object);
+
+// Bytes of board memory that an object takes; planes of pictures and maps are stored without gaps.
+struct BoardFootprint {
+    std::uint64_t luma_bytes = 0;
+    std::uint64_t chroma_bytes = 0;
+    std::uint64_t alpha_bytes = 0;
+    std::uint64_t map_bytes = 0;    // one byte per cell: at most 120 pictures and "none"
+    std::uint64_t lines_bytes = 0;  // 16 bytes per view, 16 per view and plane
+    // Of coded pictures (coded_layout.hpp), instead of luma, chroma and alpha.
+    std::uint64_t tile_bytes = 0;
+    std::uint64_t tile_table_bytes = 0;
+    std::uint64_t book_bytes = 0;
+    std::uint64_t shape_bytes = 0;  // cells of shape maps
+    [[nodiscard]] std::uint64_t total_bytes() const {
+        return luma_bytes + chroma_bytes + alpha_bytes + map_bytes + lines_bytes + tile_bytes + tile_table_bytes +
+               book_bytes + shape_bytes;
+    }
+};
 
 struct ObjectImage {
     ObjectRegisters registers;
@@ -32,8 +53,15 @@ public:
     ObjectLayout& operator=(const ObjectLayout&) = delete;
     virtual ~ObjectLayout() = default;
 
-    // Fails where a board cannot hold or draw the object, with the reason and the remedy: a limit of fits_board, a
-    // shape map, pictures that are not loaded, or not of its kind.
+    // Bytes that the object takes; of a board of coded pictures it has them, all loaded.
+    [[nodiscard]] virtual BoardFootprint footprint(const RaySpaceObject& object) const = 0;
+    // Fails with the limit that the objects exceed together, with the image buffer for a full cycle of views.
+    [[nodiscard]] Status fit_together(std::span<const RaySpaceObject> objects, const BoardLimits& limits) const;
+    // The same of one, which is within_limits() as well.
+    [[nodiscard]] Status fits(const RaySpaceObject& object, const BoardLimits& limits) const;
+
+    // Fails where a board cannot hold or draw the object, with the reason and the remedy: it does not fit, it has a
+    // shape map, or its pictures are not loaded, or not of the board's kind.
     [[nodiscard]] virtual Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const = 0;
     // The object that is really drawn. Bit equality is with this one.
     [[nodiscard]] virtual RaySpaceObject as_drawn(RaySpaceObject object) const { return object; }

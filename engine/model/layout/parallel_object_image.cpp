@@ -80,12 +80,6 @@ void append_cells(const ShapeMap& shape, std::vector<std::uint64_t>& out) {
     }
 }
 
-std::uint64_t cell_words(const ShapeMap& shape) {
-    if (shape.empty()) return 0;
-    return shape.cells.size() / static_cast<std::size_t>(shape.bands) *
-           static_cast<std::uint64_t>(column_words(shape.bands));
-}
-
 void append_raw_block(const PlanarPicture& picture, int x0, int y0, std::vector<std::uint64_t>& out) {
     const auto column = [&](const Image<std::uint8_t>& plane, int x) {
         std::uint64_t word = 0;

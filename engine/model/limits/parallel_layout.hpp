@@ -43,6 +43,13 @@ constexpr int column_words(int bands) {
     return (bands + kCellsPerWord - 1) / kCellsPerWord;
 }
 
+// Of all columns of a shape map.
+inline std::uint64_t cell_words(const ShapeMap& shape) {
+    if (shape.empty()) return 0;
+    return shape.cells.size() / static_cast<std::size_t>(shape.bands) *
+           static_cast<std::uint64_t>(column_words(shape.bands));
+}
+
 constexpr std::uint16_t packed_cell(const ShapeCell& cell) {
     return static_cast<std::uint16_t>(cell.depth | cell.shown << 8);
 }

@@ -48,8 +48,7 @@ std::string fifo_row(const F& fifo, const std::map<std::string, Ends>& ends, con
            std::to_string(fifo.width_bits()) + " | " + e.from + " | " + e.to + " | " + kind + " |\n";
 }
 
-std::string memory_table(const BoardTop& board) {
-    const PipeMemoryBits bits = pipe_memory_bits(*board.parallel->pipes.front());
+std::string memory_table(const PipeMemoryBits& bits) {
     const auto row = [](const char* what, std::size_t n) {
         return std::string("| ") + what + " | " + std::to_string(n) + " |\n";
     };
@@ -77,7 +76,7 @@ std::string diagram_tables(const BoardTop& board) {
     for (const FifoState* fifo : on_board.fifos) out += fifo_row(*fifo, ends, "one clock");
     for (const CrossingState* fifo : on_board.written) out += fifo_row(*fifo, ends, "board to bus");
     for (const CrossingState* fifo : on_bus.written) out += fifo_row(*fifo, ends, "bus to board");
-    if (board.parallel) out += memory_table(board);
+    if (const auto bits = board.body->memory_of_a_pipe()) out += memory_table(*bits);
     return out;
 }
 

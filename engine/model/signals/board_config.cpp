@@ -19,22 +19,71 @@ constexpr int kPublishedObjects = 20;
 constexpr int kCodedObjects = 160;
 constexpr int kMostPipes = 32;
 
+BoardConfig prototype_2000() {
+    BoardConfig config;  // its defaults are the published board
+    config.name = "prototype-2000";
+    return config;
+}
+
+BoardConfig compressed_2000() {
+    BoardConfig config = prototype_2000();
+    config.name = "compressed-2000";
+    config.limits.kind = BoardKind::coded_pictures;
+    config.limits.objects = kCodedObjects;
+    // Pictures with references apart from those without: so the hops of a prediction meet in no bank.
+    config.memory.regions.objects = {
+        {{"flat_tiles", 0, 2}, {"predicted_tiles", 2, 4}, {"tile_table", 6, 1}, {"tables", 7, 8}}};
+    return config;
+}
+
+BoardConfig parallel() {
+    BoardConfig config = compressed_2000();
+    config.name = "parallel";
+    config.pipes = 16;
+    config.limits.kind = BoardKind::any_object;
+    config.limits.shape_bands = kMostBands;
+    config.memory.regions.objects = {
+        {{"flat_tiles", 0, 4}, {"predicted_tiles", 4, 4}, {"tile_table", 8, 1}, {"tables", 9, 5}}};
+    config.memory.regions.images = {"images", 14, 2};
+    config.memory.regions.image_parts = 2;
+    config.pci.burst_words = 16;
+    config.pci.wait_per_transfer = 0;
+    return config;
+}
+
+// The kinds of boards, in the order of BoardKind. 0: boards of that kind have no such setting.
+struct KindOfBoard {
+    const char* base;
+    BoardConfig (*built_in)();
+    int most_objects;
+    int most_pipes;
+    int most_bands;
+};
+constexpr std::array<KindOfBoard, 3> kKinds = {{{"prototype-2000", prototype_2000, kPublishedObjects, 0, 0},
+                                                {"compressed-2000", compressed_2000, kCodedObjects, 0, 0},
+                                                {"parallel", parallel, kCodedObjects, kMostPipes, kMostBands}}};
+
+const KindOfBoard& kind_of(const BoardConfig& config) {
+    return kKinds.at(static_cast<std::size_t>(config.limits.kind));
+}
+
 // Calls visit(path, reference, least, most) for every number of a configuration: one list serves reading, writing and
 // checking.
 template <class Config, class Visit>
 void for_each_number(Config& c, Visit&& visit) {
+    const KindOfBoard& kind = kind_of(c);
     visit("clock_mhz", c.clock_mhz, 1, 1000);
     visit("clock_period", c.clock_period, 1, 100);
     visit("queue_cycles", c.queue_cycles, 1, 2);
     visit("no_progress_cycles", c.no_progress_cycles, 1000, 1'000'000'000);
-    if (c.pipes > 0) visit("pipes", c.pipes, 1, kMostPipes);
-    visit("limits/objects", c.limits.objects, 1, c.limits.unpacks() ? kCodedObjects : kPublishedObjects);
+    if (kind.most_pipes > 0) visit("pipes", c.pipes, 1, kind.most_pipes);
+    visit("limits/objects", c.limits.objects, 1, kind.most_objects);
     visit("limits/views_per_cycle", c.limits.views_per_cycle, 1, 15);
     visit("limits/pictures_per_object", c.limits.pictures_per_object, 1, 120);
     visit("limits/picture_side_px", c.limits.picture_side_px, 1, 512);
     visit("limits/planes", c.limits.planes, 1, 12);
     visit("limits/map_side", c.limits.map_side, 1, 1024);
-    if (c.limits.any_object()) visit("limits/shape_bands", c.limits.shape_bands, 1, kMostBands);
+    if (kind.most_bands > 0) visit("limits/shape_bands", c.limits.shape_bands, 1, kind.most_bands);
     visit("limits/image_buffer_side_px", c.limits.image_buffer_side_px, 1, 512);
     visit("memory/bank_bits", c.memory.shape.bank_bits, 1, 4);
     visit("memory/row_bits", c.memory.shape.row_bits, 1, 14);
@@ -47,21 +96,13 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("memory/refresh_to_any", c.memory.timing.refresh_to_any, 1, 31);
     visit("memory/read_latency", c.memory.timing.read_latency, 1, 4);
     visit("memory/interface_latency", c.memory.timing.interface_latency, 0, 4);
-    const auto visit_banks = [&](const char* first, const char* count, auto& banks) {
-        visit(first, banks.first, 0, 15);
-        visit(count, banks.count, 1, 16);
+    const auto visit_banks = [&](auto& banks) {
+        const std::string region = std::string("memory/") + banks.name;
+        visit((region + "/first").c_str(), banks.first, 0, 15);
+        visit((region + "/count").c_str(), banks.count, 1, 16);
     };
-    if (c.limits.unpacks()) {
-        visit_banks("memory/flat_tiles/first", "memory/flat_tiles/count", c.memory.regions.flat_tiles);
-        visit_banks("memory/predicted_tiles/first", "memory/predicted_tiles/count", c.memory.regions.predicted_tiles);
-        visit_banks("memory/tile_table/first", "memory/tile_table/count", c.memory.regions.tile_table);
-    } else {
-        visit_banks("memory/luma/first", "memory/luma/count", c.memory.regions.luma);
-        visit_banks("memory/chroma/first", "memory/chroma/count", c.memory.regions.chroma);
-        visit_banks("memory/alpha/first", "memory/alpha/count", c.memory.regions.alpha);
-    }
-    visit_banks("memory/tables/first", "memory/tables/count", c.memory.regions.tables);
-    visit_banks("memory/images/first", "memory/images/count", c.memory.regions.images);
+    for (auto& banks : c.memory.regions.objects) visit_banks(banks);
+    visit_banks(c.memory.regions.images);
     visit("memory/maintenance_interval", c.memory.maintenance_interval, 64, 100'000);
     visit("memory/load_words_per_window", c.memory.load_words_per_window, 1, 1024);
     visit("memory/write_batch", c.memory.write_batch, 1, 15);
@@ -91,8 +132,9 @@ std::string contradiction(const BoardConfig& c) {
     const MemoryRegions& r = c.memory.regions;
     const int banks = 1 << c.memory.shape.bank_bits;
     std::vector<int> owners(static_cast<std::size_t>(banks));
-    const auto of_objects = object_regions(r, c.limits.unpacks());
-    for (const RegionBanks& region : {of_objects[0], of_objects[1], of_objects[2], of_objects[3], r.images}) {
+    std::vector<RegionBanks> regions(r.objects.begin(), r.objects.end());
+    regions.push_back(r.images);
+    for (const RegionBanks& region : regions) {
         for (int b = region.first; b < region.first + region.count; ++b) {
             if (b >= banks) return "a memory region lies beyond the last of " + std::to_string(banks) + " banks";
             if (owners[static_cast<std::size_t>(b)]++ != 0) return "two memory regions share bank " + std::to_string(b);
@@ -117,7 +159,7 @@ std::string contradiction(const BoardConfig& c) {
     const auto side = static_cast<std::uint64_t>(c.limits.image_buffer_side_px);
     const std::uint64_t image_words =
         2 * static_cast<std::uint64_t>(c.limits.views_per_cycle) * side * ((side + 1) / 2);
-    if (c.pipes > 0 && r.images.count % 2 == 1)
+    if (r.images.count % r.image_parts != 0)
         return "memory/images/count is odd: each image buffer has banks of its own";
     if (image_words > c.memory.shape.words_per_bank() * static_cast<std::uint64_t>(r.images.count)) {
         return "the two image buffers do not fit the banks of memory/images";
@@ -161,40 +203,10 @@ Json to_json(const BoardConfig& config) {
     return json;
 }
 
-BoardConfig prototype_2000() {
-    BoardConfig config;  // its defaults are the published board
-    config.name = "prototype-2000";
-    return config;
-}
-
-BoardConfig compressed_2000() {
-    BoardConfig config = prototype_2000();
-    config.name = "compressed-2000";
-    config.limits.kind = BoardKind::coded_pictures;
-    config.limits.objects = kCodedObjects;
-    config.memory.regions.tables = {7, 8};
-    return config;
-}
-
-BoardConfig parallel() {
-    BoardConfig config = compressed_2000();
-    config.name = "parallel";
-    config.pipes = 16;
-    config.limits.kind = BoardKind::any_object;
-    config.memory.regions.flat_tiles = {0, 4};
-    config.memory.regions.predicted_tiles = {4, 4};
-    config.memory.regions.tile_table = {8, 1};
-    config.memory.regions.tables = {9, 5};
-    config.memory.regions.images = {14, 2};
-    config.pci.burst_words = 16;
-    config.pci.wait_per_transfer = 0;
-    return config;
-}
-
 std::optional<BoardConfig> built_in(const std::string& name) {
-    if (name == "prototype-2000") return prototype_2000();
-    if (name == "compressed-2000") return compressed_2000();
-    if (name == "parallel") return parallel();
+    for (const KindOfBoard& kind : kKinds) {
+        if (name == kind.base) return kind.built_in();
+    }
     return std::nullopt;
 }
 
@@ -207,7 +219,9 @@ std::string listed_built_ins() {
 }  // namespace
 
 std::vector<std::string> built_in_configs() {
-    return {"prototype-2000", "compressed-2000", "parallel"};
+    std::vector<std::string> names;
+    for (const KindOfBoard& kind : kKinds) names.emplace_back(kind.base);
+    return names;
 }
 
 Result<BoardConfig> parse_board_config(const std::string& text, const std::string& where) {
@@ -263,7 +277,7 @@ Result<BoardConfig> read_board_config(const std::string& name_or_path) {
 std::string board_config_json(const BoardConfig& config) {
     Json json = to_json(config);
     json["name"] = config.name;
-    json["base"] = config.pipes > 0 ? "parallel" : config.limits.unpacks() ? "compressed-2000" : "prototype-2000";
+    json["base"] = kind_of(config).base;
     return json.dump(2);
 }
 

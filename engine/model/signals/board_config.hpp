@@ -6,6 +6,7 @@
 #include "rayspace/base/result.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -35,28 +36,19 @@ struct SdramShape {
     [[nodiscard]] std::uint64_t words_per_bank() const { return std::uint64_t{1} << (row_bits + column_bits); }
 };
 
-// The banks of each kind of data; the four streams of a picture never meet in a bank.
+// The banks of each kind of data; the streams of a picture never meet in a bank.
 struct RegionBanks {
+    const char* name = "";
     int first = 0;
     int count = 0;
 };
+inline constexpr std::size_t kObjectRegions = 4;
 struct MemoryRegions {
-    RegionBanks luma{0, 8};
-    RegionBanks chroma{8, 4};
-    RegionBanks alpha{12, 2};
-    // Of coded pictures, instead of luma, chroma and alpha: so the hops of a prediction meet in no bank.
-    RegionBanks flat_tiles{0, 2};  // of pictures without references
-    RegionBanks predicted_tiles{2, 4};
-    RegionBanks tile_table{6, 1};
-    RegionBanks tables{14, 1};
-    RegionBanks images{15, 1};
+    std::array<RegionBanks, kObjectRegions> objects = {  // Region of memory_map.hpp
+        {{"luma", 0, 8}, {"chroma", 8, 4}, {"alpha", 12, 2}, {"tables", 14, 1}}};
+    RegionBanks images{"images", 15, 1};
+    int image_parts = 1;  // 2: each of the two image buffers has half of the banks to itself
 };
-
-// The four that objects are in: Region of memory_map.hpp.
-constexpr std::array<RegionBanks, 4> object_regions(const MemoryRegions& r, bool coded_pictures) {
-    if (coded_pictures) return {r.flat_tiles, r.predicted_tiles, r.tile_table, r.tables};
-    return {r.luma, r.chroma, r.alpha, r.tables};
-}
 
 struct MemorySettings {
     SdramShape shape;

@@ -17,7 +17,7 @@ TEST(CodedBoardEqualityProperty, RandomTilesAndViews) {
         const RaySpaceObject object = test::random_coded_object(test::random_ring(random, 2, 118, 160));
         Board board(test::compressed());
         ASSERT_NO_FATAL_FAILURE(test::compare_random_views(board, object, object, random, 60, compared));
-        of_last_hop += board.top().single->pipe.block_decompression->hop_fifos[3]->records.pushed_in_all();
+        of_last_hop += test::block_decompression(board).hop_fifos[3]->records.pushed_in_all();
     }
     EXPECT_EQ(compared.pairs, 2000);
     EXPECT_GT(compared.shown, 100'000);

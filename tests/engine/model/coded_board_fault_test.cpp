@@ -49,7 +49,7 @@ TEST(CodedBoardFaults, AnObjectInThePlaceOfAnother) {
         ASSERT_TRUE(slot.ok());
         EXPECT_EQ(*slot, 0);
         expect_right(board, 0, object);
-        EXPECT_EQ(board.top().single->pipe.block_decompression->book_lookup.book_loads(), seed);
+        EXPECT_EQ(test::block_decompression(board).book_lookup.book_loads(), seed);
         ASSERT_TRUE(board.evict(0).ok());
     }
 }
@@ -67,7 +67,7 @@ TEST(CodedBoardFaults, BooksAreLoadedWhenTheObjectChangesAndOnlyThen) {
     const BoardView of_b = view(slot_b, b);
     const Result<BoardRun> run = board.render({{of_a, of_a, of_b, of_a}, {of_a, of_b}});
     ASSERT_TRUE(run.ok());
-    EXPECT_EQ(board.top().single->pipe.block_decompression->book_lookup.book_loads(), 4U);  // a, b, a, b
+    EXPECT_EQ(test::block_decompression(board).book_lookup.book_loads(), 4U);  // a, b, a, b
     const auto prepared = prepare_view(b, test::upright_at(0.4, 3.5, 0, 0.9, 33, 30));
     EXPECT_EQ(run->cycles[0].pictures[2], test::defined(b, *prepared));
     EXPECT_EQ(run->cycles[1].pictures[1], test::defined(b, *prepared));
@@ -90,7 +90,7 @@ TEST(CodedBoardFaults, AHundredAndSixtySlotsAndNoMore) {
 TEST(CodedBoardFaults, FullMemoryNamesTheRegion) {
     MemorySettings tight = test::compressed().memory;
     tight.shape.row_bits = 1;  // 2048 words to a bank: 8192 of predicted tiles
-    MemoryMap map(tight, true);
+    MemoryMap map(tight);
     const Result<Placement> none = map.take({1, 9000, 1, 1}, "a");
     ASSERT_FALSE(none.ok());
     EXPECT_NE(none.error().message.find("bytes of predicted tiles in one piece"), std::string::npos);

@@ -17,6 +17,10 @@ inline BoardConfig compressed() {
     return *config;
 }
 
+inline BlockDecompression& block_decompression(Board& board) {
+    return dynamic_cast<SingleBoard<BlockDecompression>&>(*board.top().body).reading;
+}
+
 // Every class, all books, tiles of random bytes that are often cut short, tiles that are missing; pictures of four
 // levels with none, one or two references of any lower level, so that predictions are up to three hops long.
 inline codec::CodedPictures random_pictures(const RaySpaceObject& object, std::mt19937_64& random) {

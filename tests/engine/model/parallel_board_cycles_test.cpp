@@ -116,7 +116,7 @@ TEST(ParallelBoardCycles, MemoryReadsAreThoseOfTheFormula) {
         std::uint64_t fills = 0;
         std::uint64_t asks = 0;
         std::uint64_t texels = 0;
-        for (const auto& pipe : board.top().parallel->pipes) {
+        for (const auto& pipe : test::pipes(board)) {
             fills += pipe->texel_tags.fills_asked();
             asks += pipe->chains.hop_fifos[0]->asks.pushed_in_all();
             texels += pipe->fifos.texels.pushed_in_all();
@@ -190,7 +190,7 @@ TEST(ParallelBoardCycles, BooksOfTheNextViewComeBesideThisOne) {
         const Result<BoardRun> run = board.render({other ? std::vector{view(0), view(1)} : std::vector{view(0)}});
         EXPECT_TRUE(run.ok());
         std::uint64_t loads = 0;
-        for (const auto& pipe : board.top().parallel->pipes) loads += pipe->double_buffered_codebook.book_loads();
+        for (const auto& pipe : test::pipes(board)) loads += pipe->double_buffered_codebook.book_loads();
         EXPECT_EQ(loads, other || resident ? 4U : 2U);
         return run->cycles[0].render_cycles();
     };

@@ -20,7 +20,7 @@ void compare(const test::AnyObject& kind, std::uint64_t seed, Seen& seen) {
         const RaySpaceObject object = test::any_object(test::random_ring(random, 2, 78, 120), kind, n % 3 == 0);
         Board board(test::parallel(1 + n % 5));
         ASSERT_NO_FATAL_FAILURE(test::compare_random_views(board, object, object, random, 60, seen));
-        for (const auto& pipe : board.top().parallel->pipes) {
+        for (const auto& pipe : test::pipes(board)) {
             seen.sent_back += pipe->surface_blend.sent_back();
             seen.of_last_hop += pipe->chains.hop_fifos[3]->records.pushed_in_all();
         }

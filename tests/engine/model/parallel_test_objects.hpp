@@ -16,6 +16,10 @@ inline BoardConfig parallel(int pipes = 8) {
     return *config;
 }
 
+inline const std::vector<std::unique_ptr<ParallelPipe>>& pipes(Board& board) {
+    return dynamic_cast<ParallelBoard&>(*board.top().body).pipes;
+}
+
 // The same object with its views in another order than the ring's.
 inline void shuffle_views(RaySpaceObject& object, std::mt19937_64& random) {
     std::vector<std::size_t> from(object.views.size());

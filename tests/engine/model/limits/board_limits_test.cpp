@@ -1,12 +1,16 @@
 // The published board's limits: on both sides of each edge.
 
-#include "engine/model/limits/board_limits.hpp"
+#include "engine/model/layout/object_image.hpp"
 #include "tests/support/ring_object.hpp"
 
 #include <gtest/gtest.h>
 
-namespace rs::engine {
+namespace rs::engine::model {
 namespace {
+
+const ObjectLayout& published() {
+    return layout_of(BoardKind::raw_pictures);
+}
 
 // An object of the given shape; the board looks at sizes, not at pixels.
 RaySpaceObject shaped(std::size_t views, int side, int planes, int map_side) {
@@ -25,12 +29,12 @@ RaySpaceObject shaped(std::size_t views, int side, int planes, int map_side) {
 }
 
 TEST(BoardLimits, TheLargestPublishedObjectFits) {
-    EXPECT_TRUE(fits_board(shaped(120, 512, 12, 256), {}).ok());
+    EXPECT_TRUE(published().fits(shaped(120, 512, 12, 256), {}).ok());
 }
 
 TEST(BoardLimits, OneMoreOfAnythingDoesNot) {
     const auto refused = [](const RaySpaceObject& object, const char* what) {
-        const Status status = fits_board(object, {});
+        const Status status = published().fits(object, {});
         return !status.ok() && status.error().message.find(what) != std::string::npos;
     };
     EXPECT_TRUE(refused(shaped(121, 512, 12, 256), "pictures: 121"));
@@ -43,7 +47,7 @@ TEST(BoardLimits, OneMoreOfAnythingDoesNot) {
 }
 
 TEST(BoardLimits, FootprintIsThatOfThePublishedFormat) {
-    const BoardFootprint footprint = board_footprint(shaped(120, 512, 12, 1024), {});
+    const BoardFootprint footprint = published().footprint(shaped(120, 512, 12, 1024));
     EXPECT_EQ(footprint.luma_bytes, 120U * 512 * 512);
     EXPECT_EQ(footprint.chroma_bytes, 120U * 512 * 512 / 2);
     EXPECT_EQ(footprint.alpha_bytes, 120U * 512 * 512 / 4);
@@ -53,14 +57,14 @@ TEST(BoardLimits, FootprintIsThatOfThePublishedFormat) {
 TEST(BoardLimits, MemoryIsFilledToTheLastByteAndNotBeyond) {
     const std::vector<RaySpaceObject> objects(3, shaped(90, 256, 12, 128));
     BoardLimits limits;
-    limits.memory_bytes = image_buffer_bytes(limits) + 3 * board_footprint(objects[0], limits).total_bytes();
-    EXPECT_TRUE(fit_board_together(objects, limits).ok());
+    limits.memory_bytes = image_buffer_bytes(limits) + 3 * published().footprint(objects[0]).total_bytes();
+    EXPECT_TRUE(published().fit_together(objects, limits).ok());
     --limits.memory_bytes;
-    EXPECT_FALSE(fit_board_together(objects, limits).ok());
+    EXPECT_FALSE(published().fit_together(objects, limits).ok());
     limits.memory_bytes = std::uint64_t{1} << 40;
-    EXPECT_TRUE(fit_board_together(std::vector<RaySpaceObject>(20, shaped(2, 8, 3, 4)), limits).ok());
-    EXPECT_FALSE(fit_board_together(std::vector<RaySpaceObject>(21, shaped(2, 8, 3, 4)), limits).ok());
+    EXPECT_TRUE(published().fit_together(std::vector<RaySpaceObject>(20, shaped(2, 8, 3, 4)), limits).ok());
+    EXPECT_FALSE(published().fit_together(std::vector<RaySpaceObject>(21, shaped(2, 8, 3, 4)), limits).ok());
 }
 
 }  // namespace
-}  // namespace rs::engine
+}  // namespace rs::engine::model
