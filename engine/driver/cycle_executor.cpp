@@ -1,5 +1,7 @@
 #include "engine/driver/cycle_executor.hpp"
 
+#include "engine/core/fast/core_executor.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <exception>
@@ -16,12 +18,10 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 DrawnView drawn_by_core(const PreparedView& view) {
     const auto begin = std::chrono::steady_clock::now();
-    DrawnView drawn;
-    drawn.picture = Image<Rgba8>(view.registers.width, view.registers.height);
-    if (view.depth) drawn.depth_q20 = Image<std::int32_t>(view.registers.width, view.registers.height);
-    view.renderer->render(view.registers, drawn.picture, drawn.depth_q20);
-    drawn.seconds = seconds_since(begin);
-    return drawn;
+    CoreExecutor core;
+    const int slot = core.hold(view.renderer);
+    Result<std::vector<ExecutedView>> drawn = core.render({{slot, view.registers, view.depth}});
+    return {std::move(drawn.value().front()), seconds_since(begin)};
 }
 
 }  // namespace

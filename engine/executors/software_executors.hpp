@@ -8,6 +8,6 @@
 namespace rs::engine {
 
 std::unique_ptr<Executor> make_scalar_executor();  // reconstruct_scalar: the definition
-std::unique_ptr<Executor> make_core_executor();    // Renderer
+std::unique_ptr<Executor> make_core_executor();    // CoreExecutor
 
 }  // namespace rs::engine

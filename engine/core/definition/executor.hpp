@@ -29,11 +29,16 @@ struct ExecutorTraits {
 struct SlotView {
     int slot = 0;
     ViewRegisters registers;
+    bool depth = true;  // is needed, of an executor that gives it
 };
+inline Error no_object_in(int slot) {
+    return Error{"slot " + std::to_string(slot) + " holds no object"};
+}
 
 struct ExecutedView {
     Image<Rgba8> picture;
-    Image<std::int32_t> depth_q20;  // axial, 0 where alpha is 0; empty where the executor gives none
+    Image<std::int32_t>
+        depth_q20;  // axial, 0 where alpha is 0; empty where the executor gives none or it is not needed
 };
 
 class Executor {

@@ -1,0 +1,36 @@
+#include "engine/core/fast/core_executor.hpp"
+
+#include <utility>
+
+namespace rs::engine {
+
+int CoreExecutor::hold(std::shared_ptr<const Renderer> renderer) {
+    held_.emplace(next_slot_, std::move(renderer));
+    return next_slot_++;
+}
+
+Result<std::optional<int>> CoreExecutor::load(const RaySpaceObject& object) {
+    Result<Renderer> renderer = Renderer::create(object);
+    if (!renderer) return renderer.error();
+    return std::optional<int>(hold(std::make_shared<const Renderer>(std::move(*renderer))));
+}
+
+Status CoreExecutor::evict(int slot) {
+    held_.erase(slot);
+    return {};
+}
+
+Result<std::vector<ExecutedView>> CoreExecutor::render(const std::vector<SlotView>& views) {
+    std::vector<ExecutedView> drawn;
+    for (const auto& [slot, registers, depth] : views) {
+        const auto found = held_.find(slot);
+        if (found == held_.end()) return no_object_in(slot);
+        ExecutedView& view = drawn.emplace_back();
+        view.picture = Image<Rgba8>(registers.width, registers.height);
+        if (depth) view.depth_q20 = Image<std::int32_t>(registers.width, registers.height);
+        found->second->render(registers, view.picture, view.depth_q20);
+    }
+    return drawn;
+}
+
+}  // namespace rs::engine
