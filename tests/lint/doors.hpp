@@ -100,7 +100,7 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
      {"rayspace/*", "engine/model/clock", "engine/model/signals", "engine/model/blocks/shared",
       "engine/model/blocks/host"}},
     {"engine/model/blocks/decompression",
-     {"rayspace/*", "engine/model/clock", "engine/model/signals", "engine/model/limits"}},
+     {"rayspace/*", "engine/model/clock", "engine/model/signals", "engine/model/limits", "engine/model/blocks/shared"}},
     {"engine/model/blocks/parallel",
      {"rayspace/*", "engine/core/definition", "engine/model/clock", "engine/model/signals", "engine/model/limits",
       "engine/model/blocks/shared", "engine/model/blocks/prototype"}},

@@ -78,7 +78,7 @@ BookLookup::BookLookup(const RegisterFile& registers, Fifo<CodedPixel>& in, Fifo
       in_(reads(in)),
       requests_(writes(requests)),
       words_(reads(words)),
-      out_(writes(out)) {}
+      stage_(kStages, writes(out)) {}
 
 Activity BookLookup::load() {
     const ObjectRegisters& object = registers_.object_of(in_.front().view);
@@ -103,33 +103,29 @@ Activity BookLookup::load() {
     return activity;
 }
 
-Activity BookLookup::tick(std::uint64_t) {
-    if (loading_) return load();
-    if (stages_.back().full && !out_.can_push()) return Activity::output_full;  // the whole pipe stands
-    bool full = false;
-    for (const Stage& stage : stages_) full |= stage.full;
-    if (!full && !in_.can_pop()) return Activity::idle;
-    const bool other = in_.can_pop() && in_.front().shows && registers_.object_of(in_.front().view).serial != resident_;
-    if (other && !full) {
+Activity BookLookup::look_up(std::optional<YuvaPixel>& out) {
+    if (!in_.can_pop()) return Activity::idle;
+    if (in_.front().shows && registers_.object_of(in_.front().view).serial != resident_) {
+        if (!stage_.empty()) return Activity::busy;  // pixels leave
         loading_ = true;
         asked_ = written_ = 0;
         ++book_loads_;
         return load();
     }
-    if (stages_.back().full) out_.push(stages_.back().pixel);
-    for (std::size_t n = stages_.size() - 1; n > 0; --n) stages_[n] = stages_[n - 1];
-    stages_[0].full = false;
-    if (!in_.can_pop()) return Activity::idle;  // pixels leave, none comes
-    if (other) return Activity::busy;
     // Flat and predicted banks serve one hop each in a cycle; the last of the predictions takes the pixel along.
     if (turns_ < in_.front().hops - 2) {
         ++turns_;
         return Activity::busy;
     }
-    stages_[0] = {true, looked_up(banks_, in_.front())};
+    out = looked_up(banks_, in_.front());
     in_.pop();
     turns_ = 0;
     return Activity::busy;
+}
+
+Activity BookLookup::tick(std::uint64_t) {
+    if (loading_) return load();
+    return stage_.step([&](auto& out) { return look_up(out); });
 }
 
 }  // namespace rs::engine::model

@@ -10,11 +10,13 @@
 // The banks hold the books of one object. A pixel of another one waits until those before it have left, then its books
 // are read, a word per cycle through the memory port of this block.
 
+#include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/coded_messages.hpp"
 #include "engine/model/signals/registers.hpp"
 
 #include <array>
+#include <optional>
 
 namespace rs::engine::model {
 
@@ -50,17 +52,13 @@ public:
 
 private:
     Activity load();
+    Activity look_up(std::optional<YuvaPixel>& out);
 
     const RegisterFile& registers_;
     Fifo<CodedPixel>& in_;
     Fifo<MemoryRead>& requests_;
     Fifo<MemoryWord>& words_;
-    Fifo<YuvaPixel>& out_;
-    struct Stage {
-        bool full = false;
-        YuvaPixel pixel;
-    };
-    std::array<Stage, kStages> stages_;
+    PipelinedStage<YuvaPixel> stage_;
     int turns_ = 0;  // for which the first pixel has had the banks
     BookBanks banks_{};
     std::uint32_t resident_ = 0;  // serial number of the object's load; 0: none

@@ -106,21 +106,18 @@ RayRise::RayRise(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo
       registers_(registers),
       columns_(reads(columns)),
       in_(reads(in)),
-      out_(writes(out)) {}
+      stage_(kStages, writes(out)) {}
 
 Activity RayRise::tick(std::uint64_t) {
     const bool takes_column = columns_.can_pop();
     if (takes_column) table_.put(columns_.pop());
-    if (line_.leaves() && !out_.can_push()) return takes_column ? Activity::busy : Activity::output_full;
-    if (line_.leaves()) out_.push(line_.leaving());
-    if (!in_.can_pop() || takes_column || !table_.holds(in_.front())) {  // the table has one port
-        line_.advance();
-        return takes_column ? Activity::busy : Activity::idle;
-    }
-    const ScannedPixel pixel = in_.pop();
-    line_.advance(
-        risen(pixel, table_.of(pixel), registers_.object_of(pixel.view).shape, registers_.view(pixel.view).b_q20));
-    return Activity::busy;
+    const Activity activity = stage_.step([&](std::optional<RisenPixel>& ray) {
+        if (!in_.can_pop() || takes_column || !table_.holds(in_.front())) return Activity::idle;  // the table: one port
+        const ScannedPixel pixel = in_.pop();
+        ray = risen(pixel, table_.of(pixel), registers_.object_of(pixel.view).shape, registers_.view(pixel.view).b_q20);
+        return Activity::busy;
+    });
+    return takes_column ? Activity::busy : activity;
 }
 
 }  // namespace rs::engine::model

@@ -67,9 +67,8 @@ private:
     const RegisterFile& registers_;
     Fifo<ColumnSetup>& columns_;
     Fifo<ScannedPixel>& in_;
-    Fifo<RisenPixel>& out_;
     ColumnTable table_;
-    DelayLine<RisenPixel> line_{kStages};
+    PipelinedStage<RisenPixel> stage_;
 };
 
 }  // namespace rs::engine::model

@@ -13,21 +13,15 @@ std::uint32_t converted(const YuvaPixel& pixel) {
 ColourConversion::ColourConversion(Fifo<YuvaPixel>& in, Fifo<RgbaPixel>& out)
     : Block("colour_conversion", "latency " + std::to_string(kStages + 1) + ", a pixel per cycle"),
       in_(reads(in)),
-      out_(writes(out)) {}
+      stage_(kStages, writes(out)) {}
 
 Activity ColourConversion::tick(std::uint64_t) {
-    if (stages_.back().full && !out_.can_push()) return Activity::output_full;  // the whole pipe stands
-    bool full = false;
-    for (const Stage& stage : stages_) full |= stage.full;
-    if (!full && !in_.can_pop()) return Activity::idle;
-    if (stages_.back().full) out_.push(stages_.back().pixel);
-    for (std::size_t n = stages_.size() - 1; n > 0; --n) stages_[n] = stages_[n - 1];
-    stages_[0].full = in_.can_pop();
-    if (stages_[0].full) {
+    return stage_.step([&](std::optional<RgbaPixel>& out) {
+        if (!in_.can_pop()) return Activity::idle;
         const YuvaPixel pixel = in_.pop();
-        stages_[0].pixel = {pixel.view, converted(pixel)};
-    }
-    return stages_[0].full ? Activity::busy : Activity::idle;  // idle: pixels leave, none comes
+        out = {pixel.view, converted(pixel)};
+        return Activity::busy;
+    });
 }
 
 }  // namespace rs::engine::model

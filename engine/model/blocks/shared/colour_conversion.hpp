@@ -2,10 +2,9 @@
 // YUV -> RGB (RECONSTRUCTION.md, section 4), a pixel per cycle through four stages: the four products by constants from
 // tables in embedded RAM, two stages of 26-bit additions, clamp.
 
+#include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"
-
-#include <array>
 
 namespace rs::engine::model {
 
@@ -19,13 +18,8 @@ public:
     Activity tick(std::uint64_t now) override;
 
 private:
-    struct Stage {
-        bool full = false;
-        RgbaPixel pixel;
-    };
     Fifo<YuvaPixel>& in_;
-    Fifo<RgbaPixel>& out_;
-    std::array<Stage, kStages> stages_;
+    PipelinedStage<RgbaPixel> stage_;
 };
 
 }  // namespace rs::engine::model

@@ -6,6 +6,7 @@
 #include "rayspace/base/check.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace rs::engine::model {
@@ -41,6 +42,38 @@ private:
     std::vector<Place> places_;
     std::size_t at_ = 0;
     int count_ = 0;
+};
+
+// A delay line with the FIFO at its end: what a block works on for some cycles while it takes the next one. A member of
+// blocks, not a block. Latency L = stages + 1: of an item that is visible in cycle t the result is visible in cycle
+// t + L, and another one may enter in every cycle.
+template <class T>
+class PipelinedStage {
+public:
+    PipelinedStage(int stages, Fifo<T>& out) : line_(stages), out_(out) {}
+
+    // Nothing is under way; what leaves in this cycle still is.
+    [[nodiscard]] bool empty() const { return line_.empty(); }
+
+    // A cycle. Where there is room for what leaves, `enter` sets the item that enters, if any, and returns what the
+    // block does.
+    template <class Enter>
+    Activity step(Enter&& enter) {
+        if (line_.leaves() && !out_.can_push()) return Activity::output_full;  // the whole stage stands
+        if (line_.leaves()) out_.push(line_.leaving());
+        std::optional<T> item;
+        const Activity activity = enter(item);
+        if (item) {
+            line_.advance(*item);
+        } else {
+            line_.advance();
+        }
+        return activity;
+    }
+
+private:
+    DelayLine<T> line_;
+    Fifo<T>& out_;
 };
 
 // A block that works on one item at a time for a number of cycles that the item decides: a sequencer with its own

@@ -15,7 +15,7 @@ DoubleBufferedCodebook::DoubleBufferedCodebook(const RegisterFile& registers, Fi
       in_(reads(in)),
       requests_(writes(requests)),
       words_(reads(words)),
-      out_(writes(out)) {}
+      stage_(kStages, writes(out)) {}
 
 // Sees to it that the next view's books are there, or come.
 bool DoubleBufferedCodebook::next_view() {
@@ -63,27 +63,18 @@ bool DoubleBufferedCodebook::load() {
     return moved;
 }
 
-Activity DoubleBufferedCodebook::look_up() {
-    if (line_.leaves() && !out_.can_push()) return Activity::output_full;  // the whole pipe stands
-    if (line_.leaves()) out_.push(line_.leaving());
-    if (!in_.can_pop()) {
-        line_.advance();
-        return Activity::idle;
-    }
+Activity DoubleBufferedCodebook::look_up(std::optional<YuvaPixel>& out) {
+    if (!in_.can_pop()) return Activity::idle;
     const CodedPixel& pixel = in_.front();
     const std::uint32_t serial = registers_.object_of(pixel.view).serial;
     const Set* const set = sets_[0].serial == serial ? &sets_[0] : sets_[1].serial == serial ? &sets_[1] : nullptr;
-    if (set == nullptr) {
-        line_.advance();
-        return Activity::memory_data;
-    }
+    if (set == nullptr) return Activity::memory_data;
     // Flat and predicted banks serve one hop each in a cycle; the last of the predictions takes the pixel along.
     if (turns_ < pixel.hops - 2) {
         ++turns_;
-        line_.advance();
         return Activity::busy;
     }
-    line_.advance(looked_up(*set->banks, pixel));
+    out = looked_up(*set->banks, pixel);
     in_.pop();
     turns_ = 0;
     return Activity::busy;
@@ -94,7 +85,8 @@ Activity DoubleBufferedCodebook::tick(std::uint64_t) {
         view_done_.pop();
         ++views_done_;
     }
-    const Activity activity = look_up();  // with what was there before this cycle
+    const Activity activity =
+        stage_.step([&](auto& out) { return look_up(out); });  // with what was there before this cycle
     const bool loads = loading_ >= 0 ? load() : next_view();
     return loads ? Activity::busy : activity;
 }

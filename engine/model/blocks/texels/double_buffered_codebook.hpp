@@ -9,6 +9,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 namespace rs::engine::model {
 
@@ -29,7 +30,7 @@ public:
 private:
     bool next_view();
     bool load();
-    Activity look_up();
+    Activity look_up(std::optional<YuvaPixel>& out);
 
     const RegisterFile& registers_;
     Fifo<ViewJob>& jobs_;
@@ -37,7 +38,6 @@ private:
     Fifo<CodedPixel>& in_;
     Fifo<MemoryRead>& requests_;
     Fifo<MemoryWord>& words_;
-    Fifo<YuvaPixel>& out_;
     struct Set {
         std::uint32_t serial = 0;     // number of the object's load; 0: none
         std::uint64_t last_view = 0;  // that needs it, counted from 1
@@ -52,7 +52,7 @@ private:
     std::uint32_t written_ = 0;
     std::uint64_t book_loads_ = 0;
     int turns_ = 0;  // for which the first pixel has had the banks
-    DelayLine<YuvaPixel> line_{kStages};
+    PipelinedStage<YuvaPixel> stage_;
 };
 
 }  // namespace rs::engine::model

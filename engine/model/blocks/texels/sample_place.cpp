@@ -80,28 +80,25 @@ SamplePlace::SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& colum
       registers_(registers),
       columns_(reads(columns)),
       in_(reads(in)),
-      out_(writes(out)) {}
+      stage_(kStages, writes(out)) {}
 
 Activity SamplePlace::tick(std::uint64_t) {
     if (columns_.can_pop()) table_.put(columns_.pop());
-    if (line_.leaves() && !out_.can_push()) return Activity::output_full;  // the whole pipe stands
-    if (line_.leaves()) out_.push(line_.leaving());
-    if (!in_.can_pop()) {
-        line_.advance();
-        return Activity::idle;
-    }
-    if (taken_ == 0) {
-        const MetSurface& met = in_.front();
-        RS_CHECK(table_.holds(met.pixel));
-        surface_ = placed_samples(met, table_.of(met.pixel), registers_.object_of(met.pixel.view),
-                                  registers_.view(met.pixel.view).b_q20);
-    }
-    line_.advance(surface_.sample[static_cast<std::size_t>(taken_)]);
-    if (++taken_ == surface_.count) {
-        in_.pop();
-        taken_ = 0;
-    }
-    return Activity::busy;
+    return stage_.step([&](std::optional<PlacedSample>& sample) {
+        if (!in_.can_pop()) return Activity::idle;
+        if (taken_ == 0) {
+            const MetSurface& met = in_.front();
+            RS_CHECK(table_.holds(met.pixel));
+            surface_ = placed_samples(met, table_.of(met.pixel), registers_.object_of(met.pixel.view),
+                                      registers_.view(met.pixel.view).b_q20);
+        }
+        sample = surface_.sample[static_cast<std::size_t>(taken_)];
+        if (++taken_ == surface_.count) {
+            in_.pop();
+            taken_ = 0;
+        }
+        return Activity::busy;
+    });
 }
 
 }  // namespace rs::engine::model

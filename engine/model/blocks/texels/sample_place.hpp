@@ -34,11 +34,10 @@ private:
     const RegisterFile& registers_;
     Fifo<ColumnSetup>& columns_;
     Fifo<MetSurface>& in_;
-    Fifo<PlacedSample>& out_;
     ColumnTable table_;
     SurfaceSamples surface_;  // that of in_'s front, where some of its samples have been taken
     int taken_ = 0;
-    DelayLine<PlacedSample> line_{kStages};
+    PipelinedStage<PlacedSample> stage_;
 };
 
 }  // namespace rs::engine::model

@@ -64,17 +64,14 @@ FilteredSample filtered(const TexelQuad& quad) {
 TexelFilter::TexelFilter(Fifo<TexelQuad>& in, Fifo<FilteredSample>& out)
     : Block("texel_filter", "latency " + std::to_string(kStages + 1) + ", a sample per cycle"),
       in_(reads(in)),
-      out_(writes(out)) {}
+      stage_(kStages, writes(out)) {}
 
 Activity TexelFilter::tick(std::uint64_t) {
-    if (line_.leaves() && !out_.can_push()) return Activity::output_full;
-    if (line_.leaves()) out_.push(line_.leaving());
-    if (!in_.can_pop()) {
-        line_.advance();
-        return Activity::idle;
-    }
-    line_.advance(filtered(in_.pop()));
-    return Activity::busy;
+    return stage_.step([&](std::optional<FilteredSample>& sample) {
+        if (!in_.can_pop()) return Activity::idle;
+        sample = filtered(in_.pop());
+        return Activity::busy;
+    });
 }
 
 }  // namespace rs::engine::model

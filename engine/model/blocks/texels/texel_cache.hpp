@@ -51,8 +51,7 @@ public:
 
 private:
     Fifo<TexelQuad>& in_;
-    Fifo<FilteredSample>& out_;
-    DelayLine<FilteredSample> line_{kStages};
+    PipelinedStage<FilteredSample> stage_;
 };
 
 }  // namespace rs::engine::model
