@@ -8,10 +8,10 @@ namespace rs::engine {
 namespace {
 
 // What a driver throws, such as std::bad_alloc, is a failure of what it was asked for.
-template <class Outcome, class Ask>
-Outcome guarded(const Ask& ask) {
+template <class Outcome, class Call>
+Outcome guarded(const Call& call) {
     try {
-        return ask();
+        return call();
     } catch (const std::exception& escaped) {
         return Error{std::string("the board's driver failed: ") + escaped.what()};
     }
@@ -46,13 +46,13 @@ void BoardThread::remove(std::uint32_t number) {
     changed_.notify_all();
 }
 
-void BoardThread::want(const std::vector<std::uint32_t>& numbers) {
+void BoardThread::request(const std::vector<std::uint32_t>& numbers) {
     const std::lock_guard lock(mutex_);
     ++now_;
     for (const std::uint32_t number : numbers) {
         const auto found = known_.find(number);
         if (found == known_.end()) continue;
-        found->second.last_wanted = now_;
+        found->second.last_requested = now_;
         found->second.waits = !found->second.slot && !found->second.failed;
     }
     changed_.notify_all();
@@ -76,13 +76,13 @@ bool BoardThread::holds(std::uint32_t number) const {
     return found != known_.end() && found->second.slot;
 }
 
-void BoardThread::draw(std::vector<Asked> views) {
+void BoardThread::draw(std::vector<ObjectView> views) {
     const std::lock_guard lock(mutex_);
     reserved_ = false;
     changed_.notify_all();
     if (views.empty()) return;
     std::vector<SlotView> cycle;
-    for (Asked& view : views) {
+    for (ObjectView& view : views) {
         // An object may have been removed since: its slot is not free before this cycle is drawn, but then it is
         // unknown here.
         const auto found = known_.find(view.object);
@@ -113,16 +113,16 @@ BoardThreadCounts BoardThread::counts() const {
 std::optional<std::uint32_t> BoardThread::next_to_load() const {
     std::optional<std::uint32_t> best;
     for (const auto& [number, known] : known_) {
-        if (known.waits && (!best || known.last_wanted > known_.at(*best).last_wanted)) best = number;
+        if (known.waits && (!best || known.last_requested > known_.at(*best).last_requested)) best = number;
     }
     return best;
 }
 
-std::optional<std::uint32_t> BoardThread::least_wanted(std::uint64_t before) const {
+std::optional<std::uint32_t> BoardThread::least_requested(std::uint64_t before) const {
     std::optional<std::uint32_t> best;
     for (const auto& [number, known] : known_) {
-        if (!known.slot || known.last_wanted >= before) continue;
-        if (!best || known.last_wanted < known_.at(*best).last_wanted) best = number;
+        if (!known.slot || known.last_requested >= before) continue;
+        if (!best || known.last_requested < known_.at(*best).last_requested) best = number;
     }
     return best;
 }
@@ -143,7 +143,7 @@ void BoardThread::evict_slot(std::unique_lock<std::mutex>& lock, int slot) {
 void BoardThread::load_one(std::unique_lock<std::mutex>& lock) {
     const std::uint32_t number = *next_to_load();
     const std::shared_ptr<const RaySpaceObject> object = known_.at(number).object;
-    const std::uint64_t wanted = known_.at(number).last_wanted;
+    const std::uint64_t requested = known_.at(number).last_requested;
     loading_ = true;
     for (;;) {
         lock.unlock();
@@ -167,7 +167,7 @@ void BoardThread::load_one(std::unique_lock<std::mutex>& lock) {
             }
             break;
         }
-        const std::optional<std::uint32_t> victim = least_wanted(wanted);
+        const std::optional<std::uint32_t> victim = least_requested(requested);
         if (!victim || found == known_.end()) {
             if (found != known_.end()) found->second.waits = false;
             break;

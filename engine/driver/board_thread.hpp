@@ -37,14 +37,15 @@ public:
 
     [[nodiscard]] const Executor& device() const { return *device_; }
 
-    // Objects are known by numbers that are never used twice. An object that the board takes; it is loaded when wanted.
+    // Objects are known by numbers that are never used twice. An object that the board takes; it is loaded when
+    // requested.
     void add(std::uint32_t number, std::shared_ptr<const RaySpaceObject> object);
     void remove(std::uint32_t number);
 
     // The objects are asked for now: those in the board's memory stay there; those that are not are loaded soon.
-    void want(const std::vector<std::uint32_t>& numbers);
+    void request(const std::vector<std::uint32_t>& numbers);
 
-    // Waits until what is wanted is in the board's memory, or does not go there.
+    // Waits until what is requested is in the board's memory, or does not go there.
     void wait_for_loads();
 
     // Keeps the board from loading until draw(). False, and nothing is kept, where it is loading already.
@@ -52,12 +53,12 @@ public:
     // Whether the object is in the board's memory.
     [[nodiscard]] bool holds(std::uint32_t number) const;
 
-    struct Asked {
+    struct ObjectView {
         std::uint32_t object = 0;
         ViewRegisters registers;
     };
     // After reserve(): begins to draw views of objects that it holds. No views: the board is free again.
-    void draw(std::vector<Asked> views);
+    void draw(std::vector<ObjectView> views);
     // Waits for them. Fails, too, where an object was removed since.
     Result<std::vector<ExecutedView>> wait();
 
@@ -67,14 +68,14 @@ private:
     struct Known {
         std::shared_ptr<const RaySpaceObject> object;
         std::optional<int> slot;
-        std::uint64_t last_wanted = 0;
+        std::uint64_t last_requested = 0;
         bool waits = false;   // to be loaded
         bool failed = false;  // could not be; not tried again
     };
     void work();
     void load_one(std::unique_lock<std::mutex>& lock);
     [[nodiscard]] std::optional<std::uint32_t> next_to_load() const;
-    [[nodiscard]] std::optional<std::uint32_t> least_wanted(std::uint64_t before) const;
+    [[nodiscard]] std::optional<std::uint32_t> least_requested(std::uint64_t before) const;
     void evict_slot(std::unique_lock<std::mutex>& lock, int slot);
     void note_failure(const Error& error);
 
@@ -83,7 +84,7 @@ private:
     std::condition_variable changed_;
     std::map<std::uint32_t, Known> known_;
     std::vector<int> slots_to_free_;
-    std::uint64_t now_ = 0;  // counts want()
+    std::uint64_t now_ = 0;  // counts request()
     std::optional<std::vector<SlotView>> cycle_;
     std::optional<Result<std::vector<ExecutedView>>> drawn_;
     BoardThreadCounts counts_;

@@ -42,12 +42,12 @@ std::vector<std::size_t> CycleExecutor::share_of_board(const std::vector<Prepare
 }
 
 // Whatever is not on the board is loaded behind the cycle that it draws now.
-void CycleExecutor::want_objects(const std::vector<PreparedView>& views) {
-    std::vector<std::uint32_t> wanted;
+void CycleExecutor::request_objects(const std::vector<PreparedView>& views) {
+    std::vector<std::uint32_t> requested;
     for (const PreparedView& view : views) {
-        if (view.board_draws) wanted.push_back(view.object);
+        if (view.board_draws) requested.push_back(view.object);
     }
-    board_->want(wanted);
+    board_->request(requested);
 }
 
 bool CycleExecutor::take_from_board(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share,
@@ -71,14 +71,14 @@ Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedVie
     const bool reserved = board_ && board_->reserve();
     const std::vector<std::size_t> share = reserved ? share_of_board(views) : std::vector<std::size_t>();
     std::vector<bool> of_board(views.size());
-    std::vector<BoardThread::Asked> asked;
+    std::vector<BoardThread::ObjectView> for_board;
     for (const std::size_t v : share) {
         of_board[v] = true;
-        asked.push_back({views[v].object, views[v].registers});
+        for_board.push_back({views[v].object, views[v].registers});
     }
     const auto begin = std::chrono::steady_clock::now();
-    if (reserved) board_->draw(std::move(asked));
-    if (board_) want_objects(views);
+    if (reserved) board_->draw(std::move(for_board));
+    if (board_) request_objects(views);
     std::vector<DrawnView> drawn(views.size());
     std::optional<Error> failure;
     const auto draw_by_core = [&](std::size_t v) {

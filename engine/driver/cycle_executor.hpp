@@ -41,7 +41,7 @@ public:
 
 private:
     [[nodiscard]] std::vector<std::size_t> share_of_board(const std::vector<PreparedView>& views) const;
-    void want_objects(const std::vector<PreparedView>& views);
+    void request_objects(const std::vector<PreparedView>& views);
     // False where the board has failed.
     bool take_from_board(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share, double seconds,
                          std::vector<DrawnView>& drawn, Result<std::vector<ExecutedView>> pictures);

@@ -142,7 +142,7 @@ void DataModule::load_on_board(const std::vector<ObjectHandle>& objects) {
     if (board == nullptr) return;
     std::vector<std::uint32_t> numbers;
     for (const ObjectHandle object : objects) numbers.push_back(object.number);
-    board->want(numbers);
+    board->request(numbers);
     board->wait_for_loads();
 }
 

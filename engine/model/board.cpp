@@ -101,11 +101,11 @@ Status Board::evict(int slot) {
     if (top_->disk_controller.is_loading(slot)) {
         return Error{"object slot " + std::to_string(slot) + " is being loaded; wait for it before evicting"};
     }
-    bool is_asked_for = top_->render_control.uses_object(slot);
+    bool is_in_use = top_->render_control.uses_object(slot);
     for (std::uint64_t n = top_->render_control.commands_taken(); n < top_->programs.size(); ++n) {
-        for (const BoardView& view : top_->programs[n].bank.views) is_asked_for |= view.object == slot;
+        for (const BoardView& view : top_->programs[n].bank.views) is_in_use |= view.object == slot;
     }
-    if (is_asked_for) {
+    if (is_in_use) {
         return Error{"object slot " + std::to_string(slot) +
                      " is being drawn; evict it when its rendering cycles are done"};
     }

@@ -46,8 +46,8 @@ std::vector<std::unique_ptr<ParallelPipe>> all_pipes(const BoardConfig& config, 
     return pipes;
 }
 
-std::vector<FanPort> fan_ports(const std::vector<std::unique_ptr<ParallelPipe>>& pipes) {
-    std::vector<FanPort> ports;
+std::vector<DispatchPort> dispatch_ports(const std::vector<std::unique_ptr<ParallelPipe>>& pipes) {
+    std::vector<DispatchPort> ports;
     for (const auto& pipe : pipes) {
         ParallelFifos& f = pipe->fifos;
         ports.push_back({&f.jobs, &f.scan_jobs, &f.book_jobs, &f.view_written});
@@ -125,7 +125,7 @@ void SingleBoard<Reading>::add_pipes(Simulator& simulator) {
 ParallelBoard::ParallelBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
                              Fifo<Done>& object_loaded)
     : pipes(all_pipes(config, registers)),
-      view_dispatcher(registers, jobs, fan_ports(pipes), view_written),
+      view_dispatcher(registers, jobs, dispatch_ports(pipes), view_written),
       load_broadcast(load_words, load_ports(pipes), object_loaded) {}
 
 std::vector<DmaPort> ParallelBoard::dma_ports() {

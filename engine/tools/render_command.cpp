@@ -2,7 +2,7 @@
 
 #include "engine/core/fast/renderer.hpp"
 #include "engine/core/views/depth_picture.hpp"
-#include "engine/tools/asked_views.hpp"
+#include "engine/tools/requested_views.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/base/progress.hpp"
@@ -44,7 +44,7 @@ Image<Rgba8> contact_sheet(const std::vector<Image<Rgba8>>& pictures, int column
 struct RenderArguments {
     std::string object;
     std::string output;
-    AskedViews views;
+    RequestedViews views;
     int sheet_columns = 0;
     double frames_per_second = 30;
     int level = kProgressiveLevels - 1;
@@ -155,7 +155,7 @@ Status run_render(const RenderArguments& arguments) {
     }
     const Result<Renderer> renderer = open_renderer(arguments.object, arguments.level);
     if (!renderer) return renderer.error();
-    const Result<std::vector<Camera>> cameras = asked_cameras(renderer->object(), arguments.views);
+    const Result<std::vector<Camera>> cameras = requested_cameras(renderer->object(), arguments.views);
     if (!cameras) return cameras.error();
 
     ProgressBar progress(arguments.quiet);

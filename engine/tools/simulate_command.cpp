@@ -5,7 +5,7 @@
 #include "engine/model/report/diagram.hpp"
 #include "engine/model/report/report.hpp"
 #include "engine/model/report/waveform.hpp"
-#include "engine/tools/asked_views.hpp"
+#include "engine/tools/requested_views.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -23,7 +23,7 @@ namespace {
 struct SimulateArguments {
     std::string config;
     std::vector<std::string> objects;
-    AskedViews views;
+    RequestedViews views;
     std::string output;
     std::string stats;
     std::string trace;
@@ -52,11 +52,11 @@ Camera stood_upright(const Camera& camera) {
 }
 
 // View by view, of each view all objects: so a rendering cycle shows the objects side by side.
-Result<std::vector<Drawing>> asked_drawings(const std::vector<RaySpaceObject>& objects,
-                                            const SimulateArguments& arguments) {
+Result<std::vector<Drawing>> requested_drawings(const std::vector<RaySpaceObject>& objects,
+                                                const SimulateArguments& arguments) {
     std::vector<std::vector<Camera>> cameras;
     for (const RaySpaceObject& object : objects) {
-        Result<std::vector<Camera>> asked = asked_cameras(object, arguments.views);
+        Result<std::vector<Camera>> asked = requested_cameras(object, arguments.views);
         if (!asked) return asked.error();
         cameras.push_back(std::move(*asked));
     }
@@ -225,7 +225,7 @@ Status run_simulate(const SimulateArguments& arguments) {
     for (const RaySpaceObject& object : objects) print_footprint(object, board);
     const Result<std::vector<int>> slots = put_on_board(board, objects, arguments.load);
     if (!slots) return slots.error();
-    const Result<std::vector<Drawing>> drawings = asked_drawings(objects, arguments);
+    const Result<std::vector<Drawing>> drawings = requested_drawings(objects, arguments);
     if (!drawings) return drawings.error();
     const int per_cycle = arguments.per_cycle > 0 ? arguments.per_cycle : config->limits.views_per_cycle;
     const auto cycles = rendering_cycles(board, *drawings, *slots, per_cycle);
@@ -290,7 +290,7 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
         "  rs-engine simulate parallel vase-shape.rso --orbit 4 --size 512x512 --upright\n"
         "  rs-engine simulate prototype-2000 --diagram");
     command->callback([arguments, &run] {
-        const AskedViews& views = arguments->views;
+        const RequestedViews& views = arguments->views;
         if (!arguments->diagram && !arguments->print_config) {
             if (arguments->objects.empty()) throw CLI::RequiredError("OBJECT");
             if (views.orbit == 0 && views.poses.empty() && views.eye.empty()) {

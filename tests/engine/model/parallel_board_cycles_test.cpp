@@ -117,7 +117,7 @@ TEST(ParallelBoardCycles, MemoryReadsAreThoseOfTheFormula) {
         std::uint64_t asks = 0;
         std::uint64_t texels = 0;
         for (const auto& pipe : test::pipes(board)) {
-            fills += pipe->texel_tags.fills_asked();
+            fills += pipe->texel_tags.fills_requested();
             asks += pipe->chains.hop_fifos[0]->asks.pushed_in_all();
             texels += pipe->fifos.texels.pushed_in_all();
         }

@@ -82,9 +82,9 @@ BookLookup::BookLookup(const RegisterFile& registers, Fifo<CodedPixel>& in, Fifo
 
 Activity BookLookup::load() {
     const ObjectRegisters& object = registers_.object_of(in_.front().view);
-    Activity activity = asked_ < object.book_words ? Activity::memory_port : Activity::memory_data;
-    if (asked_ < object.book_words && requests_.can_push()) {
-        requests_.push({object.books + asked_++, false});
+    Activity activity = requested_ < object.book_words ? Activity::memory_port : Activity::memory_data;
+    if (requested_ < object.book_words && requests_.can_push()) {
+        requests_.push({object.books + requested_++, false});
         activity = Activity::busy;
     }
     if (words_.can_pop()) {
@@ -108,7 +108,7 @@ Activity BookLookup::look_up(std::optional<YuvaPixel>& out) {
     if (in_.front().shows && registers_.object_of(in_.front().view).serial != resident_) {
         if (!stage_.empty()) return Activity::busy;  // pixels leave
         loading_ = true;
-        asked_ = written_ = 0;
+        requested_ = written_ = 0;
         ++book_loads_;
         return load();
     }

@@ -63,7 +63,7 @@ private:
     BookBanks banks_{};
     std::uint32_t resident_ = 0;  // serial number of the object's load; 0: none
     bool loading_ = false;
-    std::uint32_t asked_ = 0;
+    std::uint32_t requested_ = 0;
     std::uint32_t written_ = 0;
     std::uint64_t book_loads_ = 0;
 };

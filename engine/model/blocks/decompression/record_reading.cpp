@@ -69,10 +69,10 @@ RecordReader::RecordReader(int hop, const RegisterFile& registers, Fifo<AskedTil
       out_(writes(out)) {}
 
 Activity RecordReader::tick(std::uint64_t) {
-    if (to_ask_ > 0) {
+    if (to_request_ > 0) {
         if (!requests_.can_push()) return Activity::memory_port;
         requests_.push({next_++, false});
-        --to_ask_;
+        --to_request_;
         return Activity::busy;
     }
     if (!in_.can_pop()) return Activity::idle;
@@ -102,7 +102,7 @@ Activity RecordReader::tick(std::uint64_t) {
         record.words = (record.lane + bytes + 7) / 8;
         next_ = tile_ + 1 + static_cast<WordAddress>(offset / 8);
         requests_.push({next_++, false});
-        to_ask_ = record.words - 1;
+        to_request_ = record.words - 1;
     }
     out_.push(record);
     in_.pop();

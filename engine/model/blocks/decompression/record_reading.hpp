@@ -48,7 +48,7 @@ public:
     RecordReader(int hop, const RegisterFile& registers, Fifo<AskedTile>& in, Fifo<MemoryWord>& heads,
                  Fifo<MemoryRead>& requests, Fifo<AskedRecord>& out);
     Activity tick(std::uint64_t now) override;
-    [[nodiscard]] std::string state_text() const override { return "words to ask " + std::to_string(to_ask_); }
+    [[nodiscard]] std::string state_text() const override { return "words to ask " + std::to_string(to_request_); }
 
 private:
     const RegisterFile& registers_;
@@ -59,7 +59,7 @@ private:
     bool loaded_ = false;     // the new tile's word has been taken
     std::uint64_t head_ = 0;  // 0: no tile
     WordAddress tile_ = 0;
-    int to_ask_ = 0;  // words of the record
+    int to_request_ = 0;  // words of the record
     WordAddress next_ = 0;
 };
 

@@ -22,18 +22,18 @@ std::vector<DmaPort> HostDma::declared(std::vector<DmaPort> channels) {
 
 void HostDma::begin_view() {
     head_sent_ = false;
-    to_ask_ = to_send_ = sizes_words()[static_cast<std::size_t>(view_)];
+    to_request_ = to_send_ = sizes_words()[static_cast<std::size_t>(view_)];
     address_ = registers_.image(buffer_, view_);
     column_ = in_column_ = 0;
 }
 
 bool HostDma::ask() {
     const auto channel = static_cast<std::size_t>(stripe_owner(view_, column_, static_cast<int>(channels_.size())));
-    if (channel != channel_ && to_ask_ < to_send_) return false;  // words of another one are on their way
+    if (channel != channel_ && to_request_ < to_send_) return false;  // words of another one are on their way
     if (!channels_[channel].requests->can_push()) return false;
     channel_ = channel;
     channels_[channel].requests->push({address_++, false});
-    --to_ask_;
+    --to_request_;
     const int pitch = registers_.buffer_pitches[static_cast<std::size_t>(buffer_)][static_cast<std::size_t>(view_)];
     if (++in_column_ == pitch) {
         in_column_ = 0;
@@ -67,10 +67,10 @@ Activity HostDma::tick(std::uint64_t) {
         head_sent_ = true;
         return Activity::busy;
     }
-    Activity activity = to_ask_ > 0 ? Activity::memory_port : Activity::memory_data;
+    Activity activity = to_request_ > 0 ? Activity::memory_port : Activity::memory_data;
     // Whose answers are to be taken is settled before the next request.
     Fifo<MemoryWord>& answers = *channels_[channel_].answers;
-    if (to_ask_ > 0 && ask()) activity = Activity::busy;
+    if (to_request_ > 0 && ask()) activity = Activity::busy;
     if (answers.can_pop()) {
         if (!words_.can_push()) return activity == Activity::busy ? activity : Activity::output_full;
         words_.push({answers.pop().data, false, false});
@@ -86,7 +86,7 @@ Activity HostDma::tick(std::uint64_t) {
 std::string HostDma::state_text() const {
     if (!active_) return "no buffer";
     return "buffer " + std::to_string(buffer_) + " view " + std::to_string(view_) + ", to ask " +
-           std::to_string(to_ask_) + ", to send " + std::to_string(to_send_);
+           std::to_string(to_request_) + ", to send " + std::to_string(to_send_);
 }
 
 }  // namespace rs::engine::model

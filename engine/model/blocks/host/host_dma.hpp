@@ -45,7 +45,7 @@ private:
     int view_ = 0;
     bool head_sent_ = false;
     WordAddress address_ = 0;
-    int to_ask_ = 0;
+    int to_request_ = 0;
     int to_send_ = 0;
     int column_ = 0;  // of the next request
     int in_column_ = 0;

@@ -43,9 +43,9 @@ Activity BandReader::hand_over() {
                 column_at_[p][line] = shape.cells + static_cast<WordAddress>(column * column_words_);
             }
         }
-        asked_ = 0;
+        requested_ = 0;
         setup.same_cells = holds_cells_ && column_at_ == held_at_;
-        to_ask_ = setup.same_cells ? 0 : 4 * column_words_;
+        to_request_ = setup.same_cells ? 0 : 4 * column_words_;
         held_at_ = column_at_;
         holds_cells_ = true;
     }
@@ -70,14 +70,14 @@ Activity BandReader::tick(std::uint64_t) {
         stripe_free_.pop();
         ++free_stripes_;
     }
-    if (to_ask_ > 0) {
+    if (to_request_ > 0) {
         if (!requests_.can_push()) return Activity::memory_port;
-        const auto p = static_cast<std::size_t>(asked_ / (2 * column_words_));
-        const int word = asked_ / 2 % column_words_;
-        const WordAddress at = column_at_[p][static_cast<std::size_t>(asked_ % 2)] + static_cast<WordAddress>(word);
+        const auto p = static_cast<std::size_t>(requested_ / (2 * column_words_));
+        const int word = requested_ / 2 % column_words_;
+        const WordAddress at = column_at_[p][static_cast<std::size_t>(requested_ % 2)] + static_cast<WordAddress>(word);
         requests_.push({at, false});
-        ++asked_;
-        --to_ask_;
+        ++requested_;
+        --to_request_;
         return Activity::busy;
     }
     if (!in_.can_pop()) return Activity::idle;

@@ -23,7 +23,7 @@ public:
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return "stripe " + std::to_string(stripe_) + " column " + std::to_string(column_) + ", words to ask " +
-               std::to_string(to_ask_) + ", free stripes " + std::to_string(free_stripes_);
+               std::to_string(to_request_) + ", free stripes " + std::to_string(free_stripes_);
     }
 
 private:
@@ -42,8 +42,8 @@ private:
     int view_column_ = 0;  // next of the view
     bool in_view_ = false;
     int multiplying_ = 0;
-    int asked_ = 0;
-    int to_ask_ = 0;
+    int requested_ = 0;
+    int to_request_ = 0;
     using CellAddresses = std::array<std::array<WordAddress, 2>, 2>;  // [p][line]: a column's first word
     CellAddresses column_at_{};
     CellAddresses held_at_{};  // of the words that cell_march has

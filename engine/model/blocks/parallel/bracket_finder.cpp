@@ -16,12 +16,12 @@ BracketFinder::BracketFinder(const RegisterFile& registers, Fifo<MappedRay>& in,
 
 // True in word_ when answered_.
 Activity BracketFinder::read(int picture, int word) {
-    if (!asked_) {
+    if (!requested_) {
         if (!requests_.can_push()) return Activity::memory_port;
         const ObjectRegisters& object = registers_.object_of(in_.front().view);
         const int at = picture * record_words(object.planes) + word;
         requests_.push({object.lines + static_cast<WordAddress>(at), false});
-        asked_ = true;
+        requested_ = true;
         return Activity::busy;
     }
     if (!answers_.can_pop()) return Activity::memory_data;
@@ -35,7 +35,7 @@ Activity BracketFinder::crossing(int picture, Crossing& into) {
     if (!answered_) return read(picture, plane_words(ray.plane) + 3);
     if (++multiplying_ < kMultiplyCycles) return Activity::busy;
     into = {true, low_half(word_) + ((ray.u_q28 * high_half(word_)) >> 28)};
-    asked_ = answered_ = false;
+    requested_ = answered_ = false;
     multiplying_ = 0;
     return Activity::busy;
 }
@@ -131,7 +131,7 @@ Activity BracketFinder::tick(std::uint64_t) {
             if (!answered_) return activity;
             gap_word_ = word_;
             gap_known_ = true;
-            asked_ = answered_ = false;
+            requested_ = answered_ = false;
             // No lines: nothing else needs to be known.
             if ((low_half(gap_word_) & 0xFFFF) == 0) {
                 step_ = Step::decide;

@@ -44,7 +44,7 @@ private:
     bool gap_known_ = false;
     std::uint64_t gap_word_ = 0;
     Crossing first_, second_;
-    bool asked_ = false;
+    bool requested_ = false;
     bool answered_ = false;
     std::uint64_t word_ = 0;
     int multiplying_ = 0;

@@ -4,7 +4,7 @@
 
 namespace rs::engine::model {
 
-ViewDispatcher::ViewDispatcher(const RegisterFile& registers, Fifo<ViewJob>& in, std::vector<FanPort> pipes,
+ViewDispatcher::ViewDispatcher(const RegisterFile& registers, Fifo<ViewJob>& in, std::vector<DispatchPort> pipes,
                                Fifo<Done>& view_written)
     : Block("view_dispatcher", "a view's start and a view's end per cycle"),
       registers_(registers),
@@ -13,7 +13,7 @@ ViewDispatcher::ViewDispatcher(const RegisterFile& registers, Fifo<ViewJob>& in,
       view_written_(writes(view_written)),
       begun_(pipes_.size()),
       written_(pipes_.size()) {
-    for (const FanPort& pipe : pipes_) {
+    for (const DispatchPort& pipe : pipes_) {
         writes(*pipe.columns);
         writes(*pipe.pixels);
         writes(*pipe.books);
@@ -23,7 +23,7 @@ ViewDispatcher::ViewDispatcher(const RegisterFile& registers, Fifo<ViewJob>& in,
 
 bool ViewDispatcher::begin_view() {
     if (!in_.can_pop()) return false;
-    const bool room = std::all_of(pipes_.begin(), pipes_.end(), [](const FanPort& pipe) {
+    const bool room = std::all_of(pipes_.begin(), pipes_.end(), [](const DispatchPort& pipe) {
         return pipe.columns->can_push() && pipe.pixels->can_push() && pipe.books->can_push();
     });
     if (!room) return false;

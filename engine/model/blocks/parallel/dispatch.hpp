@@ -13,7 +13,7 @@
 
 namespace rs::engine::model {
 
-struct FanPort {
+struct DispatchPort {
     Fifo<ViewJob>* columns = nullptr;
     Fifo<ViewJob>* pixels = nullptr;
     Fifo<ViewJob>* books = nullptr;
@@ -22,7 +22,7 @@ struct FanPort {
 
 class ViewDispatcher final : public Block {
 public:
-    ViewDispatcher(const RegisterFile& registers, Fifo<ViewJob>& in, std::vector<FanPort> pipes,
+    ViewDispatcher(const RegisterFile& registers, Fifo<ViewJob>& in, std::vector<DispatchPort> pipes,
                    Fifo<Done>& view_written);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "views " + std::to_string(views_.size()); }
@@ -33,7 +33,7 @@ private:
 
     const RegisterFile& registers_;
     Fifo<ViewJob>& in_;
-    std::vector<FanPort> pipes_;
+    std::vector<DispatchPort> pipes_;
     Fifo<Done>& view_written_;
     // Per pipe: its share is written when it has written so many views in all; 0: it has none.
     std::deque<std::vector<std::uint64_t>> views_;

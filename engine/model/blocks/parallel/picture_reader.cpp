@@ -20,11 +20,11 @@ PictureReader::PictureReader(const RegisterFile& registers, Fifo<BracketedRay>& 
 void PictureReader::ask() {
     const BracketedRay& ray = in_.front();
     const ObjectRegisters& object = registers_.object_of(ray.view);
-    const int picture = asked_ < kWordsOfPicture ? ray.first : ray.second;
-    const int n = asked_ % kWordsOfPicture;
+    const int picture = requested_ < kWordsOfPicture ? ray.first : ray.second;
+    const int n = requested_ % kWordsOfPicture;
     const int word = picture * record_words(object.planes) + (n < 2 ? n : plane_words(ray.plane) + n - 2);
     requests_.push({object.lines + static_cast<WordAddress>(word), false});
-    ++asked_;
+    ++requested_;
 }
 
 void PictureReader::take(std::uint64_t word) {
@@ -52,7 +52,7 @@ Activity PictureReader::tick(std::uint64_t) {
     }
     if (answered_ < words) {
         Activity activity = Activity::memory_data;
-        if (asked_ < words) {
+        if (requested_ < words) {
             activity = Activity::memory_port;
             if (requests_.can_push()) {
                 ask();
@@ -70,7 +70,7 @@ Activity PictureReader::tick(std::uint64_t) {
     out_.push(lined_);
     in_.pop();
     lined_ = {};
-    multiplying_ = asked_ = answered_ = 0;
+    multiplying_ = requested_ = answered_ = 0;
     return Activity::busy;
 }
 

@@ -16,7 +16,7 @@ public:
                   Fifo<MemoryWord>& answers, Fifo<LinedRay>& out);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
-        return "asked " + std::to_string(asked_) + " answered " + std::to_string(answered_);
+        return "asked " + std::to_string(requested_) + " answered " + std::to_string(answered_);
     }
     static constexpr int words_of(RayKind kind) {
         return kind == RayKind::none ? 0 : kind == RayKind::plane ? 4 : kind == RayKind::foot ? 5 : 10;
@@ -31,7 +31,7 @@ private:
     Fifo<MemoryWord>& answers_;
     Fifo<LinedRay>& out_;
     int multiplying_ = 0;
-    int asked_ = 0;
+    int requested_ = 0;
     int answered_ = 0;
     LinedRay lined_;
 };

@@ -26,9 +26,9 @@ void LineReader::ask() {
     const MappedRay& ray = in_.front();
     const ObjectRegisters& object = registers_.object_of(ray.view);
     const int record = ray.picture * (1 + object.planes);
-    const int word = asked_ < 2 ? 2 * record + asked_ : 2 * (record + 1 + ray.plane) + asked_ - 2;
+    const int word = requested_ < 2 ? 2 * record + requested_ : 2 * (record + 1 + ray.plane) + requested_ - 2;
     requests_.push({object.lines + static_cast<WordAddress>(word), false});
-    ++asked_;
+    ++requested_;
 }
 
 Activity LineReader::tick(std::uint64_t) {
@@ -47,7 +47,7 @@ Activity LineReader::tick(std::uint64_t) {
         return Activity::busy;
     }
     Activity activity = Activity::memory_data;
-    if (asked_ < 4) {
+    if (requested_ < 4) {
         activity = Activity::memory_port;
         if (requests_.can_push()) {
             ask();
@@ -65,7 +65,7 @@ Activity LineReader::tick(std::uint64_t) {
     out_.push({ray.view, true, ray.x_q20, ray.lambda_q20, ray.picture, low(words_[0]), high(words_[0]), low(words_[1]),
                high(words_[1]), low(words_[2]), high(words_[2]), low(words_[3]), high(words_[3])});
     in_.pop();
-    multiplying_ = asked_ = answered_ = 0;
+    multiplying_ = requested_ = answered_ = 0;
     return Activity::busy;
 }
 

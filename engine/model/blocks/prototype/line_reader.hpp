@@ -22,7 +22,7 @@ public:
                Fifo<MemoryWord>& answers, Fifo<RayLine>& out);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
-        return "asked " + std::to_string(asked_) + " answered " + std::to_string(answered_);
+        return "asked " + std::to_string(requested_) + " answered " + std::to_string(answered_);
     }
 
 private:
@@ -33,7 +33,7 @@ private:
     Fifo<MemoryWord>& answers_;
     Fifo<RayLine>& out_;
     int multiplying_ = 0;
-    int asked_ = 0;
+    int requested_ = 0;
     int answered_ = 0;
     std::array<std::uint64_t, 4> words_{};
 };

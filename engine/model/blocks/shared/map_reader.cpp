@@ -15,10 +15,10 @@ Activity MapReader::tick(std::uint64_t) {
     MappedRay ray{point.view, false,       point.plane, point.x_q20, point.lambda_q20,
                   0,          point.u_q28, point.n_q28, point.t_q28};
     if (point.has_ray) {
-        if (!asked_) {
+        if (!requested_) {
             if (!requests_.can_push()) return Activity::memory_port;
             requests_.push({static_cast<WordAddress>(point.cell_byte / 8), false});
-            asked_ = true;
+            requested_ = true;
             return Activity::busy;
         }
         if (!answers_.can_pop()) return Activity::memory_data;
@@ -26,7 +26,7 @@ Activity MapReader::tick(std::uint64_t) {
         const std::uint64_t word = answers_.pop().data;
         ray.picture = static_cast<int>((word >> (8 * (point.cell_byte % 8))) & 255U);
         ray.has_ray = ray.picture != kNoPictureByte;
-        asked_ = false;
+        requested_ = false;
     } else if (!out_.can_push()) {
         return Activity::output_full;
     }

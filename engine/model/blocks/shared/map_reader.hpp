@@ -13,14 +13,14 @@ class MapReader final : public Block {
 public:
     MapReader(Fifo<RayPoint>& in, Fifo<MemoryRead>& requests, Fifo<MemoryWord>& answers, Fifo<MappedRay>& out);
     Activity tick(std::uint64_t now) override;
-    [[nodiscard]] std::string state_text() const override { return asked_ ? "asked" : "not asked"; }
+    [[nodiscard]] std::string state_text() const override { return requested_ ? "asked" : "not asked"; }
 
 private:
     Fifo<RayPoint>& in_;
     Fifo<MemoryRead>& requests_;
     Fifo<MemoryWord>& answers_;
     Fifo<MappedRay>& out_;
-    bool asked_ = false;
+    bool requested_ = false;
 };
 
 }  // namespace rs::engine::model

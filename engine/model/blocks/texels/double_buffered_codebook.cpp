@@ -30,7 +30,7 @@ bool DoubleBufferedCodebook::next_view() {
             loading_ = static_cast<int>(set);
             sets_[set].serial = 0;
             object_ = object;
-            asked_ = written_ = 0;
+            requested_ = written_ = 0;
             ++book_loads_;
         }
         sets_[set].last_view = views_ + 1;
@@ -42,8 +42,8 @@ bool DoubleBufferedCodebook::next_view() {
 
 bool DoubleBufferedCodebook::load() {
     bool moved = false;
-    if (asked_ < object_.book_words && requests_.can_push()) {
-        requests_.push({object_.books + asked_++, false});
+    if (requested_ < object_.book_words && requests_.can_push()) {
+        requests_.push({object_.books + requested_++, false});
         moved = true;
     }
     Set& set = sets_[static_cast<std::size_t>(loading_)];

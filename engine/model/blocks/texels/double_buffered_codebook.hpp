@@ -48,7 +48,7 @@ private:
     std::uint64_t views_done_ = 0;  // of them
     int loading_ = -1;              // set
     ObjectRegisters object_;        // whose books are loaded
-    std::uint32_t asked_ = 0;
+    std::uint32_t requested_ = 0;
     std::uint32_t written_ = 0;
     std::uint64_t book_loads_ = 0;
     int turns_ = 0;  // for which the first pixel has had the banks

@@ -32,10 +32,10 @@ SurfaceBlend::Outcome SurfaceBlend::decided(const SampleHead& last) {
     const Rgba8 colour = resolve(sum);
     Rgba8& kept = kept_[static_cast<std::size_t>(last.id)];
     const Rgba8 so_far = laid_over({kept}, {colour}).colour;
-    const bool asks_behind = last.next.begin > MarchState::kFoot && colour.a < kCoveringAlpha;
+    const bool needs_behind = last.next.begin > MarchState::kFoot && colour.a < kCoveringAlpha;
     Outcome out;
     out.again = {last.id, last.next};
-    out.sends_back = !last.final && (sum.a == 0 || asks_behind);
+    out.sends_back = !last.final && (sum.a == 0 || needs_behind);
     if (!out.sends_back) out.pixel = {last.id, packed(so_far)};
     kept = out.sends_back ? so_far : Rgba8{};
     return out;

@@ -23,7 +23,7 @@ bool FillFetch::begin() {
     targets_.push({fill_.line, fill_.guard});
     first_ = object.serial != serial_;
     serial_ = object.serial;
-    asked_ = sent_ = 0;
+    requested_ = sent_ = 0;
     const int block = (fill_.picture * object.block_columns + fill_.block_column) * object.block_rows + fill_.block_row;
     next_ = object.raw_blocks + static_cast<WordAddress>(block * kRawBlockWords);
     return active_ = true;
@@ -32,10 +32,11 @@ bool FillFetch::begin() {
 // An ask and a pixel a cycle, each as far as there is room.
 bool FillFetch::fetch_coded() {
     bool moved = false;
-    if (asked_ < 8 && asks_.can_push()) {
-        asks_.push({fill_.view, first_, true, fill_.picture, 8 * fill_.block_column + asked_, fill_.block_row, 0xFF});
+    if (requested_ < 8 && asks_.can_push()) {
+        asks_.push(
+            {fill_.view, first_, true, fill_.picture, 8 * fill_.block_column + requested_, fill_.block_row, 0xFF});
         first_ = false;
-        ++asked_;
+        ++requested_;
         moved = true;
     }
     if (sent_ < 64 && pixels_.can_push()) {
@@ -49,14 +50,14 @@ bool FillFetch::fetch_coded() {
         ++sent_;
         moved = true;
     }
-    active_ = asked_ < 8 || sent_ < 64;
+    active_ = requested_ < 8 || sent_ < 64;
     return moved;
 }
 
 bool FillFetch::fetch_raw() {
     if (!raw_reads_.can_push()) return false;
     raw_reads_.push({next_++, false});
-    active_ = ++asked_ < kRawBlockWords;
+    active_ = ++requested_ < kRawBlockWords;
     return true;
 }
 

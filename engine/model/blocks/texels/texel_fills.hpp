@@ -16,7 +16,7 @@ public:
               Fifo<MemoryRead>& raw_reads, Fifo<FillKind>& kinds, Fifo<FillTarget>& targets);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
-        return "columns to ask " + std::to_string(8 - asked_) + ", pixels to send " + std::to_string(64 - sent_);
+        return "columns to ask " + std::to_string(8 - requested_) + ", pixels to send " + std::to_string(64 - sent_);
     }
 
 private:
@@ -36,7 +36,7 @@ private:
     bool coded_ = false;
     std::uint32_t serial_ = 0;  // of the object that was asked for last
     bool first_ = false;        // of that object
-    int asked_ = 8;
+    int requested_ = 8;
     int sent_ = 64;
     WordAddress next_ = 0;
 };

@@ -75,7 +75,7 @@ Activity TexelTags::tick(std::uint64_t) {
             fill.guard = lines_[static_cast<std::size_t>(fill.line)].last_use;
             fills_.push(fill);
             ++new_fills_;
-            ++fills_asked_;
+            ++fills_requested_;
             return Activity::busy;
         }
     }

@@ -27,7 +27,7 @@ public:
     static constexpr int kTagBits = kCacheLines * (1 + 5 + 5 + 5 + 10) + kSets;  // valid, tag, last use; which is older
     TexelTags(const RegisterFile& registers, Fifo<PlacedSample>& in, Fifo<TexelFill>& fills, Fifo<WaitingSample>& out);
     Activity tick(std::uint64_t now) override;
-    [[nodiscard]] std::uint64_t fills_asked() const { return fills_asked_; }
+    [[nodiscard]] std::uint64_t fills_requested() const { return fills_requested_; }
     [[nodiscard]] std::uint64_t samples() const { return samples_; }
 
 private:
@@ -53,7 +53,7 @@ private:
     std::uint32_t serial_ = 0;             // of the object
     int new_fills_ = 0;                    // of the sample in front
     std::uint64_t samples_ = 0;            // handed on
-    std::uint64_t fills_asked_ = 0;
+    std::uint64_t fills_requested_ = 0;
 };
 
 }  // namespace rs::engine::model

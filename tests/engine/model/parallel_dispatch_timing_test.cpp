@@ -88,14 +88,14 @@ TEST(ParallelTexelTiming, DoubleBufferedCodebookReplacesNoBooksOfAViewUnderWay) 
     EXPECT_EQ(l.block.book_loads(), 3U);
 }
 
-TEST(ParallelFans, AViewIsWrittenWhenAllPipesWithAShareHaveWrittenTheirs) {
+TEST(ParallelDispatch, AViewIsWrittenWhenAllPipesWithAShareHaveWrittenTheirs) {
     ViewsOfThreeObjects r;
     r.file.banks[0].views[1].width = 20;  // two stripes
     Fifo<ViewJob> in("in", 4, 1);
     Fifo<Done> written("written", 2, 1);
     std::vector<std::unique_ptr<Fifo<ViewJob>>> jobs;
     std::vector<std::unique_ptr<Fifo<Done>>> done;
-    std::vector<FanPort> ports;
+    std::vector<DispatchPort> ports;
     for (int n = 0; n < 3; ++n) {
         for (int k = 0; k < 3; ++k) jobs.push_back(std::make_unique<Fifo<ViewJob>>("jobs", 4, 1));
         done.push_back(std::make_unique<Fifo<Done>>("done", 4, 1));
@@ -133,7 +133,7 @@ TEST(ParallelFans, AViewIsWrittenWhenAllPipesWithAShareHaveWrittenTheirs) {
     EXPECT_EQ(written.count(), 2);
 }
 
-TEST(ParallelFans, LoadedWordsGoToAllChannelsInTheSameCycle) {
+TEST(ParallelDispatch, LoadedWordsGoToAllChannelsInTheSameCycle) {
     Fifo<MemoryWrite> in("in", 4, 1);
     Fifo<Done> loaded("loaded", 2, 1);
     Fifo<MemoryWrite> words[] = {{"a", 2, 1}, {"b", 2, 1}};
@@ -155,7 +155,7 @@ TEST(ParallelFans, LoadedWordsGoToAllChannelsInTheSameCycle) {
     EXPECT_EQ(bench.until(block, loaded), 1);
 }
 
-TEST(ParallelFans, EveryColumnHasOneOwnerAndSharesAreEven) {
+TEST(ParallelDispatch, EveryColumnHasOneOwnerAndSharesAreEven) {
     for (const int pipes : {1, 3, 8}) {
         for (int view = 0; view < 15; ++view) {
             std::vector<int> columns(static_cast<std::size_t>(pipes));

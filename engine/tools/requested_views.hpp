@@ -12,7 +12,7 @@
 
 namespace rs::engine {
 
-struct AskedViews {
+struct RequestedViews {
     std::string poses;
     std::string eye;
     std::string at = "0,0,0";
@@ -22,9 +22,9 @@ struct AskedViews {
 };
 
 // Adds --orbit, --poses, --eye (at most one of them; exactly one where `required`), --at, --size and --fov.
-void add_view_options(CLI::App& command, AskedViews& views, bool required = true);
+void add_view_options(CLI::App& command, RequestedViews& views, bool required = true);
 
 // The cameras that are asked for, in the units of the object's rig.
-Result<std::vector<Camera>> asked_cameras(const RaySpaceObject& object, const AskedViews& views);
+Result<std::vector<Camera>> requested_cameras(const RaySpaceObject& object, const RequestedViews& views);
 
 }  // namespace rs::engine

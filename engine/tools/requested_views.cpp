@@ -1,4 +1,4 @@
-#include "engine/tools/asked_views.hpp"
+#include "engine/tools/requested_views.hpp"
 
 #include "engine/core/views/orbit.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -8,7 +8,7 @@
 namespace rs::engine {
 namespace {
 
-Result<ViewShape> view_shape(const AskedViews& views) {
+Result<ViewShape> view_shape(const RequestedViews& views) {
     ViewShape shape;
     if (!views.size.empty()) {
         const Result<PixelSize> size = parse_size(views.size);
@@ -42,7 +42,7 @@ Result<std::vector<Camera>> cameras_of_rig(const std::string& path, const ViewSh
 
 }  // namespace
 
-Result<std::vector<Camera>> asked_cameras(const RaySpaceObject& object, const AskedViews& views) {
+Result<std::vector<Camera>> requested_cameras(const RaySpaceObject& object, const RequestedViews& views) {
     const Result<ViewShape> shape = view_shape(views);
     if (!shape) return shape.error();
     if (!views.poses.empty()) return cameras_of_rig(views.poses, *shape);
@@ -56,7 +56,7 @@ Result<std::vector<Camera>> asked_cameras(const RaySpaceObject& object, const As
     return std::vector<Camera>{*camera};
 }
 
-void add_view_options(CLI::App& command, AskedViews& views, bool required) {
+void add_view_options(CLI::App& command, RequestedViews& views, bool required) {
     CLI::Option_group* what = command.add_option_group("views", "What to render");
     what->add_option("--orbit", views.orbit, "N views once around, as captured")->check(CLI::Range(1, 100000));
     CLI::Option* poses = what->add_option("--poses", views.poses, "the cameras of a transforms.json");
