@@ -23,12 +23,12 @@ namespace {
 // see.
 const tbb::global_control kNoOtherThreads(tbb::global_control::max_allowed_parallelism, 1);
 
-const test::RingObjectOptions kSmall{
+const test::RingObjectOptions kSmallOnBoard{
     .views = 6, .width = 24, .height = 20, .fl_px = 30, .planes = 4, .x_cells = 24, .u_cells = 16};
 
 // As the board draws it: alpha in 2 bits.
 RaySpaceObject object_of(std::uint64_t seed) {
-    test::RingObjectOptions options = kSmall;
+    test::RingObjectOptions options = kSmallOnBoard;
     options.seed = seed;
     RaySpaceObject object = model::with_board_alpha(test::ring_object(options));
     object.name = "object " + std::to_string(seed);

@@ -18,7 +18,8 @@ engine::ViewRegisters view_of(const RaySpaceObject& object, int v, int width, in
     return *prepare_view(object, test::upright_at(0.7 * v, 3.3, 0.1, 0.95, width, height));
 }
 
-Result<BoardRun> drawn(Board& board, const RaySpaceObject& object, int width, int height, int views = kViews) {
+Result<BoardRun> drawn_in_parallel(Board& board, const RaySpaceObject& object, int width, int height,
+                                   int views = kViews) {
     const Result<int> slot = board.place(object);
     if (!slot) return slot.error();
     std::vector<BoardView> cycle;
@@ -103,7 +104,7 @@ TEST(ParallelBoardCycles, MemoryReadsAreThoseOfTheFormula) {
         const RaySpaceObject object = test::any_object(
             {.views = 9, .width = 60, .height = 50, .planes = 5, .x_cells = 24, .u_cells = 24, .seed = 41}, any, true);
         Board board(test::parallel(kPipes));
-        ASSERT_TRUE(drawn(board, object, kWidth, kHeight).ok());
+        ASSERT_TRUE(drawn_in_parallel(board, object, kWidth, kHeight).ok());
         ColumnReads counted;
         for (int v = 0; v < kViews; ++v) counted.count(object, view_of(object, v, kWidth, kHeight));
         EXPECT_EQ(words_of(board, "map_reader"), counted.map);
@@ -134,11 +135,11 @@ TEST(ParallelBoardCycles, TickOrderChangesNeitherCyclesNorBits) {
         const RaySpaceObject object = test::any_object({.views = 12, .width = 70, .height = 70, .fl_px = 90, .seed = 4},
                                                        {.coded = coded, .shape = true});
         Board reference(test::parallel(3));
-        const Result<BoardRun> expected = drawn(reference, object, 50, 40);
+        const Result<BoardRun> expected = drawn_in_parallel(reference, object, 50, 40);
         ASSERT_TRUE(expected.ok());
         for (const std::uint64_t seed : {1, 2}) {
             Board board(test::parallel(3), seed);
-            const Result<BoardRun> run = drawn(board, object, 50, 40);
+            const Result<BoardRun> run = drawn_in_parallel(board, object, 50, 40);
             ASSERT_TRUE(run.ok());
             test::expect_same_run(*run, *expected, board);
         }
@@ -206,7 +207,7 @@ TEST(ParallelBoardCyclesGolden, AllKinds) {
         Board board(test::parallel(pipes));
         const RaySpaceObject object = test::any_object({.views = 12, .width = 70, .height = 70, .fl_px = 90, .seed = 9},
                                                        {.coded = kind % 2 == 1, .shape = kind >= 2});
-        const Result<BoardRun> run = drawn(board, object, width, height);
+        const Result<BoardRun> run = drawn_in_parallel(board, object, width, height);
         return run ? run->cycles[0].render_cycles() : 0;
     };
     EXPECT_EQ(cycles_of(0, 8, 96, 64), 11'894U);

@@ -14,7 +14,7 @@ engine::ViewRegisters view_of(const RaySpaceObject& object, int side = 40) {
     return *prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, side, side));
 }
 
-void expect_right(Board& board, int slot, const RaySpaceObject& object) {
+void expect_right_in_parallel(Board& board, int slot, const RaySpaceObject& object) {
     const engine::ViewRegisters view = view_of(object);
     const Result<BoardRun> run = board.render({{*board.view(slot, view)}});
     ASSERT_TRUE(run.ok()) << run.error().message;
@@ -62,8 +62,8 @@ TEST(ParallelBoardFaults, AnObjectInThePlaceOfAnother) {
         const Result<int> slot = board.place(object);
         ASSERT_TRUE(slot.ok());
         EXPECT_EQ(*slot, 0);
-        expect_right(board, 0, object);
-        expect_right(board, 0, object);
+        expect_right_in_parallel(board, 0, object);
+        expect_right_in_parallel(board, 0, object);
         ASSERT_TRUE(board.evict(0).ok());
     }
 }
@@ -84,7 +84,7 @@ TEST(ParallelBoardFaults, ALoadWithoutDataFailsAndTheSlotIsFree) {
     ASSERT_FALSE(run.ok());
     EXPECT_NE(run.error().message.find("holds no object"), std::string::npos);
     EXPECT_EQ(*board.place(object), 0);
-    expect_right(board, 0, object);
+    expect_right_in_parallel(board, 0, object);
 }
 
 // Loading goes on in the maintenance windows of all channels, and costs drawing no cycle.
@@ -112,7 +112,7 @@ TEST(ParallelBoardFaults, ARetryOfTheBusLosesNothing) {
     config.pci.retry_every = 3;
     Board board(config);
     const RaySpaceObject object = small_for_pipes(5);
-    expect_right(board, *board.place(object), object);
+    expect_right_in_parallel(board, *board.place(object), object);
     EXPECT_GT(board.top().host_bus.counters().retries, 5U);
 }
 

@@ -6,8 +6,8 @@
 #include "engine/model/blocks/texels/surface_blend.hpp"
 #include "engine/model/blocks/texels/texel_cache.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
-#include "tests/engine/model/block_bench.hpp"
-#include "tests/engine/model/pixel_registers.hpp"
+#include "tests/engine/model/blocks/block_bench.hpp"
+#include "tests/engine/model/blocks/pixel_registers.hpp"
 
 namespace rs::engine::model {
 namespace {

@@ -1,7 +1,7 @@
 // Latency and throughput of the blocks of decompression: nothing a cycle early, the result on time.
 
 #include "engine/model/limits/coded_layout.hpp"
-#include "tests/engine/model/block_bench.hpp"
+#include "tests/engine/model/blocks/block_bench.hpp"
 #include "tests/engine/model/coded_test_objects.hpp"
 
 namespace rs::engine::model {

@@ -8,7 +8,7 @@
 #include "engine/model/blocks/parallel/picture_reader.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
 #include "engine/model/signals/arithmetic.hpp"
-#include "tests/engine/model/block_bench.hpp"
+#include "tests/engine/model/blocks/block_bench.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"
 
 namespace rs::engine::model {

@@ -5,8 +5,8 @@
 #include "engine/model/blocks/texels/texel_fills.hpp"
 #include "engine/model/blocks/texels/texel_tags.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
-#include "tests/engine/model/block_bench.hpp"
-#include "tests/engine/model/parallel_registers.hpp"
+#include "tests/engine/model/blocks/block_bench.hpp"
+#include "tests/engine/model/blocks/parallel_registers.hpp"
 
 namespace rs::engine::model {
 namespace {

@@ -1,8 +1,8 @@
 // Turns of the cell march: nothing a cycle early, the result on time.
 
 #include "engine/model/blocks/parallel/cell_march.hpp"
-#include "tests/engine/model/block_bench.hpp"
-#include "tests/engine/model/pixel_registers.hpp"
+#include "tests/engine/model/blocks/block_bench.hpp"
+#include "tests/engine/model/blocks/pixel_registers.hpp"
 
 namespace rs::engine::model {
 namespace {

@@ -1,6 +1,6 @@
 // Latency and throughput of each block: nothing a cycle early, the result on time, the next one after its interval.
 
-#include "tests/engine/model/block_bench.hpp"
+#include "tests/engine/model/blocks/block_bench.hpp"
 #include "tests/engine/model/board_test_objects.hpp"
 
 namespace rs::engine::model {

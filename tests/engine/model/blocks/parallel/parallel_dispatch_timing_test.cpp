@@ -3,8 +3,8 @@
 
 #include "engine/model/blocks/parallel/dispatch.hpp"
 #include "engine/model/blocks/texels/double_buffered_codebook.hpp"
-#include "tests/engine/model/block_bench.hpp"
-#include "tests/engine/model/parallel_registers.hpp"
+#include "tests/engine/model/blocks/block_bench.hpp"
+#include "tests/engine/model/blocks/parallel_registers.hpp"
 
 namespace rs::engine::model {
 namespace {
