@@ -16,7 +16,7 @@
 
 namespace rs::engine {
 
-// Renders the views of one object. Fails, saying why, where the implementation does not do such objects.
+// Renders the views of one object. Fails, with the reason, where the implementation does not do such objects.
 using ExecuteView = std::function<Result<ExecutedView>(std::size_t view)>;
 struct Implementation {
     std::string name;
@@ -35,7 +35,7 @@ struct CaseResult {
     int different = 0;     // in colour or depth
     std::string declined;  // not "": why the implementation did not take the case
     std::string first;     // the first view that differs, and how
-    bool failed = false;   // `declined` says that something went wrong
+    bool failed = false;   // `declined` reports that something went wrong
 };
 
 struct ConformanceMatrix {

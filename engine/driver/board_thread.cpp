@@ -7,7 +7,7 @@ namespace rs::engine {
 
 namespace {
 
-// What a driver throws, such as std::bad_alloc, is a failure of what it was asked for.
+// What a driver throws, such as std::bad_alloc, is a failure of what it was to do.
 template <class Outcome, class Call>
 Outcome guarded(const Call& call) {
     try {
@@ -109,7 +109,7 @@ BoardThreadCounts BoardThread::counts() const {
     return counts_;
 }
 
-// The object that was asked for last of those that wait.
+// The object that was requested last of those that wait.
 std::optional<std::uint32_t> BoardThread::next_to_load() const {
     std::optional<std::uint32_t> best;
     for (const auto& [number, known] : known_) {
@@ -138,8 +138,8 @@ void BoardThread::evict_slot(std::unique_lock<std::mutex>& lock, int slot) {
     if (!evicted) note_failure(evicted.error());
 }
 
-// Loads the next object, if need be in the place of others that were not asked for as lately. Drops the wish where all
-// of them were.
+// Loads the next object, if need be in the place of others that were not requested as lately. Drops the request where
+// all of them were.
 void BoardThread::load_one(std::unique_lock<std::mutex>& lock) {
     const std::uint32_t number = *next_to_load();
     const std::shared_ptr<const RaySpaceObject> object = known_.at(number).object;

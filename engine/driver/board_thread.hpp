@@ -1,6 +1,6 @@
 #pragma once
 // The thread that owns a board: draws its part of rendering cycles, one at a time, and between them keeps the objects
-// that views ask for in the board's memory, evicting those that were not asked for the longest time.
+// that views need in the board's memory, evicting those that were not needed for the longest time.
 //
 // Thread-safety: every member function may be called from any thread, but reserve(), draw() and wait() belong together,
 // from one.
@@ -42,7 +42,7 @@ public:
     void add(std::uint32_t number, std::shared_ptr<const RaySpaceObject> object);
     void remove(std::uint32_t number);
 
-    // The objects are asked for now: those in the board's memory stay there; those that are not are loaded soon.
+    // The objects are needed now: those in the board's memory stay there; those that are not are loaded soon.
     void request(const std::vector<std::uint32_t>& numbers);
 
     // Waits until what is requested is in the board's memory, or does not go there.

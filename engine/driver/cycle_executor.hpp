@@ -14,7 +14,7 @@
 namespace rs::engine {
 
 // A view as an executor has drawn it.
-struct DrawnView : ExecutedView {  // depth: empty where nobody asked for it
+struct DrawnView : ExecutedView {  // depth: empty where nobody needs it
     // It took the core; of a view that the board drew, its share of the cycle by its pixels.
     double seconds = 0;
     bool by_board = false;
@@ -24,7 +24,7 @@ struct PreparedView {
     std::uint32_t object = 0;
     std::shared_ptr<const Renderer> renderer;
     ViewRegisters registers;
-    bool depth = false;        // is wanted
+    bool depth = false;        // is needed
     bool board_draws = false;  // if it holds the object
     [[nodiscard]] std::int64_t pixels() const { return std::int64_t{registers.width} * registers.height; }
 };

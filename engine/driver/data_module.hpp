@@ -1,12 +1,12 @@
 #pragma once
 // The ray-space data module: the interface between an application and whatever renders (paper, section 6). Objects are
-// loaded and evicted, views are asked for a cycle at a time, pictures are handed out when they are ready.
+// loaded and evicted, views are requested a cycle at a time, pictures are handed out when they are ready.
 //
 // A *rendering cycle* is a list of views that are rendered together. Cycles wait in a queue and are rendered in order
 // on threads of the module, so submit() does not block while a picture is drawn.
 //
 // Two executors: the software core, which draws everything, and, if the module is given one, a board. The board's
-// memory holds the objects that were asked for last; the core draws what the board does not hold or cannot draw, at the
+// memory holds the objects that were requested last; the core draws what the board does not hold or cannot draw, at the
 // same time, and stands in for the board when it fails. Either gives the same bits: with a board,
 // objects that it takes are drawn as it holds them (Executor::as_drawn).
 //
@@ -34,7 +34,7 @@ struct ObjectHandle {
 struct ViewRequest {
     ObjectHandle object;
     Camera camera;       // in the units of the object's rig
-    bool depth = false;  // axial depth is wanted too
+    bool depth = false;  // axial depth is needed too
 };
 
 struct CycleHandle {
@@ -83,7 +83,7 @@ public:
     // The object takes no new views; its memory goes when the cycles that use it are done.
     Status evict(ObjectHandle object);
 
-    // Waits until the objects are in the board's memory, as far as they go there: for those who want to see what it
+    // Waits until the objects are in the board's memory, as far as they go there: for those who must see what it
     // draws from the first picture on. Without a board, nothing happens. While nobody else submits.
     void load_on_board(const std::vector<ObjectHandle>& objects);
 

@@ -8,7 +8,7 @@
 //          book_lookup
 //
 // Asks run ahead of their pixels, so that several blocks are under way in every chain. No chain waits for a later one:
-// what a later hop needs has been asked for when the record that leads there can be taken.
+// what a later hop needs has been requested when the record that leads there can be taken.
 
 #include "engine/model/blocks/decompression/block_motion.hpp"
 #include "engine/model/blocks/decompression/block_scan.hpp"
@@ -56,7 +56,8 @@ struct HopBlocks {
     RecordSelect record_select;
 };
 
-// The chains of all hops: asks and pixels go into those of hop 0, pixels with all their records come out of `complete`.
+// The chains of all hops: requests and pixels go into those of hop 0, pixels with all their records come out of
+// `complete`.
 struct RecordChains : FifoRack {
     // `suffix` is appended to the names of FIFOs and blocks.
     explicit RecordChains(const RegisterFile& registers, const std::string& suffix = "");

@@ -40,7 +40,7 @@ public:
 
     Result<std::optional<int>> load(const RaySpaceObject& object) override {
         const Result<int> slot = instant_loads_ ? board_.place(object) : board_.start_load(object);
-        if (!slot) return std::optional<int>();  // takes() was asked before: only room can be missing
+        if (!slot) return std::optional<int>();  // takes() was checked before: only room can be missing
         if (instant_loads_) return std::optional<int>(*slot);
         if (Status loaded = board_.finish_loads(); !loaded) return loaded.error();
         return std::optional<int>(*slot);

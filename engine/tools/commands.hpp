@@ -9,7 +9,7 @@
 
 namespace rs::engine {
 
-// Does an implementation compute what the definition says?
+// Does an implementation compute what the definition states?
 void add_conformance_command(CLI::App& app, std::function<Status()>& run);
 // How good and how large an object is.
 void add_compare_command(CLI::App& app, std::function<Status()>& run);

@@ -1,5 +1,5 @@
 #pragma once
-// The options by which the commands are told what to look at: an orbit, the cameras of a rig, or one view from an eye.
+// The options of the commands that choose what to look at: an orbit, the cameras of a rig, or one view from an eye.
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -24,7 +24,7 @@ struct RequestedViews {
 // Adds --orbit, --poses, --eye (at most one of them; exactly one where `required`), --at, --size and --fov.
 void add_view_options(CLI::App& command, RequestedViews& views, bool required = true);
 
-// The cameras that are asked for, in the units of the object's rig.
+// The requested cameras, in the units of the object's rig.
 Result<std::vector<Camera>> requested_cameras(const RaySpaceObject& object, const RequestedViews& views);
 
 }  // namespace rs::engine

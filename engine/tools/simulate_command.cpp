@@ -170,7 +170,7 @@ void print_report(const model::BoardReport& report) {
                 static_cast<unsigned long long>(report.bus.register_writes));
 }
 
-// All pictures against the definition, and into a folder where one is asked for.
+// All pictures against the definition, and into a folder where one is given.
 Status use_pictures(const model::BoardRun& run, const std::vector<Drawing>& drawings,
                     const std::vector<RaySpaceObject>& stored, const std::string& output) {
     std::vector<Camera> cameras;

@@ -1,6 +1,6 @@
 #pragma once
 // Who draws views of objects: the definition itself, the software core, a board, a graphics processor. All of them give
-// the definition's pictures bit for bit, of what as_drawn() says. engine/executors/executor_table.hpp lists them.
+// the definition's pictures bit for bit, of what as_drawn() returns. engine/executors/executor_table.hpp lists them.
 //
 // traits(), takes(), draws() and as_drawn() may be called from any thread at any time; all else from one thread at a
 // time.
@@ -49,7 +49,7 @@ public:
     virtual ~Executor() = default;
 
     [[nodiscard]] virtual const ExecutorTraits& traits() const = 0;
-    // Whether it could hold and draw such an object, if it had nothing else; says why not.
+    // Whether it could hold and draw such an object, if it had nothing else; the error is the reason.
     [[nodiscard]] virtual Status takes(const RaySpaceObject& /*object*/) const { return {}; }
     // Whether it could draw such a view of an object that it takes.
     [[nodiscard]] virtual Status draws(const ViewRegisters& /*registers*/) const { return {}; }

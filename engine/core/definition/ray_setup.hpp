@@ -23,7 +23,7 @@ struct PlanePoint {
 
 PlanePoint plane_point(const Ring& ring, const ViewRegisters& registers, int i, int j);
 
-// What the RS map says of the ray: a view, or kNoPicture.
+// What the RS map holds for the ray: a view, or kNoPicture.
 std::uint16_t map_answer(const Ring& ring, const PlanePoint& point);
 
 struct RaySetup {

@@ -18,7 +18,7 @@ struct ShapePixel {
     std::int32_t lambda_q20 = 0;  // axial depth in the view, object radii; only where colour.a > 0
 };
 
-// A surface of less alpha does not cover its pixel: at the end of a march those behind it are asked for, too.
+// A surface of less alpha does not cover its pixel: at the end of a march those behind it are needed, too.
 inline constexpr int kCoveringAlpha = 230;
 inline constexpr std::int32_t kNearest_q20 = 1 << 17;  // axial depth in a captured picture
 

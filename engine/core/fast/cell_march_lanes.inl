@@ -138,7 +138,7 @@ private:
 
     HWY_INLINE Vector band(Vector d) const { return hn::Add(zero_, hn::ShiftRight<8>(hn::Mul(d, per_depth_))); }
 
-    // Index of a place's entry: the first or the last one for those beyond, which say nothing.
+    // Index of a place's entry: the first or the last one for those beyond, which hold no surface.
     HWY_INLINE Vector entry_at(Vector at_q12) const {
         return hn::Min(hn::Max(hn::ShiftRight<12>(at_q12), hn::Zero(Lanes())), number(column_->last_entry));
     }
@@ -180,7 +180,7 @@ private:
     Vector zero_;
     Vector per_depth_;
     Vector behind_;
-    Vector last_at_;  // where the last surface is told of
+    Vector last_at_;  // where the last surface is noted
     LaneMask ended_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Fills a texel store from coded pictures: a column of tiles when one of its columns is first asked for. Between views
+// Fills a texel store from coded pictures: a column of tiles when one of its columns is first needed. Between views
 // it gives back the pictures that were not used for the longest time, so that the decoded ones keep to a budget.
 
 #include "engine/core/fast/done_flag.hpp"
@@ -56,7 +56,7 @@ inline Error too_many_texels(const std::string& name) {
 
 class CodedTexels {
 public:
-    // `budget_bytes`: of samples and texels together. What the views under way need is kept whatever it says.
+    // `budget_bytes`: of samples and texels together. What the views under way need is kept whatever it is.
     static Result<std::unique_ptr<CodedTexels>> create(std::shared_ptr<const codec::CodedPictures> coded,
                                                        const std::string& name, std::int64_t budget_bytes);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Work that is done once whoever asks first, and can be taken back: std::call_once with a way to forget.
+// Work that is done once, by whoever needs it first, and can be taken back: std::call_once with a way to forget.
 
 #include <atomic>
 #include <cstdint>

@@ -41,7 +41,7 @@ public:
     [[nodiscard]] std::int64_t memory_bytes() const;
 
     // `out` has the view's size; straight RGBA, every pixel is written. `lambda_q20`, where not empty, has that size
-    // too and receives the axial depth of what is shown, 0 where alpha is 0 (as reconstruct_scalar says). `registers`
+    // too and receives the axial depth of what is shown, 0 where alpha is 0 (as in reconstruct_scalar). `registers`
     // come from prepare_view on object(). Uses the threads of the calling tbb arena; may be called from several threads
     // at once.
     void render(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20 = {}) const;

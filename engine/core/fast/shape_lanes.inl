@@ -76,7 +76,7 @@ HWY_INLINE Vector multiply_shift(Vector a, Vector b) {
 }
 
 // floor(2^40 / l) for l in 2^17 .. 2^30; anything else gives any number. A float quotient is at most one away; the
-// remainder, of which 32 bits suffice, says which way.
+// remainder, of which 32 bits suffice, decides which way.
 HWY_INLINE Vector inverse(Vector l) {
     const Floats floats;
     const Vector guess = hn::ConvertTo(Lanes(), hn::Div(hn::Set(floats, 0x1p40F), hn::ConvertTo(floats, l)));

@@ -46,7 +46,7 @@ void set_surfaces(const ShapeMap& shape, const ShapeSetup& setup, std::size_t st
 constexpr double kFarthestLook = 256 + 128;  // no march looks at a greater depth: half a step of 256 beyond
 
 // Section 6 at one end of the view, without its roundings. Everything is linear in the rise but for these, so that the
-// view's ends say what lies between.
+// view's ends show what lies between.
 struct BandsAtEnd {
     double foot_q12 = 0;
     double zero_q12 = 0;
@@ -86,7 +86,7 @@ BandRoundings band_roundings(const ShapeWalk& walk, const ShapeSetup& setup) {
     return {1 + zero + per_depth * kFarthestLook * 0x1p-8, per_depth};
 }
 
-// Which rows of the column look at entries that say something, and whether any of its rays marches.
+// Which rows of the column look at entries that hold something, and whether any of its rays marches.
 void set_rows(const ShapeWalk& walk, const ShapeSetup& setup, ShapeColumn& column) {
     constexpr double kMarches = 2048;          // per depth
     constexpr double kMostPerDepth = 1 << 21;  // 2^22 would be clamped

@@ -30,7 +30,7 @@ HWY_AFTER_NAMESPACE();
 HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
 
-// The pixels of as many rows of a column as a vector has. lambda: null where nobody asks.
+// The pixels of as many rows of a column as a vector has. lambda: null where nobody needs it.
 struct PixelRows {
     const ShapeColumn& column;
     const std::int32_t* rise_q24;

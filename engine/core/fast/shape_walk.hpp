@@ -1,7 +1,7 @@
 #pragma once
 // The inner loop of the fast core for objects with a shape map: every view column goes down its own line of cells and
 // its own two captured pictures, many rows at once. The fast twin of shape_pixel.hpp; what a lane computes is what
-// shape_pixel() says, number by number.
+// shape_pixel() computes, number by number.
 //
 // Only for upright views: there one set-up serves a column, and all pixels of a row have the same rise.
 
@@ -92,7 +92,7 @@ ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, co
 void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
                         const ShapeWalk& walk, int first_column, ShapeStrip& strip);
 
-// Where the pixels go: row j of the strip to colour + j * colour_stride and, where it is wanted, lambda_q20 + j *
+// Where the pixels go: row j of the strip to colour + j * colour_stride and, where it is needed, lambda_q20 + j *
 // lambda_stride.
 struct ShapeWalkOutput {
     Rgba8* colour = nullptr;

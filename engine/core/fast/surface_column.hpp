@@ -13,9 +13,9 @@ namespace rs::engine {
 
 // Entry n stands for the surface between bands first_band + n and first_band + n + 1.
 //
-// Where all four cells around it lie on one surface, `smooth` alone says how deep that is at h_part eighths of the way:
-// (8 * low + h_part * difference + 32) >> 6, with low = its lower kLowBits bits and difference = its upper 16, signed;
-// both pictures show it.
+// Where all four cells around it lie on one surface, `smooth` alone gives how deep that is at h_part eighths of the
+// way: (8 * low + h_part * difference + 32) >> 6, with low = its lower kLowBits bits and difference = its upper 16,
+// signed; both pictures show it.
 inline constexpr int kLowBits = 14;
 inline constexpr std::int32_t kSurfaceSteps = 1 << 14;    // ... or the cells differ, and 8 * low + h_part * difference
                                                           // is a place in `steps`
@@ -27,7 +27,7 @@ inline constexpr std::size_t kSurfaceParts = 8;  // of the way from band to band
 inline constexpr int kDepthBits = 11;
 inline constexpr std::int32_t kNoSurface = 0xFFFF;
 
-// The first and the last entry say nothing; so does every place beyond them.
+// The first and the last entry hold no surface; nor does any place beyond them.
 struct SurfaceColumn {
     std::int32_t first_band = 0;
     std::int32_t last = 0;       // number of the last entry
@@ -35,7 +35,7 @@ struct SurfaceColumn {
     std::int32_t beyond = 0;     // a march that begins a step here or later meets none; 256 at most
 };
 
-// What each entry says, in memory that columns share.
+// What each entry holds, in memory that columns share.
 struct SurfaceEntries {
     std::vector<std::int32_t> smooth;
     std::vector<std::int32_t> deepest;  // of the eight cells, whole steps; upper 16 bits: -1 where one has no surface
@@ -60,7 +60,7 @@ constexpr std::size_t surface_entries(int bands) {
 SurfaceColumn lay_surfaces(const CellColumns& columns, const ShapeMap& shape, std::size_t start,
                            SurfaceEntries& entries);
 
-// The column of a ray without a shape: one entry, which says nothing.
+// The column of a ray without a shape: one entry, which holds no surface.
 SurfaceColumn lay_nothing(std::size_t start, SurfaceEntries& entries);
 
 }  // namespace rs::engine

@@ -9,7 +9,7 @@
 // that repeats its rim (column -1 and `width`, row -1 and `height`), so that bilinear reads need no clamps. texels()[0]
 // is transparent and belongs to no picture: the place that lanes without a ray read.
 //
-// Pictures that the object holds only coded are decoded as far as they are asked for, and given back when there are too
+// Pictures that the object holds only coded are decoded as far as they are needed, and given back when there are too
 // many (coded_texels.hpp).
 
 #include "engine/core/fast/coded_texels.hpp"
@@ -29,7 +29,7 @@ bool shows_coded_pictures(const RaySpaceObject& object);
 class TexelStore {
 public:
     // Fails where the pictures and their borders have 2^31 pixels or more (the fast core's indices are 32 bits wide),
-    // or coded pictures cannot be decoded. Pictures that are not loaded take no room and must not be asked for.
+    // or coded pictures cannot be decoded. Pictures that are not loaded take no room and must not be requested.
     static Result<TexelStore> create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes);
 
     // What unpacked pictures of a size take.

@@ -1,5 +1,5 @@
 #pragma once
-// Does the fast core compute what engine/RECONSTRUCTION.md says, on this machine and this object?
+// Does the fast core compute what engine/RECONSTRUCTION.md defines, on this machine and this object?
 
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// What a block did in a cycle. Every block says exactly one of these per cycle of its clock, so the counts of a block
-// add up to the cycles it has seen: that is where a cycle went.
+// What a block did in a cycle. Every block reports exactly one of these per cycle of its clock, so the counts of a
+// block add up to the cycles it has seen: that is where a cycle went.
 
 #include <array>
 #include <cstddef>
@@ -10,16 +10,16 @@
 namespace rs::engine::model {
 
 enum class Activity : std::uint8_t {
-    busy,         // did work that somebody asked for
+    busy,         // did work that somebody needs
     idle,         // had nothing to do: no input
     output_full,  // had a result, and whoever takes it had no room
-    memory_port,  // wanted to ask the memory, and its request FIFO was full
+    memory_port,  // needed the memory, and its request FIFO was full
     memory_data,  // waited for data from the memory
     row_miss,     // memory: closing and opening a row of a bank
     turnaround,   // memory: the data bus changes its direction; bus: the idle clock between two masters
     maintenance,  // memory: refresh, and the window in which the private bus writes
     arbitration,  // bus: waited for the grant
-    target_wait,  // bus: the target was not ready yet, or asked to be tried again
+    target_wait,  // bus: the target was not ready yet, or must be tried again
     master_wait,  // bus: the board's own wait states
     disk_wait,    // the disk had no data
     buffer_wait,  // both image buffers are full, or no command

@@ -34,7 +34,7 @@ private:
     std::vector<FifoState*> fifos_;
 };
 
-// What can be said of a FIFO without knowing its items: for diagrams, waveforms and dumps.
+// What is known of a FIFO without its items: for diagrams, waveforms and dumps.
 class FifoState {
 public:
     FifoState(std::string name, int depth, int width_bits)

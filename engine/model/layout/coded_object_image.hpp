@@ -10,7 +10,7 @@
 
 namespace rs::engine::model {
 
-// Fails where the object's pictures are not all there, or are none of profile `board`; says what to do.
+// Fails where the object's pictures are not all there, or are none of profile `board`, with the remedy.
 Status has_board_pictures(const RaySpaceObject& object);
 
 // Words per region, of the pictures and codebooks alone.

@@ -9,7 +9,7 @@
 namespace rs::engine::model {
 
 // Two tables as Markdown: blocks with clock, timing and ports; FIFOs with depth, width and the blocks at their ends. Of
-// a parallel board one pipe stands for all ("_pN"), and a third table says what block RAM it takes.
+// a parallel board one pipe stands for all ("_pN"), and a third table states what block RAM it takes.
 std::string diagram_tables(const BoardTop& board);
 
 }  // namespace rs::engine::model

@@ -1,5 +1,5 @@
 #pragma once
-// What a run of the board tells: where every block's cycles went, what moved over the memory and the bus, and which
+// What a run of the board reports: where every block's cycles went, what moved over the memory and the bus, and which
 // block limited it.
 
 #include "engine/model/board.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // A configuration of the board: clocks, memory chips, buses and limits, as built in or read from JSON. What is
-// published and what is this model's choice is said in DIAGRAM.md, section "Where the numbers come from".
+// published and what is this model's choice stands in DIAGRAM.md, section "Where the numbers come from".
 
 #include "engine/model/limits/board_limits.hpp"
 #include "rayspace/base/result.hpp"
@@ -67,7 +67,7 @@ struct PciSettings {
     int wait_per_transfer = 1;   // the board's wait states to a 32-bit transfer
     int register_clocks = 4;     // a register write of the host
     int interrupt_clocks = 330;  // from the end of a picture's transfer to the next: the driver's 10 us
-    int retry_every = 0;         // fault injection: the target asks for every n-th burst to be tried again; 0 = never
+    int retry_every = 0;         // fault injection: the target has every n-th burst tried again; 0 = never
 };
 
 struct DiskSettings {
@@ -100,7 +100,7 @@ struct BoardConfig {
 std::vector<std::string> built_in_configs();
 
 // Name of a built-in, or a JSON file: {"base": "prototype-2000", "memory": {...}, ...} changes what it names. Fails on
-// an unknown name or key, a wrong type, and numbers that no such board could have; says which.
+// an unknown name or key, a wrong type, and numbers that no such board could have, and names them.
 Result<BoardConfig> read_board_config(const std::string& name_or_path);
 Result<BoardConfig> parse_board_config(const std::string& json, const std::string& where);
 

@@ -11,12 +11,12 @@ namespace rs::engine::model {
 
 inline constexpr int kHops = 4;
 
-// Rows of one column of a block of 8x8 samples that are wanted.
+// Rows of one column of a block of 8x8 samples that are needed.
 struct BlockAsk {
     static constexpr int kBits = 4 + 1 + 1 + 7 + 9 + 6 + 8;
     int view = 0;
     bool first = false;  // of a view column: nothing is known of the tile
-    bool down = true;    // the rows are wanted from the top to the bottom
+    bool down = true;    // the rows are needed from the top to the bottom
     int picture = 0;
     int column = 0;     // of the picture
     int block_row = 0;  // rows 8 * block_row ..
@@ -24,7 +24,7 @@ struct BlockAsk {
     [[nodiscard]] int block() const { return ((column >> 3) & 3) * 4 + (block_row & 3); }  // of its tile
 };
 
-// Tile finder: the table's word has been asked for, or the tile is that of the ask before.
+// Tile finder: the table's word has been requested, or the tile is that of the request before.
 struct FoundTile {
     static constexpr int kBits = BlockAsk::kBits + 1 + 1;
     BlockAsk ask;
@@ -32,7 +32,7 @@ struct FoundTile {
     bool high = false;  // half of the word
 };
 
-// Tile reader: the tile's first word has been asked for, or it is that of the ask before, or there is no tile.
+// Tile reader: the tile's first word has been requested, or it is that of the request before, or there is no tile.
 struct AskedTile {
     enum class Kind { same, nothing, read };
     static constexpr int kBits = BlockAsk::kBits + 2 + 27;
@@ -41,7 +41,7 @@ struct AskedTile {
     WordAddress address = 0;
 };
 
-// Record reader: the words of the record have been asked for.
+// Record reader: the words of the record have been requested.
 struct AskedRecord {
     static constexpr int kBits = BlockAsk::kBits + 3 + 1 + 2 * 7 + 2 + 3;
     BlockAsk ask;

@@ -143,7 +143,7 @@ struct MetSurface {
     static constexpr int kBits = ScannedPixel::kBits + 11 + 1 + MarchState::kBits + 5;
     ScannedPixel pixel;
     int depth_q3 = 0;
-    bool final = false;  // no other surface is asked for when this one does not answer
+    bool final = false;  // no other surface is needed when this one does not answer
     MarchState next;
     int lean = kBothShow;
 };

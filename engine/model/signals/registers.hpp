@@ -44,7 +44,7 @@ struct ShapeRegisters {
     WordAddress cells = 0;
 };
 
-// Where an object lies and what section 1 of RECONSTRUCTION.md says of it. Widths: sizes 10 bits, addresses 27 bits,
+// Where an object lies and what section 1 of RECONSTRUCTION.md states of it. Widths: sizes 10 bits, addresses 27 bits,
 // fixed point as in RECONSTRUCTION.md.
 struct ObjectRegisters {
     bool valid = false;  // loaded as a whole
@@ -84,7 +84,7 @@ struct ObjectRegisters {
     int block_rows = 0;
     ShapeRegisters shape;
 
-    std::uint32_t serial = 0;  // number of the load, from 1: tells apart the objects that a slot holds in turn
+    std::uint32_t serial = 0;  // number of the load, from 1: distinguishes the objects that a slot holds in turn
 };
 
 struct PlaneView {

@@ -4,8 +4,8 @@
 //
 //     closed --activate--> open --read, write--> open --precharge--> closed;  refresh: all closed
 //
-// Every command is checked against the rules; `allows` says whether it is legal in a cycle. Storage is taken as it is
-// written, so 1 GByte costs nothing until it is used; what was never written reads as 0.
+// Every command is checked against the rules; `allows` reports whether it is legal in a cycle. Storage is taken as it
+// is written, so 1 GByte costs nothing until it is used; what was never written reads as 0.
 
 #include "engine/model/signals/board_config.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
-// Motion of a hop: collects a record's words, moves its fields to their places, and asks for what it is predicted from:
-// the wanted rows of one column of one or two blocks of the reference, above each other. The record leaves with the
-// first of these asks, so that whoever waits for it never waits for the second.
+// Motion of a hop: collects a record's words, moves its fields to their places, and requests what it is predicted from:
+// the needed rows of one column of one or two blocks of the reference, above each other. The record leaves with the
+// first of these requests, so that whoever waits for it never waits for the second.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/coded_messages.hpp"
@@ -20,7 +20,7 @@ constexpr int moved(int place, int motion, int coded_size) {
     return at < 0 ? 0 : at >= coded_size ? coded_size - 1 : at;
 }
 
-// The asks of a predicted record, in the order in which their pixels come; `count` of them are made, 1 or 2.
+// The requests of a predicted record, in the order in which their pixels come; `count` of them are made, 1 or 2.
 struct ReferenceAsks {
     int count = 0;
     std::array<BlockAsk, 2> ask;
@@ -48,8 +48,8 @@ private:
     Fifo<BlockAsk>* asks_;
     int collected_ = 0;
     std::array<std::uint64_t, 4> collected_words_{};
-    bool first_ = false;   // a view column has begun, and nothing of the next hop was asked for in it
-    bool second_ = false;  // an ask is left over
+    bool first_ = false;   // a view column has begun, and nothing of the next hop was requested in it
+    bool second_ = false;  // a request is left over
     BlockAsk left_over_;
 };
 

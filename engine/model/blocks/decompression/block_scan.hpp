@@ -1,7 +1,7 @@
 #pragma once
 // Raster generator, vertical, of a board with compressed pictures: walks the rows of a view column downwards, a pixel
 // per cycle, by adding the row step (a 46-bit adder), and joins pixels that lie in the same block of 8x8 samples into a
-// run. A run's ask goes out when it has ended, with the rows that it really needs; the pixels themselves wait in
+// run. A run's request goes out when it has ended, with the rows that it really needs; the pixels themselves wait in
 // `pixels_0`, which must be longer than a run. A view of odd height has an empty last pixel: two make a word.
 
 #include "engine/model/clock/block.hpp"
@@ -28,7 +28,7 @@ private:
     int view_row_ = 0;
     bool first_ = false;  // no run of this column has ended yet
     int run_ = 0;         // pixels of the run that has not ended
-    BlockAsk ask_;        // its ask
+    BlockAsk ask_;        // its request
 };
 
 }  // namespace rs::engine::model

@@ -1,5 +1,5 @@
 #pragma once
-// Tile finder of a hop: asks for the tile table's word of a block's tile, unless it is the tile of the block before:
+// Tile finder of a hop: requests the tile table's word of a block's tile, unless it is the tile of the block before:
 // four blocks of a column share theirs. The entry's address takes two products of few bits (7 x 5 and 11 x 5).
 
 #include "engine/model/clock/block.hpp"
@@ -22,7 +22,7 @@ private:
     int last_entry_ = -1;  // of the table
 };
 
-// Tile reader of a hop: takes the tile's address from the table's word and asks for the tile's first word, its classes
+// Tile reader of a hop: takes the tile's address from the table's word and requests the tile's first word, its classes
 // and references. Blocks of the tile before, and tiles that show nothing, pass.
 
 class TileReader final : public Block {
@@ -38,7 +38,7 @@ private:
     Fifo<AskedTile>& out_;
 };
 
-// Record reader of a hop: keeps the first word of the tile, finds a block's record in it and asks for its words. The
+// Record reader of a hop: keeps the first word of the tile, finds a block's record in it and requests its words. The
 // record stands behind those of the blocks before it: the sizes of 15 classes, as far as they count, go through a tree
 // of adders in one cycle (15 look-ups in 8 sizes of 4 bits, four levels of additions of at most 8 bits, and the
 // address).

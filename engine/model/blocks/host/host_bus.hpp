@@ -6,8 +6,8 @@
 //
 //     grant_clocks | address | target_clocks | 2 W times (wait_per_transfer | transfer) | turnaround
 //
-// and is asked for when the words have crossed to the bus's clock (or are the rest of a picture). A target that is busy
-// answers with a retry: the master lets go for two clocks and asks again for the same words; none is lost or doubled.
+// and is requested when the words have crossed to the bus's clock (or are the rest of a picture). A target that is busy
+// answers with a retry: the master lets go for two clocks and requests the same words again; none is lost or doubled.
 // The host's register writes alternate with bursts, so neither shuts out the other.
 
 #include "engine/model/blocks/host/host_program.hpp"

@@ -1,7 +1,8 @@
 #pragma once
 // Host DMA, the board's half: reads a finished image buffer word by word and sends it across to the bus, each picture
-// behind a head that says its size; frees the buffer when the bus has carried the last word. Where the columns of a
-// view lie in several channels (stripes.hpp) it asks one for the words of a stripe, and the next when they have come.
+// behind a head that states its size; frees the buffer when the bus has carried the last word. Where the columns of a
+// view lie in several channels (stripes.hpp) it requests the words of a stripe from one, and the next when they have
+// come.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"

@@ -84,7 +84,7 @@ private:
     int returned_ = kNobody;           // whose answer went into its FIFO in the cycle before
     int chosen_ = kNobody;
     int batch_left_ = 0;
-    bool starved_ = false;  // somebody asks, but has no room for an answer
+    bool starved_ = false;  // somebody reads, but has no room for an answer
     Window window_ = Window::none;
     std::uint64_t next_window_ = 0;
     std::uint64_t refreshed_ = 0;  // cycle of the window's refresh

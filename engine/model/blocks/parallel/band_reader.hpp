@@ -1,10 +1,10 @@
 #pragma once
 // Band reader: gives a column its place in the stripe, hands its set-up to the three blocks that keep a part of it, and
-// asks for the four columns of cells beside its ray, all of them always, a word a cycle: for each of the two places in
+// requests the four columns of cells beside its ray, all of them always, a word a cycle: for each of the two places in
 // p, word by word, that of the first line and then that of the second. The words go to cell_march, which keeps them:
-// for a ray beside the same four columns as the last one nothing is asked. The addresses take two products of 9 cycles,
-// with a multiplier for either line. The first column of a stripe waits until the stripe before the last is drawn,
-// whose place it takes.
+// for a ray beside the same four columns as the last one nothing is requested. The addresses take two products of 9
+// cycles, with a multiplier for either line. The first column of a stripe waits until the stripe before the last is
+// drawn, whose place it takes.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/arithmetic.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// View dispatcher: tells all pipes that have a share of a view to begin it (its columns, its pixels, its books), and
-// says that a view is written when all of them have written theirs. Pipes go through the views of a rendering cycle
+// View dispatcher: has all pipes with a share of a view begin it (its columns, its pixels, its books), and
+// reports that a view is written when all of them have written theirs. Pipes go through the views of a rendering cycle
 // each at its own pace.
 
 #include "engine/model/clock/block.hpp"

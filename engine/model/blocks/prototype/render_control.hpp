@@ -2,7 +2,7 @@
 // Render control: the queue of rendering cycles, the register banks and the two image buffers.
 //
 // A start command is taken when a bank is free and every view's registers pass the check; the cycle then waits for the
-// one before it and for its image buffer. Otherwise nothing of it happens, and an error says why: a queue overrun or
+// one before it and for its image buffer. Otherwise nothing of it happens, and an error states why: a queue overrun or
 // bad registers. Bank and image buffer of a cycle have the same number, its own modulo 2.
 
 #include "engine/model/blocks/host/host_program.hpp"

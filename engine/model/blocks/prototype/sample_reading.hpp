@@ -26,7 +26,7 @@ private:
 };
 
 // Sample select (the paper's "Y, U, V, alpha data get"): takes the words that come back from memory in the order in
-// which they were asked for, picks bytes and bits by their tags, and hands on a pixel with its Y.
+// which they were requested, picks bytes and bits by their tags, and hands on a pixel with its Y.
 
 class SampleSelect final : public Block {
 public:

@@ -1,6 +1,6 @@
 #pragma once
-// RS map reader: one byte of the map says which captured picture answers the column, or that none does (255).
-// One column at a time: ask, wait, choose the byte.
+// RS map reader: one byte of the map gives the captured picture that answers the column; 255: none does.
+// One column at a time: request, wait, choose the byte.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"

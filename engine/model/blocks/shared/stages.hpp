@@ -106,7 +106,7 @@ public:
     [[nodiscard]] std::string state_text() const override { return "cycles left " + std::to_string(left_); }
 
 protected:
-    // Computes the result and says the latency, at least 2.
+    // Computes the result and returns the latency, at least 2.
     virtual int work(const In& in, Out& out) = 0;
 
 private:

@@ -3,7 +3,7 @@
 namespace rs::engine::model {
 namespace {
 
-// What both samples show: nothing where one says that the point is not the object's.
+// What both samples show: nothing where one states that the point is not the object's.
 SampleSum blended(const std::array<SampleSum, 2>& samples, int weight) {
     const auto& [first, second] = samples;
     if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) return {};

@@ -1,7 +1,7 @@
 #pragma once
 // Texel cache: 128 lines of 8x8 texels, R, G, B and alpha, in four banks by the lowest bits of column and row, so that
 // the four texels of any sample come in one cycle; another texel is written in the same cycle. A sample waits until the
-// blocks that were asked for it have been written.
+// blocks that were requested for it have been written.
 
 #include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/blocks/texels/texel_tags.hpp"

@@ -29,7 +29,7 @@ bool FillFetch::begin() {
     return active_ = true;
 }
 
-// An ask and a pixel a cycle, each as far as there is room.
+// A request and a pixel a cycle, each as far as there is room.
 bool FillFetch::fetch_coded() {
     bool moved = false;
     if (requested_ < 8 && asks_.can_push()) {

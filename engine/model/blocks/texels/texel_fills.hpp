@@ -1,7 +1,7 @@
 #pragma once
-// Fill fetch: has a block of 8x8 texels fetched, column by column. Of coded pictures it asks the readers of hop 0 for
-// each of the block's columns and sends the 64 pixels that the records are joined with; of raw ones it asks memory for
-// the block's words. The line for which the texels are goes ahead to the cache.
+// Fill fetch: has a block of 8x8 texels fetched, column by column. Of coded pictures it requests each of the block's
+// columns from the readers of hop 0 and sends the 64 pixels that the records are joined with; of raw ones it
+// requests the block's words from memory. The line for which the texels are goes ahead to the cache.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/coded_messages.hpp"
@@ -34,7 +34,7 @@ private:
     bool active_ = false;
     TexelFill fill_;
     bool coded_ = false;
-    std::uint32_t serial_ = 0;  // of the object that was asked for last
+    std::uint32_t serial_ = 0;  // of the object that was requested last
     bool first_ = false;        // of that object
     int requested_ = 8;
     int sent_ = 64;
@@ -42,7 +42,7 @@ private:
 };
 
 // Texel merge: the samples of a block come unpacked from book_lookup, or as they are from memory; a texel per cycle, in
-// the order in which the blocks were asked for. Of a raw block (parallel_layout.hpp) it keeps three words: (U, V) of a
+// the order in which the blocks were requested. Of a raw block (parallel_layout.hpp) it keeps three words: (U, V) of a
 // pair of columns, Y and alpha of one.
 
 class TexelMerge final : public Block {

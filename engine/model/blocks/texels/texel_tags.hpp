@@ -1,6 +1,6 @@
 #pragma once
 // Texel tags: which line of the texel cache holds, or will hold, the blocks of 8x8 texels that a sample needs, up to
-// four; texels of weight 0 need none. A block that is in no line gets one, and is asked for: the sample goes on and
+// four; texels of weight 0 need none. A block that is in no line gets one, and is requested: the sample goes on and
 // waits in `waiting` until the block is there, while the next samples are looked at. So fetching runs ahead of reading
 // by as many samples as that FIFO holds.
 //
