@@ -6,6 +6,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <cstddef>
 #include <type_traits>
 
 namespace rs {
@@ -20,7 +21,7 @@ void for_each_index(Index count, const Work& work) {
 // there is so much: for work on an index that is shorter than a call.
 template <class Index, class Work>
 void for_each_range(Index count, std::type_identity_t<Index> grain, const Work& work) {
-    tbb::parallel_for(tbb::blocked_range<Index>(Index{0}, count, grain),
+    tbb::parallel_for(tbb::blocked_range<Index>(Index{0}, count, static_cast<std::size_t>(grain)),
                       [&](const tbb::blocked_range<Index>& range) { work(range.begin(), range.end()); });
 }
 

@@ -4,11 +4,10 @@
 #include "engine/core/definition/shape_pixel.hpp"
 #include "engine/core/fast/column_walk.hpp"
 #include "engine/core/fast/shape_walk.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/format/object_memory.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -90,7 +89,7 @@ int strips_of(const ViewRegisters& registers) {
 // pixel(i, j) of every pixel of the view, row by row.
 template <class Pixel>
 void render_pixels(const Pixel& pixel, ImageView<Rgba8> out, ImageView<std::int32_t> lambda) {
-    tbb::parallel_for(0, out.height(), [&](int j) {
+    for_each_index(out.height(), [&](int j) {
         for (int i = 0; i < out.width(); ++i) {
             const ShapePixel found = pixel(i, j);
             out(i, j) = found.colour;
@@ -166,14 +165,14 @@ void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> o
                               ImageView<std::int32_t> lambda) const {
     const int strips = strips_of(registers);
     std::vector<ColumnStrip> strip(static_cast<std::size_t>(strips));
-    const std::size_t grain = texels_.is_coded() ? 1 : 8;  // decoding is worth a task of its own
-    tbb::parallel_for(tbb::blocked_range<int>(0, strips, grain), [&](const tbb::blocked_range<int>& range) {
-        for (int s = range.begin(); s < range.end(); ++s) {
+    const int grain = texels_.is_coded() ? 1 : 8;  // decoding is worth a task of its own
+    for_each_range(strips, grain, [&](int begin, int end) {
+        for (int s = begin; s < end; ++s) {
             strip[static_cast<std::size_t>(s)] = set_up_strip(object_, texels_, registers, s * kStripColumns);
         }
     });
     const int tiles = (registers.height + kRowsPerTile - 1) / kRowsPerTile;
-    tbb::parallel_for(0, tiles, [&](int tile) {
+    for_each_index(tiles, [&](int tile) {
         const int row_begin = tile * kRowsPerTile;
         const int row_end = std::min(row_begin + kRowsPerTile, registers.height);
         for (int s = 0; s < strips; ++s) {
@@ -185,7 +184,7 @@ void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> o
     if (lambda.empty()) return;
     std::vector<std::int32_t> of_column;
     for (int i = 0; i < registers.width; ++i) of_column.push_back(set_up_ray(object_, registers, i, 0).lambda_q20);
-    tbb::parallel_for(0, registers.height, [&](int j) {
+    for_each_index(registers.height, [&](int j) {
         for (int i = 0; i < registers.width; ++i) {
             lambda(i, j) = out(i, j).a > 0 ? of_column[static_cast<std::size_t>(i)] : 0;
         }
@@ -214,9 +213,9 @@ void Renderer::render_shape_upright(const ViewRegisters& registers, ImageView<Rg
     }
     rise_q24.resize(rise_q24.size() + kBlockRows);
     tbb::enumerable_thread_specific<ShapeStrip> strip_of_thread;
-    tbb::parallel_for(tbb::blocked_range<int>(0, strips_of(registers)), [&](const tbb::blocked_range<int>& range) {
+    for_each_range(strips_of(registers), 1, [&](int begin, int end) {
         ShapeStrip& strip = strip_of_thread.local();
-        for (int s = range.begin(); s < range.end(); ++s) {
+        for (int s = begin; s < end; ++s) {
             const int first = s * kStripColumns;
             set_up_shape_strip(object_, texels_, registers, walk, first, strip);
             ShapeWalkOutput to{out.row(0) + first, out.stride(), nullptr, 0};

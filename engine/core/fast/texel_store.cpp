@@ -1,8 +1,7 @@
 #include "engine/core/fast/texel_store.hpp"
 
+#include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/object/yuv.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <limits>
@@ -36,7 +35,7 @@ Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t
     store.texels_.resize(static_cast<std::size_t>(size));
     store.spans_.resize(object.pictures.size() * static_cast<std::size_t>(object.width));
 
-    tbb::parallel_for(std::size_t{0}, object.pictures.size(), [&](std::size_t p) {
+    for_each_index(object.pictures.size(), [&](std::size_t p) {
         const PlanarPicture& picture = object.pictures[p];
         if (picture.empty()) return;
         for (int column = 0; column < object.width; ++column) {
