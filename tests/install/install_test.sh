@@ -83,9 +83,8 @@ case "$2" in
     (cd "$BUILD" && cpack -G DEB -B "$WORK/packed" >"$WORK/log" 2>&1) || { cat "$WORK/log"; fail "cpack"; }
     PACKAGE=$(echo "$WORK"/packed/*.deb)
     ROOT=$WORK/root
-    mkdir -p "$ROOT/var/lib"
-    cp -r /var/lib/dpkg "$ROOT/var/lib"
-    rm -f "$ROOT"/var/lib/dpkg/lock*
+    mkdir -p "$ROOT"/var/lib/dpkg/{updates,triggers}
+    cp -r /var/lib/dpkg/{status,info} "$ROOT/var/lib/dpkg"
     in_root --install "$PACKAGE"
     [ -e "$ROOT/usr/lib/rayspace/librayspace_pictures.so" ] || fail "the package lacks its picture module"
     expect_all_stated
