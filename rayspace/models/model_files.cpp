@@ -152,7 +152,7 @@ void ModelFiles::Close(Assimp::IOStream* stream) {
 }
 
 ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes) {
-    constexpr std::array<const char*, 4> kWanted = {" obj ", " ply ", " gltf ", " glb "};
+    constexpr std::array<const char*, 3> kWanted = {" obj ", " gltf ", " glb "};
     std::vector<Assimp::BaseImporter*> others;
     for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) {
         const std::string extensions = ' ' + std::string(importer.GetImporterInfo(i)->mFileExtensions) + ' ';

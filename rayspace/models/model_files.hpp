@@ -32,7 +32,7 @@ private:
     std::string refusal_;
 };
 
-// Lets `importer` read OBJ, PLY, glTF and GLB alone, through the files that are returned, which it takes over. Without
+// Lets `importer` read OBJ, glTF and GLB alone, through the files that are returned, which it takes over. Without
 // it Assimp goes by what a file's contents resemble, and all its readers are open to them. Where a file has no normals,
 // edges of more than 60 degrees stay sharp.
 ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes);

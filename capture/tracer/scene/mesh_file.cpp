@@ -1,12 +1,14 @@
 #include "capture/tracer/scene/mesh_file.hpp"
 
 #include "capture/tracer/scene/mesh_material.hpp"
-#include "capture/tracer/scene/plain_ply.hpp"
+#include "capture/tracer/scene/ply_file.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/models/model_files.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
+#include <assimp/BaseImporter.h>
 #include <assimp/config.h>
+#include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
@@ -15,6 +17,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -23,6 +26,29 @@ namespace rs::capture {
 namespace {
 
 constexpr std::uint64_t kMaxModelFile_bytes = std::uint64_t{4} << 30;
+
+// The way for a scene that was read here to Assimp's post-processing.
+class PlyLoader : public Assimp::BaseImporter {
+public:
+    explicit PlyLoader(std::unique_ptr<aiScene> scene) : scene_(std::move(scene)) {}
+    bool CanRead(const std::string&, Assimp::IOSystem*, bool) const override { return true; }
+
+protected:
+    [[nodiscard]] const aiImporterDesc* GetInfo() const override {
+        static constexpr aiImporterDesc kPly = {"PLY", "", "", "", 0, 0, 0, 0, 0, "ply"};
+        return &kPly;
+    }
+    void InternReadFile(const std::string&, aiScene* to, Assimp::IOSystem*) override {
+        std::swap(to->mMeshes, scene_->mMeshes);
+        std::swap(to->mNumMeshes, scene_->mNumMeshes);
+        std::swap(to->mMaterials, scene_->mMaterials);
+        std::swap(to->mNumMaterials, scene_->mNumMaterials);
+        std::swap(to->mRootNode, scene_->mRootNode);
+    }
+
+private:
+    std::unique_ptr<aiScene> scene_;
+};
 
 glm::vec3 to_vec(const aiVector3D& v) {
     return {v.x, v.y, v.z};
@@ -98,20 +124,17 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored))
         return Error{path.string() + ": there is no such file; check the path"};
-    std::string plain_ply;
-    if (lower_case_extension(path) == ".ply") {
-        Result<std::string> plain = read_plain_ply(path);
-        if (!plain) return plain.error();
-        plain_ply = std::move(plain).value();
-    }
     try {
         Assimp::Importer importer;
         const ModelFiles& files = read_models_only(importer, kMaxModelFile_bytes);
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-        if (plain_ply.empty()) {
-            importer.ReadFile(path.string(), 0);
+        if (lower_case_extension(path) == ".ply") {
+            Result<std::unique_ptr<aiScene>> ply = read_ply_file(path);
+            if (!ply) return ply.error();
+            importer.RegisterLoader(new PlyLoader(std::move(*ply)));  // the importer takes it over
+            importer.ReadFileFromMemory("ply", 3, 0, "ply");
         } else {
-            importer.ReadFileFromMemory(plain_ply.data(), plain_ply.size(), 0, "ply");
+            importer.ReadFile(path.string(), 0);
         }
         const Result<const aiScene*> read =
             post_processed(importer,

@@ -1,7 +1,6 @@
 #include "capture/tracer/scene/ply_header.hpp"
 
 #include <algorithm>
-#include <array>
 #include <initializer_list>
 #include <map>
 #include <sstream>
@@ -130,12 +129,6 @@ Problem check_elements(const PlyHeader& header) {
 }
 
 }  // namespace
-
-const char* ply_name(PlyScalar type) {
-    static constexpr std::array<const char*, 8> kNames = {"char", "uchar", "short", "ushort",
-                                                          "int",  "uint",  "float", "double"};
-    return kNames[static_cast<std::size_t>(type)];
-}
 
 std::optional<std::string> parse_ply_header(std::string_view file, PlyHeader& header) {
     std::size_t at = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The header of a PLY file. Part of plain_ply.
+// The header of a PLY file. Part of ply_file.
 //
 // Source: G. Turk, "The PLY Polygon File Format", 1994.
 
@@ -17,8 +17,6 @@ enum class PlyScalar { int8, uint8, int16, uint16, int32, uint32, float32, float
 [[nodiscard]] constexpr bool is_integer(PlyScalar type) {
     return type != PlyScalar::float32 && type != PlyScalar::float64;
 }
-// The type's first name in the format's list: "char", "uchar", "short", ...
-[[nodiscard]] const char* ply_name(PlyScalar type);
 
 struct PlyProperty {
     std::string name;

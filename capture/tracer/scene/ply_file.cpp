@@ -1,0 +1,325 @@
+#include "capture/tracer/scene/ply_file.hpp"
+
+#include "capture/tracer/scene/ply_header.hpp"
+#include "rayspace/file/file_output.hpp"
+
+#include <assimp/material.h>
+#include <assimp/mesh.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace rs::capture {
+
+namespace {
+
+constexpr std::uint64_t kMaxPly_bytes = std::uint64_t{4} << 30;
+
+using Problem = std::optional<std::string>;
+
+// Calls `visit` with a zero of the C++ type that `type` stands for.
+template <class Visit>
+auto with_type(PlyScalar type, Visit visit) {
+    switch (type) {
+        case PlyScalar::int8:
+            return visit(std::int8_t{});
+        case PlyScalar::uint8:
+            return visit(std::uint8_t{});
+        case PlyScalar::int16:
+            return visit(std::int16_t{});
+        case PlyScalar::uint16:
+            return visit(std::uint16_t{});
+        case PlyScalar::int32:
+            return visit(std::int32_t{});
+        case PlyScalar::uint32:
+            return visit(std::uint32_t{});
+        case PlyScalar::float32:
+            return visit(float{});
+        case PlyScalar::float64:
+            break;
+    }
+    return visit(double{});
+}
+
+bool fits(double value, PlyScalar type) {
+    return with_type(type, [&](auto zero) {
+        using T = decltype(zero);
+        if constexpr (std::is_floating_point_v<T>) {
+            return !std::isfinite(value) || std::abs(value) <= static_cast<double>(std::numeric_limits<T>::max());
+        }
+        return value == std::floor(value) && value >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
+               value <= static_cast<double>(std::numeric_limits<T>::max());
+    });
+}
+
+// Takes numbers from the body, one after the other.
+class Body {
+public:
+    Body(std::string_view bytes, PlyEncoding encoding) : rest_(bytes), encoding_(encoding) {}
+
+    // Nothing where the body ends, or holds something that is no number of this type.
+    std::optional<double> next(PlyScalar type) {
+        if (encoding_ != PlyEncoding::ascii) {
+            return with_type(type, [&](auto zero) { return take<decltype(zero)>(); });
+        }
+        const auto value = next_text();
+        return value && fits(*value, type) ? value : std::nullopt;
+    }
+
+private:
+    std::optional<double> next_text() {
+        const std::size_t begin = rest_.find_first_not_of(" \t\r\n");
+        if (begin == std::string_view::npos) return std::nullopt;
+        const std::size_t end = std::min(rest_.find_first_of(" \t\r\n", begin), rest_.size());
+        const std::string_view token = rest_.substr(begin, end - begin);
+        rest_.remove_prefix(end);
+        double value = 0;
+        const std::size_t sign = token.starts_with('+') ? 1 : 0;
+        const auto [stop, error] = std::from_chars(token.data() + sign, token.data() + token.size(), value);
+        if (error != std::errc{} || stop != token.data() + token.size()) return std::nullopt;
+        return value;
+    }
+
+    template <class T>
+    std::optional<double> take() {
+        if (rest_.size() < sizeof(T)) return std::nullopt;
+        char bytes[sizeof(T)];
+        const bool swap = encoding_ == PlyEncoding::big_endian;
+        for (std::size_t i = 0; i < sizeof(T); ++i) bytes[swap ? sizeof(T) - 1 - i : i] = rest_[i];
+        rest_.remove_prefix(sizeof(T));
+        T value;
+        std::memcpy(&value, bytes, sizeof(T));
+        return static_cast<double>(value);
+    }
+
+    std::string_view rest_;
+    PlyEncoding encoding_;
+};
+
+// The numbers that a mesh has a use for, each with its place in a row; all others have the row's last place.
+using PlyRow = std::array<float, 9>;
+constexpr std::size_t kNormalAt = 3, kTextureAt = 6, kRestAt = 8;     // after a vertex' position
+constexpr std::size_t kSpecularAt = 3, kPowerAt = 6, kOpacityAt = 7;  // after a material's diffuse colour
+using PlyColumn = std::pair<std::string_view, std::size_t>;
+constexpr PlyColumn kVertexColumns[] = {{"x", 0},  {"y", 1}, {"z", 2},  {"nx", 3},       {"ny", 4},
+                                        {"nz", 5}, {"u", 6}, {"s", 6},  {"tx", 6},       {"texture_u", 6},
+                                        {"v", 7},  {"t", 7}, {"ty", 7}, {"texture_v", 7}};
+constexpr PlyColumn kMaterialColumns[] = {{"diffuse_red", 0},           {"diffuse_green", 1},   {"diffuse_blue", 2},
+                                          {"specular_red", 3},          {"specular_green", 4},  {"specular_blue", 5},
+                                          {"specular_power", kPowerAt}, {"opacity", kOpacityAt}};
+
+template <class T>
+T* new_array(const std::vector<T>& values) {
+    T* const array = new T[values.size()];
+    std::ranges::copy(values, array);
+    return array;
+}
+
+aiMaterial* new_material(const PlyRow& row, const std::vector<std::string>& texture_files) {
+    auto* const material = new aiMaterial;
+    const aiColor3D diffuse(row[0], row[1], row[2]);
+    const aiColor3D specular(row[kSpecularAt], row[kSpecularAt + 1], row[kSpecularAt + 2]);
+    const float exponent = row[kPowerAt] * 15;  // as in Assimp
+    material->AddProperty(&diffuse, 1, AI_MATKEY_COLOR_DIFFUSE);
+    material->AddProperty(&specular, 1, AI_MATKEY_COLOR_SPECULAR);
+    material->AddProperty(&exponent, 1, AI_MATKEY_SHININESS);
+    material->AddProperty(&row[kOpacityAt], 1, AI_MATKEY_OPACITY);
+    if (texture_files.empty()) return material;
+    const aiString texture(texture_files.back());
+    material->AddProperty(&texture, AI_MATKEY_TEXTURE_DIFFUSE(0));
+    return material;
+}
+
+// Reads the body, element by element.
+class PlyReader {
+public:
+    PlyReader(const PlyHeader& header, std::string_view body) : body_(body, *header.encoding) {
+        for (const PlyElement& element : header.elements) {
+            if (element.name == "vertex") vertex_count_ = static_cast<double>(element.count);
+        }
+    }
+
+    Problem read(const PlyElement& element) {
+        const bool strips = element.name == "tristrips";
+        const bool faces = element.name == "face" || strips;
+        choose_targets(element);
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            Problem problem = read_instance(element);
+            if (!problem && faces && !vertices_exist(strips)) problem = "a face names a vertex that does not exist";
+            if (problem) return element.name + " " + std::to_string(i) + ": " + *problem;
+            if (element.name == "vertex") append_vertex();
+            if (element.name == "material") materials_.push_back(row_);
+            if (strips) append_strip();
+            if (element.name == "face") append_face();
+        }
+        if (!faces || element.count == 0 || !faces_.empty()) return std::nullopt;
+        return "has no faces; a mesh with triangles or polygons is needed";
+    }
+
+    // The mesh has the first material.
+    [[nodiscard]] std::unique_ptr<aiScene> scene(const std::vector<std::string>& texture_files) const {
+        auto scene = std::make_unique<aiScene>();
+        auto* const mesh = new aiMesh;
+        scene->mMeshes = new_array<aiMesh*>({mesh});
+        scene->mNumMeshes = 1;
+        mesh->mVertices = new_array(positions_);
+        mesh->mNumVertices = static_cast<unsigned>(positions_.size());
+        if (!normals_.empty()) mesh->mNormals = new_array(normals_);
+        if (!uvs_.empty()) mesh->mTextureCoords[0] = new_array(uvs_);
+        mesh->mNumUVComponents[0] = uvs_.empty() ? 0 : 2;
+        mesh->mFaces = new_array(faces_);
+        mesh->mNumFaces = static_cast<unsigned>(faces_.size());
+        std::vector<aiMaterial*> materials;
+        for (const PlyRow& row : materials_) materials.push_back(new_material(row, texture_files));
+        if (materials.empty()) materials = {new_material({1, 1, 1, 1, 1, 1, 0, 1, 0}, texture_files)};
+        scene->mMaterials = new_array(materials);
+        scene->mNumMaterials = static_cast<unsigned>(materials.size());
+        scene->mRootNode = new aiNode;
+        scene->mRootNode->mMeshes = new_array<unsigned>({0});
+        scene->mRootNode->mNumMeshes = 1;
+        return scene;
+    }
+
+private:
+    struct Target {
+        std::size_t at = kRestAt;
+        float one = 1;  // integers that stand for colours are shares of their type's largest
+    };
+
+    void choose_targets(const PlyElement& element) {
+        const bool vertices = element.name == "vertex";
+        const bool materials = element.name == "material";
+        std::span<const PlyColumn> columns;
+        if (vertices) columns = kVertexColumns;
+        if (materials) columns = kMaterialColumns;
+        row_ = {};
+        row_[kOpacityAt] = materials ? 1 : 0;
+        targets_.clear();
+        for (const PlyProperty& property : element.properties) {
+            Target& target = targets_.emplace_back();
+            const auto found = std::ranges::find(columns, property.name, &PlyColumn::first);
+            if (found == columns.end() || property.is_list()) continue;
+            target.at = found->second;
+            has_normals_ = has_normals_ || (vertices && target.at >= kNormalAt && target.at < kTextureAt);
+            has_uvs_ = has_uvs_ || (vertices && target.at >= kTextureAt);
+            if (!materials || target.at >= kPowerAt || !is_integer(property.type)) continue;
+            target.one = with_type(property.type, [](auto zero) {
+                return static_cast<float>(std::numeric_limits<decltype(zero)>::max());
+            });
+        }
+    }
+
+    Problem read_list(const PlyProperty& property, std::vector<double>& values) {
+        const auto count = body_.next(*property.count_type);
+        if (!count || *count < 0 || *count != std::floor(*count)) return "a list has no valid length";
+        values.clear();
+        for (double i = 0; i < *count; ++i) {
+            const auto value = body_.next(property.type);
+            if (!value) return "a list ends too early or holds something that is no number";
+            values.push_back(*value);
+        }
+        return std::nullopt;
+    }
+
+    Problem read_instance(const PlyElement& element) {
+        texcoords_.clear();
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            const PlyProperty& property = element.properties[i];
+            if (property.is_list()) {
+                std::vector<double>& values = property.is_vertex_list()     ? vertices_
+                                              : property.name == "texcoord" ? texcoords_
+                                                                            : ignored_;
+                if (Problem problem = read_list(property, values)) return problem;
+                continue;
+            }
+            const auto value = body_.next(property.type);
+            if (!value) return property.name + " is missing or no number of its type; the file may be cut off";
+            row_[targets_[i].at] = static_cast<float>(*value) / targets_[i].one;
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] bool vertices_exist(bool strips) const {
+        return std::ranges::all_of(vertices_, [&](double vertex) {
+            return (vertex >= 0 && vertex < vertex_count_) || (strips && vertex == -1);
+        });
+    }
+
+    void append_vertex() {
+        positions_.emplace_back(row_[0], row_[1], row_[2]);
+        if (has_normals_) normals_.emplace_back(row_[kNormalAt], row_[kNormalAt + 1], row_[kNormalAt + 2]);
+        if (has_uvs_) uvs_.emplace_back(row_[kTextureAt], row_[kTextureAt + 1], 0.0F);
+    }
+
+    void append_polygon(const std::vector<double>& corners) {
+        aiFace& face = faces_.emplace_back();
+        face.mNumIndices = static_cast<unsigned>(corners.size());
+        face.mIndices = new unsigned[corners.size()];
+        std::ranges::transform(corners, face.mIndices, [](double vertex) { return static_cast<unsigned>(vertex); });
+    }
+
+    void append_face() {
+        if (vertices_.size() < 3) return;
+        append_polygon(vertices_);
+        if (texcoords_.size() != 2 * vertices_.size()) return;
+        uvs_.resize(positions_.size());
+        for (std::size_t i = 0; i < vertices_.size(); ++i) {
+            uvs_[static_cast<std::size_t>(vertices_[i])] = {static_cast<float>(texcoords_[2 * i]),
+                                                            static_cast<float>(texcoords_[2 * i + 1]), 0.0F};
+        }
+    }
+
+    // Every vertex after the second makes a triangle with the two before it; each second one is turned around.
+    void append_strip() {
+        std::size_t begin = 0;  // of the strip since the last -1
+        for (std::size_t i = 0; i < vertices_.size(); ++i) {
+            const std::size_t turned = (i - begin) % 2;
+            if (vertices_[i] == -1) {
+                begin = i + 1;
+            } else if (i >= begin + 2) {
+                append_polygon({vertices_[i - 2 + turned], vertices_[i - 1 - turned], vertices_[i]});
+            }
+        }
+    }
+
+    Body body_;
+    double vertex_count_ = 0;
+    std::vector<Target> targets_;  // of the element's properties
+    PlyRow row_{};
+    std::vector<double> vertices_, texcoords_, ignored_;
+    bool has_normals_ = false, has_uvs_ = false;
+    std::vector<aiVector3D> positions_, normals_, uvs_;
+    std::vector<aiFace> faces_;
+    std::vector<PlyRow> materials_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<aiScene>> read_ply_file(const std::filesystem::path& path) {
+    const auto bytes = read_file(path, kMaxPly_bytes);
+    if (!bytes) return bytes.error();
+    const auto wrong = [&](const std::string& problem) {
+        return Error{path.string() + ": cannot be read as a mesh: " + problem};
+    };
+    const std::string_view file(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    PlyHeader header;
+    if (const Problem problem = parse_ply_header(file, header)) return wrong(*problem);
+    PlyReader reader(header, file.substr(header.size_bytes));
+    for (const PlyElement& element : header.elements) {
+        if (const Problem problem = reader.read(element)) return wrong(*problem);
+    }
+    return reader.scene(header.texture_files);
+}
+
+}  // namespace rs::capture
