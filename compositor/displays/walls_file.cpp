@@ -1,8 +1,8 @@
 #include "compositor/displays/walls_file.hpp"
 
-#include "compositor/scene/strict_json.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <algorithm>
@@ -118,20 +118,6 @@ WallDisplay tabletop() {
     return display;
 }
 
-template <class Read>
-auto caught(const std::string& text, const std::filesystem::path& path, const Read& read)
-    -> Result<decltype(read(std::declval<JsonObject&>()))> {
-    try {
-        const nlohmann::json json = parse_json_text(text, path.string());
-        JsonObject top(JsonValue(json, path.string(), ""));
-        auto made = read(top);
-        top.expect_all_taken();
-        return made;
-    } catch (const MalformedJson& malformed) {
-        return Error{malformed.message};
-    }
-}
-
 }  // namespace
 
 std::optional<WallDisplay> preset_display(const std::string& name) {
@@ -142,7 +128,7 @@ std::optional<WallDisplay> preset_display(const std::string& name) {
 }
 
 Result<WallDisplay> walls_from_json(const std::string& text, const std::filesystem::path& path) {
-    return caught(text, path, [](JsonObject& top) {
+    return read_json(text, path.string(), [](JsonObject& top) {
         WallDisplay display;
         const JsonValue walls = top.take("walls");
         const std::size_t count = walls.list_size(1, kMostWalls);
@@ -155,9 +141,9 @@ Result<WallDisplay> walls_from_json(const std::string& text, const std::filesyst
         }
         if (top.has("head")) display.head = take_head(JsonObject(top.take("head")));
         if (top.has("tracker")) display.tracker = take_tracker(JsonObject(top.take("tracker")));
-        if (top.has("eye_distance")) display.eye_distance_m = top.take("eye_distance").number(0, 1);
-        if (top.has("units_per_metre")) display.units_per_metre = top.take("units_per_metre").number(1e-6, 1e6);
-        if (top.has("fit_scene")) display.fits_scene = top.take("fit_scene").boolean();
+        top.read("eye_distance", display.eye_distance_m, 0, 1);
+        top.read("units_per_metre", display.units_per_metre, 1e-6, 1e6);
+        top.read("fit_scene", display.fits_scene);
         if (top.has("place")) {
             const JsonValue place = top.take("place");
             if (display.fits_scene) throw place.wrong("cannot stand beside \"fit_scene\": true; leave one out");
@@ -175,7 +161,7 @@ Result<WallDisplay> read_walls(const std::filesystem::path& path) {
 }
 
 Result<std::vector<Head>> heads_from_json(const std::string& text, const std::filesystem::path& path) {
-    return caught(text, path, [](JsonObject& top) {
+    return read_json(text, path.string(), [](JsonObject& top) {
         const JsonValue list = top.take("heads");
         const std::size_t count = list.list_size(1, kMostHeads);
         std::vector<Head> heads;

@@ -1,8 +1,8 @@
 #include "compositor/scene/scene_file.hpp"
 
 #include "compositor/scene/model_file.hpp"
-#include "compositor/scene/strict_json.hpp"
 #include "compositor/scene/vrml_file.hpp"
+#include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image/linear_light.hpp"
 
@@ -33,7 +33,7 @@ glm::vec3 colour(const JsonValue& value) {
 NodeTransform take_transform(JsonObject& node) {
     NodeTransform transform;
     if (node.has("translate")) transform.translation = take_position(node, "translate");
-    if (node.has("scale")) transform.scale = node.take("scale").number(kSmallest, kFarthestCoordinate);
+    node.read("scale", transform.scale, kSmallest, kFarthestCoordinate);
     if (node.has("rotate")) {
         JsonObject rotate(node.take("rotate"));
         if (rotate.has("axis")) transform.axis = rotate.take("axis").direction();
@@ -78,7 +78,7 @@ private:
         object.file = folder_ / node.take("object").text();
         object.chain = chain_;
         object.room = room_;
-        if (node.has("standing")) object.standing = node.take("standing").boolean();
+        node.read("standing", object.standing);
         scene_.objects.push_back(std::move(object));
     }
 
@@ -124,9 +124,9 @@ std::string lower_case(std::string text) {
 
 Floor read_floor(JsonObject object) {
     Floor floor;
-    if (object.has("height")) floor.height = object.take("height").number(-kFarthestCoordinate, kFarthestCoordinate);
-    if (object.has("radius")) floor.radius = object.take("radius").number(kSmallest, kFarthestCoordinate);
-    if (object.has("square")) floor.square = object.take("square").number(kSmallest, kFarthestCoordinate);
+    object.read("height", floor.height, -kFarthestCoordinate, kFarthestCoordinate);
+    object.read("radius", floor.radius, kSmallest, kFarthestCoordinate);
+    object.read("square", floor.square, kSmallest, kFarthestCoordinate);
     if (object.has("colours")) {
         const JsonValue colours = object.take("colours");
         colours.list_size(2, 2);
@@ -163,7 +163,7 @@ CameraPath read_camera(JsonObject object) {
             key.expect_all_taken();
         }
         path.frames = object.take("frames").whole_number(1, 100000);
-        if (object.has("closed")) path.closed = object.take("closed").boolean();
+        object.read("closed", path.closed);
     } else {
         path.keys.push_back(take_pose(object));
     }
@@ -174,20 +174,15 @@ CameraPath read_camera(JsonObject object) {
 }  // namespace
 
 Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& path) {
-    try {
-        const nlohmann::json json = parse_json_text(text, path.string());
-        JsonObject top(JsonValue(json, path.string(), ""));
+    return read_json(text, path.string(), [&](JsonObject& top) {
         Scene scene;
         if (top.has("background")) scene.background.sky = {colour(top.take("background"))};
         if (top.has("floor")) scene.floor = read_floor(JsonObject(top.take("floor")));
-        if (top.has("lights")) read_lights(JsonObject(top.take("lights")), scene.lights.front());
+        if (const auto found = top.find("lights")) read_lights(JsonObject(*found), scene.lights.front());
         if (top.has("nodes")) NodeReader(scene, path.parent_path()).read_list(top.take("nodes"));
         if (top.has("camera")) scene.camera = read_camera(JsonObject(top.take("camera")));
-        top.expect_all_taken();
         return scene;
-    } catch (const MalformedJson& malformed) {
-        return Error{malformed.message};
-    }
+    });
 }
 
 Result<Scene> read_scene(const std::filesystem::path& path) {

@@ -1,7 +1,7 @@
 #include "compositor/sequence/frames_file.hpp"
 
-#include "compositor/scene/strict_json.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/image/linear_light.hpp"
@@ -64,15 +64,13 @@ Result<std::optional<fs::path>> only_map(const fs::path& folder) {
 
 Result<SequenceFiles> frames_from_json(const std::string& text, const fs::path& file) {
     const fs::path folder = file.parent_path();
-    SequenceFiles files;
-    files.file = file;
-    try {
-        const nlohmann::json json = parse_json_text(text, file.string());
-        JsonObject top(JsonValue(json, file.string(), ""));
+    return read_json(text, file.string(), [&](JsonObject& top) {
+        SequenceFiles files;
+        files.file = file;
         if (top.has("base")) files.base = folder / top.take("base").text();
         if (top.has("models")) files.models = take_files(top, "models", 0, kMaxModels, folder);
         files.frames = take_files(top, "frames", 1, kMaxFrames, folder);
-        if (top.has("frames_per_second")) files.frames_per_second = top.take("frames_per_second").number(1, 240);
+        top.read("frames_per_second", files.frames_per_second, 1, 240);
         if (top.has("lights")) files.lights = folder / top.take("lights").text();
         if (top.has("background")) files.background = take_background(JsonObject(top.take("background")));
         if (top.has("weather")) {
@@ -85,11 +83,8 @@ Result<SequenceFiles> frames_from_json(const std::string& text, const fs::path& 
             const int seed = top.take("seed").whole_number(0, 1'000'000'000);
             if (files.weather) files.weather->seed = static_cast<std::uint32_t>(seed);
         }
-        top.expect_all_taken();
-    } catch (const MalformedJson& malformed) {
-        return Error{malformed.message};
-    }
-    return files;
+        return files;
+    });
 }
 
 Result<SequenceFiles> find_sequence(const fs::path& folder) {

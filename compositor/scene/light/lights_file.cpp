@@ -1,7 +1,6 @@
 #include "compositor/scene/light/lights_file.hpp"
 
-#include "compositor/scene/strict_json.hpp"
-#include "rayspace/base/printable.hpp"
+#include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/light/light_model.hpp"
 #include "rayspace/pictures/picture_io.hpp"
@@ -53,9 +52,9 @@ public:
         Result<Image<RgbaF>> pixels = read_radiance(entry.file);
         if (!pixels) throw file.wrong(pixels.error().message);
         entry.pixels = std::make_shared<const Image<RgbaF>>(std::move(*pixels));
-        if (object.has("scale")) entry.scale = object.take("scale").number(0, kStrongest);
+        object.read("scale", entry.scale, 0, kStrongest);
         entry.turn_deg = turn_of(object);
-        if (object.has("seen")) entry.seen = object.take("seen").boolean();
+        object.read("seen", entry.seen);
         object.expect_all_taken();
         return entry;
     }
@@ -153,13 +152,11 @@ std::optional<EnvironmentLight> environment_of(const std::optional<EnvironmentEn
 }
 
 Result<LightList> light_list_from_json(const std::string& text, const std::filesystem::path& path) {
-    try {
-        const nlohmann::json json = parse_json_text(text, path.string());
-        JsonObject top(JsonValue(json, path.string(), ""));
+    return read_json(text, path.string(), [&](JsonObject& top) {
         LightList list;
-        if (top.has("replace")) list.replace = top.take("replace").boolean();
+        top.read("replace", list.replace);
         ListReader reader(path.parent_path());
-        if (top.has("headlight")) list.headlight = top.take("headlight").boolean();
+        top.read("headlight", list.headlight);
         const JsonValue lights = top.take("lights");
         const std::size_t count = lights.list_size(0, kMostLights);
         for (std::size_t i = 0; i < count; ++i) {
@@ -170,11 +167,8 @@ Result<LightList> light_list_from_json(const std::string& text, const std::files
             list.environment_entry = reader.read_environment(JsonObject(top.take("environment")));
             list.environment = environment_of(list.environment_entry);
         }
-        top.expect_all_taken();
         return list;
-    } catch (const MalformedJson& malformed) {
-        return Error{printable(malformed.message)};  // files may have any names
-    }
+    });
 }
 
 Result<LightList> read_light_list(const std::filesystem::path& path) {

@@ -1,9 +1,9 @@
 #include "compositor/scene/model/gltf_nodes.hpp"
 
 #include "compositor/scene/scene_pictures.hpp"
-#include "compositor/scene/strict_json.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/base/strict_json.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -145,8 +145,8 @@ private:
         object.file = *file;
         object.room = room_;
         NodeTransform size;
-        if (fields.has("size")) size.scale = fields.take("size").number(1e-6, 1e6);
-        if (fields.has("standing")) object.standing = fields.take("standing").boolean();
+        fields.read("size", size.scale, 1e-6, 1e6);
+        fields.read("standing", object.standing);
         if (fields.has("description")) object.description = fields.take("description").text();
         if (object.description.empty() && node.contains("name") && node["name"].is_string()) {
             object.description = node["name"].get<std::string>();

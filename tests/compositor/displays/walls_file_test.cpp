@@ -87,7 +87,7 @@ TEST(WallsFile, WhatIsWrongIsNamed) {
     };
     EXPECT_THAT(with("\"w\"", "\"../w\""), HasSubstr("walls[0].name: names files"));
     EXPECT_THAT(with("[0, 1, 0]", "[1, 1, 0]"), HasSubstr("walls[0]: wall 'w' has no right angle"));
-    EXPECT_THAT(with("[40, 20]", "[40, 0]"), HasSubstr("walls[0].pixels[1]: must be a number from 1"));
+    EXPECT_THAT(with("[40, 20]", "[40, 0]"), HasSubstr("walls[0].pixels[1]: must be a whole number from 1"));
     EXPECT_THAT(with("[2, 0, 0]", "[2, 0]"), HasSubstr("walls[0].lower_right: must be a list of three numbers"));
 }
 
