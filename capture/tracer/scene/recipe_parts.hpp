@@ -2,9 +2,9 @@
 // The parts of a recipe that are the same whatever the object: materials, lights, environment, camera. The schema is in
 // capture/README.md. Part of scene_file.
 
-#include "capture/tracer/scene/recipe_reader.hpp"
 #include "capture/tracer/scene/scene.hpp"
 #include "capture/tracer/scene/toon_style.hpp"
+#include "rayspace/base/strict_json.hpp"
 
 #include <filesystem>
 
@@ -24,13 +24,12 @@ struct CameraRecipe {
     double focus_radii = 0;     // what is sharp, from the camera; 0 = the axis
 };
 
-// Each reads its JSON value over what `material`, `camera` ... hold; errors go to `errors`, under `place`.
-void read_material(const nlohmann::json& json, const std::string& place, RecipeErrors& errors, Material& material);
-void read_camera(const nlohmann::json& json, RecipeErrors& errors, CameraRecipe& camera);
-void read_lights(const nlohmann::json& json, RecipeErrors& errors, Scene& scene);
-void read_toon(const nlohmann::json& json, RecipeErrors& errors, ToonStyle& style);
+// Each reads its JSON value over what `material`, `camera` ... hold, and throws MalformedJson where it is wrong.
+void read_material(JsonObject object, Material& material);
+void read_camera(JsonObject object, CameraRecipe& camera);
+void read_lights(const JsonValue& list, Scene& scene);
+void read_toon(JsonObject object, ToonStyle& style);
 // Files are relative to `folder`.
-void read_environment(const nlohmann::json& json, const std::filesystem::path& folder, RecipeErrors& errors,
-                      Environment& environment);
+void read_environment(JsonObject object, const std::filesystem::path& folder, Environment& environment);
 
 }  // namespace rs::capture

@@ -6,7 +6,7 @@
 #include "capture/tracer/scene/studio.hpp"
 #include "capture/tracer/scene/surroundings.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/base/json_text.hpp"
+#include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -30,90 +30,75 @@ bool is_lit(const Scene& scene) {
 }
 
 // One texture for all materials of a mesh file.
-void apply_texture(const std::string& file, const std::filesystem::path& recipe, RecipeReader& reader, Scene& scene) {
+void apply_texture(const JsonValue& texture, const std::filesystem::path& recipe, Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
-        if (mesh.uvs.empty()) {
-            return reader.complain("texture",
-                                   "mesh \"" + mesh.name + "\" has no texture coordinates; add some to the mesh");
-        }
+        if (!mesh.uvs.empty()) continue;
+        throw texture.wrong("mesh \"" + mesh.name + "\" has no texture coordinates; add some to the mesh");
     }
-    Result<Texture> texture = read_texture(recipe.parent_path() / file, recipe);
-    if (!texture) {
-        if (!reader.errors().first) reader.errors().first = texture.error();
-        return;
-    }
-    scene.textures.push_back(std::move(texture).value());
+    Result<Texture> read = read_texture(recipe.parent_path() / texture.text_or_empty(), recipe);
+    if (!read) throw MalformedJson{read.error().message};
+    scene.textures.push_back(std::move(read).value());
     for (Material& material : scene.materials) {
         material.texture = static_cast<int>(scene.textures.size()) - 1;
         material.colour = glm::vec3(1.0F);
     }
 }
 
-void load_mesh_object(RecipeReader& reader, const std::filesystem::path& recipe, Scene& scene, ObjectCentre& centre) {
-    std::string mesh_file;
-    std::string texture_file;
-    std::string centre_name = "box";
-    reader.read("centre", centre_name);
-    if (centre_name != "box" && centre_name != "origin") reader.complain("centre", "must be \"box\" or \"origin\"");
-    centre = centre_name == "origin" ? ObjectCentre::mesh_origin : ObjectCentre::bounding_box;
-    reader.read("mesh", mesh_file);
-    reader.read("texture", texture_file);
-    const nlohmann::json* material = reader.child("material");
-    reader.finish();
-    if (reader.errors().first) return;
-    Result<Scene> loaded = read_mesh_file(recipe.parent_path() / mesh_file);
-    if (!loaded) return reader.complain("mesh", loaded.error().message);
+void load_mesh_object(JsonObject& object, const std::filesystem::path& recipe, Scene& scene, ObjectCentre& centre) {
+    if (object.has("centre") && object.take("centre").one_of({"box", "origin"}) == 1)
+        centre = ObjectCentre::mesh_origin;
+    const JsonValue mesh = object.take("mesh");
+    const auto texture = object.find("texture");
+    const auto material = object.find("material");
+    object.expect_all_taken();
+    Result<Scene> loaded = read_mesh_file(recipe.parent_path() / mesh.text());
+    if (!loaded) throw mesh.wrong(loaded.error().message);
     scene = std::move(loaded).value();
-    if (!texture_file.empty()) apply_texture(texture_file, recipe, reader, scene);
-    if (material == nullptr) return;
-    for (Material& each : scene.materials) read_material(*material, reader.place_of("material"), reader.errors(), each);
+    if (texture && !texture->text_or_empty().empty()) apply_texture(*texture, recipe, scene);
+    if (!material) return;
+    for (Material& each : scene.materials) read_material(JsonObject(*material), each);
 }
 
-void generate_object(RecipeReader& reader, const Generator& generator, std::uint64_t seed, Scene& scene) {
-    std::string name;
-    reader.read("generator", name);
-    const nlohmann::json* parameters = reader.child("parameters");
-    reader.finish();
-    if (reader.errors().first) return;
-    if (!generator) return reader.complain("generator", "there are no generators here; name a \"mesh\"");
-    Result<Scene> made = generator(name, parameters != nullptr ? *parameters : nlohmann::json::object(), seed);
-    if (!made) return reader.complain("generator", made.error().message);
+void generate_object(JsonObject& object, const Generator& generator, std::uint64_t seed, Scene& scene) {
+    const JsonValue name = object.take("generator");
+    const auto parameters = object.find("parameters");
+    object.expect_all_taken();
+    if (!generator) throw name.wrong("there are no generators here; name a \"mesh\"");
+    Result<Scene> made = generator(name.text(), parameters ? parameters->json() : nlohmann::json::object(), seed);
+    if (!made) throw name.wrong(made.error().message);
     scene = std::move(made).value();
 }
 
-void load_object(const nlohmann::json& json, const std::filesystem::path& recipe, const Generator& generator,
-                 std::uint64_t seed, RecipeErrors& errors, Scene& scene, ObjectCentre& centre) {
-    RecipeReader reader(json, "object", errors);
-    if (reader.has("mesh") == reader.has("generator")) return reader.complain("give one of \"mesh\" and \"generator\"");
-    if (reader.has("mesh")) return load_mesh_object(reader, recipe, scene, centre);
-    generate_object(reader, generator, seed, scene);
+void load_object(JsonObject object, const std::filesystem::path& recipe, const Generator& generator, std::uint64_t seed,
+                 Scene& scene, ObjectCentre& centre) {
+    if (object.has("mesh") == object.has("generator")) throw object.wrong("give one of \"mesh\" and \"generator\"");
+    if (object.has("mesh")) return load_mesh_object(object, recipe, scene, centre);
+    generate_object(object, generator, seed, scene);
 }
 
-void override_materials(const nlohmann::json& json, RecipeErrors& errors, Scene& scene) {
-    if (!json.is_object()) return errors.add("materials", "must be an object {name: {...}}");
-    for (const auto& item : json.items()) {
+void override_materials(JsonObject object, Scene& scene) {
+    for (const auto& [name, value] : object.json().items()) {
+        const JsonValue chosen = object.take(name);
         bool found = false;
         for (Material& material : scene.materials) {
-            if (material.name != item.key()) continue;
-            read_material(item.value(), "materials." + item.key(), errors, material);
+            if (material.name != name) continue;
+            read_material(JsonObject(chosen), material);
             found = true;
         }
         if (found) continue;
         std::string names;
         for (const Material& material : scene.materials) names += (names.empty() ? "" : ", ") + material.name;
-        errors.add("materials", "the object has no material \"" + item.key() + "\"; it has " + names);
+        throw object.wrong("the object has no material \"" + name + "\"; it has " + names);
     }
 }
 
-void read_look(RecipeReader& reader, SceneFile& file) {
-    std::string look = "photo";
-    reader.read("look", look);
-    if (look != "photo" && look != "toon") reader.complain("look", "must be \"photo\" or \"toon\"");
-    const nlohmann::json* style = reader.child("toon");
-    if (style != nullptr && look != "toon") reader.complain("toon", "is for \"look\": \"toon\"; add that");
-    if (look != "toon") return;
-    file.toon.emplace();
-    if (style != nullptr) read_toon(*style, reader.errors(), *file.toon);
+void read_look(JsonObject& top, SceneFile& file) {
+    const bool is_toon = top.has("look") && top.take("look").one_of({"photo", "toon"}) == 1;
+    if (is_toon) file.toon.emplace();
+    if (!top.has("toon")) return;
+    const JsonValue style = top.take("toon");
+    if (!is_toon) throw style.wrong("is for \"look\": \"toon\"; add that");
+    read_toon(JsonObject(style), *file.toon);
 }
 
 // What is to stand around the object.
@@ -131,24 +116,18 @@ struct Room {
     }
 };
 
-Room read_room(const nlohmann::json& json, const std::filesystem::path& folder, RecipeErrors& errors) {
-    RecipeReader reader(json, "room", errors);
+Room read_room(JsonObject object, const std::filesystem::path& folder) {
     Room room;
-    std::string name;
-    reader.read("file", name);
-    reader.read("at", room.at);
-    reader.read("turn_deg", room.turn_deg, -360, 360);
-    reader.read("radius", room.radius, 1e-6, RecipeReader::kHuge);
-    reader.finish();
-    if (name.empty()) reader.complain("file", "is missing; name the room's mesh (.obj, .ply, .gltf, .glb)");
-    if (room.radius == 0) reader.complain("radius", "is missing; give the object's, in the room's units");
-    if (errors.first) return room;
-    Result<Scene> loaded = read_mesh_file(folder / name);
-    if (!loaded) {
-        reader.complain("file", loaded.error().message);
-    } else {
-        room.scene = std::move(*loaded);
-    }
+    if (!object.has("file")) throw object.wrong("file is missing; name the room's mesh (.obj, .ply, .gltf, .glb)");
+    if (!object.has("radius")) throw object.wrong("radius is missing; give the object's, in the room's units");
+    const JsonValue file = object.take("file");
+    object.read("at", room.at);
+    object.read("turn_deg", room.turn_deg, -360, 360);
+    object.read("radius", room.radius, 1e-6);
+    object.expect_all_taken();
+    Result<Scene> loaded = read_mesh_file(folder / file.text());
+    if (!loaded) throw file.wrong(loaded.error().message);
+    room.scene = std::move(*loaded);
     return room;
 }
 
@@ -170,44 +149,48 @@ Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path
     return file;
 }
 
+struct Recipe {
+    SceneFile file;
+    ObjectCentre centre = ObjectCentre::bounding_box;
+    std::optional<Room> room;
+};
+
+Recipe read_recipe(JsonObject& top, const std::filesystem::path& path, const Generator& generator) {
+    Recipe recipe;
+    SceneFile& file = recipe.file;
+    std::string name = path.stem().string();
+    top.read("name", name);
+    if (const auto seed = top.find("seed")) file.seed = seed->unsigned_number();
+    const auto materials = top.find("materials");
+    const auto camera = top.find("camera");
+    const auto environment = top.find("environment");
+    const auto lights = top.find("lights");
+    const auto room = top.find("room");
+    read_look(top, file);
+    if (room && file.toon) throw room->wrong("does not go with \"look\": \"toon\"; leave out one");
+    const auto object = top.find("object");
+    top.expect_all_taken();
+    if (!object) throw top.wrong("object is missing; give {\"mesh\": ...} or {\"generator\": ...}");
+    if (camera) read_camera(JsonObject(*camera), file.camera);
+    load_object(JsonObject(*object), path, generator, file.seed, file.scene, recipe.centre);
+    file.scene.name = name;
+    if (materials) override_materials(JsonObject(*materials), file.scene);
+    if (lights) {
+        file.scene.lights.clear();
+        read_lights(*lights, file.scene);
+    }
+    if (environment) read_environment(JsonObject(*environment), path.parent_path(), file.scene.environment);
+    if (room) recipe.room = read_room(JsonObject(*room), path.parent_path());
+    return recipe;
+}
+
 Result<SceneFile> load_recipe(const std::filesystem::path& path, const Generator& generator) {
     const auto bytes = read_file(path, kMaxRecipe_bytes);
     if (!bytes) return bytes.error();
-    const auto json = parse_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
-    if (!json) return json.error();
-    RecipeErrors errors{path.string(), std::nullopt};
-
-    SceneFile file;
-    RecipeReader reader(*json, "", errors);
-    std::string name = path.stem().string();
-    reader.read("name", name);
-    reader.read("seed", file.seed);
-    const nlohmann::json* object = reader.child("object");
-    const nlohmann::json* materials = reader.child("materials");
-    const nlohmann::json* camera = reader.child("camera");
-    const nlohmann::json* environment = reader.child("environment");
-    const nlohmann::json* lights = reader.child("lights");
-    const nlohmann::json* room = reader.child("room");
-    read_look(reader, file);
-    if (room != nullptr && file.toon) reader.complain("room", "does not go with \"look\": \"toon\"; leave out one");
-    reader.finish();
-    if (object == nullptr) errors.add("object", "is missing; give {\"mesh\": ...} or {\"generator\": ...}");
-    ObjectCentre centre = ObjectCentre::bounding_box;
-    if (camera != nullptr) read_camera(*camera, errors, file.camera);
-    if (!errors.first) load_object(*object, path, generator, file.seed, errors, file.scene, centre);
-    if (errors.first) return *errors.first;
-
-    file.scene.name = name;
-    if (materials != nullptr) override_materials(*materials, errors, file.scene);
-    if (lights != nullptr) {
-        file.scene.lights.clear();
-        read_lights(*lights, errors, file.scene);
-    }
-    if (environment != nullptr) read_environment(*environment, path.parent_path(), errors, file.scene.environment);
-    std::optional<Room> around;
-    if (room != nullptr) around = read_room(*room, path.parent_path(), errors);
-    if (errors.first) return *errors.first;
-    return finish_scene(std::move(file), path, centre, std::move(around));
+    Result<Recipe> recipe = read_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(),
+                                      [&](JsonObject& top) { return read_recipe(top, path, generator); });
+    if (!recipe) return recipe.error();
+    return finish_scene(std::move(recipe->file), path, recipe->centre, std::move(recipe->room));
 }
 
 }  // namespace
