@@ -1,7 +1,7 @@
 #include "rayspace/geometry/rig_json.hpp"
 
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/base/json_text.hpp"
+#include "rayspace/base/strict_json.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,81 +22,40 @@ constexpr double kMaxPrincipal_px = 1e6;
 constexpr double kMaxLength = 1e12;
 constexpr double kRigidTolerance = 1e-3;
 
-// Every number a camera needs; thrown inside this file only, so that the parser reads straight through.
-struct Malformed {
-    std::string message;
-};
-
-// An object whose known keys are taken one by one; what is left over are the extras.
-class Keys {
-public:
-    Keys(json object, std::string place) : object_(std::move(object)), place_(std::move(place)) {
-        if (!object_.is_object()) throw Malformed{place_ + ": must be an object { ... }"};
-    }
-
-    [[nodiscard]] const std::string& place() const { return place_; }
-    [[nodiscard]] bool has(const char* key) const { return object_.contains(key); }
-    [[nodiscard]] Malformed wrong(const char* key, const std::string& what) const {
-        return Malformed{place_ + ": " + key + " " + what};
-    }
-
-    json take(const char* key) {
-        json value = std::move(object_[key]);
-        object_.erase(key);
-        return value;
-    }
-
-    std::optional<double> take_number(const char* key, double lowest, double highest) {
-        if (!has(key)) return std::nullopt;
-        const json value = take(key);
-        if (!value.is_number()) throw wrong(key, "must be a number");
-        const double number = value.get<double>();
-        // NaN fails this comparison too.
-        if (!(number >= lowest && number <= highest)) throw wrong(key, "is out of range");
-        return number;
-    }
-
-    // Some tools write whole numbers as 800.0.
-    std::optional<int> take_side(const char* key) {
-        const auto number = take_number(key, 1, kMaxPictureSide_px);
-        if (!number) return std::nullopt;
-        if (*number != std::floor(*number)) throw wrong(key, "must be a whole number of pixels");
-        return static_cast<int>(*number);
-    }
-
-    std::optional<std::string> take_path(const char* key) {
-        if (!has(key)) return std::nullopt;
-        const json value = take(key);
-        if (!value.is_string()) throw wrong(key, "must be a string");
-        auto path = value.get<std::string>();
-        if (path.size() > kMaxPath_bytes) throw wrong(key, "is too long");
-        if (path.find('\0') != std::string::npos) throw wrong(key, "holds a zero character");
-        return path;
-    }
-
-    json rest() && { return std::move(object_); }
-
-private:
-    json object_;
-    std::string place_;
-};
-
-// What one object, the file or a frame, states about the lens.
+// What one object, the file or a frame, says about the lens.
 struct Intrinsics {
     std::optional<int> w, h;
     std::optional<double> fl_x, fl_y, cx, cy, angle_x_rad, angle_y_rad;
 };
 
-Intrinsics take_intrinsics(Keys& keys) {
+// The number of a key that may be missing.
+std::optional<double> number_of(JsonObject& object, const char* key, double lowest, double highest) {
+    const auto found = object.find(key);
+    return found ? std::optional(found->number(lowest, highest)) : std::nullopt;
+}
+
+// Some tools write whole numbers as 800.0.
+std::optional<int> side_of(JsonObject& object, const char* key) {
+    const auto found = object.find(key);
+    return found ? std::optional(found->whole_number(1, kMaxPictureSide_px)) : std::nullopt;
+}
+
+std::string path_of(const JsonValue& value) {
+    std::string path = value.text_or_empty();
+    if (path.size() > kMaxPath_bytes) throw value.wrong("is too long");
+    return path;
+}
+
+Intrinsics take_intrinsics(JsonObject& object) {
     Intrinsics found;
-    found.w = keys.take_side("w");
-    found.h = keys.take_side("h");
-    found.fl_x = keys.take_number("fl_x", kMinFocal_px, kMaxFocal_px);
-    found.fl_y = keys.take_number("fl_y", kMinFocal_px, kMaxFocal_px);
-    found.cx = keys.take_number("cx", -kMaxPrincipal_px, kMaxPrincipal_px);
-    found.cy = keys.take_number("cy", -kMaxPrincipal_px, kMaxPrincipal_px);
-    found.angle_x_rad = keys.take_number("camera_angle_x", kMinAngle_rad, kPi - kMinAngle_rad);
-    found.angle_y_rad = keys.take_number("camera_angle_y", kMinAngle_rad, kPi - kMinAngle_rad);
+    found.w = side_of(object, "w");
+    found.h = side_of(object, "h");
+    found.fl_x = number_of(object, "fl_x", kMinFocal_px, kMaxFocal_px);
+    found.fl_y = number_of(object, "fl_y", kMinFocal_px, kMaxFocal_px);
+    found.cx = number_of(object, "cx", -kMaxPrincipal_px, kMaxPrincipal_px);
+    found.cy = number_of(object, "cy", -kMaxPrincipal_px, kMaxPrincipal_px);
+    found.angle_x_rad = number_of(object, "camera_angle_x", kMinAngle_rad, kPi - kMinAngle_rad);
+    found.angle_y_rad = number_of(object, "camera_angle_y", kMinAngle_rad, kPi - kMinAngle_rad);
     return found;
 }
 
@@ -115,74 +74,62 @@ std::optional<double> choose_focal(const std::optional<double>& frame_focal, con
     return std::nullopt;
 }
 
-void apply_intrinsics(const Intrinsics& frame, const Intrinsics& file, const std::string& place, Camera& camera) {
+void apply_intrinsics(const Intrinsics& frame, const Intrinsics& file, const JsonValue& place, Camera& camera) {
     camera.width = frame.w.value_or(file.w.value_or(0));
     camera.height = frame.h.value_or(file.h.value_or(0));
     if (camera.width == 0 || camera.height == 0) {
-        throw Malformed{place + ": has no w and h; add the pictures' width and height in pixels"};
+        throw place.wrong("has no w and h; add the pictures' width and height in pixels");
     }
     const auto fl_x = choose_focal(frame.fl_x, frame.angle_x_rad, file.fl_x, file.angle_x_rad, camera.width);
     const auto fl_y = choose_focal(frame.fl_y, frame.angle_y_rad, file.fl_y, file.angle_y_rad, camera.height);
-    if (!fl_x && !fl_y) throw Malformed{place + ": has no fl_x or camera_angle_x; add the focal length in pixels"};
+    if (!fl_x && !fl_y) throw place.wrong("has no fl_x or camera_angle_x; add the focal length in pixels");
     camera.fl_x = fl_x ? *fl_x : *fl_y;
     camera.fl_y = fl_y ? *fl_y : *fl_x;
     if (!(std::min(camera.fl_x, camera.fl_y) >= kMinFocal_px && std::max(camera.fl_x, camera.fl_y) <= kMaxFocal_px)) {
-        throw Malformed{place + ": its angle of view makes a focal length that is out of range"};
+        throw place.wrong("its angle of view makes a focal length that is out of range");
     }
     camera.cx = frame.cx.value_or(file.cx.value_or(camera.width / 2.0));
     camera.cy = frame.cy.value_or(file.cy.value_or(camera.height / 2.0));
 }
 
-glm::dmat4 take_matrix(Keys& keys) {
-    constexpr const char* kKey = "transform_matrix";
-    if (!keys.has(kKey)) throw keys.wrong(kKey, "is missing; a frame needs its camera-to-world matrix");
-    const json rows = keys.take(kKey);
-    const auto four_numbers = [](const json& row) {
-        return row.is_array() && row.size() == 4 &&
-               std::all_of(row.begin(), row.end(), [](const json& n) { return n.is_number(); });
-    };
-    if (!rows.is_array() || (rows.size() != 4 && rows.size() != 3) ||
-        !std::all_of(rows.begin(), rows.end(), four_numbers)) {
-        throw keys.wrong(kKey, "must be 4 rows of 4 numbers");
-    }
+// Three rows, or four with 0 0 0 1 as the last.
+glm::dmat4 matrix_of(const JsonValue& rows) {
     glm::dmat4 matrix(1.0);
-    for (std::size_t row = 0; row < rows.size(); ++row) {
+    const std::size_t count = rows.list_size(3, 4);
+    for (std::size_t row = 0; row < count; ++row) {
+        const JsonValue numbers = rows.item(row);
+        numbers.list_size(4, 4);
         for (std::size_t column = 0; column < 4; ++column) {
-            const double number = rows[row][column].get<double>();
-            if (!(std::abs(number) <= kMaxLength)) throw keys.wrong(kKey, "holds a number that is out of range");
-            matrix[static_cast<int>(column)][static_cast<int>(row)] = number;
+            matrix[static_cast<int>(column)][static_cast<int>(row)] =
+                numbers.item(column).number(-kMaxLength, kMaxLength);
         }
     }
     if (matrix[0][3] != 0 || matrix[1][3] != 0 || matrix[2][3] != 0 || matrix[3][3] != 1) {
-        throw keys.wrong(kKey, "must have 0 0 0 1 as its last row");
+        throw rows.wrong("must have 0 0 0 1 as its last row");
     }
     return matrix;
 }
 
-RigView parse_frame(json frame, const std::string& place, const FindPictureSize& find_size, bool first,
-                    Intrinsics& file) {
-    Keys keys(std::move(frame), place);
+RigView parse_frame(JsonObject frame, const FindPictureSize& find_size, bool first, Intrinsics& file) {
     RigView view;
-    const auto path = keys.take_path("file_path");
-    if (!path || path->empty()) throw keys.wrong("file_path", "is missing; a frame needs the name of its picture");
-    view.file_path = *path;
-    view.depth_file_path = keys.take_path("depth_file_path").value_or("");
-    view.camera.world_from_camera = take_matrix(keys);
+    view.file_path = path_of(frame.take("file_path"));
+    if (view.file_path.empty()) throw frame.wrong("file_path is empty; a frame needs the name of its picture");
+    if (const auto depth = frame.find("depth_file_path")) view.depth_file_path = path_of(*depth);
+    const JsonValue matrix = frame.take("transform_matrix");
+    view.camera.world_from_camera = matrix_of(matrix);
     const double error = rotation_error(view.camera);
     if (!(error <= kRigidTolerance)) {
-        throw keys.wrong("transform_matrix",
-                         "is not a rotation and a translation (it scales, shears or mirrors); remove the scale");
+        throw matrix.wrong("is not a rotation and a translation (it scales, shears or mirrors); remove the scale");
     }
-    const Intrinsics own = take_intrinsics(keys);
+    const Intrinsics own = take_intrinsics(frame);
     if (first && find_size && !((own.w || file.w) && (own.h || file.h))) {
         const auto size = find_size(view);
-        if (!size)
-            throw Malformed{place + ": has no w and h, and its picture does not tell them: " + size.error().message};
+        if (!size) throw frame.wrong("has no w and h, and its picture does not show them: " + size.error().message);
         file.w = size->width;
         file.h = size->height;
     }
-    apply_intrinsics(own, file, place, view.camera);
-    view.extras = std::move(keys).rest();
+    apply_intrinsics(own, file, frame, view.camera);
+    view.extras = frame.take_rest();
     return view;
 }
 
@@ -234,31 +181,20 @@ std::string dumped(const ordered_json& value) {
 }  // namespace
 
 Result<Rig> parse_rig(const std::string& text, const std::string& where, const FindPictureSize& find_size) {
-    try {
-        Result<json> parsed = parse_json(text, where);
-        if (!parsed) return parsed.error();
-        Keys keys(std::move(*parsed), where);
-        if (!keys.has("frames")) throw keys.wrong("frames", "is missing; is this a transforms.json?");
-        Intrinsics file = take_intrinsics(keys);
+    return read_json(text, where, [&](JsonObject& top) {
+        if (!top.has("frames")) throw top.wrong("frames is missing; is this a transforms.json?");
+        Intrinsics file = take_intrinsics(top);
         Rig rig;
-        rig.object_radius = keys.take_number("object_radius", 0, kMaxLength).value_or(0);
-        rig.foot_height = keys.take_number("foot_height", -kMaxLength, kMaxLength);
-        json frames = keys.take("frames");
-        if (!frames.is_array() || frames.empty()) throw keys.wrong("frames", "must be a list with at least one frame");
-        if (frames.size() > kMaxViews) {
-            throw keys.wrong("frames", "holds " + std::to_string(frames.size()) + " frames; at most " +
-                                           std::to_string(kMaxViews) + " are read");
+        top.read("object_radius", rig.object_radius, 0, kMaxLength);
+        rig.foot_height = number_of(top, "foot_height", -kMaxLength, kMaxLength);
+        const JsonValue frames = top.take("frames");
+        rig.views.resize(frames.list_size(1, kMaxViews));
+        for (std::size_t i = 0; i < rig.views.size(); ++i) {
+            rig.views[i] = parse_frame(JsonObject(frames.item(i)), find_size, i == 0, file);
         }
-        rig.views.reserve(frames.size());
-        for (json& frame : frames) {
-            const std::string place = where + ": frame " + std::to_string(rig.views.size());
-            rig.views.push_back(parse_frame(std::move(frame), place, find_size, rig.views.empty(), file));
-        }
-        rig.extras = std::move(keys).rest();
+        rig.extras = top.take_rest();
         return rig;
-    } catch (const Malformed& malformed) {
-        return Error{malformed.message};
-    }
+    });
 }
 
 Result<Rig> rig_from_json(const std::string& text, const std::string& where) {
