@@ -109,18 +109,21 @@ TEST(Scenario, IsReadStrictlyAndWrittenAsItIs) {
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(scenario_json(*read), text);
     const std::pair<const char*, const char*> faulty[] = {
-        {"{", "is no JSON"},
+        {"{", "is not valid JSON"},
+        {R"({"sources": [], "seed": 1, "seed": 2})", "is there twice"},
         {"[]", "must be an object"},
-        {"{}", "sources: is missing"},
-        {R"({"sources": [], "secnds": 3})", "secnds: is no key here"},
+        {"{}", "sources is missing"},
+        {R"({"sources": [], "secnds": 3})", "'secnds' that means nothing here"},
         {R"({"sources": [], "seconds": 0})", "seconds: must be a number"},
-        {R"({"sources": [], "time": "noon"})", "time: must be one of day, night"},
-        {R"({"sources": [{"lane": "up"}]})", "sources[0]: lane: must be one of east"},
-        {R"({"sources": [{}]})", "sources[0]: lane: is missing"},
+        {R"({"sources": [], "time": "noon"})", "time: must be one of \"day\", \"night\""},
+        {R"({"sources": [{"lane": "up"}]})", "sources[0].lane: must be one of \"east\""},
+        {R"({"sources": [{}]})", "sources[0]: lane is missing"},
         {R"({"sources": [{"lane": "east", "count": 1.5}]})", "count: must be a whole number"},
-        {R"({"sources": [], "camera": {"ride": 0}})", "ride: must be a number"},
-        {R"({"sources": [], "camera": {"path": [{"eye": [0, 0, 0], "at": [0, 0, 0]}]}})", "at: is the eye"},
-        {R"({"sources": [], "camera": {"path": [{"eye": [0, 0], "at": [0, 0, 1]}]}})", "eye: must be a list"},
+        {R"({"sources": [], "camera": {"ride": 0}})", "camera.ride: must be a whole number"},
+        {R"({"sources": [], "camera": {"path": [{"eye": [0, 0, 0], "at": [0, 0, 0]}]}})",
+         "camera.path[0]: at is the eye"},
+        {R"({"sources": [], "camera": {"path": [{"eye": [0, 0], "at": [0, 0, 1]}]}})",
+         "camera.path[0].eye: must be a list"},
     };
     for (const auto& [json, what] : faulty) {
         const auto refused = scenario_from_json(json, "s.json");
