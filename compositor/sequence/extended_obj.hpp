@@ -9,8 +9,8 @@
 // box, and put so that this middle comes to (dx, dy, dz). A camera looks from e to t; ANGLE is its horizontal field of
 // view in degrees. Numbers of these lines may end in `f`.
 //
-// This reads those lines, and checks all others as far as the reader of meshes (scene/model_file.hpp) does not tell a
-// line: that reader skips what is added here.
+// This reads those lines, and checks all others as far as the reader of meshes (scene/model/model_file.hpp) does not
+// tell a line: that reader skips what is added here.
 
 #include "compositor/scene/camera_path.hpp"
 #include "compositor/scene/transform.hpp"

@@ -6,7 +6,7 @@
 //       "models": ["../../../../models/cars.obj"],       objects that instances name, besides the base's
 //       "frames": ["frame-0001.obj", "frame-0002.obj"],  extended OBJ, one a frame
 //       "frames_per_second": 25,
-//       "lights": "night.json",                          a list of lights (scene/lights_file.hpp)
+//       "lights": "night.json",                          a list of lights (scene/light/lights_file.hpp)
 //       "background": {"zenith": [0.3, 0.5, 0.8], "horizon": [0.8, 0.85, 0.9]},     sRGB
 //       "weather": "rain,fog", "seed": 1 }
 //

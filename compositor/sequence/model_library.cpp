@@ -1,6 +1,6 @@
 #include "compositor/sequence/model_library.hpp"
 
-#include "compositor/scene/model_file.hpp"
+#include "compositor/scene/model/model_file.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
-// Models taken apart into the objects that instances name: an extended OBJ read by scene/model_file.hpp, its parts
-// gathered by object.
+// Models taken apart into the objects that instances name: an extended OBJ read by scene/model/model_file.hpp, its
+// parts gathered by object.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/sequence/extended_obj.hpp"

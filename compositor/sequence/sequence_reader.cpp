@@ -1,5 +1,5 @@
 #include "compositor/scene/light/lights_file.hpp"
-#include "compositor/scene/scene_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
 #include "compositor/sequence/frames_file.hpp"
 #include "compositor/sequence/model_library.hpp"
 #include "compositor/sequence/sequence.hpp"

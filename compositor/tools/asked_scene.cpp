@@ -2,7 +2,7 @@
 
 #include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/object_argument.hpp"
-#include "compositor/scene/scene_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
 #include "engine/executors/executor_table.hpp"
 #include "rayspace/base/printable.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "compositor/gl/context.hpp"
 #include "compositor/scene/light/lights_file.hpp"
-#include "compositor/scene/scene_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/viewer/views/framing.hpp"

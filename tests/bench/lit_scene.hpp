@@ -2,7 +2,7 @@
 // Where a bench of traced light stands: a scene, its lights and a camera, from the command line.
 
 #include "compositor/scene/light/lights_file.hpp"
-#include "compositor/scene/scene_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/geometry/camera.hpp"
 #include "rayspace/tool/tool_main.hpp"
 

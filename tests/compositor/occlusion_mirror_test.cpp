@@ -1,6 +1,6 @@
 // Where scene files put mirrored objects: as geometry below the same transforms.
 
-#include "compositor/scene/scene_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
 #include "compositor/viewer/views/object_view.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "tests/compositor/objects.hpp"

@@ -2,7 +2,7 @@
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "capture/tracer/session/capture_set.hpp"
-#include "compositor/scene/scene_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
 #include "datasets-synthetic/objects.hpp"
 #include "encode/build.hpp"
 #include "encode/encode_pictures.hpp"

@@ -1,6 +1,6 @@
 // Parsers that take files by their names: the bytes stand in a folder of the process's own.
 #include "capture/tracer/scene/mesh_file.hpp"
-#include "compositor/scene/scene_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "tests/fuzz/entries.hpp"

@@ -1,7 +1,7 @@
 // mutate_worlds COUNT SEED WORLD.wrl...: reads COUNT mutations of the worlds in this process, and tells how many were
 // read, how many refused, and the longest time. A crash shows as one; a mutation that takes more than 20 s ends the
 // program. The mutation in work stands in mutation.wrl in the working folder.
-#include "compositor/scene/vrml_file.hpp"
+#include "compositor/scene/reader/vrml_file.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "tests/fuzz/entries.hpp"
 #include "tests/fuzz/mutated_world.hpp"

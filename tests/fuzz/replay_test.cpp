@@ -1,8 +1,8 @@
 // Runs every file of the corpus through its fuzz entry: what a fuzzer found once must not come back.
 #include "capture/calibration/known/known_files.hpp"
 #include "compositor/displays/head_datagram.hpp"
-#include "compositor/scene/scene_file.hpp"
-#include "compositor/scene/vrml_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
+#include "compositor/scene/reader/vrml_file.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/pictures/picture_io.hpp"

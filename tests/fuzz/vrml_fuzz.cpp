@@ -1,4 +1,4 @@
-#include "compositor/scene/vrml_file.hpp"
+#include "compositor/scene/reader/vrml_file.hpp"
 #include "rayspace/base/check.hpp"
 #include "tests/fuzz/entries.hpp"
 #include "tests/fuzz/scene_checks.hpp"

@@ -3,7 +3,7 @@
 #include "capture/calibration/known/known_files.hpp"
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "capture/tracer/scene/scene_file.hpp"
-#include "compositor/scene/scene_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/pictures/picture_io.hpp"

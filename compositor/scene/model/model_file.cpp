@@ -1,4 +1,4 @@
-#include "compositor/scene/model_file.hpp"
+#include "compositor/scene/model/model_file.hpp"
 
 #include "compositor/scene/model/gltf_nodes.hpp"
 #include "compositor/scene/model/model_materials.hpp"

@@ -1,7 +1,7 @@
 // Worlds that others made: all load, and show something where there is something.
 
 #include "compositor/gl/context.hpp"
-#include "compositor/scene/scene_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/views/framing.hpp"
 #include "tests/fuzz/entries.hpp"

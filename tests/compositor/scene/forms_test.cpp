@@ -1,7 +1,7 @@
 // Worlds in two forms: what VRML 1.0 or X3D says, and the same world in VRML97. Pictures of both agree. Skipped where
 // no OpenGL context can be had.
 
-#include "compositor/scene/vrml_file.hpp"
+#include "compositor/scene/reader/vrml_file.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/views/framing.hpp"
 #include "rayspace/base/conventions.hpp"

@@ -2,8 +2,8 @@
 
 #include "compositor/scene/light/raster_lights.hpp"
 #include "compositor/scene/light/scene_lights.hpp"
-#include "compositor/scene/scene_file.hpp"
-#include "compositor/scene/vrml_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
+#include "compositor/scene/reader/vrml_file.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "compositor/scene/model_file.hpp"
+#include "compositor/scene/model/model_file.hpp"
 
 #include "compositor/scene/normal_map.hpp"
 #include "rayspace/pictures/picture_io.hpp"

@@ -1,4 +1,4 @@
-#include "compositor/scene/scene_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
 
 #include "compositor/scene/object_argument.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "compositor/scene/vrml_file.hpp"
+#include "compositor/scene/reader/vrml_file.hpp"
 
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/pictures/picture_io.hpp"

@@ -1,6 +1,6 @@
 // Shapes that would take minutes to be cut into triangles are left out, at once and with a word.
 
-#include "compositor/scene/vrml_file.hpp"
+#include "compositor/scene/reader/vrml_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

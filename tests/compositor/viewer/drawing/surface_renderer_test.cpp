@@ -1,7 +1,7 @@
 // The colours of lit geometry against the formula of ISO/IEC 14772-1, 4.14.4, computed here in linear light. Skipped
 // where no OpenGL context can be had.
 
-#include "compositor/scene/vrml_file.hpp"
+#include "compositor/scene/reader/vrml_file.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "tests/compositor/gl_test.hpp"

@@ -1,5 +1,6 @@
 #pragma once
-// Scenes from files: JSON (compositor/README.md), VRML and X3D (vrml_file.hpp), glTF 2.0 and OBJ (model_file.hpp).
+// Scenes from files: JSON (compositor/README.md), VRML and X3D (vrml_file.hpp), glTF 2.0 and OBJ
+// (model/model_file.hpp).
 
 #include "compositor/scene/scene.hpp"
 #include "rayspace/base/result.hpp"

@@ -1,4 +1,4 @@
-#include "compositor/scene/vrml_file.hpp"
+#include "compositor/scene/reader/vrml_file.hpp"
 
 #include "compositor/scene/vrml/flatten.hpp"
 #include "compositor/scene/vrml1/graph.hpp"

@@ -5,8 +5,8 @@
 //
 //     "extras": {"RaySpace": {"url": "vase.rso", "size": 1, "standing": true, "description": "..."}}
 //
-// with the fields of VRML's RaySpace node (vrml_file.hpp); all but `url` may be left out. Likewise a room, to which the
-// objects below the node belong:
+// with the fields of VRML's RaySpace node (reader/vrml_file.hpp); all but `url` may be left out. Likewise a room, to
+// which the objects below the node belong:
 //
 //     "extras": {"RaySpaceRoom": {"centre": [0, 1.5, 0], "size": [6, 3, 6], "description": "..."}}
 

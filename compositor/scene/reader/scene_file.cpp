@@ -1,7 +1,7 @@
-#include "compositor/scene/scene_file.hpp"
+#include "compositor/scene/reader/scene_file.hpp"
 
-#include "compositor/scene/model_file.hpp"
-#include "compositor/scene/vrml_file.hpp"
+#include "compositor/scene/model/model_file.hpp"
+#include "compositor/scene/reader/vrml_file.hpp"
 #include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image/linear_light.hpp"
