@@ -41,13 +41,13 @@ std::string UdpPlace::text() const {
     return std::string(kScheme) + (is_v6 ? "[" + address + "]" : address) + ":" + std::to_string(port);
 }
 
-bool asks_for_udp(const std::string& text) {
+bool names_udp_port(const std::string& text) {
     return text.starts_with(kScheme);
 }
 
 Result<UdpPlace> udp_place_from(const std::string& text) {
     const Error wrong{printable(text) + ": must be udp:PORT or udp:ADDRESS:PORT, such as udp:4242 or udp:0.0.0.0:4242"};
-    if (!asks_for_udp(text)) return wrong;
+    if (!names_udp_port(text)) return wrong;
     std::string_view port = std::string_view(text).substr(kScheme.size());
     UdpPlace place;
     if (const std::size_t colon = port.rfind(':'); colon != std::string_view::npos) {

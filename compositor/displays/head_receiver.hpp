@@ -23,8 +23,8 @@ struct UdpPlace {
     [[nodiscard]] std::string text() const;  // udp:ADDRESS:PORT
 };
 
-// "udp:PORT", "udp:ADDRESS:PORT", "udp:[ADDRESS]:PORT", ports 1..65535. asks_for_udp(): whether that is meant at all.
-bool asks_for_udp(const std::string& text);
+// "udp:PORT", "udp:ADDRESS:PORT", "udp:[ADDRESS]:PORT", ports 1..65535. names_udp_port(): whether that is meant at all.
+bool names_udp_port(const std::string& text);
 Result<UdpPlace> udp_place_from(const std::string& text);
 
 class HeadReceiver {

@@ -177,20 +177,20 @@ Result<std::vector<Head>> read_heads(const std::filesystem::path& path) {
 }
 
 Status keep_walls(WallDisplay& display, const std::string& names) {
-    std::set<std::string> wanted;
+    std::set<std::string> chosen;
     for (std::size_t begin = 0; begin <= names.size();) {
         const std::size_t end = std::min(names.find(',', begin), names.size());
-        wanted.insert(names.substr(begin, end - begin));
+        chosen.insert(names.substr(begin, end - begin));
         begin = end + 1;
     }
     std::string known;
     for (const Wall& wall : display.walls) known += (known.empty() ? "" : ", ") + wall.name;
-    for (const std::string& name : wanted) {
+    for (const std::string& name : chosen) {
         const bool there = std::any_of(display.walls.begin(), display.walls.end(),
                                        [&](const Wall& wall) { return wall.name == name; });
         if (!there) return Error{"there is no wall '" + printable(name) + "'; there are " + known};
     }
-    std::erase_if(display.walls, [&](const Wall& wall) { return !wanted.contains(wall.name); });
+    std::erase_if(display.walls, [&](const Wall& wall) { return !chosen.contains(wall.name); });
     return {};
 }
 

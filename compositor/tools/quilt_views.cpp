@@ -37,7 +37,7 @@ double depth_of_largest(const Scene& scene, const Camera& middle) {
 }
 
 // Where the display shows what is at its own depth.
-Result<double> asked_focus(const ViewArguments& arguments, const Scene& scene, const Camera& middle) {
+Result<double> requested_focus(const ViewArguments& arguments, const Scene& scene, const Camera& middle) {
     if (arguments.focus > 0) return arguments.focus;
     if (const double depth = depth_of_largest(scene, middle); depth > 0) return depth;
     const BoundingBox box = bounds_from(scene, 0, 0);
@@ -54,18 +54,19 @@ std::vector<Camera> QuiltViews::cameras() const {
     return all;
 }
 
-Result<PixelSize> asked_tile(const ViewArguments& arguments) {
+Result<PixelSize> requested_tile(const ViewArguments& arguments) {
     return parse_size(arguments.tile_size);
 }
 
-Result<QuiltViews> asked_quilt(const ViewArguments& arguments, const Scene& scene, const std::vector<Camera>& middle) {
-    const Result<PixelSize> tile = asked_tile(arguments);
+Result<QuiltViews> requested_quilt(const ViewArguments& arguments, const Scene& scene,
+                                   const std::vector<Camera>& middle) {
+    const Result<PixelSize> tile = requested_tile(arguments);
     if (!tile) return tile.error();
     const Result<QuiltLayout> layout = parse_quilt(arguments.quilt, tile->width, tile->height, "--quilt");
     if (!layout) return layout.error();
     QuiltViews views{*layout, {}};
     for (const Camera& camera : middle) {
-        const Result<double> focus = asked_focus(arguments, scene, camera);
+        const Result<double> focus = requested_focus(arguments, scene, camera);
         if (!focus) return focus.error();
         views.frames.push_back(quilt_cameras(camera, *layout, radians(arguments.cone_deg), *focus));
     }

@@ -21,10 +21,11 @@ struct QuiltViews {
 };
 
 // The size of one tile: --tile-size.
-Result<PixelSize> asked_tile(const ViewArguments& arguments);
+Result<PixelSize> requested_tile(const ViewArguments& arguments);
 
 // `middle`: a camera of the tile's size for each frame.
-Result<QuiltViews> asked_quilt(const ViewArguments& arguments, const Scene& scene, const std::vector<Camera>& middle);
+Result<QuiltViews> requested_quilt(const ViewArguments& arguments, const Scene& scene,
+                                   const std::vector<Camera>& middle);
 
 // Into arguments.output with the layout in its name; of several frames into a folder of such pictures. `progress` is
 // advanced for each view.

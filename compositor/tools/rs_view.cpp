@@ -3,9 +3,9 @@
 #include "compositor/gl/context.hpp"
 #include "compositor/lighting/light_warnings.hpp"
 #include "compositor/scene/light/scene_lights.hpp"
-#include "compositor/tools/asked_cameras.hpp"
-#include "compositor/tools/asked_scene.hpp"
 #include "compositor/tools/quilt_views.hpp"
+#include "compositor/tools/requested_cameras.hpp"
+#include "compositor/tools/requested_scene.hpp"
 #include "compositor/tools/sequence_run.hpp"
 #include "compositor/tools/traced_run.hpp"
 #include "compositor/tools/view_options.hpp"
@@ -65,9 +65,9 @@ Status write_frames(const ViewArguments& arguments, OutputKind kind, const std::
 Status run_view(ViewArguments arguments) {
     const bool in_tiles = !arguments.quilt.empty();
     const bool on_walls = !arguments.walls.empty();
-    Result<PixelSize> size = in_tiles ? asked_tile(arguments) : parse_size(arguments.size);
+    Result<PixelSize> size = in_tiles ? requested_tile(arguments) : parse_size(arguments.size);
     if (!size) return size.error();
-    Result<Scene> scene = asked_scene(arguments);
+    Result<Scene> scene = requested_scene(arguments);
     if (!scene) return scene.error();
     print_warnings(scene->warnings);
     print_warnings(light_warnings(*scene));
@@ -92,7 +92,7 @@ Status run_view(ViewArguments arguments) {
     const bool in_window = window.has_value() || (on_walls && arguments.output.empty());
     const Result<OutputKind> kind = in_window || plans ? OutputKind::picture : output_kind(arguments.output);
     if (!kind) return kind.error();
-    Result<std::unique_ptr<engine::Executor>> board = asked_executor(arguments);
+    Result<std::unique_ptr<engine::Executor>> board = requested_executor(arguments);
     if (!board) return board.error();
     const engine::ExecutorTraits drawer = *board ? (*board)->traits() : engine::ExecutorTraits{.name = "software core"};
     if (arguments.object_depth == "pixel" && !drawer.depth) {
@@ -105,7 +105,7 @@ Status run_view(ViewArguments arguments) {
         if (const Status status = showroom->wait_for_all({0, 0, 0}); !status) return status.error();
         return showroom->placed();
     };
-    Result<std::vector<Camera>> cameras = asked_cameras(arguments, *scene, objects_to_frame, *size);
+    Result<std::vector<Camera>> cameras = requested_cameras(arguments, *scene, objects_to_frame, *size);
     if (!cameras) return cameras.error();
     if (plans) return write_plan(arguments, *cameras);
     if (in_place_of_window) cameras->erase(cameras->begin() + 1, cameras->end());
@@ -116,14 +116,14 @@ Status run_view(ViewArguments arguments) {
         if (*kind != OutputKind::folder && !in_window) {
             return Error{arguments.output + ": walls go into a folder; give a folder to -o"};
         }
-        Result<WallViews> asked = asked_walls(arguments, *scene, *cameras);
-        if (!asked) return asked.error();
-        walls = std::move(*asked);
+        Result<WallViews> requested = requested_walls(arguments, *scene, *cameras);
+        if (!requested) return requested.error();
+        walls = std::move(*requested);
         cameras = wall_cameras(*walls);
     } else if (in_tiles) {
-        Result<QuiltViews> asked = asked_quilt(arguments, *scene, *cameras);
-        if (!asked) return asked.error();
-        quilt = std::move(*asked);
+        Result<QuiltViews> requested = requested_quilt(arguments, *scene, *cameras);
+        if (!requested) return requested.error();
+        quilt = std::move(*requested);
         if (*kind == OutputKind::video) return Error{arguments.output + ": quilts go into a .png or a folder"};
         cameras = quilt->cameras();
     }
@@ -140,7 +140,7 @@ Status run_view(ViewArguments arguments) {
                      " frames do not fit one picture; give a folder or an .mp4 to -o"};
     }
 
-    Result<std::unique_ptr<TracedRenderer>> tracer = asked_tracer(arguments, *scene, *showroom);
+    Result<std::unique_ptr<TracedRenderer>> tracer = requested_tracer(arguments, *scene, *showroom);
     if (!tracer) return tracer.error();
     Result<gl::Context> context = gl::Context::create_surfaceless();
     if (!context) return context.error();
@@ -153,7 +153,7 @@ Status run_view(ViewArguments arguments) {
                                                                   .wire_frame = arguments.wire_frame,
                                                                   .shadows = arguments.shadows == "on",
                                                                   .exposure_ev = arguments.exposure_ev,
-                                                                  .object_depth = asked_depth(arguments),
+                                                                  .object_depth = requested_depth(arguments),
                                                                   .object_samples = arguments.object_samples,
                                                                   .upright_pictures = upright,
                                                                   .time_parts = !arguments.stats.empty()});

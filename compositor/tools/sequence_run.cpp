@@ -3,8 +3,8 @@
 #include "compositor/gl/context.hpp"
 #include "compositor/playback/sequence_player.hpp"
 #include "compositor/sequence/converter.hpp"
-#include "compositor/tools/asked_scene.hpp"
-#include "compositor/tools/asked_tracing.hpp"
+#include "compositor/tools/requested_scene.hpp"
+#include "compositor/tools/requested_tracing.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -54,9 +54,9 @@ Result<PlayerOptions> player_options(const ViewArguments& arguments) {
                      .object_depth = arguments.object_depth == "pixel" ? ObjectDepth::kPixel : ObjectDepth::kPlane,
                      .object_samples = arguments.object_samples,
                      .upright_pictures = arguments.upright};
-    const Result<TracedOptions> tracing = asked_tracing(arguments);
+    const Result<TracedOptions> tracing = requested_tracing(arguments);
     if (!tracing) return tracing.error();
-    if (asked_method(arguments)) options.tracing = *tracing;
+    if (requested_method(arguments)) options.tracing = *tracing;
     options.passes = arguments.passes > 0 ? arguments.passes : kUsualPassesOfAFrame;
     options.memory_bytes = arguments.memory_mib << 20;
     if (arguments.weather.empty()) return options;

@@ -1,6 +1,6 @@
 #include "compositor/playback/sequence_player.hpp"
-#include "compositor/tools/asked_scene.hpp"
-#include "compositor/tools/asked_tracing.hpp"
+#include "compositor/tools/requested_scene.hpp"
+#include "compositor/tools/requested_tracing.hpp"
 #include "compositor/tools/sequence_run.hpp"
 #include "compositor/window/visit.hpp"
 #include "rayspace/base/printable.hpp"
@@ -36,10 +36,10 @@ Status visit_sequence(const ViewArguments& arguments, PixelSize size, const std:
     options.exposure_ev = arguments.exposure_ev;
     options.object_samples = arguments.object_samples;
     options.shadows = arguments.shadows == "on";
-    const Result<TracedOptions> tracing = asked_tracing(arguments);
+    const Result<TracedOptions> tracing = requested_tracing(arguments);
     if (!tracing) return tracing.error();
     options.tracing = *tracing;
-    options.traced = asked_method(arguments).has_value();
+    options.traced = requested_method(arguments).has_value();
     options.warn = print_warnings;
     options.open = [&next](const std::string& folder) { next = folder; };
     const Camera first = camera_of(*sequence, 0, size.width, size.height);

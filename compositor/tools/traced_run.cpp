@@ -1,7 +1,7 @@
 #include "compositor/tools/traced_run.hpp"
 
-#include "compositor/tools/asked_scene.hpp"
-#include "compositor/tools/asked_tracing.hpp"
+#include "compositor/tools/requested_scene.hpp"
+#include "compositor/tools/requested_tracing.hpp"
 #include "compositor/tools/view_tiles.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
@@ -11,10 +11,10 @@
 
 namespace rs::compositor {
 
-Result<std::unique_ptr<TracedRenderer>> asked_tracer(const ViewArguments& arguments, const Scene& scene,
-                                                     Showroom& showroom) {
-    if (!asked_method(arguments) || !arguments.tiles.empty()) return std::unique_ptr<TracedRenderer>();
-    const Result<TracedOptions> options = asked_tracing(arguments);
+Result<std::unique_ptr<TracedRenderer>> requested_tracer(const ViewArguments& arguments, const Scene& scene,
+                                                         Showroom& showroom) {
+    if (!requested_method(arguments) || !arguments.tiles.empty()) return std::unique_ptr<TracedRenderer>();
+    const Result<TracedOptions> options = requested_tracing(arguments);
     if (!options) return options.error();
     if (const Status status = showroom.wait_for_all({0, 0, 0}); !status) return status.error();
     auto tracer = TracedRenderer::create(scene, showroom.placed(), *options);
@@ -46,7 +46,7 @@ Status run_tile(const ViewArguments& arguments, const Scene& scene, Showroom& sh
                 const std::vector<Camera>& cameras) {
     const Result<TileRequest> tile = parse_tile(arguments.tile, cameras);
     if (!tile) return tile.error();
-    const Result<std::unique_ptr<TracedRenderer>> tracer = asked_tracer(arguments, scene, showroom);
+    const Result<std::unique_ptr<TracedRenderer>> tracer = requested_tracer(arguments, scene, showroom);
     if (!tracer) return tracer.error();
     (*tracer)->set_part(tile->place);
     ProgressBar progress(arguments.quiet);
@@ -57,7 +57,7 @@ Status run_probe(const ViewArguments& arguments) {
     constexpr int kUsualSamples = 256;
     const Result<Triple> place = parse_triple(arguments.probe, "--probe");
     if (!place) return place.error();
-    const Result<Scene> scene = asked_scene(arguments);
+    const Result<Scene> scene = requested_scene(arguments);
     if (!scene) return scene.error();
     print_warnings(scene->warnings);
     const auto tracer = TracedRenderer::create(*scene, {}, {});

@@ -16,8 +16,8 @@
 namespace rs::compositor {
 
 // Null for the raster renderer, and where the picture comes in pieces that were traced before.
-Result<std::unique_ptr<TracedRenderer>> asked_tracer(const ViewArguments& arguments, const Scene& scene,
-                                                     Showroom& showroom);
+Result<std::unique_ptr<TracedRenderer>> requested_tracer(const ViewArguments& arguments, const Scene& scene,
+                                                         Showroom& showroom);
 
 // By as many passes or seconds as were asked for, one pass at least.
 std::shared_ptr<const Image<Rgba8>> trace(TracedRenderer& tracer, const ViewArguments& arguments, const Camera& camera,

@@ -23,7 +23,7 @@ std::vector<double> eye_offsets_m(const WallViews& views) {
     return {-half, half};
 }
 
-Result<WallDisplay> asked_display(const ViewArguments& arguments) {
+Result<WallDisplay> requested_display(const ViewArguments& arguments) {
     Result<WallDisplay> display = [&]() -> Result<WallDisplay> {
         if (auto preset = preset_display(arguments.walls)) return std::move(*preset);
         if (!arguments.walls.ends_with(".json")) {
@@ -102,8 +102,9 @@ Result<std::vector<Camera>> wall_cameras(const WallViews& views) {
     return cameras;
 }
 
-Result<WallViews> asked_walls(const ViewArguments& arguments, const Scene& scene, const std::vector<Camera>& visitor) {
-    Result<WallDisplay> display = asked_display(arguments);
+Result<WallViews> requested_walls(const ViewArguments& arguments, const Scene& scene,
+                                  const std::vector<Camera>& visitor) {
+    Result<WallDisplay> display = requested_display(arguments);
     if (!display) return display.error();
     WallViews views;
     views.display = std::move(*display);
@@ -111,7 +112,7 @@ Result<WallViews> asked_walls(const ViewArguments& arguments, const Scene& scene
         if (arguments.stereo == named.name) views.stereo = named.form;
     }
     views.heads = {views.display.head};
-    if (asks_for_udp(arguments.heads)) {
+    if (names_udp_port(arguments.heads)) {
         if (const Status tracked = add_tracked_head(arguments, views); !tracked) return tracked.error();
     } else if (!arguments.heads.empty()) {
         Result<std::vector<Head>> heads = read_heads(arguments.heads);

@@ -1,7 +1,7 @@
 #include "compositor/tools/window_run.hpp"
 
-#include "compositor/tools/asked_scene.hpp"
-#include "compositor/tools/asked_tracing.hpp"
+#include "compositor/tools/requested_scene.hpp"
+#include "compositor/tools/requested_tracing.hpp"
 #include "compositor/window/visit.hpp"
 #include "compositor/window/wall_visit.hpp"
 
@@ -22,14 +22,14 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
     options.wire_frame = arguments.wire_frame;
     options.samples = arguments.samples;
     options.exposure_ev = arguments.exposure_ev;
-    const Result<TracedOptions> tracing = asked_tracing(arguments);
+    const Result<TracedOptions> tracing = requested_tracing(arguments);
     if (!tracing) return tracing.error();
     options.tracing = *tracing;
-    options.traced = asked_method(arguments).has_value();
+    options.traced = requested_method(arguments).has_value();
     if (!arguments.lights.empty()) options.lights = arguments.lights;
     options.shadows = arguments.shadows == "on";
     options.executor = executor;
-    options.object_depth = asked_depth(arguments);
+    options.object_depth = requested_depth(arguments);
     options.object_samples = arguments.object_samples;
     options.warn = print_warnings;
     Viewpoint begin;
@@ -42,7 +42,7 @@ Status run_visit(Window window, const ViewArguments& arguments, const Scene& sce
 
 Status run_walls(const ViewArguments& arguments, const Scene& scene, const WallViews& views,
                  std::unique_ptr<Showroom> showroom) {
-    if (asked_method(arguments)) return Error{"--renderer " + arguments.renderer + ": on walls it needs -o FOLDER"};
+    if (requested_method(arguments)) return Error{"--renderer " + arguments.renderer + ": on walls it needs -o FOLDER"};
     const auto tracked = [&views, warned = false]() mutable {
         const std::optional<Head> head = newest_head(views);
         if (views.tracker->dropped() > 0 && !std::exchange(warned, true)) {
@@ -57,7 +57,7 @@ Status run_walls(const ViewArguments& arguments, const Scene& scene, const WallV
                              .stereo = views.stereo,
                              .samples = arguments.samples,
                              .exposure_ev = arguments.exposure_ev,
-                             .object_depth = asked_depth(arguments),
+                             .object_depth = requested_depth(arguments),
                              .object_samples = arguments.object_samples,
                              .warn = print_warnings};
     if (views.tracker) options.tracked = tracked;

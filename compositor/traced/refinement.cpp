@@ -32,7 +32,7 @@ void Refinement::drop_view() {
 void Refinement::begin(const Camera& camera, TracedMethod method) {
     {
         const std::lock_guard lock(mutex_);
-        wanted_ = View{camera, method};
+        requested_ = View{camera, method};
         drop_view();
     }
     changed_.notify_all();
@@ -42,7 +42,7 @@ void Refinement::set_lights(Lighting lighting) {
     {
         const std::lock_guard lock(mutex_);
         lighting_ = std::move(lighting);
-        wanted_.reset();
+        requested_.reset();
         drop_view();
     }
     changed_.notify_all();
@@ -51,7 +51,7 @@ void Refinement::set_lights(Lighting lighting) {
 void Refinement::end() {
     {
         const std::lock_guard lock(mutex_);
-        wanted_.reset();
+        requested_.reset();
         newest_.reset();
         stop_ = true;
     }
@@ -80,12 +80,12 @@ std::optional<Error> Refinement::failure() {
 void Refinement::publish(Image<Rgba8> picture, const Camera& camera, int passes) {
     auto shared = std::make_shared<const Image<Rgba8>>(std::move(picture));
     std::unique_lock lock(mutex_);
-    const bool outdated = wanted_ || lighting_;
+    const bool outdated = requested_ || lighting_;
     if (!stop_) newest_ = Step{std::move(shared), camera, outdated ? 0 : passes};
     if (outdated) stop_ = true;
     if (first_ != First::kNotThere) return;
     first_ = First::kThere;
-    changed_.wait(lock, [this] { return stop_ || leaving_ || wanted_ || lighting_ || first_ == First::kDrawn; });
+    changed_.wait(lock, [this] { return stop_ || leaving_ || requested_ || lighting_ || first_ == First::kDrawn; });
 }
 
 void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
@@ -101,9 +101,9 @@ void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
             std::optional<Lighting> lighting;
             {
                 std::unique_lock lock(mutex_);
-                changed_.wait(lock, [this] { return leaving_ || wanted_; });
+                changed_.wait(lock, [this] { return leaving_ || requested_; });
                 if (leaving_) return;
-                view = *std::exchange(wanted_, std::nullopt);
+                view = *std::exchange(requested_, std::nullopt);
                 lighting = std::exchange(lighting_, std::nullopt);
                 stop_ = false;
                 first_ = First::kNotThere;

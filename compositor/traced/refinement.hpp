@@ -61,7 +61,7 @@ private:
         Camera camera;
         TracedMethod method;
     };
-    std::optional<View> wanted_;        // not yet begun
+    std::optional<View> requested_;     // not yet begun
     std::optional<Lighting> lighting_;  // not yet taken over
     std::optional<Step> newest_;
     std::optional<Error> failure_;

@@ -77,19 +77,19 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
 }
 
 bool TracedRenderer::move(std::uint32_t id, const glm::dmat4& moved, const std::optional<glm::dmat4>& at_close) {
-    std::vector<std::pair<std::size_t, capture::Instance>> wanted;
+    std::vector<std::pair<std::size_t, capture::Instance>> changed;
     for (std::size_t i = 0; i < moving_.size(); ++i) {
         if (moving_[i].id != id) continue;
         capture::Instance placed;
         placed.world_from_part = moved * moving_[i].world_from_node;
         if (at_close) placed.at_close = *at_close * moving_[i].world_from_node;
         if (!capture::check_placement(placed)) return false;
-        wanted.emplace_back(i, placed);
+        changed.emplace_back(i, placed);
     }
-    for (const auto& [i, placed] : wanted) {
+    for (const auto& [i, placed] : changed) {
         if (!tracer_.move(i, placed.world_from_part, placed.at_close)) return false;
     }
-    return !wanted.empty();
+    return !changed.empty();
 }
 
 void TracedRenderer::describe_lights(const Scene& scene, std::vector<Light> lights) {

@@ -105,7 +105,7 @@ Status Showroom::wait() {
 }
 
 Status Showroom::wait_for_all(const glm::dvec3& eye) {
-    cache_.want(plan_.priorities({eye, eye}));
+    cache_.set_priorities(plan_.priorities({eye, eye}));
     return wait();
 }
 
@@ -119,9 +119,9 @@ void Showroom::load_on_board(const glm::dvec3& eye) {
     }
     std::stable_sort(files.begin(), files.end(), [&](auto a, auto b) { return priorities[a] < priorities[b]; });
     files.resize(std::min(files.size(), kObjectsOfBoard));
-    std::vector<engine::ObjectHandle> wanted;
-    for (const std::size_t file : files) wanted.push_back(handles_[file]);
-    engine_->load_on_board(wanted);
+    std::vector<engine::ObjectHandle> loaded;
+    for (const std::size_t file : files) loaded.push_back(handles_[file]);
+    engine_->load_on_board(loaded);
 }
 
 void Showroom::fade(double seconds) {
@@ -145,10 +145,10 @@ Status Showroom::update(const glm::dvec3& eye, double seconds, const std::option
     eye_ = eye;
     const glm::dvec3 soon = destination.value_or(eye + velocity_ * kAhead_s);
     if (waits_) {
-        cache_.want(plan_.priorities({eye, eye}));
-        priorities_heard_ = true;
+        cache_.set_priorities(plan_.priorities({eye, eye}));
+        priorities_taken_ = true;
     } else {
-        priorities_heard_ = cache_.try_want(plan_.priorities({eye, soon}));
+        priorities_taken_ = cache_.try_set_priorities(plan_.priorities({eye, soon}));
     }
     Status status = waits_ ? wait() : take_events();
     if (waits_) load_on_board(eye);

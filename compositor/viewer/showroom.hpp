@@ -59,7 +59,7 @@ public:
     // Of objects that cannot be shown, each told once.
     std::vector<std::string> take_warnings();
     // True where nothing will come or go while the visitor stays.
-    [[nodiscard]] bool settled() const { return priorities_heard_ && cache_.settled(); }
+    [[nodiscard]] bool settled() const { return priorities_taken_ && cache_.settled(); }
     [[nodiscard]] StoreStatistics statistics() const { return cache_.statistics(); }
     // Seconds that reading the object of a node took; 0 before it was.
     [[nodiscard]] double load_seconds(std::size_t node) const { return cache_.load_seconds(plan_.file_of_node(node)); }
@@ -88,7 +88,7 @@ private:
     std::vector<std::string> warnings_;
     std::optional<glm::dvec3> eye_;  // in the last frame
     glm::dvec3 velocity_{0};         // scene units a second
-    bool priorities_heard_ = false;  // by the cache, those of the last frame
+    bool priorities_taken_ = false;  // by the cache, those of the last frame
     ObjectCache cache_;
 };
 

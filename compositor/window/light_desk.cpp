@@ -128,10 +128,10 @@ bool LightDesk::obey(Key command) {
             open(!open_);
             return true;
         case Key::kUndo:
-            tell(edits_.undo() ? "undone" : "nothing to undo");
+            report(edits_.undo() ? "undone" : "nothing to undo");
             return true;
         case Key::kRedo:
-            tell(edits_.redo() ? "done again" : "nothing to do again");
+            report(edits_.redo() ? "done again" : "nothing to do again");
             return true;
         case Key::kDelete:
             if (open_) edits_.remove_selected();
@@ -160,12 +160,12 @@ void LightDesk::add(LightKind kind, const DeskView& view) {
     entry.name = free_light_name(edits_.state(), words.kind);
     if (words.has_file) {
         if (files_.empty()) {
-            tell(folder_.string() + ": holds no .ies or .ldt file; choose another folder");
+            report(folder_.string() + ": holds no .ies or .ldt file; choose another folder");
             return;
         }
         Result<Luminaire> read = read_luminaire(files_.front());
         if (!read) {
-            tell(read.error().message);
+            report(read.error().message);
             return;
         }
         entry.file = files_.front();
@@ -190,7 +190,7 @@ Status LightDesk::load() {
     }
     edits_.set(std::move(state));
     const std::vector<std::string> warnings = light_warnings(tried);
-    tell(warnings.empty() ? profile + ": " + std::to_string(list->entries.size()) + " lights" : warnings.front());
+    report(warnings.empty() ? profile + ": " + std::to_string(list->entries.size()) + " lights" : warnings.front());
     return {};
 }
 
@@ -209,7 +209,7 @@ void LightDesk::look_for_files(const std::filesystem::path& folder) {
         if (ending == ".ies" || ending == ".ldt") files_.push_back(entries->path());
     }
     std::sort(files_.begin(), files_.end());
-    if (failed) tell(folder.string() + ": " + failed.message() + "; choose another folder");
+    if (failed) report(folder.string() + ": " + failed.message() + "; choose another folder");
 }
 
 Status LightDesk::use_file(const std::filesystem::path& file) {

@@ -67,7 +67,7 @@ public:
     [[nodiscard]] const std::string& warning() const { return warning_; }
     // Since the last call, for people; empty: nothing.
     std::string take_news();
-    void tell(const std::string& news) { news_ = news; }
+    void report(const std::string& news) { news_ = news; }
 
 private:
     void end_drag();

@@ -197,7 +197,7 @@ void draw_files(LightDesk& desk, const LightEntry& entry) {
     if (ImGui::BeginCombo("file", printable(entry.file.filename().string()).c_str())) {
         for (const std::filesystem::path& file : desk.files()) {
             if (!ImGui::Selectable(printable(file.filename().string()).c_str(), file == entry.file)) continue;
-            if (const Status used = desk.use_file(file); !used) desk.tell(used.error().message);
+            if (const Status used = desk.use_file(file); !used) desk.report(used.error().message);
         }
         ImGui::EndCombo();
     }
@@ -225,12 +225,12 @@ void draw_profile(LightDesk& desk) {
     if (ImGui::InputText("##profile", profile, sizeof profile)) desk.profile = profile;
     ImGui::SameLine();
     if (ImGui::Button("load")) {
-        if (const Status loaded = desk.load(); !loaded) desk.tell(loaded.error().message);
+        if (const Status loaded = desk.load(); !loaded) desk.report(loaded.error().message);
     }
     ImGui::SameLine();
     if (ImGui::Button("save")) {
         const Status saved = desk.save();
-        desk.tell(saved ? desk.profile + ": saved" : saved.error().message);
+        desk.report(saved ? desk.profile + ": saved" : saved.error().message);
     }
 }
 

@@ -176,11 +176,11 @@ Overlay::~Overlay() {
     ImGui::DestroyContext();
 }
 
-bool Overlay::wants_mouse() const {
+bool Overlay::takes_mouse() const {
     return ImGui::GetIO().WantCaptureMouse;
 }
 
-bool Overlay::wants_keys() const {
+bool Overlay::takes_keys() const {
     return ImGui::GetIO().WantTextInput;
 }
 

@@ -63,8 +63,8 @@ public:
     ~Overlay();
 
     // True while the mouse is over the panel, or something is typed into it: events are the panel's.
-    [[nodiscard]] bool wants_mouse() const;
-    [[nodiscard]] bool wants_keys() const;
+    [[nodiscard]] bool takes_mouse() const;
+    [[nodiscard]] bool takes_keys() const;
 
     // Draws into the window; after the picture, before swap(). `more` draws other panels.
     void draw(PanelState& state, const std::function<void()>& more = nullptr);

@@ -60,7 +60,7 @@ void Playback::draw_controls() {
     }
     ImGui::Checkbox("its camera", &follows_);
     ImGui::SameLine();
-    if (ImGui::Button("save JPEG")) wants_jpeg_ = true;
+    if (ImGui::Button("save JPEG")) jpeg_requested_ = true;
     ImGui::SameLine();
     if (last > 0 && ImGui::Button(saving_ ? "end video" : "save video")) {
         saving_ = !saving_;

@@ -40,7 +40,7 @@ public:
     void end_saving() { saving_ = playing_ = false; }
 
     // What was asked for since the last call.
-    bool take_jpeg() { return std::exchange(wants_jpeg_, false); }
+    bool take_jpeg() { return std::exchange(jpeg_requested_, false); }
     std::string take_folder() { return std::exchange(folder_, {}); }
 
     // The lines of the panel; between ImGui::Begin and End.
@@ -54,7 +54,7 @@ private:
     bool playing_ = true;
     bool follows_ = true;  // the sequence's camera
     bool saving_ = false;
-    bool wants_jpeg_ = false;
+    bool jpeg_requested_ = false;
     double passed_s_ = 0;
     std::string folder_;
     std::array<char, 512> typed_{};

@@ -53,7 +53,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
     panel_.device = window_.context().device_name();
     if (options.sequence) playback_.emplace(options.sequence, options.weather);
     panel_.playback = playback_ ? &*playback_ : nullptr;
-    tell("press H for help");
+    report("press H for help");
 }
 
 Visit::~Visit() {
@@ -86,7 +86,7 @@ Camera Visit::camera() const {
     return camera_at(here, compositor_.width(), compositor_.height());
 }
 
-void Visit::tell(const std::string& news) {
+void Visit::report(const std::string& news) {
     panel_.news = news;
     news_seconds_ = kNewsSeconds;
 }
@@ -99,7 +99,7 @@ void Visit::go_to_viewpoint(std::size_t number) {
     viewpoint_ = number;
     begin_travel(visitor_at(options_.viewpoints[number], middle_));
     const std::string& name = options_.viewpoints[number].description;
-    tell(name.empty() ? "viewpoint " + std::to_string(number + 1) : name);
+    report(name.empty() ? "viewpoint " + std::to_string(number + 1) : name);
 }
 
 void Visit::pick(const glm::dvec2& at_px) {
@@ -108,7 +108,7 @@ void Visit::pick(const glm::dvec2& at_px) {
     panel_.picked = object ? static_cast<int>(*object) : -1;
     if (!object) return;
     panel_.turn_rad = turns_rad_[*object];
-    tell(names_[*object]);
+    report(names_[*object]);
 }
 
 Status Visit::obey(Key command) {
@@ -199,13 +199,13 @@ Status Visit::take_pictures() {
         constexpr int kQuality = 92;
         const std::filesystem::path path = free_name(options_.pictures, "screenshot", ".jpg", shots_);
         const Status written = write_jpeg(path, compositor_.picture(), kQuality);
-        tell(written ? path.string() : written.error().message);
+        report(written ? path.string() : written.error().message);
     }
     if (!panel_.take_screenshot) return {};
     panel_.take_screenshot = false;
     const std::filesystem::path path = free_name(options_.pictures, "screenshot", ".png", shots_);
     const Status written = write_png(path, compositor_.picture());
-    tell(written ? path.string() : written.error().message);
+    report(written ? path.string() : written.error().message);
     return {};
 }
 
@@ -217,18 +217,18 @@ Status Visit::record() {
         Result<VideoWriter> video = VideoWriter::open(path, compositor_.width(), compositor_.height(), rate);
         if (!video) {
             panel_.recording = false;
-            tell(video.error().message);
+            report(video.error().message);
             return {};
         }
         video_.emplace(std::move(*video));
-        tell("recording " + path.string());
+        report("recording " + path.string());
     }
     if (!video_) return {};
     Status status = panel_.recording ? video_->add(compositor_.picture()) : video_->finish();
     if (!panel_.recording || !status) {
         video_.reset();
         panel_.recording = false;
-        tell(status ? "recording finished" : status.error().message);
+        report(status ? "recording finished" : status.error().message);
     }
     return {};
 }
@@ -260,7 +260,7 @@ void Visit::hear_showroom() {
     const std::vector<std::string> warnings = showroom_->take_warnings();
     if (warnings.empty()) return;
     if (options_.warn) options_.warn(warnings);
-    tell(warnings.back());
+    report(warnings.back());
 }
 
 // True where an object was turned.
@@ -291,14 +291,14 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     for (const Event& event : window_.poll()) {
         const bool of_mouse = std::holds_alternative<WheelEvent>(event) ||
                               (std::holds_alternative<ButtonEvent>(event) && std::get<ButtonEvent>(event).down);
-        if (of_mouse && overlay_->wants_mouse()) continue;
-        if (std::holds_alternative<KeyEvent>(event) && overlay_->wants_keys()) continue;
+        if (of_mouse && overlay_->takes_mouse()) continue;
+        if (std::holds_alternative<KeyEvent>(event) && overlay_->takes_keys()) continue;
         if (!desk_.take(event, desk_view())) input_.take(event);
     }
     for (const Key command : input_.commands()) {
         if (Status status = obey(command); !status) return status.error();
     }
-    if (window_.wants_to_close()) return false;
+    if (window_.should_close()) return false;
     const glm::ivec2 size = window_.framebuffer_px();
     if (size.x < 1 || size.y < 1) return true;  // an icon
     if (size.x != compositor_.width() || size.y != compositor_.height()) {
@@ -320,7 +320,7 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     compositor_.set_wire_frame(panel_.wire_frame);
     if (const Status status = compositor_.set_shadows(panel_.shadows); !status) {
         panel_.shadows = compositor_.shadows();
-        tell(status.error().message);
+        report(status.error().message);
     }
     const std::optional<glm::dvec3> destination = travel_ ? std::optional(travel_->to.eye) : std::nullopt;
     if (Status status = showroom_->update(visitor_.eye, passed, destination); !status) return status.error();

@@ -93,7 +93,7 @@ private:
     Status record();
     void refresh_panel(double seconds);
     void hear_showroom();
-    void tell(const std::string& news);
+    void report(const std::string& news);
     [[nodiscard]] Camera camera() const;
 
     Window window_;

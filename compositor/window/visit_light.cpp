@@ -14,7 +14,7 @@ DeskView Visit::desk_view() {
 
 Status Visit::relight() {
     desk_.settle(desk_view());
-    if (std::string news = desk_.take_news(); !news.empty()) tell(news);
+    if (std::string news = desk_.take_news(); !news.empty()) report(news);
     if (!desk_.take_change()) return {};
     const double exposure_ev = desk_.edits().state().exposure_ev;
     if (refinement_) refinement_->set_lights({desk_.scene(), exposure_ev});
@@ -71,7 +71,7 @@ bool Visit::refine(const Camera& here) {
     if (const std::optional<Error> failed = refinement_->failure()) {
         panel_.traced = false;
         refined_.reset();
-        tell(failed->message);
+        report(failed->message);
         return true;
     }
     const bool otherwise =

@@ -173,7 +173,7 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
     last_ = now;
     for (Window& window : windows_) {
         for (const Event& event : window.poll()) input_.take(event);
-        leaves_ = leaves_ || window.wants_to_close();
+        leaves_ = leaves_ || window.should_close();
     }
     for (const Key command : input_.commands()) obey(command);
     if (leaves_) return false;

@@ -175,7 +175,7 @@ void Window::make_current() {
     glfwMakeContextCurrent(state_->window);
 }
 
-bool Window::wants_to_close() const {
+bool Window::should_close() const {
     return glfwWindowShouldClose(state_->window) == GLFW_TRUE;
 }
 

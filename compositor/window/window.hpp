@@ -34,7 +34,7 @@ public:
     [[nodiscard]] gl::Context& context();
     // What is drawn from now on goes here, by this window's context.
     void make_current();
-    [[nodiscard]] bool wants_to_close() const;
+    [[nodiscard]] bool should_close() const;
     void close();
 
     // Of what is drawn into; may change from poll() to poll(), and be 0 where the window is an icon.

@@ -95,8 +95,8 @@ void Coordinator::take_outcome(int rank, std::size_t item, Outcome outcome) {
         ++record.items;
         record.busy_s += outcome.seconds;
     }
-    const bool says_all = outcome.state == State::kKept || outcome.recorded;
-    if (!says_all) {
+    const bool is_complete = outcome.state == State::kKept || outcome.recorded;
+    if (!is_complete) {
         manifest_.add(schedule_.items()[item].name, outcome,
                       {{"rank", rank}, {"node", record.node}, {"time", now_text()}});
     }

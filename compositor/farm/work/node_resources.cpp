@@ -33,7 +33,7 @@ WorkerNode this_node() {
     return {host, bytes};
 }
 
-std::vector<int> processors_of(int place, int places, std::optional<int> wanted) {
+std::vector<int> processors_of(int place, int places, std::optional<int> requested) {
     cpu_set_t set;
     CPU_ZERO(&set);
     std::vector<int> mine;
@@ -43,7 +43,7 @@ std::vector<int> processors_of(int place, int places, std::optional<int> wanted)
     }
     const int count = static_cast<int>(mine.size());
     const bool bound = count < ::sysconf(_SC_NPROCESSORS_ONLN);
-    const int share = wanted.value_or(bound ? count : std::max(1, count / std::max(1, places)));
+    const int share = requested.value_or(bound ? count : std::max(1, count / std::max(1, places)));
     if (share >= count) return mine;
     std::vector<int> some;
     for (int i = 0; i < share; ++i) some.push_back(mine[static_cast<std::size_t>((place * share + i) % count)]);

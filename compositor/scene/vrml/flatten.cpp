@@ -160,10 +160,10 @@ private:
         walk_children(node.field("children").nodes, place);
         const glm::dvec3 size = node.triple("bboxSize");
         const glm::dvec3 centre = node.triple("bboxCenter");
-        const bool told = size.x >= 0 && size.y >= 0 && size.z >= 0;
+        const bool has_size = size.x >= 0 && size.y >= 0 && size.z >= 0;
         scene_.rooms[room].box =
-            told ? BoundingBox{centre - size * 0.5, centre + size * 0.5}.moved(place.world_from_node)
-                 : bounds_from(scene_, geometry, objects);
+            has_size ? BoundingBox{centre - size * 0.5, centre + size * 0.5}.moved(place.world_from_node)
+                     : bounds_from(scene_, geometry, objects);
     }
 
     void add_bindable(const Node& node, const Place& place) {

@@ -242,8 +242,8 @@ NodePointer ShapeMaker::points_of(const TreePointer& node, const State& state) {
     const std::size_t places = all.size() / 3;
     const auto total = static_cast<double>(places);
     const double begin = std::clamp(node->number("startIndex"), 0.0, total);
-    const double wanted = node->number("numPoints");
-    const double count = wanted < 0 ? total - begin : std::min(wanted, total - begin);
+    const double given = node->number("numPoints");
+    const double count = given < 0 ? total - begin : std::min(given, total - begin);
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(3 * begin);
     const NodePointer points = made_node(builder_, "Coordinate", node->line,
                                          {{"point", numbers({first, first + static_cast<std::ptrdiff_t>(3 * count)})}});

@@ -134,13 +134,14 @@ void ClassicWriter::begin_child(std::string_view type, const Attributes& attribu
     Frame& around = frames_.back();
     around.is_empty = false;
     if (around.place != Place::kNode) return;
-    const std::string_view asked = attribute(attributes, "containerField");
+    const std::string_view requested = attribute(attributes, "containerField");
     const NodeSpec* own = vrml::find_node(type);
     if (around.spec == nullptr) return write("children");
-    const auto named = around.spec->fields.find(asked);
-    if (named != around.spec->fields.end() && named->second.type == FieldType::kNode) return write(asked);
-    if (own != nullptr || asked.empty()) return write(field_for(*around.spec, own != nullptr ? own->slot : "child"));
-    const std::string field = word_of(asked);
+    const auto named = around.spec->fields.find(requested);
+    if (named != around.spec->fields.end() && named->second.type == FieldType::kNode) return write(requested);
+    if (own != nullptr || requested.empty())
+        return write(field_for(*around.spec, own != nullptr ? own->slot : "child"));
+    const std::string field = word_of(requested);
     write(field.empty() || field == "children" ? field_for(*around.spec, "child") : std::string_view(field));
 }
 

@@ -97,8 +97,8 @@ vec3 in_relief(vec3 n) {
 }
 
 // Of lights. Where they are counted the constant tells only whether there may be any.
-int number_of(int constant, int told) {
-    return kCounted && constant > 0 ? told : constant;
+int number_of(int constant, int given) {
+    return kCounted && constant > 0 ? given : constant;
 }
 
 // Of the light's map, the numbers of which begin at row `shadow`.

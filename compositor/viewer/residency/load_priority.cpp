@@ -10,16 +10,16 @@ constexpr double kFarther = 1.25;  // times as far: clearly farther
 
 }  // namespace
 
-bool gives_way(const LoadPriority& held, const LoadPriority& wanted) {
-    if (held.room < wanted.room) return false;
-    if (held.room == wanted.room) return held.distance > kFarther * wanted.distance + wanted.door;
+bool gives_way(const LoadPriority& held, const LoadPriority& next) {
+    if (held.room < next.room) return false;
+    if (held.room == next.room) return held.distance > kFarther * next.distance + next.door;
     // A room that was left a moment ago is still near, wherever the visitor is bound for.
-    return std::min(std::max(held.room, 0.0), held.room_now) > kFarther * std::max(wanted.room, 0.0) + wanted.door;
+    return std::min(std::max(held.room, 0.0), held.room_now) > kFarther * std::max(next.room, 0.0) + next.door;
 }
 
 namespace {
 
-// Of a room's longest side: what makes no difference to what is wanted.
+// Of a room's longest side: what makes no difference to which is next.
 constexpr double kDoorOfRoom = 0.05;
 
 double distance_to(const BoundingBox& box, const glm::dvec3& point) {
@@ -49,7 +49,7 @@ RoomPlan::RoomPlan(const Scene& scene) {
 
 std::vector<LoadPriority> RoomPlan::priorities(const VisitorPlace& visitor) const {
     std::vector<LoadPriority> priorities(files_.size());
-    std::vector<bool> wished(files_.size());
+    std::vector<bool> has_priority(files_.size());
     for (const Node& node : nodes_) {
         LoadPriority priority;
         priority.distance = glm::distance(node.middle, visitor.eye);
@@ -60,8 +60,8 @@ std::vector<LoadPriority> RoomPlan::priorities(const VisitorPlace& visitor) cons
             priority.room_now = distance_to(room.box, visitor.eye);
             priority.room = priority.room_now > 0 ? distance_to(room.box, visitor.soon) : LoadPriority::kHere;
         }
-        if (!wished[node.file] || priority < priorities[node.file]) priorities[node.file] = priority;
-        wished[node.file] = true;
+        if (!has_priority[node.file] || priority < priorities[node.file]) priorities[node.file] = priority;
+        has_priority[node.file] = true;
     }
     return priorities;
 }

@@ -26,7 +26,7 @@ struct LoadPriority {
 };
 // Whether something that is in memory has to make room for something that is not: only where it is wanted clearly less,
 // so that a visitor at a door does not make two rooms take turns.
-bool gives_way(const LoadPriority& held, const LoadPriority& wanted);
+bool gives_way(const LoadPriority& held, const LoadPriority& next);
 
 // From a scene's rooms and the place of its visitor to what is wanted in memory. Pure; thread-safe.
 //

@@ -84,7 +84,7 @@ struct ObjectCache::State {
     }
 
     // The files in a stage, the most wanted first.
-    [[nodiscard]] std::vector<std::size_t> by_wish(Stage stage) const {
+    [[nodiscard]] std::vector<std::size_t> by_priority(Stage stage) const {
         std::vector<std::size_t> found;
         for (std::size_t i = 0; i < files.size(); ++i) {
             if (files[i].stage == stage) found.push_back(i);
@@ -144,7 +144,7 @@ struct ObjectCache::State {
 
     // Asks for the least wanted to be let go, until there will be `bytes`; nobody is asked where that cannot be reached
     // with those that give way. True where somebody is leaving.
-    bool make_room(std::size_t wanted, std::int64_t bytes) {
+    bool make_room(std::size_t next, std::int64_t bytes) {
         std::int64_t free = memory.budget_bytes() - memory.used_bytes();
         std::vector<std::size_t> held;
         bool leaving = false;
@@ -153,7 +153,7 @@ struct ObjectCache::State {
                 leaving = true;
                 if (files[i].object) free += files[i].object->lease.bytes();
             }
-            if (files[i].stage == Stage::kHere && gives_way(priorities[i], priorities[wanted])) held.push_back(i);
+            if (files[i].stage == Stage::kHere && gives_way(priorities[i], priorities[next])) held.push_back(i);
         }
         if (leaving && free >= bytes) return true;
         std::stable_sort(held.begin(), held.end(), [&](auto a, auto b) { return priorities[a] > priorities[b]; });
@@ -209,12 +209,12 @@ struct ObjectCache::State {
             return true;
         }
         if (priorities.empty()) return false;
-        if (const auto unmeasured = by_wish(Stage::kUnmeasured); !unmeasured.empty()) {
+        if (const auto unmeasured = by_priority(Stage::kUnmeasured); !unmeasured.empty()) {
             measure(lock, unmeasured.front());
             return true;
         }
         bool waits = false;
-        for (const std::size_t next : by_wish(Stage::kAway)) {
+        for (const std::size_t next : by_priority(Stage::kAway)) {
             const std::int64_t bytes = files[next].most_bytes;
             if (auto lease = memory.reserve(bytes)) {
                 load(lock, next, std::move(*lease));
@@ -261,12 +261,12 @@ ObjectCache::~ObjectCache() {
     state_->thread.join();
 }
 
-void ObjectCache::want(std::vector<LoadPriority> priorities) {
+void ObjectCache::set_priorities(std::vector<LoadPriority> priorities) {
     const std::lock_guard lock(state_->mutex);
     state_->set_priorities(std::move(priorities));
 }
 
-bool ObjectCache::try_want(std::vector<LoadPriority> priorities) {
+bool ObjectCache::try_set_priorities(std::vector<LoadPriority> priorities) {
     const std::unique_lock lock(state_->mutex, std::try_to_lock);
     if (!lock) return false;
     state_->set_priorities(std::move(priorities));

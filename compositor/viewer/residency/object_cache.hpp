@@ -53,10 +53,10 @@ public:
     ObjectCache& operator=(const ObjectCache&) = delete;
 
     // [file], from now on. Nothing is read before the first call.
-    void want(std::vector<LoadPriority> priorities);
+    void set_priorities(std::vector<LoadPriority> priorities);
     // The same for a frame, which is not to wait even for the blink of an eye that the cache's thread, of low priority,
     // may be held up in: false, and nothing is changed, where it is busy. To be said again with the next frame.
-    bool try_want(std::vector<LoadPriority> priorities);
+    bool try_set_priorities(std::vector<LoadPriority> priorities);
 
     // What has happened since the last call; may come with a later one while the cache is busy.
     std::vector<StoreEvent> events();

@@ -84,11 +84,12 @@ std::optional<ObjectView> view_of_object(const PlacedObject& placed, const Camer
     view.rectangle = *rectangle;
     const int most = std::min({options.most_samples_across, kMostSamplesAcross,
                                kMaxPictureSide_px / std::max(rectangle->width, rectangle->height)});
-    const double wanted = std::clamp(captured_pixels(object, camera, glm::length(eye)), 1.0, std::max<double>(most, 1));
-    view.samples_across = static_cast<int>(std::lround(wanted));
+    const double samples =
+        std::clamp(captured_pixels(object, camera, glm::length(eye)), 1.0, std::max<double>(most, 1));
+    view.samples_across = static_cast<int>(std::lround(samples));
     std::optional<UprightPicture> upright;
     if (options.upright && !is_upright(camera)) {
-        upright = upright_picture(camera, *rectangle, bounds, wanted);
+        upright = upright_picture(camera, *rectangle, bounds, samples);
     }
     view.smooth = upright && view.samples_across == 1;
     const ObjectPicture picture =

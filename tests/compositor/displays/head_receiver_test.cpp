@@ -23,8 +23,8 @@ HeadReceiver opened() {
 }
 
 TEST(HeadReceiver, ReadsWhereToListen) {
-    EXPECT_TRUE(asks_for_udp("udp:4242"));
-    EXPECT_FALSE(asks_for_udp("heads.json"));
+    EXPECT_TRUE(names_udp_port("udp:4242"));
+    EXPECT_FALSE(names_udp_port("heads.json"));
     const auto text = [](const std::string& asked) {
         const auto place = udp_place_from(asked);
         return place ? place->text() : place.error().message;

@@ -138,8 +138,8 @@ int difference(const Scene& scene) {
             const Rgba8& seen = (*picture)(x, y);
             const int channels[] = {seen.r, seen.g, seen.b};
             for (int k = 0; k < 3; ++k) {
-                const int wanted = srgb8_from_linear(static_cast<float>(std::min(colour[k], 1.0)));
-                greatest = std::max(greatest, std::abs(channels[k] - wanted));
+                const int expected = srgb8_from_linear(static_cast<float>(std::min(colour[k], 1.0)));
+                greatest = std::max(greatest, std::abs(channels[k] - expected));
             }
             ++counted;
         }

@@ -96,13 +96,13 @@ std::vector<LoadPriority> distances(const std::vector<double>& rooms) {
 
 TEST(ObjectCache, ReadsTheMostWantedFirstAndEachOnce) {
     StoreVisitor visitor(5, room_for(5));
-    visitor.store.want(
+    visitor.store.set_priorities(
         {{4, 1}, {LoadPriority::kHere, 7}, {2, 9}, {LoadPriority::kHere, 3}, {LoadPriority::kAlways, 50}});
     visitor.settle();
     EXPECT_THAT(visitor.log->names(), ElementsAre("e", "d", "b", "c", "a"));
     EXPECT_EQ(visitor.store.statistics().loads, 5);
     EXPECT_GT(visitor.store.load_seconds(0), 0);
-    visitor.store.want(
+    visitor.store.set_priorities(
         {{4, 2}, {LoadPriority::kHere, 7}, {2, 9}, {LoadPriority::kHere, 3}, {LoadPriority::kAlways, 50}});
     visitor.settle();
     EXPECT_EQ(visitor.store.statistics().loads, 5);
@@ -112,7 +112,7 @@ TEST(ObjectCache, NothingIsReadBeforeItIsWanted) {
     // One thread reads, in the order in which it begins: what was read too early would stand first.
     for (int trial = 0; trial < 50; ++trial) {
         StoreVisitor visitor(3, room_for(1));
-        visitor.store.want(distances({9, 8, 0}));
+        visitor.store.set_priorities(distances({9, 8, 0}));
         visitor.settle();
         ASSERT_FALSE(visitor.log->names().empty());
         ASSERT_EQ(visitor.log->names().front(), "c");
@@ -121,10 +121,10 @@ TEST(ObjectCache, NothingIsReadBeforeItIsWanted) {
 
 TEST(ObjectCache, TheFarthestMakesRoom) {
     StoreVisitor visitor(4, room_for(2));
-    visitor.store.want(distances({0, 4, 8, 12}));
+    visitor.store.set_priorities(distances({0, 4, 8, 12}));
     visitor.settle();
     EXPECT_THAT(visitor.held(), ElementsAre(0, 1, 2)) << "the third fits once reading is over";
-    visitor.store.want(distances({12, 8, 4, 0}));
+    visitor.store.set_priorities(distances({12, 8, 4, 0}));
     visitor.settle();
     EXPECT_THAT(visitor.held(), ElementsAre(1, 2, 3));
     EXPECT_EQ(visitor.store.statistics().evictions, 1);
@@ -132,16 +132,16 @@ TEST(ObjectCache, TheFarthestMakesRoom) {
 
 TEST(ObjectCache, NearlyAsFarMakesNoRoom) {
     StoreVisitor visitor(3, room_for(0));  // one
-    visitor.store.want(distances({5, 5.2, 5.1}));
+    visitor.store.set_priorities(distances({5, 5.2, 5.1}));
     visitor.settle();
     EXPECT_THAT(visitor.held(), ElementsAre(0));
     for (int n = 0; n < 20; ++n) {
         const double aside = n % 2 == 0 ? 0.4 : -0.4;
-        visitor.store.want(distances({5 + aside, 5 - aside, 5.1}));
+        visitor.store.set_priorities(distances({5 + aside, 5 - aside, 5.1}));
         visitor.settle();
     }
     EXPECT_EQ(visitor.store.statistics().evictions, 0);
-    visitor.store.want(distances({7, 5, 5.1}));
+    visitor.store.set_priorities(distances({7, 5, 5.1}));
     visitor.settle();
     EXPECT_THAT(visitor.held(), ElementsAre(1));
 }
@@ -160,7 +160,7 @@ TEST(ObjectCache, TheBudgetHoldsWhateverIsWanted) {
             const double room = std::floor(distance(random));
             priorities.push_back({room < 2 ? LoadPriority::kHere : room, distance(random), 0.5});
         }
-        visitor.store.want(std::move(priorities));
+        visitor.store.set_priorities(std::move(priorities));
         for (int m = 0; m < n % 7; ++m) {
             std::this_thread::sleep_for(std::chrono::microseconds(300));
             visitor.listen();
@@ -178,10 +178,10 @@ TEST(ObjectCache, TheBudgetHoldsWhateverIsWanted) {
 
 TEST(ObjectCache, MemoryIsFreeOnlyWhenNobodyUsesTheObject) {
     StoreVisitor visitor(2, room_for(0));
-    visitor.store.want(distances({1, 20}));
+    visitor.store.set_priorities(distances({1, 20}));
     visitor.settle();
     const std::shared_ptr<const ViewableObject> still_used = visitor.here.at(0);
-    visitor.store.want(distances({20, 1}));
+    visitor.store.set_priorities(distances({20, 1}));
     for (int n = 0; n < 10; ++n) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
         visitor.listen();
@@ -196,12 +196,12 @@ TEST(ObjectCache, FailuresAreToldOnceAndTheRestGoesOn) {
     options.gone = {"a"};
     options.times_larger = {{"d", 50}};
     StoreVisitor visitor(5, room_for(5), options);
-    visitor.store.want(distances({1, 2, 3, 4, 5}));
+    visitor.store.set_priorities(distances({1, 2, 3, 4, 5}));
     visitor.settle();
     EXPECT_THAT(visitor.held(), ElementsAre(2, 4));
     EXPECT_THAT(visitor.failures, ElementsAre(HasSubstr("a: is not there"), HasSubstr("more than the budget"),
                                               HasSubstr("b: is broken")));
-    visitor.store.want(distances({5, 4, 3, 2, 1}));
+    visitor.store.set_priorities(distances({5, 4, 3, 2, 1}));
     visitor.settle();
     EXPECT_EQ(visitor.failures.size(), 3U);
     EXPECT_EQ(visitor.store.statistics().failures, 3);
@@ -212,7 +212,7 @@ TEST(ObjectCache, MayBeDestroyedWhileItReads) {
         test::SlowSourceOptions options;
         options.reading = std::chrono::milliseconds(3);
         StoreVisitor visitor(4, room_for(1), options);
-        visitor.store.want(distances({1, 2, 3, 4}));
+        visitor.store.set_priorities(distances({1, 2, 3, 4}));
         std::this_thread::sleep_for(std::chrono::milliseconds(n));
         if (n % 2 == 0) visitor.listen();
     }
@@ -223,7 +223,7 @@ TEST(ObjectCache, ObjectsOutliveIt) {
     auto log = std::make_shared<test::SourceLog>();
     {
         StoreVisitor visitor(1, room_for(1));
-        visitor.store.want(distances({1}));
+        visitor.store.set_priorities(distances({1}));
         visitor.settle();
         kept = visitor.here.at(0);
         log = visitor.log;

@@ -1,4 +1,4 @@
-#include "compositor/tools/asked_tracing.hpp"
+#include "compositor/tools/requested_tracing.hpp"
 
 #include "rayspace/base/printable.hpp"
 
@@ -31,16 +31,16 @@ Result<CameraLens> parse_lens(const std::string& text, double focus) {
 
 }  // namespace
 
-std::optional<TracedMethod> asked_method(const ViewArguments& arguments) {
+std::optional<TracedMethod> requested_method(const ViewArguments& arguments) {
     for (const NamedMethod& named : kTracedMethods) {
         if (arguments.renderer == named.name) return named.method;
     }
     return std::nullopt;
 }
 
-Result<TracedOptions> asked_tracing(const ViewArguments& arguments) {
+Result<TracedOptions> requested_tracing(const ViewArguments& arguments) {
     TracedOptions options;
-    options.method = asked_method(arguments).value_or(TracedMethod::kPath);
+    options.method = requested_method(arguments).value_or(TracedMethod::kPath);
     options.exposure_ev = arguments.exposure_ev;
     options.soft_shadows = arguments.soft_shadows;
     if (arguments.toon_lines >= 0) options.line_radius = arguments.toon_lines;

@@ -1,4 +1,4 @@
-#include "compositor/tools/asked_cameras.hpp"
+#include "compositor/tools/requested_cameras.hpp"
 
 #include "compositor/viewer/views/framing.hpp"
 
@@ -11,7 +11,7 @@ namespace rs::compositor {
 namespace {
 
 // The viewpoint that the command line names, or the first.
-Result<const Viewpoint*> asked_viewpoint(const ViewArguments& arguments, const Scene& scene) {
+Result<const Viewpoint*> requested_viewpoint(const ViewArguments& arguments, const Scene& scene) {
     if (arguments.viewpoint.empty()) return scene.viewpoints.empty() ? nullptr : &scene.viewpoints.front();
     std::string known;
     for (const Viewpoint& viewpoint : scene.viewpoints) {
@@ -31,9 +31,9 @@ CameraPose pose_that_shows_all(const Scene& scene, const std::vector<PlacedObjec
 
 }  // namespace
 
-Result<std::vector<Camera>> asked_cameras(const ViewArguments& arguments, const Scene& scene,
-                                          const ObjectsToFrame& objects, PixelSize size) {
-    const Result<const Viewpoint*> viewpoint = asked_viewpoint(arguments, scene);
+Result<std::vector<Camera>> requested_cameras(const ViewArguments& arguments, const Scene& scene,
+                                              const ObjectsToFrame& objects, PixelSize size) {
+    const Result<const Viewpoint*> viewpoint = requested_viewpoint(arguments, scene);
     if (!viewpoint) return viewpoint.error();
     const bool looks_elsewhere = !arguments.eye.empty() || !arguments.at.empty();
     const bool at_viewpoint = *viewpoint != nullptr && (!scene.camera || !arguments.viewpoint.empty());

@@ -13,12 +13,12 @@
 namespace rs::compositor {
 
 // The file's scene, or a floor, with the lights, the path and the objects that the command line adds.
-Result<Scene> asked_scene(const ViewArguments& arguments);
+Result<Scene> requested_scene(const ViewArguments& arguments);
 
 // Who draws with the core; null where that is alone.
-Result<std::unique_ptr<engine::Executor>> asked_executor(const ViewArguments& arguments);
+Result<std::unique_ptr<engine::Executor>> requested_executor(const ViewArguments& arguments);
 
-ObjectDepth asked_depth(const ViewArguments& arguments);
+ObjectDepth requested_depth(const ViewArguments& arguments);
 
 // A line each, for people.
 void print_warnings(const std::vector<std::string>& warnings);

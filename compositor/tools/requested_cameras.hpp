@@ -15,7 +15,7 @@ namespace rs::compositor {
 // What the command line says about the camera outranks the scene's path, that its viewpoint, and that the framing of
 // all that there is. Only for the latter `objects` is called: they have to be read.
 using ObjectsToFrame = std::function<Result<std::vector<PlacedObject>>()>;
-Result<std::vector<Camera>> asked_cameras(const ViewArguments& arguments, const Scene& scene,
-                                          const ObjectsToFrame& objects, PixelSize size);
+Result<std::vector<Camera>> requested_cameras(const ViewArguments& arguments, const Scene& scene,
+                                              const ObjectsToFrame& objects, PixelSize size);
 
 }  // namespace rs::compositor

@@ -1,4 +1,4 @@
-#include "compositor/tools/asked_scene.hpp"
+#include "compositor/tools/requested_scene.hpp"
 
 #include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/object_argument.hpp"
@@ -16,7 +16,7 @@ constexpr double kRowSpacing = 2.2;  // between objects without a place of their
 
 }  // namespace
 
-Result<Scene> asked_scene(const ViewArguments& arguments) {
+Result<Scene> requested_scene(const ViewArguments& arguments) {
     Scene scene;
     if (arguments.scene.empty()) {
         scene.floor = Floor{};
@@ -47,12 +47,12 @@ Result<Scene> asked_scene(const ViewArguments& arguments) {
     return scene;
 }
 
-Result<std::unique_ptr<engine::Executor>> asked_executor(const ViewArguments& arguments) {
+Result<std::unique_ptr<engine::Executor>> requested_executor(const ViewArguments& arguments) {
     if (arguments.executor == "core") return std::unique_ptr<engine::Executor>();
     return engine::make_executor(arguments.executor, {.instant_loads = true});
 }
 
-ObjectDepth asked_depth(const ViewArguments& arguments) {
+ObjectDepth requested_depth(const ViewArguments& arguments) {
     return arguments.object_depth == "pixel" ? ObjectDepth::kPixel : ObjectDepth::kPlane;
 }
 

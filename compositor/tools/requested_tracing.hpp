@@ -10,9 +10,9 @@
 namespace rs::compositor {
 
 // Nothing: raster.
-std::optional<TracedMethod> asked_method(const ViewArguments& arguments);
+std::optional<TracedMethod> requested_method(const ViewArguments& arguments);
 
 // For raster, too: what a window traces when it is told to. Refuses a lens that is none, or that is focused on nothing.
-Result<TracedOptions> asked_tracing(const ViewArguments& arguments);
+Result<TracedOptions> requested_tracing(const ViewArguments& arguments);
 
 }  // namespace rs::compositor
