@@ -1,5 +1,5 @@
 #pragma once
-// What a tracker says about a head, in the datagrams of opentrack's output "UDP over network": six little-endian
+// What a tracker reports about a head, in the datagrams of opentrack's output "UDP over network": six little-endian
 // doubles, 48 bytes.
 //
 //     byte   0   8  16    24   32    40

@@ -56,7 +56,7 @@ std::vector<std::string> all_names_alive() {
     return alive;
 }
 
-// Of the machine's GPUs, in EGL's order; none where Mesa is told to draw on the CPU.
+// Of the machine's GPUs, in EGL's order; none where Mesa is set to draw on the CPU.
 std::vector<EGLDisplay> gpu_displays() {
     std::vector<EGLDisplay> displays;
     const char* const software = std::getenv("LIBGL_ALWAYS_SOFTWARE");
@@ -165,7 +165,7 @@ Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
 Result<Context> Context::create_surfaceless(const ContextOptions& options) {
-    // epoxy ends the process when a function of a library that is not there is called: ask before the first.
+    // epoxy ends the process when a function of a library that is not there is called: look before the first.
     if (!epoxy_has_egl()) return no_context("libEGL cannot be loaded");
     Result<std::unique_ptr<State>> state = no_context("EGL has no surfaceless platform");
     for (const EGLDisplay display : gpu_displays()) {

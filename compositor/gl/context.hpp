@@ -1,7 +1,7 @@
 #pragma once
 // An OpenGL 4.5 core context: without a window or a display, drawing only into framebuffers, or a window's. The former
 // is EGL's on the first GPU that has one; else Mesa's surfaceless platform, which draws on the CPU where there is no
-// GPU, and always where the environment says LIBGL_ALWAYS_SOFTWARE=1.
+// GPU, and always where the environment has LIBGL_ALWAYS_SOFTWARE=1.
 //
 // Everything below compositor/ draws with the same conventions, set at creation: the picture's first row is its top
 // (glClipControl GL_UPPER_LEFT), and depth runs from 1 at the near plane to 0 at infinity (reversed; nearer is
@@ -17,7 +17,7 @@
 namespace rs::gl {
 
 struct ContextOptions {
-    bool debug = false;  // a debug context: take_errors() then tells every error with the driver's words
+    bool debug = false;  // a debug context: take_errors() then reports every error with the driver's words
     // Called when the context ends, with the errors that nobody has taken and the names that nobody has released; for
     // tests. May be empty.
     std::function<void(const std::vector<std::string>& left)> at_end = nullptr;

@@ -27,7 +27,7 @@ struct LightingState {
     bool operator==(const LightingState&) const = default;
 };
 
-// The list in force, and back: lists say nothing of exposure.
+// The list in force, and back: lists hold no exposure.
 LightingState state_of(const LightList& list, double exposure_ev);
 LightList list_of(const LightingState& state);
 

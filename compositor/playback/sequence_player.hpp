@@ -41,7 +41,7 @@ public:
     // `sequence` is not null.
     static Result<SequencePlayer> create(std::shared_ptr<const Sequence> sequence, const PlayerOptions& options);
 
-    // Frames may be asked for in any order; each is the same bytes however it is come by.
+    // Frames may be requested in any order; each is the same bytes however it is come by.
     Result<Image<Rgba8>> frame(std::size_t number);
     // The same, left with the driver (FrameCompositor::draw).
     Status draw(std::size_t number, const Camera& camera);
@@ -53,7 +53,7 @@ public:
     [[nodiscard]] int tracers_made() const { return tracers_made_; }
     // Seconds that moving everything and building the tree over it took, in the last traced frame.
     [[nodiscard]] double commit_s() const { return commit_s_; }
-    // Of objects that cannot be shown, each told once.
+    // Of objects that cannot be shown, each reported once.
     std::vector<std::string> take_warnings();
 
 private:

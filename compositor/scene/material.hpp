@@ -24,7 +24,7 @@ enum class AlphaUse { kNone = 0, kMask = 1, kBlend = 2 };
 // A picture whose alpha is nearly everywhere 0 or 255 cuts holes, with sharp edges and no order of drawing.
 AlphaUse alpha_use(const SceneTexture& texture);
 
-// What Phong's formula asks of a material beyond the rest (Shading::kPhong).
+// What Phong's formula needs of a material beyond the rest (Shading::kPhong).
 struct PhongTerms {
     glm::vec3 ambient{0.2F};  // reflected of the ambient light
     float exponent = 25.6F;   // of the cosine between the reflected viewer and the light, >= 0

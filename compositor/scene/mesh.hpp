@@ -1,6 +1,6 @@
 #pragma once
 // What the compositor draws: triangles, lines or points with normals, texture coordinates and colours, and the shapes
-// that a scene file may ask for.
+// that a scene file may request.
 
 #include <glm/glm.hpp>
 

@@ -31,7 +31,7 @@ struct Floor {
 };
 
 struct GeometryNode {
-    std::shared_ptr<const Mesh> mesh;  // not null; shared where the file says so
+    std::shared_ptr<const Mesh> mesh;  // not null; shared where the file does
     Material material;
     glm::dmat4 world_from_node{1.0};    // affine, with an inverse
     std::vector<std::uint32_t> lights;  // those of Scene::lights that shine here only, besides those everywhere
@@ -47,7 +47,7 @@ struct RaySpaceNode {
     std::string description;
     bool required = false;  // without it there is nothing to show; others are left out with a warning
     std::optional<std::size_t> room =
-        {};  // of Scene::rooms, the innermost; objects of none are always wanted in memory
+        {};  // of Scene::rooms, the innermost; objects of none are always needed in memory
 };
 
 // A part of the scene whose objects are in memory while a visitor is in it or near.
@@ -105,7 +105,7 @@ void take_lights(const Scene& from, Scene& to);
 BoundingBox bounds_of(const Scene& scene);
 
 // Of the geometry and the objects from these numbers on, objects with their radius about them: the box of a room that
-// does not tell it.
+// does not show it.
 BoundingBox bounds_from(const Scene& scene, std::size_t first_geometry, std::size_t first_object);
 
 }  // namespace rs::compositor

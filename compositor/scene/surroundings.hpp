@@ -1,5 +1,5 @@
 #pragma once
-// What surrounds a scene and how it wants to be looked at: background, fog, viewpoints, navigation. Colours are linear
+// What surrounds a scene and how it is to be looked at: background, fog, viewpoints, navigation. Colours are linear
 // light.
 
 #include "compositor/scene/material.hpp"
@@ -39,7 +39,7 @@ struct EnvironmentLight {
     bool seen = false;   // stands behind everything, where it is traced
 };
 
-// As a list of lights says it.
+// As a list of lights has it.
 struct EnvironmentEntry {
     std::filesystem::path file{};
     double scale = 1;  // 0..kStrongest

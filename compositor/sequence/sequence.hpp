@@ -49,7 +49,7 @@ struct Sequence {
     std::vector<SequenceFrame> frames;     // at least one
     std::optional<SequenceCamera> camera;  // the base's, for frames without one
     double frames_per_second = 25;
-    std::optional<Weather> weather;  // that the files ask for; the scene is not in it yet
+    std::optional<Weather> weather;  // that the files request; the scene is not in it yet
 };
 
 // Errors name file, line and remedy. Reads every file; a second or so for some hundred frames.

@@ -11,7 +11,7 @@
 namespace rs::farm {
 namespace {
 
-constexpr double kSilence_s = 1;  // a run that ends within it says nothing on its way
+constexpr double kSilence_s = 1;  // a run that ends within it reports nothing on its way
 constexpr double kRedraw_s = 0.5;
 constexpr double kLine_s = 30;
 

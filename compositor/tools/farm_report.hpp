@@ -1,5 +1,5 @@
 #pragma once
-// What rs-farm says: one line on stderr while all ranks work, a table on stdout at the end.
+// What rs-farm reports: one line on stderr while all ranks work, a table on stdout at the end.
 
 #include "compositor/farm/schedule/coordinator.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The cameras that the command line asks for.
+// The cameras that the command line requests.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/tools/view_options.hpp"
@@ -12,7 +12,7 @@
 
 namespace rs::compositor {
 
-// What the command line says about the camera outranks the scene's path, that its viewpoint, and that the framing of
+// What the command line states about the camera outranks the scene's path, that its viewpoint, and that the framing of
 // all that there is. Only for the latter `objects` is called: they have to be read.
 using ObjectsToFrame = std::function<Result<std::vector<PlacedObject>>()>;
 Result<std::vector<Camera>> requested_cameras(const ViewArguments& arguments, const Scene& scene,

@@ -1,5 +1,5 @@
 #pragma once
-// The scene that the command line asks for, and who draws its objects.
+// The scene that the command line requests, and who draws its objects.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/tools/view_options.hpp"

@@ -15,7 +15,7 @@
 namespace rs::compositor {
 namespace {
 
-// Until it is closed, or another sequence is asked for.
+// Until it is closed, or another sequence is requested.
 Status visit_sequence(const ViewArguments& arguments, PixelSize size, const std::shared_ptr<const Sequence>& sequence,
                       std::string& next) {
     auto window = Window::create({.title = sequence->name, .width = size.width, .height = size.height});

@@ -19,7 +19,7 @@ namespace rs::compositor {
 Result<std::unique_ptr<TracedRenderer>> requested_tracer(const ViewArguments& arguments, const Scene& scene,
                                                          Showroom& showroom);
 
-// By as many passes or seconds as were asked for, one pass at least.
+// By as many passes or seconds as were requested, one pass at least.
 std::shared_ptr<const Image<Rgba8>> trace(TracedRenderer& tracer, const ViewArguments& arguments, const Camera& camera,
                                           Progress& progress);
 

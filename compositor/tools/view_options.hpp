@@ -1,5 +1,5 @@
 #pragma once
-// What was asked of rs-view, and the options that ask for it.
+// What rs-view is to do, and the options that request it.
 
 #include "compositor/scene/weather.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
@@ -44,12 +44,12 @@ struct ViewArguments {
     bool soft_shadows = false;
     double toon_lines = -1;  // radius; < 0: as the scene is large
     std::string lens;
-    double focus = 0;  // of the lens, and of quilts; 0: not said
+    double focus = 0;  // of the lens, and of quilts; 0: not given
     std::string walls;
     std::string wall_names;
     std::string heads;
     std::string stereo;
-    double eye_distance_m = -1;  // as the walls' file says
+    double eye_distance_m = -1;  // as in the walls' file
     std::string quilt;
     std::string tile_size = "420x560";  // of a quilt
     double cone_deg = 40;

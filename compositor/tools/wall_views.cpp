@@ -54,7 +54,7 @@ Head in_room(const WallViews& views, const Head& tracked) {
     return tracked_in_room(tracked, views.display.tracker.value_or(views.display.head));
 }
 
-// A tracker's head for all frames of pictures; windows ask it anew for each.
+// A tracker's head for all frames of pictures; windows read it anew for each.
 Status add_tracked_head(const ViewArguments& arguments, WallViews& views) {
     const Result<UdpPlace> place = udp_place_from(arguments.heads);
     if (!place) return place.error();

@@ -29,13 +29,13 @@ struct WallViews {
     [[nodiscard]] const RoomPlace& place(std::size_t frame) const { return places[places.size() == 1 ? 0 : frame]; }
 };
 
-// `visitor`: the cameras of a visitor without a display (requested_cameras.hpp), which say where the room stands where
+// `visitor`: the cameras of a visitor without a display (requested_cameras.hpp), which show where the room stands where
 // the walls' file does not. Every eye of every frame is checked: fails where one is behind a wall, naming it. Pictures
 // of a head that is tracked wait for it, and fail where none comes.
 Result<WallViews> requested_walls(const ViewArguments& arguments, const Scene& scene,
                                   const std::vector<Camera>& visitor);
 
-// Where the head is in the room, if the tracker has said so since the last call.
+// Where the head is in the room, if the tracker has reported it since the last call.
 std::optional<Head> newest_head(const WallViews& views);
 
 // Frame by frame, wall by wall, the left eye before the right one.

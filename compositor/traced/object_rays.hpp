@@ -1,5 +1,5 @@
 #pragma once
-// A ray-space object as the tracer asks it: one look-up of the engine answers one ray.
+// A ray-space object as the tracer meets it: one look-up of the engine answers one ray.
 //
 // The engine sees a picture of one pixel, from a viewpoint on the ray before the object, so that the first that the
 // whole line meets is found. Where that lies behind the ray's origin the ray meets nothing: rays that begin inside of
@@ -14,7 +14,7 @@ class ObjectRays : public capture::RayPrimitive {
 public:
     // Shines with its pictures' colours times `brightness`; what is less than half opaque is not there.
     ObjectRays(PlacedObject placed, float brightness);
-    // Not while anybody asks.
+    // Not while rays are traced.
     void set_brightness(float brightness) { brightness_ = brightness; }
     [[nodiscard]] Box bounds() const override { return box_; }
     [[nodiscard]] std::optional<Answer> answer(const glm::vec3& origin, const glm::vec3& direction) const override;

@@ -37,7 +37,7 @@ capture::Environment traced_environment(const Scene& scene);
 // Pure; thread-safe, as all here.
 TracedRoom traced_room(const Scene& scene);
 
-// Goes along with the viewer where the scene wants that (Navigation::headlight) and nothing else shines.
+// Goes along with the viewer where the scene requires that (Navigation::headlight) and nothing else shines.
 Light headlight_of(const glm::dvec3& forward);
 
 }  // namespace rs::compositor

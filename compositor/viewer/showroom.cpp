@@ -109,7 +109,7 @@ Status Showroom::wait_for_all(const glm::dvec3& eye) {
     return wait();
 }
 
-// What a visitor at `eye` wants most, as many as boards hold.
+// What a visitor at `eye` needs most, as many as boards hold.
 void Showroom::load_on_board(const glm::dvec3& eye) {
     if (!engine_->has_board()) return;
     const std::vector<LoadPriority> priorities = plan_.priorities({eye, eye});

@@ -3,7 +3,7 @@
 // the visitor, within a budget (object_cache.hpp, load_priority.hpp); and what each node shows meanwhile
 // (shown_parts.hpp).
 //
-// No OpenGL here. One thread; it never waits for a file unless the options say so.
+// No OpenGL here. One thread; it never waits for a file unless the options require it.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/shown_parts.hpp"
@@ -27,7 +27,7 @@ std::int64_t usual_memory_budget();
 
 struct ShowroomOptions {
     std::int64_t memory_bytes = usual_memory_budget();  // that objects may take, while they are read too
-    // Every update waits for all objects that are wanted and fit: the same pictures every time. Else objects come when
+    // Every update waits for all objects that are needed and fit: the same pictures every time. Else objects come when
     // they are read, and fade in.
     bool waits = false;
 };
@@ -49,14 +49,14 @@ public:
     // From the next frame on an object stands elsewhere, or nowhere.
     void move_object(std::size_t node, const std::optional<TransformChain>& chain);
 
-    // Waits for all objects that are wanted at `eye` and fit.
+    // Waits for all objects that are needed at `eye` and fit.
     Status wait_for_all(const glm::dvec3& eye);
     // Of a node without its object: a word or two about why.
     [[nodiscard]] std::string absence(std::size_t node) const;
     // The objects that are there.
     [[nodiscard]] std::vector<PlacedObject> placed() const;
 
-    // Of objects that cannot be shown, each told once.
+    // Of objects that cannot be shown, each reported once.
     std::vector<std::string> take_warnings();
     // True where nothing will come or go while the visitor stays.
     [[nodiscard]] bool settled() const { return priorities_taken_ && cache_.settled(); }

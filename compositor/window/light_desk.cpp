@@ -50,7 +50,7 @@ bool LightDesk::take_change() {
     lit_revision_ = edits_.revision();
     auto lit = std::make_shared<Scene>(*base_);
     const Status added = add_lights(*lit, list_of(edits_.state()), profile);
-    RS_CHECK(added.ok());  // load() has asked
+    RS_CHECK(added.ok());  // load() has checked
     lit_ = std::move(lit);
     return true;
 }

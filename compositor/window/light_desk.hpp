@@ -51,7 +51,8 @@ public:
     // At what is seen in the picture's middle, selected. Luminaires take the first of files().
     void add(LightKind kind, const DeskView& view);
 
-    // In place of all lights, or beside them where the list does not say "replace"; a step. Fails with nothing changed.
+    // In place of all lights, or beside them where the list does not have "replace"; a step. Fails with nothing
+    // changed.
     Status load();
     Status save() const;
     std::string profile;  // the name of the file

@@ -28,7 +28,7 @@ struct PanelState {
     bool wire_frame = false;
     bool shadows = true;
     bool traced = false;   // the view stands still and refines,
-    bool walk_on = false;  // but for who wants to walk by coarse pictures
+    bool walk_on = false;  // but for walking by coarse pictures
     TracedMethod method = TracedMethod::kPath;
     int passes = 0;  // of it
     bool recording = false;

@@ -1,5 +1,5 @@
 #pragma once
-// A sequence that a visit plays: which frame is shown, and what the panel says and asks about it.
+// A sequence that a visit plays: which frame is shown, and what the panel shows and requests of it.
 
 #include "compositor/playback/sequence_player.hpp"
 #include "compositor/sequence/sequence.hpp"
@@ -34,12 +34,12 @@ public:
     void toggle() { playing_ = !playing_; }
     void step(int frames);
 
-    // A video of all frames is wanted: it begins at the first, goes on by one with each advance(), and ends here.
+    // A video of all frames is requested: it begins at the first, goes on by one with each advance(), and ends here.
     [[nodiscard]] bool saving() const { return saving_; }
     [[nodiscard]] bool saved_all() const { return saving_ && frame_ + 1 == sequence_->frames.size() && shown_; }
     void end_saving() { saving_ = playing_ = false; }
 
-    // What was asked for since the last call.
+    // What was requested since the last call.
     bool take_jpeg() { return std::exchange(jpeg_requested_, false); }
     std::string take_folder() { return std::exchange(folder_, {}); }
 

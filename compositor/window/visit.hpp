@@ -42,7 +42,7 @@ struct VisitOptions {
     std::string executor = "software core";    // of the engine, for the panel
     std::shared_ptr<const Sequence> sequence;  // to be played, in this weather
     std::optional<Weather> weather;
-    std::function<void(const std::string&)> open;               // another sequence is wanted; the visit ends
+    std::function<void(const std::string&)> open;               // another sequence is requested; the visit ends
     std::function<void(const std::vector<std::string>&)> warn;  // of objects that cannot be shown; may be empty
 };
 
@@ -53,7 +53,7 @@ public:
     ~Visit();  // finishes a recording
 
     // A frame: what happened since the last, the picture, the overlay. False when the visitor wants to leave.
-    // `seconds`: since the last frame, as a clock on the wall says if not given.
+    // `seconds`: since the last frame, by a clock on the wall if not given.
     Result<bool> step(std::optional<double> seconds = std::nullopt);
 
     [[nodiscard]] Window& window() { return window_; }

@@ -56,7 +56,7 @@ void Visit::expect_tracing(const Camera& here, double seconds) {
     still_s_ = here.world_from_camera == still_at_.world_from_camera ? still_s_ + seconds : 0;
     still_at_ = here;
     if (refinement_ || playback_ || still_s_ < kStill_s || !showroom_->settled()) return;
-    // Where all objects fit into memory: else others would have come by the time that it is wanted.
+    // Where all objects fit into memory: else others would have come by the time that it is needed.
     if (showroom_->placed().size() == names_.size()) make_tracer();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// From events to what the visitor wants: movement for as long as keys are held and buttons dragged, commands once.
+// From events to what the visitor requests: movement for as long as keys are held and buttons dragged, commands once.
 
 #include "compositor/viewer/views/navigation.hpp"
 #include "compositor/window/events.hpp"

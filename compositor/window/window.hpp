@@ -1,6 +1,6 @@
 #pragma once
 // A window with an OpenGL 4.5 core context of the compositor's conventions (gl/context.hpp), through GLFW. For the main
-// thread only: GLFW wants it so.
+// thread only: GLFW requires it.
 
 #include "compositor/gl/context.hpp"
 #include "compositor/window/events.hpp"

@@ -19,7 +19,7 @@ public:
 
     [[nodiscard]] int rank() const override;
     [[nodiscard]] int ranks() const override;
-    // Among the ranks of this node. All ranks must ask, once, together.
+    // Among the ranks of this node. All ranks must call it, once, together.
     struct NodePlace {
         int place = 0;
         int places = 1;

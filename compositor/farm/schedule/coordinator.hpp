@@ -53,7 +53,7 @@ public:
     bool step();
     // No further item is begun, those under way are stopped.
     void interrupt();
-    // All ranks have been told to end, and have.
+    // All ranks have been ordered to end, and have.
     [[nodiscard]] bool ended() const;
     // Why the run cannot go on: wrong options, or a manifest that cannot be written.
     [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }

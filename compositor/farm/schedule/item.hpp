@@ -23,7 +23,7 @@ struct Item {
 enum class State {
     kMade,     // now
     kKept,     // by an earlier run, of the same inputs with the same options
-    kFailed,   // `why` says so; others go on
+    kFailed,   // `why` states it; others go on
     kRefused,  // the options are wrong, and will be for all items
     kStopped,  // the run was ended
 };
@@ -38,7 +38,7 @@ struct Outcome {
     std::string output{};   // where the result is to stand
     std::string sum{};      // of the result
     std::string staged{};   // where the result stands until it is in the manifest; empty: it stands at `output`
-    bool recorded = false;  // the manifest says so already
+    bool recorded = false;  // the manifest holds it already
     double seconds = 0;
     std::int64_t memory_bytes = 0;  // the most that it took
 };

@@ -1,9 +1,9 @@
 #pragma once
 // Which item comes next. Pure bookkeeping: no clock, no messages, no files.
 //
-// Of the items whose predecessors are made, the largest goes to whoever asks, as list scheduling wants it (R. Graham,
-// "Bounds on Multiprocessing Timing Anomalies", 1969: at most 4/3 of the shortest time), if what it takes fits into the
-// memory that is left of its node's budget; else the next smaller that does. An item that was passed over
+// Of the items whose predecessors are made, the largest goes to the rank that is free, as list scheduling requires (R.
+// Graham, "Bounds on Multiprocessing Timing Anomalies", 1969: at most 4/3 of the shortest time), if what it takes fits
+// into the memory that is left of its node's budget; else the next smaller that does. An item that was passed over
 // kMostPassedOver times is waited for. One that is larger than the budget has a node to itself.
 
 #include "compositor/farm/schedule/item.hpp"

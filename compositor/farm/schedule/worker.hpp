@@ -20,7 +20,7 @@ public:
     virtual std::optional<Outcome> poll() = 0;
 };
 
-// Begins an item's order; `record` is what the manifest says of it, null where it is new.
+// Begins an item's order; `record` is what the manifest holds of it, null where it is new.
 using BeginJob = std::function<std::unique_ptr<Job>(const nlohmann::json& order, const Outcome* record)>;
 
 struct WorkerNode {
@@ -34,7 +34,7 @@ public:
     Worker(Transport& transport, const WorkerNode& node, BeginJob begin);
     // True where something happened.
     bool step();
-    // Ends the item under way and asks the coordinator to end the run.
+    // Ends the item under way and requests the coordinator to end the run.
     void interrupt();
     [[nodiscard]] bool ended() const { return ended_; }
 

@@ -23,7 +23,7 @@ ToolOrder order_from(const nlohmann::json& json) {
     return {json.at("tool"), json.at("arguments"), json.at("folder"), json.at("output"), json.at("state")};
 }
 
-// What the tool said last of an error, or its last line.
+// What the tool printed last of an error, or its last line.
 std::string last_word(const fs::path& log) {
     std::ifstream file(log);
     std::string last;

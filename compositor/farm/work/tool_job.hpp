@@ -7,7 +7,7 @@
 //
 //     KEY/out/NAME.rso   the result, until it is in the manifest and is renamed into place
 //     KEY/inputs         what the tool has read (rayspace/file/input_list.hpp): is there when the work is complete
-//     KEY/log            what it said
+//     KEY/log            what it printed
 //
 // So whoever begins an item finds: a result in place or staged, made of the same files with the same options, and keeps
 // it; else nothing, and does the work.
@@ -35,7 +35,7 @@ struct ToolJobOptions {
     std::vector<int> processors;  // of each job; empty: those of this process
 };
 
-// For Worker. Fails inside of the outcome only; what the order says is looked up at once, which takes as long as
+// For Worker. Fails inside of the outcome only; what the order states is looked up at once, which takes as long as
 // reading the result of an earlier run does.
 BeginJob begin_tool_jobs(const ToolJobOptions& options);
 

@@ -41,7 +41,7 @@ Result<Extent> extent_of_photos(const fs::path& folder) {
     return Error{folder.string() + ": holds no photographs"};
 }
 
-// What the recipe says, else what rs-capture synth takes.
+// What the recipe states, else what rs-capture synth takes.
 Result<Extent> extent_of_recipe(const fs::path& recipe) {
     nlohmann::json camera;
     if (recipe.extension() == ".json") {

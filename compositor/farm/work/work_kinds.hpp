@@ -1,5 +1,5 @@
 #pragma once
-// What a farm can be asked for, and the items that it is cut into.
+// What a farm can make, and the items that it is cut into.
 
 #include "compositor/farm/schedule/item.hpp"
 #include "rayspace/base/result.hpp"
@@ -30,7 +30,7 @@ struct WorkKind {
     bool reads_folder;
     Result<Extent> (*extent_of)(const std::filesystem::path& input);
     // What the tool takes: so much, and of every picture's pixel, and of one picture's. Of encode as measured (8 x
-    // 64x64: 142 MB, 35 x 914x892: 507 MB), of import as capture/photos/import.hpp says it, for two photographs at a
+    // 64x64: 142 MB, 35 x 914x892: 507 MB), of import as capture/photos/import.hpp states it, for two photographs at a
     // time.
     double base_bytes;
     double bytes_per_pixel;
@@ -49,7 +49,7 @@ struct FarmRequest {
 std::filesystem::path state_folder(const std::filesystem::path& output);
 
 // Refuses inputs of one name, names that are not UTF-8, and options that name one place for all results. An input that
-// cannot be read becomes an item, which will fail and say why.
+// cannot be read becomes an item, which will fail and report why.
 Result<std::vector<Item>> items_of(const WorkKind& kind, const FarmRequest& request);
 
 struct RenderRequest {

@@ -14,7 +14,7 @@
 // Each may have a "name" and a "colour" [r, g, b], a factor in linear light (1, 1, 1). Photometric numbers are divided
 // by kLumensPerWatt. "beam_deg" and "cut_off_deg" are full angles. "turn_deg" turns an area or a luminaire about its
 // aim, counter-clockwise as seen looking along -aim; at 0 its plane C0 lies where +X is best seen, or +Z where it is
-// aimed along X. "dimmer" (1) is a factor on a luminaire. An environment is a picture as EnvironmentLight wants it;
+// aimed along X. "dimmer" (1) is a factor on a luminaire. An environment is a picture as EnvironmentLight needs it;
 // "seen" (false) puts it behind everything where light is traced. Files are named from the list's folder. Lengths are
 // the scene's; luminaires and candela take them for metres.
 //
@@ -22,7 +22,7 @@
 // "intensity" [r, g, b], what white matter shows, and an "attenuation" [c0, c1, c2] ([1, 0, 0]), which fall off as
 // min(1 / (c0 + c1 d + c2 d^2), 1); a "reach" beyond which there is no light; all an "ambient" [r, g, b]; and "scope",
 // for lights that shine on parts of the scene only: the number of the light in the scene's file, from 0, that shone on
-// the same parts. The list itself may say "headlight": true.
+// the same parts. The list itself may have "headlight": true.
 
 #include "compositor/scene/surroundings.hpp"
 #include "rayspace/base/result.hpp"
@@ -41,7 +41,7 @@ struct LightList {
     bool headlight = false;
     std::vector<LightEntry> entries;
     std::optional<EnvironmentEntry> environment_entry;
-    // What they say.
+    // What they state.
     std::vector<Light> lights;
     std::optional<EnvironmentLight> environment;
 };

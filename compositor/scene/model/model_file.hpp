@@ -1,7 +1,7 @@
 #pragma once
 // Scenes from glTF 2.0 (.gltf, .glb) and OBJ files, through Assimp.
 //
-// A glTF node stands for an object made of pictures where its `extras` say so:
+// A glTF node stands for an object made of pictures where its `extras` state it:
 //
 //     "extras": {"RaySpace": {"url": "vase.rso", "size": 1, "standing": true, "description": "..."}}
 //
@@ -22,7 +22,7 @@ namespace rs::compositor {
 // called from any thread.
 Result<Scene> read_model(const std::filesystem::path& path);
 
-// What a model's file calls its parts, for who wants to take it apart.
+// What a model's file calls its parts, for taking it apart.
 struct ModelParts {
     Scene scene;
     // [geometry node of the scene]: of the node that it hangs on; in an OBJ its `o`, or `g` where that came after it.

@@ -122,7 +122,7 @@ ModelMaterial ModelMaterials::convert(const aiMaterial& source) {
     return result;
 }
 
-// glTF's normal texture, MTL's norm; else MTL's bump map. Where there are two, directions say more than heights.
+// glTF's normal texture, MTL's norm; else MTL's bump map. Where there are two, directions hold more than heights.
 std::shared_ptr<const NormalMap> ModelMaterials::relief(const aiMaterial& source) {
     for (const aiTextureType type : {aiTextureType_NORMALS, aiTextureType_HEIGHT}) {
         aiString name;

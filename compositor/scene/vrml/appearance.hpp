@@ -13,7 +13,7 @@ namespace rs::compositor::vrml {
 
 glm::vec3 linear_colour(const glm::dvec3& srgb);
 
-// `appearance` may be null. `fault` tells why a texture is left out; empty where none is.
+// `appearance` may be null. `fault` states why a texture is left out; empty where none is.
 Material material_of(const Node* appearance, const Mesh& mesh, const std::filesystem::path& folder,
                      ScenePictures& pictures, std::string& fault);
 

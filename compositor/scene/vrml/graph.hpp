@@ -21,7 +21,7 @@ constexpr double kMaxVisits = 1e6;       // nodes that a walk over the graph mee
 constexpr double kMaxValues = 32 << 20;  // numbers and texts, those of each instance of a PROTO counted
 constexpr std::size_t kMaxWarnings = 50;
 
-// Where the file says USE, the same node stands twice; so do parts of a PROTO that are the same in all instances.
+// Where the file has USE, the same node stands twice; so do parts of a PROTO that are the same in all instances.
 struct Node {
     std::string type;  // as in VRML97: "Transform"
     const NodeSpec* spec = nullptr;

@@ -47,7 +47,7 @@ private:
 
 class GraphBuilder {
 public:
-    // `lexer` tells the line of an error, and must outlive the builder.
+    // `lexer` gives the line of an error, and must outlive the builder.
     explicit GraphBuilder(const Lexer& lexer) : lexer_(lexer) {}
 
     // The node with all of its fields. Within a PROTO, `pattern` has those that depend on the PROTO's. Throws

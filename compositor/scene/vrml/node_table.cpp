@@ -86,7 +86,7 @@ constexpr const char* kNodes[] = {
     "WorldInfo child info MFString [ ] title SFString \"\"",
 };
 
-// X3D's sets of faces differ in one field, which says which points make a face.
+// X3D's sets of faces differ in one field, which states which points make a face.
 constexpr const char* kFaceSets[] = {
     "IndexedTriangleSet index",      "TriangleSet",
     "IndexedTriangleFanSet index",   "TriangleFanSet fanCount",

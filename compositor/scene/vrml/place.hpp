@@ -14,7 +14,7 @@ namespace rs::compositor::vrml {
 
 struct Place {
     glm::dmat4 world_from_node{1.0};
-    TransformChain chain;               // the same as far as a chain can tell it: even scales
+    TransformChain chain;               // the same as far as a chain can hold it: even scales
     std::string unlike;                 // how the chain differs; empty where it does not
     std::vector<std::uint32_t> lights;  // directional ones that shine below here only
     std::optional<std::size_t> room;    // of the scene, that this is in

@@ -14,7 +14,7 @@ Light light_of(const Node& node, const Place& place);
 Viewpoint viewpoint_of(const Node& node, const Place& place);
 Navigation navigation_of(const Node& node, const Place& place);
 Fog fog_of(const Node& node, const Place& place);
-// `fault` tells why a picture is left out; empty where none is.
+// `fault` states why a picture is left out; empty where none is.
 Background background_of(const Node& node, const Place& place, const std::filesystem::path& folder,
                          ScenePictures& pictures, std::string& fault);
 

@@ -240,7 +240,7 @@ std::shared_ptr<const Mesh> triangulate(const Node& geometry, const ShapeCheck& 
     auto* complexity = new SoComplexity;
     complexity->value = kRoundness;
     root->addChild(complexity);
-    // Coin leaves texture coordinates out where no picture wants them.
+    // Coin leaves texture coordinates out where no picture needs them.
     auto* picture = new SoTexture2;
     constexpr unsigned char kTexel[] = {255};
     picture->image.setValue(SbVec2s(1, 1), 1, kTexel);

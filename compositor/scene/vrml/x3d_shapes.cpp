@@ -44,7 +44,7 @@ Indices all_points(const Node& geometry) {
     return indices;
 }
 
-// Runs of as many points as the list says, one behind the other, -1 behind each.
+// Runs of as many points as the list gives, one behind the other, -1 behind each.
 Indices runs(const Indices& points, const Indices& counts) {
     Indices made;
     std::size_t next = 0;

@@ -22,7 +22,7 @@ std::string binding_of(const TreePointer& node) {
     return node ? node->text("value") : std::string("DEFAULT");
 }
 
-// -1 alone is how the fields for indices say that they are not given.
+// -1 alone in a field for indices means that they are not given.
 bool is_given(const std::vector<double>& indices) {
     return !indices.empty() && !(indices.size() == 1 && indices.front() == -1);
 }

@@ -44,7 +44,7 @@ struct NodeKind {
 struct Tree;
 using TreePointer = std::shared_ptr<const Tree>;
 
-// A node; where the text says USE the same one stands twice.
+// A node; where the text has USE the same one stands twice.
 struct Tree {
     std::string type;
     const NodeKind* kind = nullptr;

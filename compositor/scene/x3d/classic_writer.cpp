@@ -78,7 +78,7 @@ bool is_numeric(std::string_view text) {
     });
 }
 
-// What nodes say that has no meaning for a picture of a world that stands still.
+// What nodes hold that has no meaning for a picture of a world that stands still.
 bool is_silent(std::string_view name) {
     static const std::set<std::string, std::less<>> kNames = {
         "DEF",     "USE",     "bboxDisplay", "centerOfRotation",    "class", "containerField", "description",
@@ -113,7 +113,7 @@ void ClassicWriter::write_value(const FieldSpec& spec, std::string_view value) {
         if (value == "true" || value == "TRUE") return write("TRUE");
         if (value == "false" || value == "FALSE") return write("FALSE");
     }
-    if (!is_numeric(value)) return write(in_quotes(value));  // the reader tells what is wrong with it
+    if (!is_numeric(value)) return write(in_quotes(value));  // the reader reports what is wrong with it
     write(spec.many ? "[ " + std::string(value) + " ]" : std::string(value));
 }
 
@@ -124,7 +124,7 @@ void ClassicWriter::write_attributes(const NodeSpec& spec, const Attributes& att
             write(name);
             write_value(known->second, value);
         } else if (known == spec.fields.end() && !is_silent(name) && !is_reserved(name)) {
-            write(std::string(name) + " 0");  // the reader tells that there is no such field
+            write(std::string(name) + " 0");  // the reader reports that there is no such field
         }
     }
 }
@@ -236,7 +236,7 @@ ClassicWriter::Frame ClassicWriter::open_field_value(const Attributes& attribute
     const auto known = interface->find(name);
     write(name);
     if (known == interface->end()) {
-        write("0");  // the reader tells that there is no such field
+        write("0");  // the reader reports that there is no such field
         return {};
     }
     return open_value(known->second, attribute(attributes, "value"));

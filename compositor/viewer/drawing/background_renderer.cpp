@@ -55,7 +55,7 @@ void BackgroundRenderer::draw(const Camera& camera, BackgroundArea area) const {
     const glm::dvec3 along_x = camera.right() / camera.fl_x;
     const glm::dvec3 along_y = -camera.up() / camera.fl_y;
     const glm::dmat3 world_from_pixel(along_x, along_y, camera.ray(0, 0));
-    // A plain one's shader does not ask where it looks.
+    // A plain one's shader does not depend on where it looks.
     if (!plain_) program_.set("direction_from_pixel", glm::mat3(background_from_world_ * world_from_pixel));
     stops_->bind_table(3);
     for (std::size_t i = 0; i < pictures_.size(); ++i) {

@@ -18,7 +18,7 @@ void main() {
 })";
 
 // Behind "#version" and the constants kSkyStops, kGroundStops and kShownPictures (bit i: pictures[i]): a shader that
-// asks for no picture takes a fraction of the time of one that might.
+// has no picture takes a fraction of the time of one that might.
 inline constexpr const char* kBackgroundFragment = R"(
 layout(std430, binding = 3) readonly buffer Gradients { vec4 stops[]; };  // colour; w: angle; the sky's, then the ground's
 layout(binding = 1) uniform sampler2D pictures[6];

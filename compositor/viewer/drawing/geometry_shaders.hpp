@@ -96,7 +96,7 @@ vec3 in_relief(vec3 n) {
     return flat_there || dot(sum, sum) < 1e-12 ? n : normalize(sum);
 }
 
-// Of lights. Where they are counted the constant tells only whether there may be any.
+// Of lights. Where they are counted the constant shows only whether there may be any.
 int number_of(int constant, int given) {
     return kCounted && constant > 0 ? given : constant;
 }

@@ -51,7 +51,7 @@ Status LitGeometry::make_floor(const ShadowPlan& plan) {
     return {};
 }
 
-// As scene_ says, with or without shadows.
+// As scene_ has it, with or without shadows.
 Status LitGeometry::light_anew(bool shadows, const ShownNodes& nodes) {
     auto maps = make_maps(scene_, nodes, shadows);
     if (!maps) return maps.error();

@@ -31,9 +31,9 @@ struct SurfaceKind {
     int fog = 0;           // 0 none, 1 linear, 2 exponential
     bool phong = false;    // by Phong's formula
     Cover cover = Cover::kNone;
-    // How many lights there are are numbers that it is told, not constants: slower to draw, but a street at night would
-    // have dozens of kinds else, and making a shader takes as long as many frames. The numbers above say only whether
-    // there may be any (1) or not (0): what cannot be is not asked for.
+    // How many lights there are are numbers that it is given, not constants: slower to draw, but a street at night
+    // would have dozens of kinds else, and making a shader takes as long as many frames. The numbers above show only
+    // whether there may be any (1) or not (0): what cannot be is not tested.
     bool counted = false;
     bool veil = false;  // nothing but the fog before it
     auto operator<=>(const SurfaceKind&) const = default;

@@ -36,7 +36,7 @@ struct SurfaceLights {
 };
 // The lights that reach a node: those of `node.lights`, and of those everywhere all that are near enough to the node's
 // box, and spots whose cone may meet it. Of a surface that is seen from its front only, lights that shine on its back
-// everywhere are left out: a wall has few lights, and a shader asks each of them at every pixel.
+// everywhere are left out: a wall has few lights, and a shader evaluates each of them at every pixel.
 SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world);
 
 // Of a node that moves: as lights_of(), but no light is left out for shining on its back.

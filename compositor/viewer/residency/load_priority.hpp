@@ -1,5 +1,5 @@
 #pragma once
-// How much objects are wanted in memory. Pure; thread-safe.
+// The load priority of objects. Pure; thread-safe.
 
 #include "compositor/scene/scene.hpp"
 
@@ -14,7 +14,7 @@
 
 namespace rs::compositor {
 
-// How much an object is wanted; less is more. First its room counts, then its own distance; scene units.
+// What comes first into memory: the lesser value. First its room counts, then its own distance; scene units.
 struct LoadPriority {
     static constexpr double kAlways = -2;  // belongs to no room
     static constexpr double kHere = -1;    // the visitor is in its room
@@ -24,11 +24,11 @@ struct LoadPriority {
     double room_now = std::numeric_limits<double>::infinity();  // how far its room is from where the visitor is
     auto operator<=>(const LoadPriority&) const = default;
 };
-// Whether something that is in memory has to make room for something that is not: only where it is wanted clearly less,
-// so that a visitor at a door does not make two rooms take turns.
+// Whether something that is in memory has to make room for something that is not: only where its priority is clearly
+// lower, so that a visitor at a door does not make two rooms take turns.
 bool gives_way(const LoadPriority& held, const LoadPriority& next);
 
-// From a scene's rooms and the place of its visitor to what is wanted in memory. Pure; thread-safe.
+// From a scene's rooms and the place of its visitor to load priorities. Pure; thread-safe.
 //
 // First the objects of no room, then those of the room that the visitor is in, then room by room, the nearest to where
 // the visitor will be soon first: so walking towards a door has the room behind it read before it is entered. In a room

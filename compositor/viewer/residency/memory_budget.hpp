@@ -1,5 +1,5 @@
 #pragma once
-// A budget of memory that cannot be exceeded: whoever wants memory takes a lease first, and it is back when the lease
+// A budget of memory that cannot be exceeded: whoever needs memory takes a lease first, and it is back when the lease
 // dies. Thread-safe.
 
 #include <cstdint>

@@ -32,7 +32,7 @@ enum class Stage {
     kAway,
     kLoading,
     kHere,
-    kLeaving,  // its user was asked to let it go
+    kLeaving,  // its user was requested to let it go
     kFailed,
 };
 
@@ -83,7 +83,7 @@ struct ObjectCache::State {
         for_user.notify_all();
     }
 
-    // The files in a stage, the most wanted first.
+    // The files in a stage, by their load priority.
     [[nodiscard]] std::vector<std::size_t> by_priority(Stage stage) const {
         std::vector<std::size_t> found;
         for (std::size_t i = 0; i < files.size(); ++i) {
@@ -142,8 +142,8 @@ struct ObjectCache::State {
         for_user.notify_all();
     }
 
-    // Asks for the least wanted to be let go, until there will be `bytes`; nobody is asked where that cannot be reached
-    // with those that give way. True where somebody is leaving.
+    // Requests those of least priority to be let go, until there will be `bytes`; nothing is requested where that
+    // cannot be reached with those that give way. True where somebody is leaving.
     bool make_room(std::size_t next, std::int64_t bytes) {
         std::int64_t free = memory.budget_bytes() - memory.used_bytes();
         std::vector<std::size_t> held;
@@ -202,7 +202,7 @@ struct ObjectCache::State {
         lock.lock();
     }
 
-    // One step towards what is wanted. False where there is nothing to do.
+    // One step towards what the priorities require. False where there is nothing to do.
     bool advance(std::unique_lock<std::mutex>& lock) {
         if (!given_back.empty()) {
             free_given_back(lock);

@@ -1,9 +1,9 @@
 #pragma once
-// Which of a scene's objects are in memory. A thread of the cache reads them, the most wanted first, and never more
+// Which of a scene's objects are in memory. A thread of the cache reads them by load priority, and never more
 // than the budget holds: before it reads an object it takes what that needs at most from the budget, and where that is
-// not free it first has the least wanted ones let go.
+// not free it first has those of least priority let go.
 //
-// An object that is there leaves only for one that is wanted clearly more (load_priority.hpp). One whose memory cannot
+// An object that is there leaves only for one of clearly higher priority (load_priority.hpp). One whose memory cannot
 // be had is passed over, for as long as that is so.
 //
 // Thread-safety: everything is called from one thread, the frames', and never waits for a file, but wait_for_events().
@@ -24,7 +24,7 @@ namespace rs::compositor {
 struct StoreEvent {
     enum class Kind {
         kArrived,  // `object` may be shown
-        kLeaves,   // stop showing it, and give it back: its memory is wanted
+        kLeaves,   // stop showing it, and give it back: its memory is needed
         kFailed,   // `why`; it will not come
     };
     Kind kind = Kind::kArrived;
@@ -55,7 +55,7 @@ public:
     // [file], from now on. Nothing is read before the first call.
     void set_priorities(std::vector<LoadPriority> priorities);
     // The same for a frame, which is not to wait even for the blink of an eye that the cache's thread, of low priority,
-    // may be held up in: false, and nothing is changed, where it is busy. To be said again with the next frame.
+    // may be held up in: false, and nothing is changed, where it is busy. To be set again with the next frame.
     bool try_set_priorities(std::vector<LoadPriority> priorities);
 
     // What has happened since the last call; may come with a later one while the cache is busy.
@@ -67,8 +67,8 @@ public:
     [[nodiscard]] float progress(std::size_t file) const;
     // Seconds that the last reading of the file took; 0 before.
     [[nodiscard]] double load_seconds(std::size_t file) const;
-    // True where nothing more will happen under the present priorities: what is wanted most is there, and events are
-    // fetched.
+    // True where nothing more will happen under the present priorities: what has the highest priority is there, and
+    // events are fetched.
     [[nodiscard]] bool settled() const;
     // Waits until there are events or it has settled.
     void wait_for_events();

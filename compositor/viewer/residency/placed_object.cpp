@@ -142,7 +142,7 @@ double reach_towards(const std::vector<Outline>& outlines, const Outline& outlin
     return count > 0 ? sum / count : (outline.left + outline.right) / 2;
 }
 
-// Where the foot is, begun at a first guess: its height tells where in the pictures its sides are, and these how far
+// Where the foot is, begun at a first guess: its height shows where in the pictures its sides are, and these how far
 // before the axis the lowest point of each picture is.
 double foot_of(const RaySpaceObject& object, double foot) {
     std::vector<Outline> outlines = outlines_of_lowest_ring(object);

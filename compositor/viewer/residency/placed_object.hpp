@@ -11,7 +11,7 @@
 
 namespace rs::compositor {
 
-// How much room an object takes, told from its captured pictures. Pure; thread-safe.
+// How much room an object takes, computed from its captured pictures. Pure; thread-safe.
 
 // An upright cylinder about the object's axis, in object radii.
 struct BoundingCylinder {
@@ -27,7 +27,7 @@ struct BoundingCylinder {
 BoundingCylinder bounding_cylinder(const RaySpaceObject& object);
 
 // An estimate of where the object itself begins and ends on its axis, in object radii: `bottom` is what would touch a
-// floor that it stands on, which the object itself may say (RaySpaceObject::foot_q20). Else each picture's lowest row
+// floor that it stands on, which the object itself may state (RaySpaceObject::foot_q20). Else each picture's lowest row
 // is taken for the rim of the foot that is nearest to the camera. How far that is before the axis is seen from the
 // side, in the pictures a quarter turn away. Of all pictures the median counts. The top is found likewise, but with the
 // object's width for its depth. Both 0 where no picture shows anything.

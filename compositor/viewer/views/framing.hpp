@@ -1,5 +1,5 @@
 #pragma once
-// Cameras for a scene: at one of its viewpoints, or where all is seen, for when nobody says where to look from. Pure;
+// Cameras for a scene: at one of its viewpoints, or where all is seen, for when no place to look from is given. Pure;
 // thread-safe.
 
 #include "compositor/scene/camera_path.hpp"
@@ -20,7 +20,7 @@ CameraPose framing_pose(const std::vector<PlacedObject>& objects, double fov_x_r
 CameraPose framing_pose(const BoundingBox& bounds, double fov_x_rad, double aspect);
 
 // A picture of width x height px with square pixels. The viewpoint's field of view is that of the shorter side, as
-// VRML97 wants it.
+// VRML97 requires.
 Camera camera_at(const Viewpoint& viewpoint, int width, int height);
 
 // The viewpoint's eye, and the point straight ahead at the distance of the middle of the box.

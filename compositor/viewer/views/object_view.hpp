@@ -9,8 +9,8 @@
 // the object stands on. Along the screen the reciprocal of a plane's depth is linear, which is what the depth buffer
 // holds.
 //
-// Engines take one captured pixel for each pixel of the picture that they are asked for. Where a node is seen from so
-// far that captured pixels are smaller than the screen's, a larger picture is asked for and averaged, so that a pixel
+// Engines take one captured pixel for each pixel of the picture that they render. Where a node is seen from so
+// far that captured pixels are smaller than the screen's, a larger picture is rendered and averaged, so that a pixel
 // of the screen shows all that lies in it. Two across
 // bring most of what there is to gain (bench_truth), for up to four times the pixels.
 

@@ -1,7 +1,7 @@
 #pragma once
 // The same rays by a level camera. What a camera sees depends on where it is alone; which way it looks only decides
 // where on its picture a ray meets it. So a picture that an upright camera takes in the same place holds all that a
-// tilted one sees, and a homography tells where. Engines are several times faster at pictures of upright cameras, a
+// tilted one sees, and a homography gives where. Engines are several times faster at pictures of upright cameras, a
 // column of which is one vertical plane of rays, and boards draw no others. Pure; thread-safe.
 
 #include "compositor/viewer/residency/placed_object.hpp"
