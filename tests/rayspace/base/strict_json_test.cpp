@@ -1,0 +1,65 @@
+#include "rayspace/base/strict_json.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace rs {
+namespace {
+
+using testing::HasSubstr;
+
+struct Read {
+    double number = 5;
+    glm::vec3 colour{1};
+    std::size_t word = 0;
+    nlohmann::json rest;
+};
+
+Result<Read> read(const std::string& text, bool take_rest = false) {
+    return read_json(text, "f\n.json", [&](JsonObject& top) {
+        Read made;
+        top.read("number", made.number, 0, 10);
+        top.read("colour", made.colour, 0, 1);
+        if (const auto word = top.find("word")) made.word = word->one_of({"red", "green"});
+        if (take_rest) made.rest = top.take_rest();
+        return made;
+    });
+}
+
+TEST(StrictJson, KeysThatAreMissingLeaveValuesAndOneNumberStandsForThree) {
+    const Result<Read> nothing = read("{}");
+    ASSERT_TRUE(nothing);
+    EXPECT_EQ(nothing->number, 5);
+    const Result<Read> all = read(R"({"number": 2, "colour": 0.5, "word": "green"})");
+    ASSERT_TRUE(all);
+    EXPECT_EQ(all->number, 2);
+    EXPECT_EQ(all->colour, glm::vec3(0.5F));
+    EXPECT_EQ(all->word, 1U);
+    EXPECT_EQ(read(R"({"colour": [0, 0.25, 1]})")->colour, glm::vec3(0, 0.25F, 1));
+}
+
+TEST(StrictJson, TheRestIsWhatWasNotTaken) {
+    const Result<Read> made = read(R"({"number": 2, "other": [1], "more": null})", true);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(made->rest, nlohmann::json::parse(R"({"other": [1], "more": null})"));
+}
+
+TEST(StrictJson, ErrorsNameFilePlaceAndRemedyInOneLine) {
+    const std::pair<const char*, const char*> faulty[] = {
+        {R"({"number": 11})", "number: must be a number from 0 to 10"},
+        {R"({"colour": [0, 0, 2]})", "colour[2]: must be a number from 0 to 1"},
+        {R"({"word": "blue"})", R"(word: must be one of "red", "green")"},
+        {R"({"numbr": 1})", "has a key 'numbr' that means nothing here; it may have: colour, number, word"},
+        {R"({"number": 1, "number": 2})", "is there twice"},
+        {"[]", "must be an object"},
+    };
+    for (const auto& [text, what] : faulty) {
+        const Result<Read> made = read(text);
+        ASSERT_FALSE(made) << text;
+        EXPECT_THAT(made.error().message, HasSubstr(what));
+        EXPECT_EQ(made.error().message.rfind(R"(f\x0A.json: )", 0), 0U) << made.error().message;
+    }
+}
+
+}  // namespace
+}  // namespace rs
