@@ -7,14 +7,47 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <compare>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <mutex>
-#include <utility>
+#include <optional>
 
 namespace rs {
 namespace fs = std::filesystem;
 namespace {
+
+// Which file it is, by whatever name. A number of a file that is gone may be given to a new one: the time of its birth,
+// 0 where the file system keeps none, tells them apart.
+struct Identity {
+    std::uint64_t device = 0, number = 0;
+    std::int64_t born_s = 0;
+    std::uint32_t born_ns = 0;
+
+    auto operator<=>(const Identity&) const = default;
+};
+
+struct FileInfo {
+    Identity identity;
+    mode_t mode = 0;
+};
+
+// Of the file that `path`, or where that is empty the descriptor, leads to; nothing, and errno, where it cannot be
+// said.
+std::optional<FileInfo> info_of(const char* path, int descriptor = AT_FDCWD) {
+    struct statx found {};
+    if (::statx(descriptor, path, descriptor == AT_FDCWD ? 0 : AT_EMPTY_PATH, STATX_TYPE | STATX_INO | STATX_BTIME,
+                &found) != 0)
+        return {};
+    FileInfo info{{(std::uint64_t{found.stx_dev_major} << 32U) | found.stx_dev_minor, found.stx_ino, 0, 0},
+                  found.stx_mode};
+    if ((found.stx_mask & STATX_BTIME) != 0) {
+        info.identity.born_s = found.stx_btime.tv_sec;
+        info.identity.born_ns = found.stx_btime.tv_nsec;
+    }
+    return info;
+}
 
 struct Inputs {
     std::mutex mutex;
@@ -23,7 +56,13 @@ struct Inputs {
         fs::path path;  // as the user named it
         bool written = false;
     };
-    std::map<std::pair<dev_t, ino_t>, File> files;
+    std::map<Identity, File> files;
+
+    // Temporaries of this process may have been read and be gone.
+    static bool is_there(const Identity& identity, const File& file) {
+        const std::optional<FileInfo> now = info_of(file.path.c_str());
+        return now && now->identity == identity;
+    }
 };
 
 Inputs& inputs() {
@@ -31,14 +70,14 @@ Inputs& inputs() {
     return instance;
 }
 
-void note(const struct stat& info, const fs::path& path, bool written) {
+void note(const FileInfo& info, const fs::path& path, bool written) {
     const std::lock_guard lock(inputs().mutex);
-    if (inputs().kept) inputs().files.emplace(std::pair(info.st_dev, info.st_ino), Inputs::File{path, written});
+    if (inputs().kept) inputs().files.emplace(info.identity, Inputs::File{path, written});
 }
 
-Status check_kind(const struct stat& info, const fs::path& path) {
-    if (S_ISREG(info.st_mode)) return {};
-    if (S_ISDIR(info.st_mode)) return Error{path.string() + ": is a folder, not a file"};
+Status check_kind(const FileInfo& info, const fs::path& path) {
+    if (S_ISREG(info.mode)) return {};
+    if (S_ISDIR(info.mode)) return Error{path.string() + ": is a folder, not a file"};
     return Error{path.string() + ": is no regular file but a pipe or a device; give the name of a file"};
 }
 
@@ -51,29 +90,25 @@ bool is_within(const fs::path& path, const fs::path& folder) {
 Result<int> open_input(const fs::path& path, bool is_input) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (descriptor < 0) return Error{path.string() + ": cannot be opened: " + std::strerror(errno)};
-    struct stat info {};
-    Status fine;
-    if (::fstat(descriptor, &info) != 0) {
-        fine = Error{path.string() + ": cannot be read: " + std::strerror(errno)};
-    } else {
-        fine = check_kind(info, path);
-    }
+    const std::optional<FileInfo> info = info_of("", descriptor);
+    const Status fine =
+        info ? check_kind(*info, path) : Error{path.string() + ": cannot be read: " + std::strerror(errno)};
     if (!fine) {
         ::close(descriptor);
         return fine.error();
     }
-    if (is_input) note(info, path, false);
+    if (is_input) note(*info, path, false);
     return descriptor;
 }
 
 Status check_input(const fs::path& path) {
-    struct stat info {};
-    if (::stat(path.c_str(), &info) != 0) {
+    const std::optional<FileInfo> info = info_of(path.c_str());
+    if (!info) {
         return Error{path.string() + (errno == ENOENT ? ": does not exist; check the name"
                                                       : std::string(": cannot be opened: ") + std::strerror(errno))};
     }
-    if (Status fine = check_kind(info, path); !fine) return fine;
-    note(info, path, false);
+    if (Status fine = check_kind(*info, path); !fine) return fine;
+    note(*info, path, false);
     return {};
 }
 
@@ -85,24 +120,21 @@ void keep_inputs() {
 Status check_keeps_inputs(const fs::path& output) {
     const std::lock_guard lock(inputs().mutex);
     if (inputs().files.empty()) return {};
-    struct stat info {};
-    if (::stat(output.c_str(), &info) != 0) return {};
-    if (S_ISDIR(info.st_mode)) {
+    const std::optional<FileInfo> info = info_of(output.c_str());
+    if (!info) return {};
+    if (S_ISDIR(info->mode)) {
         std::error_code ignored;
         const fs::path folder = fs::weakly_canonical(output, ignored);
-        for (const auto& [file, noted] : inputs().files) {
+        for (const auto& [identity, noted] : inputs().files) {
             const fs::path& path = noted.path;
-            if (noted.written) continue;
-            // Temporaries of this process may have been read and be gone.
-            struct stat now {};
-            if (::stat(path.c_str(), &now) != 0 || std::pair(now.st_dev, now.st_ino) != file) continue;
+            if (noted.written || !Inputs::is_there(identity, noted)) continue;
             if (!is_within(fs::weakly_canonical(path, ignored), folder)) continue;
             return Error{output.string() + ": would be replaced, and with it " + path.string() +
                          ", which is being read; give another name with -o"};
         }
         return {};
     }
-    const auto found = inputs().files.find({info.st_dev, info.st_ino});
+    const auto found = inputs().files.find(info->identity);
     if (found == inputs().files.end()) return {};
     const std::string& named = found->second.path.string();
     if (found->second.written) {
@@ -115,18 +147,14 @@ Status check_keeps_inputs(const fs::path& output) {
 std::vector<fs::path> noted_inputs() {
     std::vector<fs::path> paths;
     const std::lock_guard lock(inputs().mutex);
-    for (const auto& [file, noted] : inputs().files) {
-        struct stat now {};
-        // Temporaries of this process may have been read and be gone.
-        if (noted.written || ::stat(noted.path.c_str(), &now) != 0) continue;
-        if (std::pair(now.st_dev, now.st_ino) == file) paths.push_back(fs::absolute(noted.path));
+    for (const auto& [identity, noted] : inputs().files) {
+        if (!noted.written && Inputs::is_there(identity, noted)) paths.push_back(fs::absolute(noted.path));
     }
     return paths;
 }
 
 void note_written(const fs::path& path) {
-    struct stat info {};
-    if (::stat(path.c_str(), &info) == 0) note(info, path, true);
+    if (const std::optional<FileInfo> info = info_of(path.c_str())) note(*info, path, true);
 }
 
 std::string lower_case_extension(const fs::path& path) {

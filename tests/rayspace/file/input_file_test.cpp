@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 
@@ -65,6 +66,22 @@ TEST(InputFile, WhatIsReadIsNotReplaced) {
     ASSERT_TRUE(bytes.ok());
     EXPECT_EQ(bytes->size(), 8U);
     EXPECT_EQ(in_own_process([&] { return write_file(folder / "in", std::string("not read before")).ok(); }), 0);
+}
+
+TEST(InputFile, ANewFileThatGetsTheNumberOfOneThatIsGoneIsNoInput) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(in_own_process([&] {
+                  for (int i = 0; i < 20; ++i) {  // most file systems give the number to the next file
+                      std::ofstream(folder / "in") << "read, and then removed";
+                      if (!read_file(folder / "in", 100).ok()) return false;
+                      fs::remove(folder / "in");
+                      const fs::path output = folder / std::to_string(i);
+                      std::ofstream(output) << "of today";
+                      if (!write_file(output, std::string("of tomorrow")).ok()) return false;
+                  }
+                  return true;
+              }),
+              0);
 }
 
 TEST(InputFile, AFileThatIsReadAfterItWasStagedIsKeptToo) {
