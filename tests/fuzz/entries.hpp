@@ -31,6 +31,9 @@ int fuzz_gltf(const std::uint8_t* data, std::size_t size);
 int fuzz_obj(const std::uint8_t* data, std::size_t size);
 int fuzz_mtl(const std::uint8_t* data, std::size_t size);
 
+// The bytes as a PLY, an object to photograph.
+int fuzz_ply(const std::uint8_t* data, std::size_t size);
+
 // The bytes as a frame of a sequence (extended OBJ), and as a frames.json.
 int fuzz_sequence(const std::uint8_t* data, std::size_t size);
 

@@ -39,9 +39,7 @@ bool accepted(const Result<T>& read) {
     return read.ok();
 }
 
-// As a room, and as an object to photograph.
-void read_model(const fs::path& path) {
-    if (const auto scene = compositor::read_scene(path); accepted(scene)) check_scene(*scene);
+void read_object(const fs::path& path) {
     const auto object = capture::read_mesh_file(path);
     if (!accepted(object)) return;
     for (const capture::Mesh& mesh : object->meshes) {
@@ -54,7 +52,18 @@ void read_model(const fs::path& path) {
     }
 }
 
+// As a room, and as an object to photograph.
+void read_model(const fs::path& path) {
+    if (const auto scene = compositor::read_scene(path); accepted(scene)) check_scene(*scene);
+    read_object(path);
+}
+
 }  // namespace
+
+int fuzz_ply(const std::uint8_t* data, std::size_t size) {
+    read_object(put("object.ply", text(data, size)));
+    return 0;
+}
 
 int fuzz_gltf(const std::uint8_t* data, std::size_t size) {
     const std::string_view bytes = text(data, size);

@@ -118,6 +118,9 @@ TEST(FuzzReplay, Obj) {
 TEST(FuzzReplay, Mtl) {
     replay("mtl", fuzz::fuzz_mtl, kTrialsOfModels);
 }
+TEST(FuzzReplay, Ply) {
+    replay("ply", fuzz::fuzz_ply);
+}
 TEST(FuzzReplay, Picture) {
     replay("picture", fuzz::fuzz_picture);
 }
