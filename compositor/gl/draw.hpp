@@ -26,7 +26,7 @@ struct DrawState {
 // Into the framebuffer that began last.
 void draw(const Program& program, const VertexArray& vertices, const DrawState& state);
 
-// Has what was requested begun, without waiting.
+// Sends what was drawn to the GPU, without waiting.
 void flush();
 // Waits until everything is drawn.
 void finish();

@@ -45,9 +45,8 @@ struct RaySpaceNode {
     TransformChain chain;
     bool standing = true;  // the origin of the chain is the object's foot instead of the middle of its captured frame
     std::string description;
-    bool required = false;  // without it there is nothing to show; others are left out with a warning
-    std::optional<std::size_t> room =
-        {};  // of Scene::rooms, the innermost; objects of none are always needed in memory
+    bool required = false;                 // without it there is nothing to show; others are left out with a warning
+    std::optional<std::size_t> room = {};  // of Scene::rooms, the innermost; objects of no room are kept in memory
 };
 
 // A part of the scene whose objects are in memory while a visitor is in it or near.

@@ -47,7 +47,7 @@ Placeholder Showroom::placeholder_of(std::size_t node) const {
     return placeholder;
 }
 
-Status Showroom::arrive(const StoreEvent& event) {
+Status Showroom::arrive(const CacheEvent& event) {
     const Result<engine::ObjectHandle> handle = engine_->load(prepared(event.object));
     if (!handle) return handle.error();
     handles_[event.file] = *handle;
@@ -62,7 +62,7 @@ Status Showroom::arrive(const StoreEvent& event) {
     return {};
 }
 
-void Showroom::leave(StoreEvent event) {
+void Showroom::leave(CacheEvent event) {
     for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
         if (plan_.file_of_node(i) != event.file) continue;
         (*nodes_)[i].object.reset();
@@ -72,7 +72,7 @@ void Showroom::leave(StoreEvent event) {
     cache_.give_back(std::move(event.object));
 }
 
-Status Showroom::fail(const StoreEvent& event) {
+Status Showroom::fail(const CacheEvent& event) {
     warnings_.push_back(event.why + "; shown without this object");
     for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
         if (plan_.file_of_node(i) != event.file) continue;
@@ -83,11 +83,11 @@ Status Showroom::fail(const StoreEvent& event) {
 }
 
 Status Showroom::take_events() {
-    for (StoreEvent& event : cache_.events()) {
+    for (CacheEvent& event : cache_.events()) {
         Status status;
-        if (event.kind == StoreEvent::Kind::kArrived)
+        if (event.kind == CacheEvent::Kind::kArrived)
             status = arrive(event);
-        else if (event.kind == StoreEvent::Kind::kLeaves)
+        else if (event.kind == CacheEvent::Kind::kLeaves)
             leave(std::move(event));
         else
             status = fail(event);

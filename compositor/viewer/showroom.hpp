@@ -67,9 +67,9 @@ public:
 private:
     Status take_events();
     Status wait();
-    Status arrive(const StoreEvent& event);
-    void leave(StoreEvent event);
-    Status fail(const StoreEvent& event);
+    Status arrive(const CacheEvent& event);
+    void leave(CacheEvent event);
+    Status fail(const CacheEvent& event);
     void load_on_board(const glm::dvec3& eye);
     void fade(double seconds);
     [[nodiscard]] Placeholder placeholder_of(std::size_t node) const;

@@ -1,5 +1,5 @@
 #pragma once
-// A sequence that a visit plays: which frame is shown, and what the panel shows and requests of it.
+// A sequence that a visit plays: which frame is shown, and what the panel shows of it and does to it.
 
 #include "compositor/playback/sequence_player.hpp"
 #include "compositor/sequence/sequence.hpp"

@@ -35,8 +35,10 @@ TrafficSource take_source(JsonObject object) {
 void read_camera(JsonObject object, Scenario& scenario) {
     object.read("fov_degrees", scenario.fov_degrees, 10, 140);
     if (object.has("ride")) {
+        const JsonValue ride = object.take("ride");
+        if (scenario.sources.empty()) throw ride.wrong("has no source to ride with; add one to sources");
         const int last = static_cast<int>(scenario.sources.size()) - 1;
-        scenario.ride = static_cast<std::size_t>(object.take("ride").whole_number(0, last));
+        scenario.ride = static_cast<std::size_t>(ride.whole_number(0, last));
     } else {
         const JsonValue path = object.take("path");
         const std::size_t count = path.list_size(1, 1000);

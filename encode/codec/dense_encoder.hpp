@@ -29,8 +29,8 @@ struct DenseSettings {
 };
 
 // The alpha bits that are worth their cost at a step: one, of which the decoder makes soft edges, from a step of 20 on.
-// Not where pictures of 31 dB and more are requested (wanted_db; 0: nothing is), however coarse the step that reaches
-// them: what one bit costs at the edges is more than all else together.
+// Not where pictures of 31 dB and more are requested (wanted_db; 0: no fidelity is), however coarse the step that
+// reaches them: what one bit costs at the edges is more than all else together.
 constexpr int dense_alpha_bits(double step, double wanted_db) {
     return step >= 20 && wanted_db < 31 ? 1 : 2;
 }

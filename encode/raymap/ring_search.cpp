@@ -107,7 +107,8 @@ void RingSearch::choose_hull(const std::vector<const RingSearch*>& rings) {
 
 Status RingSearch::complete_cut_outs(Progress* progress, const Keep& keep) {
     // A part that a cut-out lacks is ruled out in other pictures, too.
-    if (count() < 3 || contradicted_ <= kExactSilhouettes) return {};
+    const bool exact = margin_px_ == 1 && contradicted_ <= kExactSilhouettes;
+    if (count() < 3 || exact) return {};
     RingSearch half(set_, rig_, ring_, options_);
     half.reduction_ = 2 * reduction_;
     for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);

@@ -37,7 +37,8 @@ public:
 
     // Finds what cut-outs lack, by points that the object's pictures of half the size show, and paints large parts
     // of it (lost_parts.hpp), if few pictures lack one: else the rig is at fault. Those pictures are passed to `keep`,
-    // one after the other. Not for the soft layer.
+    // one after the other. Nothing is searched where the silhouettes contradict one another nowhere. Not for the soft
+    // layer.
     Status complete_cut_outs(Progress* progress, const Keep& keep);
     // Where the silhouettes agree, what was found is added to them (silhouette_repair.hpp), not to the pictures.
     void mend_silhouettes();
@@ -100,8 +101,7 @@ private:
     std::unique_ptr<SampledHull> sampled_hull_;
     int margin_px_ = 1;
     double overruled_share_ = 0;
-    double contradicted_ =
-        1;  // share of the object that the hull of margin_px_ rules out, with no silhouette overruled
+    double contradicted_ = 1;  // by the last margin that was tried, share of the object
     bool silhouettes_agree_ = true;
 };
 

@@ -277,6 +277,7 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
     const std::size_t line_cells = static_cast<std::size_t>(map.p_cells) * static_cast<std::size_t>(map.bands);
     map.cells.resize(lines * line_cells);
 
+    // Of the first layer, what is in front; others are in pieces by their nature.
     std::vector<double> floating(ring.size());
     for_each_index(ring.size(), [&](std::size_t n) { floating[n] = floating_share(ring[n].depth); });
 

@@ -35,7 +35,7 @@ struct CaseResult {
     int different = 0;     // in colour or depth
     std::string declined;  // not "": why the implementation did not take the case
     std::string first;     // the first view that differs, and how
-    bool failed = false;   // `declined` reports that something went wrong
+    bool failed = false;   // something went wrong; `declined` holds what
 };
 
 struct ConformanceMatrix {

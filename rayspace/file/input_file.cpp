@@ -34,12 +34,16 @@ struct FileInfo {
 };
 
 // Of the file that `path`, or where that is empty the descriptor, leads to; nothing, and errno, where it cannot be
-// said.
+// known.
 std::optional<FileInfo> info_of(const char* path, int descriptor = AT_FDCWD) {
+    const int flags = descriptor == AT_FDCWD ? 0 : AT_EMPTY_PATH;
     struct statx found {};
-    if (::statx(descriptor, path, descriptor == AT_FDCWD ? 0 : AT_EMPTY_PATH, STATX_TYPE | STATX_INO | STATX_BTIME,
-                &found) != 0)
-        return {};
+    if (::statx(descriptor, path, flags, STATX_TYPE | STATX_INO | STATX_BTIME, &found) != 0) {
+        // Old containers forbid it.
+        struct stat plain {};
+        if ((errno != EPERM && errno != ENOSYS) || ::fstatat(descriptor, path, &plain, flags) != 0) return {};
+        return FileInfo{{plain.st_dev, plain.st_ino, 0, 0}, plain.st_mode};
+    }
     FileInfo info{{(std::uint64_t{found.stx_dev_major} << 32U) | found.stx_dev_minor, found.stx_ino, 0, 0},
                   found.stx_mode};
     if ((found.stx_mask & STATX_BTIME) != 0) {

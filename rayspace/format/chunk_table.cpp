@@ -4,21 +4,11 @@
 
 namespace rs::object_chunks {
 
-// NAME_chunk() is in chunks/NAME_chunk.cpp.
-ChunkKind head_chunk();
-ChunkKind rig_chunk();
-ChunkKind views_chunk();
-ChunkKind foot_chunk();
-ChunkKind code_chunk();
-ChunkKind ring_chunk();
-ChunkKind map_chunk();
-ChunkKind shape_chunk();
-ChunkKind picture_chunk();
-
 std::span<const ChunkKind> chunk_table() {
     static const ChunkKind table[] = {
-        head_chunk(), rig_chunk(),  views_chunk(), foot_chunk(),  // of the object
-        code_chunk(), ring_chunk(), map_chunk(),   shape_chunk(), picture_chunk(),
+        head_chunk(),    rig_chunk(), views_chunk(), foot_chunk(), code_chunk(),  // of the object
+        ring_chunk(),    map_chunk(), shape_chunk(),                              // of a ring
+        picture_chunk(),                                                          // of a view
     };
     return table;
 }

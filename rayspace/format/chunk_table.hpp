@@ -24,7 +24,7 @@ struct ChunkKey {
 };
 
 // The chunks of an object in the order of the file. Needs the rings' view lists and the levels of coded pictures;
-// `has` returns whether there is one of a kind that may lack.
+// `has` returns whether there is one of a kind that may be missing.
 std::vector<ChunkKey> chunk_order(const RaySpaceObject& object,
                                   const std::function<bool(const ChunkKind& kind, std::uint32_t index)>& has);
 // Of an object in memory.

@@ -124,7 +124,8 @@ RigView parse_frame(JsonObject frame, const FindPictureSize& find_size, bool fir
     const Intrinsics own = take_intrinsics(frame);
     if (first && find_size && !((own.w || file.w) && (own.h || file.h))) {
         const auto size = find_size(view);
-        if (!size) throw frame.wrong("has no w and h, and its picture does not show them: " + size.error().message);
+        if (!size)
+            throw frame.wrong("has no w and h, and they cannot be read from its picture: " + size.error().message);
         file.w = size->width;
         file.h = size->height;
     }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kWake = SIGUSR2;  // ends the watcher's wait when the guard ends
 
-// Launchers of many processes request it several times at once.
+// Launchers of many processes send the signal several times at once.
 constexpr std::chrono::seconds kOneRequest(3);
 
 std::atomic<bool> noting{false};

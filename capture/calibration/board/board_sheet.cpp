@@ -111,7 +111,7 @@ std::string pdf_file(double width_mm, double height_mm, const std::string& conte
     page << "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 " << width_mm * kPoints_per_mm << " "
          << height_mm * kPoints_per_mm << "] /Contents 4 0 R /Resources << /Font << /F1 5 0 R >> >> >>";
     const std::array<std::string, 6> objects{
-        // PrintScaling requests of the viewer not to shrink the page.
+        // PrintScaling keeps the viewer from shrinking the page.
         "<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >> >>",
         "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
         page.str(),

@@ -5,7 +5,6 @@
 #include "capture/photos/background/still_picture.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
 
-#include <tbb/parallel_for.h>
 #include <opencv2/core.hpp>
 
 #include <algorithm>

@@ -31,8 +31,8 @@ struct PhotoFolder {
 std::vector<std::string> file_names(const PhotoFolder& folder);
 
 // Lists the folder and reads the pictures' headers. Fails where there are no pictures or more than kMaxViews, where a
-// header cannot be read, where one requests turned pixels (EXIF orientation other than 1), and where two
-// sizes differ (naming both files and sizes). Pixels are not looked at.
+// header cannot be read, where one is to be shown turned (EXIF orientation other than 1), and where two sizes
+// differ (naming both files and sizes). Pixels are not looked at.
 Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder);
 
 }  // namespace rs::capture

@@ -13,7 +13,7 @@ struct MaterialLanes {
     Lanes kind;
     Lanes alpha, ior, translucency;
     Lanes base;  // max(1 - mean albedo of the coat, 1e-4): what divides the light that the base scatters
-    // Of the albedo's kAlbedoNumbers within `tables` of those who request it; as many of any where there are none.
+    // Of the albedo's kAlbedoNumbers within `tables` of the caller; as many of any where there are none.
     LanesOf<std::int32_t> table;
 };
 

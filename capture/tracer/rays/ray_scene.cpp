@@ -14,7 +14,7 @@ namespace rs::capture {
 
 namespace {
 
-// Embree requests the primitives' boxes, and for what a ray meets in one. The answer travels in the context.
+// Embree calls back for the primitives' boxes, and for what a ray meets in one. The answer travels in the context.
 struct PrimitiveQuery {
     RTCIntersectContext context{};
     std::optional<RayPrimitive::Answer> nearest{};

@@ -159,7 +159,7 @@ public:
             if (!problem && faces && !vertices_exist(strips)) problem = "a face names a vertex that does not exist";
             if (problem) return element.name + " " + std::to_string(i) + ": " + *problem;
             if (element.name == "vertex") append_vertex();
-            if (element.name == "material") materials_.push_back(row_);
+            if (element.name == "material" && !material_) material_ = row_;
             if (strips) append_strip();
             if (element.name == "face") append_face();
         }
@@ -167,24 +167,26 @@ public:
         return "has no faces; a mesh with triangles or polygons is needed";
     }
 
-    // The mesh has the first material.
-    [[nodiscard]] std::unique_ptr<aiScene> scene(const std::vector<std::string>& texture_files) const {
+    // Once: what was read goes into the scene.
+    [[nodiscard]] std::unique_ptr<aiScene> scene(const std::vector<std::string>& texture_files) && {
         auto scene = std::make_unique<aiScene>();
         auto* const mesh = new aiMesh;
         scene->mMeshes = new_array<aiMesh*>({mesh});
         scene->mNumMeshes = 1;
-        mesh->mVertices = new_array(positions_);
         mesh->mNumVertices = static_cast<unsigned>(positions_.size());
-        if (!normals_.empty()) mesh->mNormals = new_array(normals_);
-        if (!uvs_.empty()) mesh->mTextureCoords[0] = new_array(uvs_);
         mesh->mNumUVComponents[0] = uvs_.empty() ? 0 : 2;
-        mesh->mFaces = new_array(faces_);
         mesh->mNumFaces = static_cast<unsigned>(faces_.size());
-        std::vector<aiMaterial*> materials;
-        for (const PlyRow& row : materials_) materials.push_back(new_material(row, texture_files));
-        if (materials.empty()) materials = {new_material({1, 1, 1, 1, 1, 1, 0, 1, 0}, texture_files)};
-        scene->mMaterials = new_array(materials);
-        scene->mNumMaterials = static_cast<unsigned>(materials.size());
+        mesh->mVertices = new_array(std::exchange(positions_, {}));
+        if (!normals_.empty()) mesh->mNormals = new_array(std::exchange(normals_, {}));
+        if (!uvs_.empty()) mesh->mTextureCoords[0] = new_array(std::exchange(uvs_, {}));
+        mesh->mFaces = new aiFace[faces_.size()];
+        for (std::size_t i = 0; i < faces_.size(); ++i) {  // a copy of a face takes memory of its own
+            std::swap(mesh->mFaces[i].mNumIndices, faces_[i].mNumIndices);
+            std::swap(mesh->mFaces[i].mIndices, faces_[i].mIndices);
+        }
+        scene->mMaterials = new_array<aiMaterial*>(
+            {new_material(material_.value_or(PlyRow{1, 1, 1, 1, 1, 1, 0, 1, 0}), texture_files)});
+        scene->mNumMaterials = 1;
         scene->mRootNode = new aiNode;
         scene->mRootNode->mMeshes = new_array<unsigned>({0});
         scene->mRootNode->mNumMeshes = 1;
@@ -220,14 +222,15 @@ private:
         }
     }
 
-    Problem read_list(const PlyProperty& property, std::vector<double>& values) {
+    // `values`: null where nobody needs them.
+    Problem read_list(const PlyProperty& property, std::vector<double>* values) {
         const auto count = body_.next(*property.count_type);
         if (!count || *count < 0 || *count != std::floor(*count)) return "a list has no valid length";
-        values.clear();
+        if (values != nullptr) values->clear();
         for (double i = 0; i < *count; ++i) {
             const auto value = body_.next(property.type);
             if (!value) return "a list ends too early or holds something that is no number";
-            values.push_back(*value);
+            if (values != nullptr) values->push_back(*value);
         }
         return std::nullopt;
     }
@@ -237,9 +240,9 @@ private:
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
             const PlyProperty& property = element.properties[i];
             if (property.is_list()) {
-                std::vector<double>& values = property.is_vertex_list()     ? vertices_
-                                              : property.name == "texcoord" ? texcoords_
-                                                                            : ignored_;
+                std::vector<double>* const values = property.is_vertex_list()     ? &vertices_
+                                                    : property.name == "texcoord" ? &texcoords_
+                                                                                  : nullptr;
                 if (Problem problem = read_list(property, values)) return problem;
                 continue;
             }
@@ -297,11 +300,11 @@ private:
     double vertex_count_ = 0;
     std::vector<Target> targets_;  // of the element's properties
     PlyRow row_{};
-    std::vector<double> vertices_, texcoords_, ignored_;
+    std::vector<double> vertices_, texcoords_;
     bool has_normals_ = false, has_uvs_ = false;
     std::vector<aiVector3D> positions_, normals_, uvs_;
     std::vector<aiFace> faces_;
-    std::vector<PlyRow> materials_;
+    std::optional<PlyRow> material_;  // the first: the mesh has that
 };
 
 }  // namespace
@@ -319,7 +322,7 @@ Result<std::unique_ptr<aiScene>> read_ply_file(const std::filesystem::path& path
     for (const PlyElement& element : header.elements) {
         if (const Problem problem = reader.read(element)) return wrong(*problem);
     }
-    return reader.scene(header.texture_files);
+    return std::move(reader).scene(header.texture_files);
 }
 
 }  // namespace rs::capture

@@ -6,6 +6,7 @@
 #include "capture/tracer/scene/studio.hpp"
 #include "capture/tracer/scene/surroundings.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
 #include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
 
@@ -36,7 +37,7 @@ void apply_texture(const JsonValue& texture, const std::filesystem::path& recipe
         throw texture.wrong("mesh \"" + mesh.name + "\" has no texture coordinates; add some to the mesh");
     }
     Result<Texture> read = read_texture(recipe.parent_path() / texture.text_or_empty(), recipe);
-    if (!read) throw MalformedJson{read.error().message};
+    if (!read) throw MalformedJson{printable(read.error().message)};
     scene.textures.push_back(std::move(read).value());
     for (Material& material : scene.materials) {
         material.texture = static_cast<int>(scene.textures.size()) - 1;

@@ -34,7 +34,7 @@ public:
     Worker(Transport& transport, const WorkerNode& node, BeginJob begin);
     // True where something happened.
     bool step();
-    // Ends the item under way and requests the coordinator to end the run.
+    // Ends the item under way and has the coordinator end the run.
     void interrupt();
     [[nodiscard]] bool ended() const { return ended_; }
 

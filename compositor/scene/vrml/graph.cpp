@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    // What X3D states of itself, and needs.
+    // X3D's own statements: profile, component, meta.
     bool take_x3d_statement() {
         if (lexer_.take_word("PROFILE") || lexer_.take_word("COMPONENT")) {
             lexer_.expect(TokenKind::word, "a name");
@@ -199,7 +199,7 @@ private:
         }
     }
 
-    // The fields of `specs` up to the closing bracket. Of others `ignores` shows whether they go without a warning.
+    // The fields of `specs` up to the closing bracket. `ignores` decides whether others go without a warning.
     template <class Ignores>
     void take_given(const FieldSpecs& specs, int opened, Node& node, Pattern& pattern, const Ignores& ignores) {
         while (const auto field = next_field(opened)) {

@@ -202,7 +202,7 @@ private:
 
     void skip_field(const Tree& node) {
         const Token name = lexer_.take();
-        // What nodes state of their own fields, and unknown nodes at all, is no fault.
+        // Nodes may list their own fields, and unknown nodes may hold anything.
         const bool of_itself = name.text == "fields" || name.text == "isA";
         if (node.kind->known && !of_itself) warn_(name.line, node.type + " has no field " + shown(name) + "; left out");
         if (lexer_.peek().kind != TokenKind::word || lexer_.peek().text.front() != '(') return vrml::skip_value(lexer_);

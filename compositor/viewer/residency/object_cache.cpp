@@ -32,7 +32,7 @@ enum class Stage {
     kAway,
     kLoading,
     kHere,
-    kLeaving,  // its user was requested to let it go
+    kLeaving,  // its user has been told to let it go
     kFailed,
 };
 
@@ -61,7 +61,7 @@ struct ObjectCache::State {
     std::condition_variable for_thread;
     std::condition_variable for_user;
     std::vector<LoadPriority> priorities;  // [file]; empty before the first
-    std::vector<StoreEvent> events;
+    std::vector<CacheEvent> events;
     std::vector<std::shared_ptr<const ViewableObject>> given_back;
     StoreStatistics statistics;
     bool idle = false;  // the thread has nothing to do until somebody calls
@@ -79,7 +79,7 @@ struct ObjectCache::State {
     void fail(std::size_t file, const std::string& why) {
         files[file].stage = Stage::kFailed;
         ++statistics.failures;
-        events.push_back({StoreEvent::Kind::kFailed, file, nullptr, why});
+        events.push_back({CacheEvent::Kind::kFailed, file, nullptr, why});
         for_user.notify_all();
     }
 
@@ -138,12 +138,12 @@ struct ObjectCache::State {
         ++statistics.loads;
         statistics.load_s += seconds;
         statistics.longest_load_s = std::max(statistics.longest_load_s, seconds);
-        events.push_back({StoreEvent::Kind::kArrived, number, {object, &object->object}, {}});
+        events.push_back({CacheEvent::Kind::kArrived, number, {object, &object->object}, {}});
         for_user.notify_all();
     }
 
-    // Requests those of least priority to be let go, until there will be `bytes`; nothing is requested where that
-    // cannot be reached with those that give way. True where somebody is leaving.
+    // Has those of least priority let go, until there will be `bytes`; nothing happens where that cannot be reached
+    // with those that give way. True where somebody is leaving.
     bool make_room(std::size_t next, std::int64_t bytes) {
         std::int64_t free = memory.budget_bytes() - memory.used_bytes();
         std::vector<std::size_t> held;
@@ -165,15 +165,15 @@ struct ObjectCache::State {
             file.stage = Stage::kLeaving;
             ++statistics.evictions;
             // An arrival that nobody has seen is no news any more.
-            const auto unseen = std::find_if(events.begin(), events.end(), [&](const StoreEvent& event) {
-                return event.file == held[n] && event.kind == StoreEvent::Kind::kArrived;
+            const auto unseen = std::find_if(events.begin(), events.end(), [&](const CacheEvent& event) {
+                return event.file == held[n] && event.kind == CacheEvent::Kind::kArrived;
             });
             const std::shared_ptr<const ViewableObject> object(file.object, &file.object->object);
             if (unseen != events.end()) {
                 events.erase(unseen);
                 given_back.push_back(object);
             } else {
-                events.push_back({StoreEvent::Kind::kLeaves, held[n], object, {}});
+                events.push_back({CacheEvent::Kind::kLeaves, held[n], object, {}});
             }
         }
         for_user.notify_all();
@@ -273,7 +273,7 @@ bool ObjectCache::try_set_priorities(std::vector<LoadPriority> priorities) {
     return true;
 }
 
-std::vector<StoreEvent> ObjectCache::events() {
+std::vector<CacheEvent> ObjectCache::events() {
     const std::unique_lock lock(state_->mutex, std::try_to_lock);
     if (!lock) return {};
     return std::exchange(state_->events, {});

@@ -21,7 +21,7 @@
 
 namespace rs::compositor {
 
-struct StoreEvent {
+struct CacheEvent {
     enum class Kind {
         kArrived,  // `object` may be shown
         kLeaves,   // stop showing it, and give it back: its memory is needed
@@ -59,7 +59,7 @@ public:
     bool try_set_priorities(std::vector<LoadPriority> priorities);
 
     // What has happened since the last call; may come with a later one while the cache is busy.
-    std::vector<StoreEvent> events();
+    std::vector<CacheEvent> events();
     // The answer to kLeaves: nobody uses the object any more.
     void give_back(std::shared_ptr<const ViewableObject> object);
 

@@ -29,7 +29,7 @@ struct ExecutorTraits {
 struct SlotView {
     int slot = 0;
     ViewRegisters registers;
-    bool depth = true;  // is needed, of an executor that gives it
+    bool depth = true;  // needed, if the executor gives it
 };
 inline Error no_object_in(int slot) {
     return Error{"slot " + std::to_string(slot) + " holds no object"};
@@ -37,8 +37,7 @@ inline Error no_object_in(int slot) {
 
 struct ExecutedView {
     Image<Rgba8> picture;
-    Image<std::int32_t>
-        depth_q20;  // axial, 0 where alpha is 0; empty where the executor gives none or it is not needed
+    Image<std::int32_t> depth_q20;  // axial, 0 where alpha is 0; empty where none is given or needed
 };
 
 class Executor {

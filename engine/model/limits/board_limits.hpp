@@ -1,6 +1,5 @@
 #pragma once
-// What the published board holds: the front door of the hardware model. Whether objects fit, their layout knows
-// (layout/object_image.hpp).
+// What the published board holds, as numbers. Whether objects fit, their layout knows (layout/object_image.hpp).
 //
 // Source: Sakagawa et al., section 5: one FPGA at 40 MHz, 20 objects, 15 views per rendering cycle, at most 120
 // pictures of 512x512 and 12 reference planes of at most 1024 cells a side per object, Y, U, V and alpha uncompressed

@@ -1,6 +1,7 @@
 #pragma once
 // What an .rso file's chunk is: a row of chunk_table.cpp. Each kind has a file of this folder, which gives its row; its
-// payload is encode/FORMAT.md's, section "Chunks". Errors name neither file nor chunk, ring or view: the caller does.
+// payload is encode/FORMAT.md's, section "Chunks". Errors name neither file nor chunk, ring or view, the caller does
+// (but for VIEW, which holds all views).
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/format/object_chunks.hpp"
@@ -58,5 +59,16 @@ template <class T>
 std::int64_t held_by(const std::vector<T>& list) {
     return static_cast<std::int64_t>(list.capacity() * sizeof(T));
 }
+
+// NAME_chunk() is in chunks/NAME_chunk.cpp.
+ChunkKind head_chunk();
+ChunkKind rig_chunk();
+ChunkKind views_chunk();
+ChunkKind foot_chunk();
+ChunkKind code_chunk();
+ChunkKind ring_chunk();
+ChunkKind map_chunk();
+ChunkKind shape_chunk();
+ChunkKind picture_chunk();
 
 }  // namespace rs::object_chunks

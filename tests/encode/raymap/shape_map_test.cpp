@@ -179,6 +179,17 @@ TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
     cut_away(folder / "set" / "7.png", 20, 56, 32);
     build(folder / "set", MapKind::kShape, &lacking);
     EXPECT_THAT(lacking.labels, Contains("depth at half size"));
+    // Cameras that are off: the silhouettes agree within some pixels only, and are not exact.
+    Rig off = drawn_ring(24);
+    for (std::size_t i = 0; i < off.views.size(); ++i) {
+        off.views[i].camera.cx += i % 2 == 0 ? 2 : -2;
+        off.views[i].file_path = std::to_string(i) + ".png";
+    }
+    test::write_drawn_set(folder / "off", drawn_ring(24), mottled_ball);
+    ASSERT_TRUE(write_rig(folder / "off" / kRigFileName, off).ok());
+    Labels wide;
+    build(folder / "off", MapKind::kShape, &wide);
+    EXPECT_THAT(wide.labels, Contains("depth at half size"));
 }
 
 TEST(ShapeMap, WhereManyCutOutsSeemToLackAPartTheRigIsAtFault) {

@@ -12,6 +12,8 @@ struct Read {
     double number = 5;
     glm::vec3 colour{1};
     std::size_t word = 0;
+    int whole = 0;
+    std::string text;
     nlohmann::json rest;
 };
 
@@ -21,6 +23,14 @@ Result<Read> read(const std::string& text, bool take_rest = false) {
         top.read("number", made.number, 0, 10);
         top.read("colour", made.colour, 0, 1);
         if (const auto word = top.find("word")) made.word = word->one_of({"red", "green"});
+        if (const auto whole = top.find("whole")) made.whole = static_cast<int>(whole->whole_number(0, 9));
+        if (const auto list = top.find("list")) {
+            for (std::size_t i = 0; i < list->list_size(0, 3); ++i) {
+                JsonObject item(list->item(i));
+                made.text = item.take("text").text();
+                item.expect_all_taken();
+            }
+        }
         if (take_rest) made.rest = top.take_rest();
         return made;
     });
@@ -35,6 +45,8 @@ TEST(StrictJson, KeysThatAreMissingLeaveValuesAndOneNumberStandsForThree) {
     EXPECT_EQ(all->number, 2);
     EXPECT_EQ(all->colour, glm::vec3(0.5F));
     EXPECT_EQ(all->word, 1U);
+    EXPECT_EQ(read(R"({"whole": 3.0})")->whole, 3);
+    EXPECT_EQ(read(R"({"list": [{"text": "a"}, {"text": "b"}]})")->text, "b");
     EXPECT_EQ(read(R"({"colour": [0, 0.25, 1]})")->colour, glm::vec3(0, 0.25F, 1));
 }
 
@@ -49,7 +61,13 @@ TEST(StrictJson, ErrorsNameFilePlaceAndRemedyInOneLine) {
         {R"({"number": 11})", "number: must be a number from 0 to 10"},
         {R"({"colour": [0, 0, 2]})", "colour[2]: must be a number from 0 to 1"},
         {R"({"word": "blue"})", R"(word: must be one of "red", "green")"},
-        {R"({"numbr": 1})", "has a key 'numbr' that means nothing here; it may have: colour, number, word"},
+        {R"({"numbr": 1})",
+         "has a key 'numbr' that means nothing here; it may have: colour, list, number, whole, word"},
+        {R"({"whole": 2.5})", "whole: must be a whole number from 0 to 9"},
+        {R"({"list": [{"text": "a"}, {"text": 3}]})", "list[1].text: must be"},
+        {R"({"list": [{"text": "a\u0000b"}]})", "list[0].text: "},
+        {R"({"list": [{"txt": "a"}]})", "list[0]"},
+        {R"({"list": [1, 2, 3, 4]})", "list: "},
         {R"({"number": 1, "number": 2})", "is there twice"},
         {"[]", "must be an object"},
     };

@@ -240,7 +240,8 @@ TEST(Rig, TakesTheSizeFromTheFirstPicture) {
     const auto text = R"({"camera_angle_x":0.7,"frames":[{"file_path":"./train/r_0","transform_matrix":)" +
                       std::string(kIdentity) + "}]}";
     std::ofstream(folder / kRigFileName) << text;
-    EXPECT_THAT(read_rig(folder.path()).error().message, HasSubstr("no w and h, and its picture does not show them"));
+    EXPECT_THAT(read_rig(folder.path()).error().message,
+                HasSubstr("no w and h, and they cannot be read from its picture"));
     ASSERT_TRUE(write_png(folder.path() / "train" / "r_0.png", Image<Rgba8>(20, 10)).ok());
     const auto rig = read_rig(folder.path());
     ASSERT_TRUE(rig.ok()) << rig.error().message;

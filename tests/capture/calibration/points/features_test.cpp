@@ -78,6 +78,7 @@ TEST(Features, SpotsAreFoundWhereTheyAreButNotAtTheObjectsRim) {
     const FollowOptions options;
     const double rim = object_from + options.rim_px;
     const ViewFeatures features = features_in(picture, options);
+    ASSERT_FALSE(features.positions.empty());
     int looked_for = 0;
     std::vector<glm::dvec2> found;
     for (const Spot& spot : spots) {
@@ -101,6 +102,7 @@ TEST(Features, SpotsAreFoundWhereTheyAreButNotAtTheObjectsRim) {
 
 TEST(Features, DescriptorsHaveOneLength) {
     const ViewFeatures features = features_in(picture_of(drawn_spots(3, 12)));
+    ASSERT_GT(features.positions.size(), 50U);
     ASSERT_EQ(features.descriptors.size(), features.positions.size() * kDescriptorNumbers);
     for (std::size_t i = 0; i < features.positions.size(); ++i) {
         double squares = 0;

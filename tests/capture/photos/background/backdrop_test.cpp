@@ -127,7 +127,7 @@ TEST(Backdrop, PlateIsTheBackdropAlsoWhereTheObjectAlwaysIs) {
     }
 }
 
-TEST(Plate, FillsFromAroundAndKeepsWhatIsKnown) {
+TEST(CleanPlate, FillsFromAroundAndKeepsWhatIsKnown) {
     Image<Rgba8> picture(37, 23, Rgba8{100, 120, 140, 255});
     Image<std::uint8_t> known(37, 23, 1);
     for (int y = 5; y < 18; ++y) {

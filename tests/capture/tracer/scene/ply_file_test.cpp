@@ -155,6 +155,46 @@ TEST(PlyFile, StripsBecomeTrianglesAndBeginAnewAtMinusOne) {
     EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("names a vertex that does not exist")) << "no strip";
 }
 
+TEST(PlyFile, KeepsNormals) {
+    const TemporaryFolder folder;
+    write_text(folder / "a.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+               "property float nx\nproperty float ny\nproperty float nz\n"
+               "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+               "0 0 0 0 0.6 0.8\n2 0 0 0 0.6 0.8\n2 2 0 0 0.6 0.8\n3 0 1 2\n");
+    const Result<Scene> scene = read_mesh_file(folder / "a.ply");
+    ASSERT_TRUE(scene) << scene.error().message;
+    for (const glm::vec3& normal : scene->meshes[0].normals) {
+        EXPECT_LT(glm::distance(normal, glm::vec3(0, 0.6F, 0.8F)), 1e-6F);
+    }
+}
+
+TEST(PlyFile, TheFirstMaterialIsTheMeshs) {
+    const TemporaryFolder folder;
+    const std::string begin =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\n";
+    const std::string body = "end_header\n0 0 0\n2 0 0\n2 2 0\n3 0 1 2\n";
+    const std::string colour =
+        "property uchar diffuse_red\nproperty uchar diffuse_green\nproperty float diffuse_blue\n";
+    write_text(folder / "a.ply", begin + "element material 2\n" + colour + body + "255 0 0.5\n9 9 9\n");
+    const Result<Scene> scene = read_mesh_file(folder / "a.ply");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->materials.size(), 1U);
+    EXPECT_EQ(scene->materials[0].colour, glm::vec3(1, 0, 0.5F));
+    // As many as there may be: none takes memory but the first.
+    std::string rows;
+    for (int i = 0; i < 200000; ++i) rows += "1 2 3\n";
+    write_text(folder / "many.ply", begin + "element material 200000\n" + colour + body + rows);
+    const Result<Scene> many = read_mesh_file(folder / "many.ply");
+    ASSERT_TRUE(many) << many.error().message;
+    EXPECT_EQ(many->materials.size(), 1U);
+    // Before, an opacity without a shininess was refused.
+    write_text(folder / "clear.ply", begin + "element material 1\nproperty float opacity\n" + body + "0.25\n");
+    const Result<Scene> clear = read_mesh_file(folder / "clear.ply");
+    EXPECT_TRUE(clear) << clear.error().message;
+}
+
 TEST(PlyFile, CommentsAndForeignElementsChangeNothing) {
     const TemporaryFolder folder;
     // A first coordinate whose first byte is a line feed, an element of another kind, and two lines in one.

@@ -39,11 +39,11 @@ public:
           store(files(count), std::make_unique<SlowSource>(log, std::move(options)), budget_bytes) {}
 
     void listen() {
-        for (StoreEvent& event : store.events()) {
-            if (event.kind == StoreEvent::Kind::kArrived) {
+        for (CacheEvent& event : store.events()) {
+            if (event.kind == CacheEvent::Kind::kArrived) {
                 EXPECT_FALSE(here.contains(event.file)) << "arrived twice";
                 here[event.file] = event.object;
-            } else if (event.kind == StoreEvent::Kind::kLeaves) {
+            } else if (event.kind == CacheEvent::Kind::kLeaves) {
                 EXPECT_TRUE(here.contains(event.file)) << "leaves without having come";
                 here.erase(event.file);
                 ++left;
