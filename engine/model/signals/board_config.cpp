@@ -1,12 +1,14 @@
 #include "engine/model/signals/board_config.hpp"
 
-#include "rayspace/base/json_text.hpp"
+#include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
+#include <map>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 namespace rs::engine::model {
 namespace {
@@ -167,34 +169,38 @@ std::string contradiction(const BoardConfig& c) {
     return {};
 }
 
-Result<BoardConfig> checked(BoardConfig config, const std::string& where) {
-    std::string bad;
-    for_each_number(config, [&](const char* path, const auto& value, std::int64_t least, std::int64_t most) {
-        const auto number = static_cast<std::int64_t>(value);
-        if (bad.empty() && (number < least || number > most)) {
-            bad = std::string(path) + " is " + std::to_string(number) + ", outside " + std::to_string(least) + ".." +
-                  std::to_string(most);
-        }
-    });
-    if (bad.empty()) bad = contradiction(config);
-    if (!bad.empty()) return Error{where + ": " + bad};
+BoardConfig with_memory(BoardConfig config) {
     config.limits.memory_bytes = config.memory.shape.words() * 8;
     return config;
 }
 
-// Keys of `json` that the list does not know, "" where there are none.
-std::string unknown_key(const Json& json, const Json& known, const std::string& path) {
-    for (const auto& [key, value] : json.items()) {
-        std::string here = path.empty() ? key : path + "/" + key;
-        if (path.empty() && (key == "base" || key == "name")) continue;
-        if (!known.contains(key)) return here;
-        if (known[key].is_object() != value.is_object()) return here;
-        if (value.is_object()) {
-            if (std::string found = unknown_key(value, known[key], here); !found.empty()) return found;
+// The objects of a configuration's text by their paths, such as "memory/alpha".
+class Objects {
+public:
+    explicit Objects(JsonObject& top) : top_(top) {}
+
+    // Null where the text has none.
+    JsonObject* at(const std::string& path) {
+        if (path.empty()) return &top_;
+        const auto [known, is_new] = by_path_.try_emplace(path);
+        if (is_new) {
+            const std::size_t slash = path.rfind('/');
+            JsonObject* const parent = at(slash == std::string::npos ? "" : path.substr(0, slash));
+            const auto value = parent == nullptr ? std::nullopt : parent->find(path.substr(slash + 1));
+            if (value) known->second.emplace(*value);
+        }
+        return known->second ? &*known->second : nullptr;
+    }
+    void expect_all_taken() const {
+        for (const auto& [path, object] : by_path_) {
+            if (object) object->expect_all_taken();
         }
     }
-    return {};
-}
+
+private:
+    JsonObject& top_;
+    std::map<std::string, std::optional<JsonObject>> by_path_;
+};
 
 Json to_json(const BoardConfig& config) {
     Json json = Json::object();
@@ -225,46 +231,32 @@ std::vector<std::string> built_in_configs() {
 }
 
 Result<BoardConfig> parse_board_config(const std::string& text, const std::string& where) {
-    const Result<Json> parsed = parse_json(text, where);
-    if (!parsed) return parsed.error();
-    const Json& json = *parsed;
-    if (!json.is_object()) return Error{where + ": not a JSON object; see engine/README.md"};
-    const auto text_of = [&](const char* key, std::string otherwise) -> std::string {
-        if (!json.contains(key) || !json[key].is_string()) return otherwise;
-        return json[key].get<std::string>();
-    };
-    const std::string base = text_of("base", "prototype-2000");
-    const std::optional<BoardConfig> known = built_in(base);
-    if (!known) {
-        return Error{where + ": base \"" + base + "\" is no built-in configuration; give one of " + listed_built_ins()};
-    }
-    BoardConfig config = *known;
-    config.name = text_of("name", where);
-    if (const std::string key = unknown_key(json, to_json(config), ""); !key.empty()) {
-        return Error{where + ": \"" + key +
-                     "\" is no setting, or not of its kind; settings are those of "
-                     "rs-engine simulate " +
-                     base + " --print-config"};
-    }
-    std::string bad;
-    for_each_number(config, [&](const char* path, auto& value, std::int64_t, std::int64_t) {
-        if (!bad.empty() || !json.contains(pointer(path))) return;
-        const Json& given = json[pointer(path)];
-        if (!given.is_number_integer() || std::abs(given.get<double>()) > 4e9) {
-            bad = path;
-            return;
+    return read_json(text, where, [&](JsonObject& top) {
+        std::string base = "prototype-2000";
+        top.read("base", base);
+        const std::optional<BoardConfig> known = built_in(base);
+        if (!known) {
+            throw top.take("base").wrong("\"" + base + "\" is no built-in configuration; give one of " +
+                                         listed_built_ins());
         }
-        const auto number = given.get<std::int64_t>();
-        using Value = std::remove_reference_t<decltype(value)>;
-        value = static_cast<Value>(std::clamp<std::int64_t>(number, std::is_signed_v<Value> ? -1 : 0, 2'100'000'000));
-        if (number < 0 && !std::is_signed_v<Value>) bad = path;
+        BoardConfig config = *known;
+        config.name = where;
+        top.read("name", config.name);
+        Objects objects(top);
+        for_each_number(config, [&](const std::string& path, auto& value, int least, int most) {
+            const std::size_t slash = path.rfind('/');
+            JsonObject* const object = objects.at(slash == std::string::npos ? "" : path.substr(0, slash));
+            const auto given = object == nullptr ? std::nullopt : object->find(path.substr(slash + 1));
+            if (given) value = static_cast<std::remove_reference_t<decltype(value)>>(given->whole_number(least, most));
+        });
+        objects.expect_all_taken();
+        if (const std::string bad = contradiction(config); !bad.empty()) throw top.wrong(bad);
+        return with_memory(std::move(config));
     });
-    if (!bad.empty()) return Error{where + ": \"" + bad + "\" is not a whole number that fits"};
-    return checked(config, where);
 }
 
 Result<BoardConfig> read_board_config(const std::string& name_or_path) {
-    if (const std::optional<BoardConfig> known = built_in(name_or_path)) return checked(*known, name_or_path);
+    if (std::optional<BoardConfig> known = built_in(name_or_path)) return with_memory(*std::move(known));
     constexpr std::uint64_t kCap_bytes = 1 << 20;
     if (!std::filesystem::exists(name_or_path)) {
         return Error{name_or_path + ": neither a built-in configuration (" + listed_built_ins() + ") nor a file"};
