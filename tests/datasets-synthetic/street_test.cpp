@@ -119,7 +119,7 @@ TEST(Scenario, IsReadStrictlyAndWrittenAsItIs) {
         {R"({"sources": [{"lane": "up"}]})", "sources[0].lane: must be one of \"east\""},
         {R"({"sources": [{}]})", "sources[0]: lane is missing"},
         {R"({"sources": [{"lane": "east", "count": 1.5}]})", "count: must be a whole number"},
-        {R"({"sources": [], "camera": {"ride": 0}})", "camera.ride: must be a whole number"},
+        {R"({"sources": [], "camera": {"ride": 0}})", "camera.ride: has no source to ride with; add one"},
         {R"({"sources": [], "camera": {"path": [{"eye": [0, 0, 0], "at": [0, 0, 0]}]}})",
          "camera.path[0]: at is the eye"},
         {R"({"sources": [], "camera": {"path": [{"eye": [0, 0], "at": [0, 0, 1]}]}})",
