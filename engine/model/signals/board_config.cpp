@@ -100,8 +100,8 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("memory/interface_latency", c.memory.timing.interface_latency, 0, 4);
     const auto visit_banks = [&](auto& banks) {
         const std::string region = std::string("memory/") + banks.name;
-        visit((region + "/first").c_str(), banks.first, 0, 15);
-        visit((region + "/count").c_str(), banks.count, 1, 16);
+        visit(region + "/first", banks.first, 0, 15);
+        visit(region + "/count", banks.count, 1, 16);
     };
     for (auto& banks : c.memory.regions.objects) visit_banks(banks);
     visit_banks(c.memory.regions.images);
@@ -123,10 +123,6 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("disk/stall_after_bytes", c.disk.stall_after_bytes, 0, 2'000'000'000);
     visit("disk/stall_cycles", c.disk.stall_cycles, 0, 2'000'000'000);
     visit("disk/timeout_cycles", c.disk.timeout_cycles, 1, 2'000'000'000);
-}
-
-Json::json_pointer pointer(const char* path) {
-    return Json::json_pointer("/" + std::string(path));
 }
 
 // What is only wrong together.
@@ -204,8 +200,9 @@ private:
 
 Json to_json(const BoardConfig& config) {
     Json json = Json::object();
-    for_each_number(
-        config, [&](const char* path, const auto& value, std::int64_t, std::int64_t) { json[pointer(path)] = value; });
+    for_each_number(config, [&](const std::string& path, const auto& value, int, int) {
+        json[Json::json_pointer("/" + path)] = value;
+    });
     return json;
 }
 
