@@ -1,6 +1,7 @@
 #pragma once
 // What the chunks' parts of validate_object() share; encode/FORMAT.md, section "Ranges".
 
+#include "rayspace/base/conventions.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
 #include <cmath>
@@ -20,6 +21,11 @@ inline constexpr std::int64_t kMaxHalf_q20 = 2 * kOne_q20 + kOne_q20 / 16;  // o
 // |number| < limit, for numbers of which INT32_MIN is one.
 inline bool below(std::int32_t number, std::int64_t limit) {
     return std::abs(std::int64_t{number}) < limit;
+}
+
+// Of a map or a shape map's line, in cells.
+inline bool is_map_side(int side) {
+    return side >= 1 && side <= kMaxMapSide;
 }
 
 // Whether cells_per_unit_q12 is cells / (2 * half), but for its own rounding and that of `half`.

@@ -63,8 +63,7 @@ Status check_ring_geometry(const Ring& ring) {
         return Error{"it has " + std::to_string(ring.planes) + " planes; " + std::to_string(kMinPlanes) + ".." +
                      std::to_string(kMaxPlanes) + " are possible"};
     }
-    const auto is_side = [](int side) { return side >= 1 && side <= kMaxMapSide; };
-    if (!is_side(ring.x_cells) || !is_side(ring.u_cells)) {
+    if (!is_map_side(ring.x_cells) || !is_map_side(ring.u_cells)) {
         return Error{"its map is " + std::to_string(ring.x_cells) + "x" + std::to_string(ring.u_cells) +
                      " cells; each side must be 1.." + std::to_string(kMaxMapSide)};
     }

@@ -88,8 +88,7 @@ bool is_within(std::int32_t number, std::int64_t lowest, std::int64_t highest) {
 }
 
 Status check_numbers(const ShapeMap& shape) {
-    const auto is_side = [](int side) { return side >= 1 && side <= kMaxMapSide; };
-    if (!is_side(shape.p_cells) || !is_side(shape.bands)) {
+    if (!is_map_side(shape.p_cells) || !is_map_side(shape.bands)) {
         return Error{"lines of " + std::to_string(shape.p_cells) + "x" + std::to_string(shape.bands) +
                      " cells; each side must be 1.." + std::to_string(kMaxMapSide)};
     }
@@ -225,8 +224,7 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
     const auto cell_bytes = in.get<std::uint32_t>();
     if (!in.ok()) return Error{"is too short"};
     if (!is_reserved_zero) return Error{"has reserved bytes that are not zero"};
-    const auto is_side = [](int side) { return side >= 1 && side <= kMaxMapSide; };
-    if (!is_side(shape.p_cells) || !is_side(shape.bands)) {
+    if (!is_map_side(shape.p_cells) || !is_map_side(shape.bands)) {
         return Error{"has lines of " + std::to_string(shape.p_cells) + "x" + std::to_string(shape.bands) +
                      " cells; each side must be 1.." + std::to_string(kMaxMapSide)};
     }

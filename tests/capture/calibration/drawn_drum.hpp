@@ -4,10 +4,9 @@
 
 #include "capture/calibration/model/turntable_model.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/image/linear_light.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +82,7 @@ inline Image<Rgba8> drawn_drum(const Drum& drum, const capture::TurntableModel& 
     const double angle = model.angles_rad[view];
     const glm::dvec3 origin = capture::turned({0, 0, 1}, -angle);
     Image<Rgba8> picture(model.lens.width, model.lens.height);
-    tbb::parallel_for(0, picture.height(), [&](int y) {
+    for_each_index(picture.height(), [&](int y) {
         for (int x = 0; x < picture.width(); ++x) {
             glm::dvec3 sum(0.0);
             int inside = 0;
