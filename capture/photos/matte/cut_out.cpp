@@ -1,8 +1,10 @@
 #include "capture/photos/matte/cut_out.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
+#include "capture/photos/background/even_plate.hpp"
 #include "capture/photos/intake/exposure.hpp"
 #include "capture/photos/intake/survey.hpp"
+#include "capture/photos/matte/enclosed_parts.hpp"
 #include "capture/photos/matte/grey_parts.hpp"
 #include "capture/photos/matte/soft_edge.hpp"
 
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace rs::capture {
@@ -126,12 +129,15 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
     plate_.hidden = scaled(backdrop.hidden, width, height);
     untouched_ = scaled(backdrop.untouched, width, height);
     if (flat_grey_) flat_plate_ = flat_plate(plate_, untouched_, linear_rgb(*flat_grey_));
+    const bool grey = kind_ != BackdropKind::kBlack && !is_colourful(linear_rgb(backdrop.colour));
+    if (grey && !untouched_.empty()) {
+        even_plate_.light = scaled(even_plate(backdrop.plate, backdrop.untouched), width, height);
+    }
 }
 
-CleanPlateView ObjectCutter::exposed_as(ConstImageView<Rgba8> photo) const {
-    CleanPlateView plate = plate_;
+CleanPlateView ObjectCutter::exposed_as(ConstImageView<Rgba8> photo, CleanPlateView plate) const {
     if (untouched_.empty()) return plate;
-    const LinearRgb gain = exposure_gain(photo, plate_.light, untouched_);
+    const LinearRgb gain = exposure_gain(photo, plate.light, untouched_);
     for (LinearRgb& p : plate.light.pixels()) {
         p = {std::min(1.0F, p.r * gain.r), std::min(1.0F, p.g * gain.g), std::min(1.0F, p.b * gain.b)};
     }
@@ -144,9 +150,12 @@ Image<Rgba8> ObjectCutter::cut(ConstImageView<Rgba8> photo) const {
         cut = Image<Rgba8>(photo.width(), photo.height());
         for (int y = 0; y < photo.height(); ++y) std::copy_n(photo.row(y), photo.width(), cut.row(y));
     } else {
-        Image<std::uint8_t> mask = find_object(photo, exposed_as(photo), options_);
+        Image<std::uint8_t> mask = find_object(photo, exposed_as(photo, plate_), options_);
         if (flat_grey_ && within_codes(border_of(photo).median, *flat_grey_, kFlat_codes)) {
             add_grey_parts(mask, photo, flat_plate_);
+        } else if (!even_plate_.light.empty()) {
+            Image<std::uint8_t> whole = find_object_by_edges(photo, exposed_as(photo, even_plate_), options_);
+            if (!whole.empty()) mask = std::move(whole);
         }
         cut = unmix(photo, soften_edge(photo, mask, band_px_));
     }

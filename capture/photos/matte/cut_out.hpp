@@ -34,14 +34,15 @@ public:
     [[nodiscard]] Image<Rgba8> cut(ConstImageView<Rgba8> photo) const;
 
 private:
-    // The plate as bright as it is in this photograph.
-    [[nodiscard]] CleanPlateView exposed_as(ConstImageView<Rgba8> photo) const;
+    // A plate as bright as it is in this photograph.
+    [[nodiscard]] CleanPlateView exposed_as(ConstImageView<Rgba8> photo, CleanPlateView plate) const;
 
     BackdropKind kind_;
     MaskOptions options_;
     CleanPlateView plate_;
     std::optional<Rgba8> flat_grey_;
     CleanPlateView flat_plate_;      // where that is known
+    CleanPlateView even_plate_;      // where the plate is a grey of an even course; otherwise empty
     Image<std::uint8_t> untouched_;  // of the plate; empty where nobody can tell
     int band_px_;
 };

@@ -327,6 +327,10 @@ Image<float> preference_by(const Looks& looks, ConstImageView<Rgba8> photo, cons
     Image<float> preference(photo.width(), photo.height());
     for (int y = 0; y < photo.height(); ++y) {
         for (int x = 0; x < photo.width(); ++x) {
+            if (!plate.seen.empty() && plate.seen(x, y) != 0) {
+                preference(x, y) = -kDecided;
+                continue;
+            }
             const MaskOptions& options = plate.ground.empty() ? anywhere : (on_ground(plate, x, y) ? ground : above);
             const KnownColour pixel(linear_rgb(photo(x, y)), looks.photo(x, y));
             const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);

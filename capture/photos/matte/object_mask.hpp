@@ -53,6 +53,7 @@ struct MaskOptions {
 struct CleanPlateView {
     Image<LinearRgb> light;         // exposed like the photograph
     Image<std::uint8_t> hidden;     // 255 where the object always is before it; empty: nobody can tell
+    Image<std::uint8_t> seen;       // 255 where it is seen, in a shadow or not; empty: nobody can tell
     Image<std::uint8_t> ground;     // 255 where shadows fall; empty: they may fall anywhere
     std::vector<LinearRgb> screen;  // colours that are backdrop wherever they are seen, lit or in shadow
     Image<float> noise_delta_e;     // how far the photograph is from it where it shows it; empty: next to nothing

@@ -1,0 +1,97 @@
+// The plate of a studio, where nothing covers it and behind the object.
+
+#include "capture/photos/background/even_plate.hpp"
+#include "rayspace/image/linear_light.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace rs::capture {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 100;
+
+// From light above to dark below, and to the corners.
+double course(int x, int y) {
+    const double u = (x - 80) / 80.0, v = (y - 50) / 50.0;
+    return 205 - 18 * v - 12 * u * u - 8 * v * v + 3 * u;
+}
+
+bool in_middle(int x, int y) {
+    return std::abs(x - 80) < 55 && std::abs(y - 50) < 35;
+}
+
+struct Studio {
+    Image<Rgba8> plate{kWidth, kHeight};
+    Image<std::uint8_t> untouched{kWidth, kHeight};
+
+    // What stands in the middle is `middle`.
+    explicit Studio(Rgba8 middle) {
+        std::minstd_rand random(3);
+        std::uniform_int_distribution<int> noise(-1, 1);
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                const auto code = static_cast<std::uint8_t>(std::lround(course(x, y)) + noise(random));
+                plate(x, y) = in_middle(x, y) ? middle : Rgba8{code, code, static_cast<std::uint8_t>(code - 6), 255};
+                untouched(x, y) = in_middle(x, y) ? 0 : 255;
+            }
+        }
+    }
+};
+
+Rgba8 codes_at(const Image<LinearRgb>& light, int x, int y) {
+    const LinearRgb& p = light(x, y);
+    return {srgb8_from_linear(p.r), srgb8_from_linear(p.g), srgb8_from_linear(p.b), 255};
+}
+
+TEST(EvenPlate, GoesOnBehindTheObject) {
+    const Studio studio(Rgba8{250, 250, 250, 255});
+    const Image<LinearRgb> even = even_plate(studio.plate, studio.untouched);
+    ASSERT_EQ(even.width(), kWidth);
+    ASSERT_EQ(even.height(), kHeight);
+    double worst = 0;
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const Rgba8 code = codes_at(even, x, y);
+            worst = std::max({worst, std::abs(code.r - course(x, y)), std::abs(code.b - (course(x, y) - 6))});
+        }
+    }
+    EXPECT_LE(worst, 1.2);
+}
+
+TEST(EvenPlate, AShadowThatFadesOutThereDoesNoHarm) {
+    Studio studio(Rgba8{250, 250, 250, 255});
+    for (int y = 88; y < 96; ++y) {
+        for (int x = 70; x < 90; ++x) {
+            for (std::uint8_t* c : {&studio.plate(x, y).r, &studio.plate(x, y).g, &studio.plate(x, y).b}) {
+                *c = static_cast<std::uint8_t>(*c - 20);
+            }
+        }
+    }
+    const Image<LinearRgb> even = even_plate(studio.plate, studio.untouched);
+    ASSERT_FALSE(even.empty());
+    EXPECT_NEAR(codes_at(even, 80, 50).g, course(80, 50), 1.5);
+}
+
+TEST(EvenPlate, AHorizonIsAnotherBackdrop) {
+    Studio studio(Rgba8{250, 250, 250, 255});
+    for (int y = 60; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) studio.plate(x, y) = {120, 120, 120, 255};
+    }
+    EXPECT_TRUE(even_plate(studio.plate, studio.untouched).empty());
+}
+
+TEST(EvenPlate, ALittleOfItIsNotEnough) {
+    Studio studio(Rgba8{250, 250, 250, 255});
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 14; x < kWidth; ++x) studio.untouched(x, y) = 0;
+    }
+    EXPECT_TRUE(even_plate(studio.plate, studio.untouched).empty());
+}
+
+}  // namespace
+}  // namespace rs::capture

@@ -1,0 +1,176 @@
+// White and grey objects in a studio, whose grey goes over from light to dark: their sides look as a shadow on it
+// would.
+
+#include "capture/photos/matte/cut_out.hpp"
+#include "capture/photos/matte/enclosed_parts.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/image/linear_light.hpp"
+#include "tests/capture/photos/backdrop_behind.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+constexpr int kStudio_width = 240, kStudio_height = 160, kStudioViews = 12;
+
+float studio_light(int x, int y) {
+    const double u = (x - 120) / 120.0, v = (y - 80) / 80.0;
+    return linear_from_srgb(static_cast<float>((210 - 14 * v - 10 * u * u - 6 * v * v) / 255));
+}
+
+// A box that swings to and fro, with a black wheel below and a black ring above, through which one sees. Its shadow
+// lies on the ground before it, darkest at the box.
+struct ShadedBox {
+    double centre_x;
+    explicit ShadedBox(int view) : centre_x(120 + 24 * std::sin(2 * kPi * view / kStudioViews)) {}
+
+    [[nodiscard]] bool in_body(int x, int y) const { return std::abs(x - centre_x) < 45 && y >= 50 && y < 110; }
+    [[nodiscard]] bool in_wheel(int x, int y) const { return std::hypot(x - centre_x, y - 110) < 11; }
+    [[nodiscard]] bool in_ring(int x, int y) const {
+        const double r = std::hypot(x - centre_x, y - 34);
+        return r >= 10 && r < 16;
+    }
+    [[nodiscard]] bool in_loop(int x, int y) const { return std::hypot(x - centre_x, y - 34) < 8; }
+    [[nodiscard]] double shadow(int x, int y) const {
+        const double across = (x - centre_x) / 50, down = (y - 112) / 16.0;
+        return y < 105 ? 0 : 0.25 * std::exp(-across * across - down * down);
+    }
+};
+
+// The shares are what the body has of the light of the backdrop, from its top to its bottom.
+Image<Rgba8> photo_of(const ShadedBox& box, int view, double top_share, double bottom_share) {
+    std::minstd_rand random(static_cast<unsigned>(view) + 1);
+    std::uniform_int_distribution<int> noise(-1, 1);
+    Image<Rgba8> photo(kStudio_width, kStudio_height);
+    for (int y = 0; y < kStudio_height; ++y) {
+        for (int x = 0; x < kStudio_width; ++x) {
+            double share = 1 - box.shadow(x, y);
+            if (box.in_body(x, y)) share = top_share + (bottom_share - top_share) * (y - 50) / 60;
+            if (box.in_wheel(x, y) || box.in_ring(x, y)) share = 0.01;
+            const int code = srgb8_from_linear(static_cast<float>(share) * studio_light(x, y)) + noise(random);
+            const auto grey = static_cast<std::uint8_t>(std::clamp(code, 0, 255));
+            photo(x, y) = {grey, grey, grey, 255};
+        }
+    }
+    return photo;
+}
+
+std::vector<Image<Rgba8>> photos_of_turn(double top_share, double bottom_share) {
+    std::vector<Image<Rgba8>> photos;
+    for (int view = 0; view < kStudioViews; ++view) {
+        photos.push_back(photo_of(ShadedBox(view), view, top_share, bottom_share));
+    }
+    return photos;
+}
+
+struct StudioErrors {
+    int body_lost = 0, loop_closed = 0, added = 0;  // px
+};
+
+StudioErrors errors_of(const Image<Rgba8>& cut, const ShadedBox& box) {
+    StudioErrors errors;
+    for (int y = 0; y < kStudio_height; ++y) {
+        for (int x = 0; x < kStudio_width; ++x) {
+            const bool solid = cut(x, y).a >= 128;
+            const bool object = box.in_body(x, y) || box.in_wheel(x, y) || box.in_ring(x, y);
+            errors.body_lost += box.in_body(x, y) && !solid ? 1 : 0;
+            errors.loop_closed += box.in_loop(x, y) && solid ? 1 : 0;
+            errors.added += !object && !box.in_loop(x, y) && solid ? 1 : 0;
+        }
+    }
+    return errors;
+}
+
+TEST(CutOutInAStudio, KeepsSidesThatAShadowCouldExplainAndNoShadow) {
+    for (const auto& [top, bottom] : {std::pair{0.9, 0.45}, {0.8, 0.55}, {0.6, 0.5}}) {
+        SCOPED_TRACE(top);
+        const std::vector<Image<Rgba8>> photos = photos_of_turn(top, bottom);
+        const Result<Backdrop> backdrop = test::backdrop_behind(photos);
+        ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
+        const ObjectCutter cutter(*backdrop, kStudio_width, kStudio_height);
+        for (const int view : {0, 3, 7}) {
+            SCOPED_TRACE(view);
+            const StudioErrors errors = errors_of(cutter.cut(photos[static_cast<std::size_t>(view)]), ShadedBox(view));
+            EXPECT_LE(errors.body_lost, 60) << "of 5400";
+            EXPECT_LE(errors.added, 150);
+            EXPECT_LE(errors.loop_closed, 10) << "of 197";
+        }
+    }
+}
+
+CleanPlateView studio_plate() {
+    CleanPlateView plate;
+    plate.light = Image<LinearRgb>(kStudio_width, kStudio_height);
+    for (int y = 0; y < kStudio_height; ++y) {
+        for (int x = 0; x < kStudio_width; ++x) {
+            const float light = studio_light(x, y);
+            plate.light(x, y) = {light, light, light};
+        }
+    }
+    return plate;
+}
+
+TEST(CutOutInAStudio, EdgesEncloseWhatColourDoesNotTell) {
+    const ShadedBox box(3);
+    const Image<Rgba8> photo = photo_of(box, 3, 0.9, 0.45);
+    const MaskOptions options;
+    const Image<std::uint8_t> by_edges = find_object_by_edges(photo, studio_plate(), options);
+    ASSERT_FALSE(by_edges.empty());
+    for (int y = 56; y < 98; ++y) {
+        for (int x = static_cast<int>(box.centre_x) - 38; x < static_cast<int>(box.centre_x) + 38; ++x) {
+            ASSERT_EQ(by_edges(x, y), 255) << x << ", " << y;
+        }
+    }
+}
+
+// A shadow within a loop is enclosed, too, but it is little beside the object.
+TEST(CutOutInAStudio, LittleIsLeftToColour) {
+    const ShadedBox box(3);
+    Image<Rgba8> photo = photo_of(box, 3, 0.9, 0.45);
+    for (int y = 0; y < kStudio_height; ++y) {
+        for (int x = 0; x < kStudio_width; ++x) {
+            if (box.in_body(x, y)) photo(x, y) = {20, 120, 130, 255};
+            if (box.in_loop(x, y)) photo(x, y) = {170, 170, 170, 255};
+        }
+    }
+    EXPECT_TRUE(find_object_by_edges(photo, studio_plate(), MaskOptions{}).empty());
+}
+
+TEST(CutOutInAStudio, APictureWithoutAnObjectHasNone) {
+    const Image<Rgba8> photo = [] {
+        Image<Rgba8> empty(kStudio_width, kStudio_height);
+        for (int y = 0; y < kStudio_height; ++y) {
+            for (int x = 0; x < kStudio_width; ++x) {
+                const std::uint8_t code = srgb8_from_linear(studio_light(x, y));
+                empty(x, y) = {code, code, code, 255};
+            }
+        }
+        return empty;
+    }();
+    const Image<std::uint8_t> found = find_object_by_edges(photo, studio_plate(), MaskOptions{});
+    EXPECT_EQ(std::ranges::count(found.pixels(), std::uint8_t{255}), 0);
+}
+
+TEST(CutOutInAStudio, NothingHasNoObject) {
+    EXPECT_TRUE(find_object_by_edges(Image<Rgba8>{}, CleanPlateView{}, MaskOptions{}).empty());
+}
+
+// What is known to be seen is no object, whatever its colour.
+TEST(ObjectMask, WhatIsSeenIsBackdrop) {
+    CleanPlateView plate = studio_plate();
+    Image<Rgba8> photo(kStudio_width, kStudio_height, {200, 20, 20, 255});
+    EXPECT_EQ(object_preference(photo, plate, MaskOptions{})(10, 10), kDecided);
+    plate.seen = Image<std::uint8_t>(kStudio_width, kStudio_height, 255);
+    EXPECT_EQ(object_preference(photo, plate, MaskOptions{})(10, 10), -kDecided);
+}
+
+}  // namespace
+}  // namespace rs::capture
