@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace rs::capture {
@@ -108,6 +107,23 @@ Image<T> scaled(const Image<T>& mask, int width, int height) {
     return result;
 }
 
+// The plate, but as `course` says; its own around the picture where it clearly differs, as a mark on a wall. Farther
+// inside, what never moves may be the object.
+CleanPlateView followed(const CleanPlateView& plate, ConstImageView<std::uint8_t> untouched,
+                        const Image<LinearRgb>& course) {
+    constexpr float kVisible_delta_e = 2.5F;
+    CleanPlateView result = plate;
+    for (int y = 0; y < course.height(); ++y) {
+        for (int x = 0; x < course.width(); ++x) {
+            const bool own =
+                untouched(x, y) != 0 && in_border_band(x, y, course.width(), course.height()) &&
+                delta_e(lab_from_linear(plate.light(x, y)), lab_from_linear(course(x, y))) > kVisible_delta_e;
+            if (!own) result.light(x, y) = course(x, y);
+        }
+    }
+    return result;
+}
+
 }  // namespace
 
 ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
@@ -130,8 +146,9 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
     untouched_ = scaled(backdrop.untouched, width, height);
     if (flat_grey_) flat_plate_ = flat_plate(plate_, untouched_, linear_rgb(*flat_grey_));
     const bool grey = kind_ != BackdropKind::kBlack && !is_colourful(linear_rgb(backdrop.colour));
-    if (grey && !untouched_.empty()) {
-        even_plate_.light = scaled(even_plate(backdrop.plate, backdrop.untouched), width, height);
+    if (grey && !untouched_.empty() && backdrop.ground.empty()) {
+        const Image<LinearRgb> course = even_plate(backdrop.plate, backdrop.untouched);
+        if (!course.empty()) even_plate_ = followed(plate_, untouched_, scaled(course, width, height));
     }
 }
 
@@ -150,13 +167,13 @@ Image<Rgba8> ObjectCutter::cut(ConstImageView<Rgba8> photo) const {
         cut = Image<Rgba8>(photo.width(), photo.height());
         for (int y = 0; y < photo.height(); ++y) std::copy_n(photo.row(y), photo.width(), cut.row(y));
     } else {
-        Image<std::uint8_t> mask = find_object(photo, exposed_as(photo, plate_), options_);
-        if (flat_grey_ && within_codes(border_of(photo).median, *flat_grey_, kFlat_codes)) {
-            add_grey_parts(mask, photo, flat_plate_);
-        } else if (!even_plate_.light.empty()) {
-            Image<std::uint8_t> whole = find_object_by_edges(photo, exposed_as(photo, even_plate_), options_);
-            if (!whole.empty()) mask = std::move(whole);
+        Image<std::uint8_t> mask;
+        const bool flat = flat_grey_ && within_codes(border_of(photo).median, *flat_grey_, kFlat_codes);
+        if (!flat && !even_plate_.light.empty()) {
+            mask = find_object_by_edges(photo, exposed_as(photo, even_plate_), options_);
         }
+        if (mask.empty()) mask = find_object(photo, exposed_as(photo, plate_), options_);
+        if (flat) add_grey_parts(mask, photo, flat_plate_);
         cut = unmix(photo, soften_edge(photo, mask, band_px_));
     }
     bleed_colours(cut);

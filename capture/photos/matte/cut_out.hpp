@@ -1,5 +1,6 @@
 #pragma once
-// From a photograph to a picture of the object alone: object_mask -> soft_edge -> unmix().
+// From a photograph to a picture of the object alone: object_mask, with grey_parts or
+// enclosed_parts -> soft_edge -> unmix().
 
 #include "capture/photos/background/backdrop.hpp"
 #include "capture/photos/intake/colour_difference.hpp"

@@ -22,11 +22,12 @@ constexpr double kSmoothing_px = 1;
 constexpr float kEdge_per_px = 0.02F;
 
 constexpr float kSurely = 1;  // what speaks so for the object is taken for it
-constexpr float kPlain_delta_e = 2.5F;
-constexpr int kWall_px = 2;  // edges are made wider by so much, and so closed where they vanish for four pixels
+constexpr int kWall_px = 2;   // edges are made wider by so much, and so closed where they vanish for four pixels
 constexpr int kGap_px = 9;
 
-constexpr double kMostlyDiffers = 0.3;  // of a part; objects have spots that look plain
+constexpr double kGoodPart = 0.3;  // objects have sides that look plain
+constexpr double kSeen = 0.5;      // of what looks plain must be reached; less is noise
+constexpr double kDust = 0.002;    // of the picture
 // Of what surely is the object: a plain part that is smaller is a spot, not a hole; and so much must be enclosed.
 // Measured on a white car 0.48 to 0.90, on a shoe of suede up to 0.15.
 constexpr double kSpot = 0.01;
@@ -80,35 +81,47 @@ cv::Mat1b edges_of(const cv::Mat3f& photo, const cv::Mat3f& plate) {
     return edges;
 }
 
-// Parts of a picture without edges; 255 or 0.
+// Parts of a picture without edges; 255 or 0. A part at the picture's border that differs from the plate there is in
+// none.
 struct OpenParts {
     cv::Mat1b reached;   // from the picture's border
-    cv::Mat1b enclosed;  // of the others those that mostly differ from the plate ...
+    cv::Mat1b enclosed;  // of the others those of which a good part differs from the plate, ...
+    cv::Mat1b spots;     // ... small ones that look plain, ...
     cv::Mat1b plain;     // ... and the rest
 };
 
-// Of plain parts those of at most `spot_px` count as enclosed.
 OpenParts parts_of(const cv::Mat1b& open, const cv::Mat1b& differs, double spot_px) {
     cv::Mat1i labels;
     cv::Mat stats, centroids;
     const int count = cv::connectedComponentsWithStats(open, labels, stats, centroids, 4);
-    std::vector<int> differing(static_cast<std::size_t>(count));
+    struct Tally {
+        int differs = 0, at_border = 0, differs_there = 0;  // px
+    };
+    std::vector<Tally> tallies(static_cast<std::size_t>(count));
     for (int y = 0; y < labels.rows; ++y) {
         for (int x = 0; x < labels.cols; ++x) {
-            differing[static_cast<std::size_t>(labels(y, x))] += differs(y, x) != 0 ? 1 : 0;
+            Tally& tally = tallies[static_cast<std::size_t>(labels(y, x))];
+            const bool at_border = x == 0 || y == 0 || x == labels.cols - 1 || y == labels.rows - 1;
+            const bool is_other = differs(y, x) != 0;
+            tally.differs += is_other ? 1 : 0;
+            tally.at_border += at_border ? 1 : 0;
+            tally.differs_there += at_border && is_other ? 1 : 0;
         }
     }
-    OpenParts parts{cv::Mat1b(open.size(), std::uint8_t{0}), cv::Mat1b(open.size(), std::uint8_t{0}),
-                    cv::Mat1b(open.size(), std::uint8_t{0})};
+    const cv::Mat1b nothing(open.size(), std::uint8_t{0});
+    OpenParts parts{nothing.clone(), nothing.clone(), nothing.clone(), nothing.clone()};
     std::vector<cv::Mat1b*> of_part(static_cast<std::size_t>(count));
     for (int part = 1; part < count; ++part) {
-        const int x = stats.at<int>(part, cv::CC_STAT_LEFT), y = stats.at<int>(part, cv::CC_STAT_TOP);
-        const bool at_border = x == 0 || y == 0 || x + stats.at<int>(part, cv::CC_STAT_WIDTH) == open.cols ||
-                               y + stats.at<int>(part, cv::CC_STAT_HEIGHT) == open.rows;
-        const auto i = static_cast<std::size_t>(part);
+        const Tally& tally = tallies[static_cast<std::size_t>(part)];
         const int area_px = stats.at<int>(part, cv::CC_STAT_AREA);
-        const bool is_other = differing[i] >= kMostlyDiffers * area_px || area_px <= spot_px;
-        of_part[i] = at_border ? &parts.reached : is_other ? &parts.enclosed : &parts.plain;
+        cv::Mat1b*& of = of_part[static_cast<std::size_t>(part)];
+        if (tally.at_border > 0) {
+            if (2 * tally.differs_there <= tally.at_border) of = &parts.reached;
+        } else if (tally.differs >= kGoodPart * area_px) {
+            of = &parts.enclosed;
+        } else {
+            of = area_px <= spot_px ? &parts.spots : &parts.plain;
+        }
     }
     for (int y = 0; y < labels.rows; ++y) {
         for (int x = 0; x < labels.cols; ++x) {
@@ -129,12 +142,13 @@ Image<std::uint8_t> in_size_of(ConstImageView<Rgba8> photo, const cv::Mat1b& mas
 
 Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, CleanPlateView plate,
                                          const MaskOptions& options) {
+    RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
     if (photo.width() == 0 || photo.height() == 0) return {};
     const double scale = std::min(1.0, static_cast<double>(kSide_px) / std::max(photo.width(), photo.height()));
     const cv::Size size(std::max(1, cvRound(photo.width() * scale)), std::max(1, cvRound(photo.height() * scale)));
     const cv::Mat3f light = smoothed(linear_mat(photo), size), behind = smoothed(plate_mat(plate), size);
     cv::Mat1b object = [&] {
-        const Image<float> preference = object_preference(photo, plate, options);
+        const Image<float> preference = object_preference(photo, plate, options);  // what is hidden is sure, too
         cv::Mat1b strong(photo.height(), photo.width());
         for (int y = 0; y < strong.rows; ++y) {
             for (int x = 0; x < strong.cols; ++x) strong(y, x) = preference(x, y) >= kSurely ? 255 : 0;
@@ -151,16 +165,24 @@ Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, CleanPlate
     for (int y = 0; y < differs.rows; ++y) {
         for (int x = 0; x < differs.cols; ++x) {
             const float off = delta_e(lab_from_linear(light_of(light(y, x))), lab_from_linear(light_of(behind(y, x))));
-            differs(y, x) = off > kPlain_delta_e ? 255 : 0;
+            differs(y, x) = off > options.plain_delta_e ? 255 : 0;
         }
     }
     const OpenParts parts = parts_of(open, differs, kSpot * cv::countNonZero(object));
-    if (cv::countNonZero(parts.enclosed) <= kMuchOfObject * cv::countNonZero(object)) return {};
-    // What lies between two parts of the object, as a door's gap, is a part of it.
-    cv::Mat1b hidden, beside;
-    cv::dilate(parts.enclosed, hidden, cv::Mat(), {-1, -1}, kWall_px - 1);
-    cv::bitwise_or(hidden, object, hidden);
-    cv::morphologyEx(hidden, hidden, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {kGap_px, kGap_px}));
+    const int enclosed_px = cv::countNonZero(parts.enclosed);
+    const bool much = enclosed_px > kMuchOfObject * cv::countNonZero(object) && enclosed_px > kDust * size.area();
+    cv::Mat1b plain;
+    cv::bitwise_not(differs, plain);
+    if (!much || cv::countNonZero(parts.reached & plain) < kSeen * cv::countNonZero(plain)) return {};
+    cv::Mat1b enclosed, hidden, beside;
+    cv::bitwise_or(parts.enclosed, parts.spots, enclosed);
+    cv::dilate(enclosed, enclosed, cv::Mat(), {-1, -1}, kWall_px - 1);
+    cv::bitwise_or(enclosed, object, enclosed);
+    // What lies between two parts of the object, as a door's gap, is a part of it, unless it looks plain.
+    cv::morphologyEx(enclosed, hidden, cv::MORPH_CLOSE,
+                     cv::getStructuringElement(cv::MORPH_ELLIPSE, {kGap_px, kGap_px}));
+    cv::bitwise_and(hidden, differs, hidden);
+    cv::bitwise_or(hidden, enclosed, hidden);
     cv::bitwise_or(parts.reached, parts.plain, beside);
     cv::dilate(beside, beside, cv::Mat(), {-1, -1}, kWall_px + 1);
     hidden.setTo(0, beside);

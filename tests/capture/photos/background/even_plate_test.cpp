@@ -13,7 +13,7 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kWidth = 160, kHeight = 100;
+constexpr int kPlate_width = 160, kPlate_height = 100;
 
 // From light above to dark below, and to the corners.
 double course(int x, int y) {
@@ -26,15 +26,15 @@ bool in_middle(int x, int y) {
 }
 
 struct Studio {
-    Image<Rgba8> plate{kWidth, kHeight};
-    Image<std::uint8_t> untouched{kWidth, kHeight};
+    Image<Rgba8> plate{kPlate_width, kPlate_height};
+    Image<std::uint8_t> untouched{kPlate_width, kPlate_height};
 
     // What stands in the middle is `middle`.
     explicit Studio(Rgba8 middle) {
         std::minstd_rand random(3);
         std::uniform_int_distribution<int> noise(-1, 1);
-        for (int y = 0; y < kHeight; ++y) {
-            for (int x = 0; x < kWidth; ++x) {
+        for (int y = 0; y < kPlate_height; ++y) {
+            for (int x = 0; x < kPlate_width; ++x) {
                 const auto code = static_cast<std::uint8_t>(std::lround(course(x, y)) + noise(random));
                 plate(x, y) = in_middle(x, y) ? middle : Rgba8{code, code, static_cast<std::uint8_t>(code - 6), 255};
                 untouched(x, y) = in_middle(x, y) ? 0 : 255;
@@ -51,11 +51,11 @@ Rgba8 codes_at(const Image<LinearRgb>& light, int x, int y) {
 TEST(EvenPlate, GoesOnBehindTheObject) {
     const Studio studio(Rgba8{250, 250, 250, 255});
     const Image<LinearRgb> even = even_plate(studio.plate, studio.untouched);
-    ASSERT_EQ(even.width(), kWidth);
-    ASSERT_EQ(even.height(), kHeight);
+    ASSERT_EQ(even.width(), kPlate_width);
+    ASSERT_EQ(even.height(), kPlate_height);
     double worst = 0;
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kPlate_height; ++y) {
+        for (int x = 0; x < kPlate_width; ++x) {
             const Rgba8 code = codes_at(even, x, y);
             worst = std::max({worst, std::abs(code.r - course(x, y)), std::abs(code.b - (course(x, y) - 6))});
         }
@@ -79,18 +79,20 @@ TEST(EvenPlate, AShadowThatFadesOutThereDoesNoHarm) {
 
 TEST(EvenPlate, AHorizonIsAnotherBackdrop) {
     Studio studio(Rgba8{250, 250, 250, 255});
-    for (int y = 60; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) studio.plate(x, y) = {120, 120, 120, 255};
+    for (int y = 60; y < kPlate_height; ++y) {
+        for (int x = 0; x < kPlate_width; ++x) studio.plate(x, y) = {120, 120, 120, 255};
     }
     EXPECT_TRUE(even_plate(studio.plate, studio.untouched).empty());
 }
 
 TEST(EvenPlate, ALittleOfItIsNotEnough) {
     Studio studio(Rgba8{250, 250, 250, 255});
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 14; x < kWidth; ++x) studio.untouched(x, y) = 0;
+    for (int y = 0; y < kPlate_height; ++y) {
+        for (int x = 14; x < kPlate_width; ++x) studio.untouched(x, y) = 0;
     }
     EXPECT_TRUE(even_plate(studio.plate, studio.untouched).empty());
+    EXPECT_TRUE(even_plate(Image<Rgba8>{}, Image<std::uint8_t>{}).empty());
+    EXPECT_TRUE(even_plate(Image<Rgba8>(1, 1), Image<std::uint8_t>(1, 1)).empty());
 }
 
 }  // namespace
