@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace rs::capture {
@@ -108,19 +109,26 @@ Image<T> scaled(const Image<T>& mask, int width, int height) {
 }
 
 // The plate, but as `course` says; its own around the picture where it clearly differs, as a mark on a wall. Farther
-// inside, what never moves may be the object.
-CleanPlateView followed(const CleanPlateView& plate, ConstImageView<std::uint8_t> untouched,
-                        const Image<LinearRgb>& course) {
+// inside, what never moves may be the object. The noise is that around the picture, where the plate surely is right.
+CleanPlateView followed(const CleanPlateView& plate, ConstImageView<std::uint8_t> untouched, Image<LinearRgb> course) {
     constexpr float kVisible_delta_e = 2.5F;
-    CleanPlateView result = plate;
-    for (int y = 0; y < course.height(); ++y) {
-        for (int x = 0; x < course.width(); ++x) {
-            const bool own =
-                untouched(x, y) != 0 && in_border_band(x, y, course.width(), course.height()) &&
-                delta_e(lab_from_linear(plate.light(x, y)), lab_from_linear(course(x, y))) > kVisible_delta_e;
-            if (!own) result.light(x, y) = course(x, y);
+    const int width = course.width(), height = course.height();
+    double noise = 0;
+    int seen = 0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (untouched(x, y) == 0 || !in_border_band(x, y, width, height)) continue;
+            const LinearRgb& own = plate.light(x, y);
+            const float off = delta_e(lab_from_linear(own), lab_from_linear(course(x, y)));
+            if (off > kVisible_delta_e) course(x, y) = own;
+            noise += plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
+            ++seen;
         }
     }
+    CleanPlateView result;
+    result.light = std::move(course);
+    result.screen = plate.screen;
+    result.noise_delta_e = Image<float>(width, height, static_cast<float>(noise / std::max(1, seen)));
     return result;
 }
 

@@ -148,7 +148,7 @@ Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, CleanPlate
     const cv::Size size(std::max(1, cvRound(photo.width() * scale)), std::max(1, cvRound(photo.height() * scale)));
     const cv::Mat3f light = smoothed(linear_mat(photo), size), behind = smoothed(plate_mat(plate), size);
     cv::Mat1b object = [&] {
-        const Image<float> preference = object_preference(photo, plate, options);  // what is hidden is sure, too
+        const Image<float> preference = object_preference(photo, plate, options);
         cv::Mat1b strong(photo.height(), photo.width());
         for (int y = 0; y < strong.rows; ++y) {
             for (int x = 0; x < strong.cols; ++x) strong(y, x) = preference(x, y) >= kSurely ? 255 : 0;
@@ -178,11 +178,9 @@ Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, CleanPlate
     cv::bitwise_or(parts.enclosed, parts.spots, enclosed);
     cv::dilate(enclosed, enclosed, cv::Mat(), {-1, -1}, kWall_px - 1);
     cv::bitwise_or(enclosed, object, enclosed);
-    // What lies between two parts of the object, as a door's gap, is a part of it, unless it looks plain.
+    // What lies between two parts of the object, as a door's gap, is a part of it, and a narrow slit is closed with it.
     cv::morphologyEx(enclosed, hidden, cv::MORPH_CLOSE,
                      cv::getStructuringElement(cv::MORPH_ELLIPSE, {kGap_px, kGap_px}));
-    cv::bitwise_and(hidden, differs, hidden);
-    cv::bitwise_or(hidden, enclosed, hidden);
     cv::bitwise_or(parts.reached, parts.plain, beside);
     cv::dilate(beside, beside, cv::Mat(), {-1, -1}, kWall_px + 1);
     hidden.setTo(0, beside);
