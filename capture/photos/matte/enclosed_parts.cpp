@@ -26,7 +26,7 @@ constexpr int kWall_px = 2;   // edges are made wider by so much, and so closed 
 constexpr int kGap_px = 9;
 
 constexpr double kGoodPart = 0.3;  // objects have sides that look plain
-constexpr double kSeen = 0.5;      // of what looks plain must be reached; less is noise
+constexpr double kSeen = 0.5;      // of what is left must be reached; less is noise
 constexpr double kDust = 0.002;    // of the picture
 // Of what surely is the object: a plain part that is smaller is a spot, not a hole; and so much must be enclosed.
 // Measured on a white car 0.48 to 0.90, on a shoe of suede up to 0.15.
@@ -110,13 +110,15 @@ OpenParts parts_of(const cv::Mat1b& open, const cv::Mat1b& differs, double spot_
     }
     const cv::Mat1b nothing(open.size(), std::uint8_t{0});
     OpenParts parts{nothing.clone(), nothing.clone(), nothing.clone(), nothing.clone()};
+    // Most of the border shows the backdrop, even where this picture is exposed otherwise.
+    const auto around = std::ranges::max_element(tallies.begin() + 1, tallies.end(), {}, &Tally::at_border);
     std::vector<cv::Mat1b*> of_part(static_cast<std::size_t>(count));
     for (int part = 1; part < count; ++part) {
         const Tally& tally = tallies[static_cast<std::size_t>(part)];
         const int area_px = stats.at<int>(part, cv::CC_STAT_AREA);
         cv::Mat1b*& of = of_part[static_cast<std::size_t>(part)];
         if (tally.at_border > 0) {
-            if (2 * tally.differs_there <= tally.at_border) of = &parts.reached;
+            if (&tally == &*around || 2 * tally.differs_there <= tally.at_border) of = &parts.reached;
         } else if (tally.differs >= kGoodPart * area_px) {
             of = &parts.enclosed;
         } else {
@@ -169,11 +171,9 @@ Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, CleanPlate
         }
     }
     const OpenParts parts = parts_of(open, differs, kSpot * cv::countNonZero(object));
-    const int enclosed_px = cv::countNonZero(parts.enclosed);
-    const bool much = enclosed_px > kMuchOfObject * cv::countNonZero(object) && enclosed_px > kDust * size.area();
-    cv::Mat1b plain;
-    cv::bitwise_not(differs, plain);
-    if (!much || cv::countNonZero(parts.reached & plain) < kSeen * cv::countNonZero(plain)) return {};
+    const int object_px = cv::countNonZero(object), enclosed_px = cv::countNonZero(parts.enclosed);
+    const bool much = enclosed_px > kMuchOfObject * object_px && enclosed_px > kDust * size.area();
+    if (!much || cv::countNonZero(parts.reached) < kSeen * (size.area() - object_px - enclosed_px)) return {};
     cv::Mat1b enclosed, hidden, beside;
     cv::bitwise_or(parts.enclosed, parts.spots, enclosed);
     cv::dilate(enclosed, enclosed, cv::Mat(), {-1, -1}, kWall_px - 1);
