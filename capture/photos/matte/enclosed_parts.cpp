@@ -92,10 +92,9 @@ struct OpenParts {
 
 OpenParts parts_of(const cv::Mat1b& open, const cv::Mat1b& differs, double spot_px) {
     cv::Mat1i labels;
-    cv::Mat stats, centroids;
-    const int count = cv::connectedComponentsWithStats(open, labels, stats, centroids, 4);
+    const int count = cv::connectedComponents(open, labels, 4);
     struct Tally {
-        int differs = 0, at_border = 0, differs_there = 0;  // px
+        int area = 0, differs = 0, at_border = 0, differs_there = 0;  // px
     };
     std::vector<Tally> tallies(static_cast<std::size_t>(count));
     for (int y = 0; y < labels.rows; ++y) {
@@ -103,6 +102,7 @@ OpenParts parts_of(const cv::Mat1b& open, const cv::Mat1b& differs, double spot_
             Tally& tally = tallies[static_cast<std::size_t>(labels(y, x))];
             const bool at_border = x == 0 || y == 0 || x == labels.cols - 1 || y == labels.rows - 1;
             const bool is_other = differs(y, x) != 0;
+            tally.area += 1;
             tally.differs += is_other ? 1 : 0;
             tally.at_border += at_border ? 1 : 0;
             tally.differs_there += at_border && is_other ? 1 : 0;
@@ -115,14 +115,13 @@ OpenParts parts_of(const cv::Mat1b& open, const cv::Mat1b& differs, double spot_
     std::vector<cv::Mat1b*> of_part(static_cast<std::size_t>(count));
     for (int part = 1; part < count; ++part) {
         const Tally& tally = tallies[static_cast<std::size_t>(part)];
-        const int area_px = stats.at<int>(part, cv::CC_STAT_AREA);
         cv::Mat1b*& of = of_part[static_cast<std::size_t>(part)];
         if (tally.at_border > 0) {
             if (&tally == &*around || 2 * tally.differs_there <= tally.at_border) of = &parts.reached;
-        } else if (tally.differs >= kGoodPart * area_px) {
+        } else if (tally.differs >= kGoodPart * tally.area) {
             of = &parts.enclosed;
         } else {
-            of = area_px <= spot_px ? &parts.spots : &parts.plain;
+            of = tally.area <= spot_px ? &parts.spots : &parts.plain;
         }
     }
     for (int y = 0; y < labels.rows; ++y) {

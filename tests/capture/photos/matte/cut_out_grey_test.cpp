@@ -93,7 +93,10 @@ TEST(CutOutBeforeGrey, KeepsABodyOfLikeGreyAndTheLoopBesideIt) {
         const Backdrop backdrop = backdrop_of_boxes(photos);
         ASSERT_TRUE(backdrop.flat_grey.has_value());
         EXPECT_EQ(backdrop.flat_grey->g, look.backdrop);
-        const ObjectCutter cutter(backdrop, kBoxes_width, kBoxes_height);
+        Backdrop unknown = backdrop;  // neither as flat nor as a studio's
+        unknown.flat_grey.reset();
+        unknown.untouched = {};
+        const ObjectCutter cutter(backdrop, kBoxes_width, kBoxes_height), without(unknown, kBoxes_width, kBoxes_height);
         for (const int view : {0, 3, 7}) {
             SCOPED_TRACE(view);
             const GreyBox box(view);
@@ -102,6 +105,8 @@ TEST(CutOutBeforeGrey, KeepsABodyOfLikeGreyAndTheLoopBesideIt) {
             EXPECT_LE(errors.lost, 60) << "of 7000";
             EXPECT_LE(errors.added, 60);
             EXPECT_EQ(errors.loop_closed, 0);
+            EXPECT_GT(errors_of(without.cut(photos[i]), box, true).lost, 3000)
+                << "what is not known to be flat has noise";
         }
     }
 }
