@@ -29,6 +29,10 @@ Status check(const ImportOptions& options) {
     if (options.axis_x_px && !(std::abs(*options.axis_x_px) <= 10.0 * kMaxPictureSide_px)) {
         return Error{"--axis-x " + std::to_string(*options.axis_x_px) + ": give a column of the pictures in px"};
     }
+    if (options.max_side_px < kMinSide_px || options.max_side_px > kMaxPictureSide_px) {
+        return Error{"--max-side " + std::to_string(options.max_side_px) + ": give " + std::to_string(kMinSide_px) +
+                     " to " + std::to_string(kMaxPictureSide_px) + " px"};
+    }
     return {};
 }
 
@@ -59,14 +63,12 @@ ImportReport report_of(const ImportOptions& options, const Intake& intake, const
     ImportReport report{std::move(rig)};
     report.notes.insert(report.notes.begin(), turn.notes.begin(), turn.notes.end());
     report.notes.insert(report.notes.begin(), intake.notes.begin(), intake.notes.end());
-    report.width = intake.folder.width;
-    report.height = intake.folder.height;
+    report.folder = intake.folder;
     report.backdrop = backdrop.kind;
     report.backdrop_colour = backdrop.colour;
     report.backdrop_given = options.backdrop.kind.has_value();
     report.masks_given = !options.masks.empty();
     report.dropped_repeat = intake.dropped_repeat;
-    report.source_names = file_names(intake.folder);
     report.min_coverage = turn.min_coverage;
     report.max_coverage = turn.max_coverage;
     report.small_cut_outs = std::move(turn.small);
@@ -74,8 +76,10 @@ ImportReport report_of(const ImportOptions& options, const Intake& intake, const
 }
 
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
-    Result<PhotoFolder> folder = open_photo_folder(options.photos);
+    Result<PhotoFolder> folder = open_photo_folder(options.photos, options.max_side_px);
     if (!folder) return folder.error();
+    if (!options.masks.empty() && folder->turns_unnoticed())
+        return turned_beside(*folder, "--masks " + options.masks.string());
     if (Status status = check_places(options); !status) return status.error();
     Result<StagedFolder> staged = StagedFolder::create(options.output);
     if (!staged) return staged.error();

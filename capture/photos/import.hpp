@@ -18,6 +18,10 @@
 
 namespace rs::capture {
 
+// Shows an object at the height of a screen. Larger photographs take their pixels' share more time and memory, here,
+// in the encoder and wherever the object is shown.
+inline constexpr int kDefaultMaxSide_px = 2048;
+
 struct ImportOptions : RigRequest {
     std::filesystem::path photos;  // folder
     std::filesystem::path output;  // folder; see StagedFolder for what may stand there already, which is replaced whole
@@ -25,6 +29,8 @@ struct ImportOptions : RigRequest {
     // Folder with one picture per photograph, of its name or that name with another picture ending: white where the
     // object is. Takes the place of cutting out. Empty: none.
     std::filesystem::path masks;
+    // Larger photographs are made smaller first (open_photo_folder()); kMinSide_px .. kMaxPictureSide_px.
+    int max_side_px = kDefaultMaxSide_px;
 };
 
 // Nothing is left at `output` when it fails. Besides the errors of its stages (and photo_folder.hpp's): options out of
@@ -32,7 +38,7 @@ struct ImportOptions : RigRequest {
 //
 // Works on all cores as long as the photographs in work together stay below kWorkingMemory_bytes, 4 GiB
 // (bounded_work.hpp): at 4000x3000 pixels, kCutBytesPerPixel = 150 bytes each, on two of them. To that come 12 bytes
-// per pixel of one photograph for the clean plate, 16 more before a flat grey and 12 before one of an even course, and
+// per pixel of one picture for the clean plate, 16 more before a flat grey and 12 before one of an even course, and
 // small copies of all photographs: 0.2 GB for the first pass, up to 1 MB per view for the second and up to 6.5 MB per
 // view for calibration.
 Result<ImportReport> import_photos(const ImportOptions& options, Progress* progress);

@@ -80,8 +80,10 @@ void print_json(const std::string& output, const ImportReport& report) {
     nlohmann::json json;
     json["output"] = output;
     json["views"] = report.views;
-    json["width"] = report.width;
-    json["height"] = report.height;
+    json["width"] = report.folder.width;
+    json["height"] = report.folder.height;
+    json["photograph_width"] = report.folder.shown_width;
+    json["photograph_height"] = report.folder.shown_height;
     json["backdrop"] = report.masks_given ? "masks" : backdrop_text(report);
     json["backdrop_from"] = report.backdrop_given || report.masks_given ? "given" : "pictures";
     json["dropped_repeat"] = report.dropped_repeat;
@@ -108,7 +110,7 @@ void print_json(const std::string& output, const ImportReport& report) {
 void print_summary(const std::string& output, const ImportReport& report) {
     std::printf(
         "%s: %d views of %dx%d photographs, backdrop %s (%s), %.4g degrees per view %s, coverage %.1f..%.1f %%\n",
-        output.c_str(), report.views, report.width, report.height,
+        output.c_str(), report.views, report.folder.width, report.folder.height,
         report.masks_given ? "masks" : backdrop_text(report).c_str(),
         report.backdrop_given || report.masks_given ? "given" : "from the pictures", report.step_deg,
         to_string(report.turning).c_str(), 100 * report.min_coverage, 100 * report.max_coverage);
@@ -151,7 +153,8 @@ Status run_import(const ImportCommandLine& given) {
     if (!given.known.empty()) {
         const Result<PhotoFolder> folder = open_photo_folder(options.photos);
         if (!folder) return folder.error();
-        Result<KnownFile> known = read_known_file(given.known, {folder->width, folder->height});
+        if (folder->turns_unnoticed()) return turned_beside(*folder, "--known " + given.known);
+        Result<KnownFile> known = read_known_file(given.known, {folder->shown_width, folder->shown_height});
         if (!known) return known.error();
         options.known = std::move(*known);
     }
@@ -200,6 +203,12 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
             return parsed ? std::string() : parsed.error().message;
         });
     command
+        ->add_option("--max-side", given->import.max_side_px,
+                     "Photographs of more than 1.25 times as many pixels a side are made as large as this first; other "
+                     "options count the photographs' own pixels")
+        ->capture_default_str()
+        ->check(CLI::Range(kMinSide_px, kMaxPictureSide_px));
+    command
         ->add_option(
             "--masks", given->import.masks,
             "Folder with one mask per photograph, of its name, white where the object is; instead of cutting out")
@@ -230,8 +239,10 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
     command->add_flag("--principal-point", given->principal_point,
                       "Find the principal point too (default: the picture's middle)");
     command
-        ->add_option("--fov", given->import.fov_deg,
-                     "Horizontal field of view in degrees, held (default: found by calibration; 25 in a nominal rig)")
+        ->add_option(
+            "--fov", given->import.fov_deg,
+            "Horizontal field of view in degrees, held (default: found by calibration; in a nominal rig what the "
+            "camera states, else 25)")
         ->check(CLI::Range(1.0, 120.0));
     command
         ->add_option("--degrees-per-view", given->import.degrees_per_view,

@@ -5,7 +5,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <malloc.h>
+
 int main(int argc, char** argv) {
+    // Large pictures come and go all the time. Given back to the system each time, an eighth of an import of large
+    // photographs would go into clearing their pages.
+    ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
     CLI::App app("Makes capture sets (pictures and transforms.json) of objects on a turntable", "rs-capture");
     app.require_subcommand(1);
     app.footer(

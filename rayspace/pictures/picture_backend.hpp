@@ -35,8 +35,8 @@ struct VideoOptions {
 
 struct Backend {
     std::uint32_t version = 0;
-    Result<PictureInfo> (*read_info)(const std::string& path) = nullptr;
-    Result<Image<Rgba8>> (*read_picture)(const std::string& path) = nullptr;
+    Result<PictureInfo> (*read_info)(const std::string& path, int max_side_px) = nullptr;
+    Result<Image<Rgba8>> (*read_picture)(const std::string& path, int max_side_px) = nullptr;
     Result<Image<RgbaF>> (*read_picture_linear)(const std::string& path) = nullptr;
     Result<Image<float>> (*read_channel)(const std::string& path) = nullptr;
     Result<std::vector<std::byte>> (*encode_png)(ConstImageView<Rgba8> picture, const std::string& shown) = nullptr;
@@ -50,7 +50,7 @@ struct Backend {
 };
 
 // Grows with every change of the declarations above.
-inline constexpr std::uint32_t kBackendVersion = 3;
+inline constexpr std::uint32_t kBackendVersion = 4;
 inline constexpr const char* kBackendFileName = "librayspace_pictures.so";
 inline constexpr const char* kBackendSymbol = "rayspace_pictures_backend";
 using BackendFunction = const Backend* (*)();

@@ -91,16 +91,16 @@ Status write_encoded(const fs::path& path, ConstImageView<Pixel> picture, const 
 
 }  // namespace
 
-Result<PictureInfo> read_picture_info(const fs::path& path) {
+Result<PictureInfo> read_picture_info(const fs::path& path, int max_side_px) {
     if (Status regular = check_input(path); !regular) return regular.error();
     const auto backend = backend_for(path);
-    return backend ? (*backend)->read_info(path.string()) : backend.error();
+    return backend ? (*backend)->read_info(path.string(), max_side_px) : backend.error();
 }
 
-Result<Image<Rgba8>> read_picture(const fs::path& path) {
+Result<Image<Rgba8>> read_picture(const fs::path& path, int max_side_px) {
     if (Status regular = check_input(path); !regular) return regular.error();
     const auto backend = backend_for(path);
-    return backend ? (*backend)->read_picture(path.string()) : backend.error();
+    return backend ? (*backend)->read_picture(path.string(), max_side_px) : backend.error();
 }
 
 Result<Image<RgbaF>> read_picture_linear(const fs::path& path) {

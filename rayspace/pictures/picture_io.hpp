@@ -5,10 +5,12 @@
 // the tools) that is opened at the first call of a function of this header; a tool that only prints its help never
 // pays.
 //
-// Every reader checks the header's size against kMaxPictureSide_px before it allocates. Every writer writes to a
+// Every reader checks the header's size against kMaxPictureSide_px, or another limit that it is given, before it
+// allocates. Every writer writes to a
 // temporary name beside `path` and renames; on failure nothing is left. All functions may be called from any thread.
 // Errors name the file and what to do.
 
+#include "rayspace/base/conventions.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 
@@ -28,16 +30,23 @@ struct PictureInfo {
     // EXIF: how the stored pixels are to be shown. 1 as they are, 3 upside down, 6 and 8 on their side, 2, 4, 5 and 7
     // mirrored too. 1 where the file states nothing, or nothing valid.
     int orientation = 1;
+    // EXIF: mm of the lens that shows as much on film, 43.27 mm across the picture's diagonal. 0 where nothing is
+    // stated.
+    int focal_35mm = 0;
 };
 
+// Photographs may be larger than the pictures that are computed with, where they are made smaller at once: cameras of
+// 60 and 100 megapixels are 9,000 and 12,000 pixels wide.
+inline constexpr int kMaxPhotographSide_px = 16384;
+
 // Only the header is read.
-Result<PictureInfo> read_picture_info(const std::filesystem::path& path);
+Result<PictureInfo> read_picture_info(const std::filesystem::path& path, int max_side_px = kMaxPictureSide_px);
 
 // Any picture format that OpenImageIO reads, as 8-bit sRGB with straight alpha (255 where the file has none). Grey is
 // spread to RGB; 16-bit and float files are converted (float as linear light). Associated alpha is undone. EXIF
 // orientation is not applied (PictureInfo has it): pixels stay where the camera model has them. A damaged or truncated
 // file is an error.
-Result<Image<Rgba8>> read_picture(const std::filesystem::path& path);
+Result<Image<Rgba8>> read_picture(const std::filesystem::path& path, int max_side_px = kMaxPictureSide_px);
 
 // Linear-light float RGBA, alpha straight: EXR and HDR as they are, 8- and 16-bit files through the sRGB curve.
 Result<Image<RgbaF>> read_picture_linear(const std::filesystem::path& path);

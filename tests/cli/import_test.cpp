@@ -91,6 +91,29 @@ TEST_F(ImportTool, TakesTheRigOfATransformsJson) {
     ASSERT_TRUE(read_rig(folder_ / "set").ok());
 }
 
+TEST_F(ImportTool, WhatIsKnownCountsThePhotographsPixels) {
+    write_drum(12);
+    const test::ToolRun run = import({"--known", in("rig/transforms.json"), "--max-side", "128"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    const capture::Lens whole = test::drum_turn(12, radians(30)).lens;
+    const double scale = 128.0 / whole.width;
+    EXPECT_EQ(json.at("photograph_width"), whole.width);
+    EXPECT_EQ(json.at("width"), 128);
+    EXPECT_NEAR(json.at("calibration").at("f_px").at("value"), 620 * scale, 1e-6);
+    EXPECT_NEAR(json.at("calibration").at("cx").at("value"), 64 + (whole.cx - 0.5 * whole.width) * scale, 1e-6);
+    EXPECT_NEAR(json.at("calibration").at("tilt_deg").at("value"), 20, 1e-4);
+
+    const double off = 0.05 * whole.width;
+    const test::ToolRun nominal =
+        import({"--calibration", "nominal", "--max-side", "128", "--axis-x", std::to_string(0.5 * whole.width + off)});
+    ASSERT_EQ(nominal.exit_code, 0) << nominal.err;
+    EXPECT_NEAR(nlohmann::json::parse(nominal.out).at("axis_column_px"), 64 + off * scale, 1e-4);
+    const test::ToolRun wide = import({"--max-side", "1000000"});
+    EXPECT_EQ(wide.exit_code, 2) << "8192 is the most";
+    EXPECT_NE(wide.err.find("--max-side"), std::string::npos) << wide.err;
+}
+
 TEST_F(ImportTool, WhatIsKnownMustBeOfThesePhotographs) {
     write_drum(6);
     const std::string whole = text_of("rig/transforms.json");

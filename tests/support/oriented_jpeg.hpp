@@ -1,11 +1,11 @@
 #pragma once
-// A tiny JPEG file as a camera would turn it: 8 x 8 grey pixels behind an EXIF header that holds nothing but the
-// orientation.
+// JPEG files as a camera writes them, with an EXIF header that holds the orientation and the lens, and nothing else.
 
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <iterator>
 #include <string>
 
 namespace rs::test {
@@ -16,20 +16,48 @@ inline std::string bytes(std::initializer_list<int> values) {
     return text;
 }
 
-// `orientation` is written as it is, valid (1..8) or not.
-inline void write_oriented_jpeg(const std::filesystem::path& path, int orientation) {
-    // A TIFF directory, little-endian, of one entry: tag 274, type short, one value.
-    const std::string tiff = bytes({'I', 'I', 42, 0, 8, 0, 0, 0, 1, 0, 0x12, 0x01, 3, 0, 1, 0, 0, 0}) +
-                             bytes({orientation & 0xFF, orientation >> 8, 0, 0, 0, 0, 0, 0});
+// The segment of a JPEG file. `orientation` is written as it is, valid (1..8) or not; of the lens nothing where
+// `focal_35mm` is 0.
+inline std::string exif_segment(int orientation, int focal_35mm) {
+    const auto entry = [](int tag, int type, int value) {  // little-endian, one value
+        return bytes({tag & 0xFF, tag >> 8, type, 0, 1, 0, 0, 0, value & 0xFF, value >> 8, 0, 0});
+    };
+    constexpr int kShort = 3, kLong = 4, kOrientation = 0x0112, kExifDirectory = 0x8769,
+                  kFocalLengthIn35mmFilm = 0xA405;
+    std::string tiff = bytes({'I', 'I', 42, 0, 8, 0, 0, 0});
+    if (focal_35mm == 0) {
+        tiff += bytes({1, 0}) + entry(kOrientation, kShort, orientation) + bytes({0, 0, 0, 0});
+    } else {
+        const int behind = 8 + 2 + 2 * 12 + 4;
+        tiff += bytes({2, 0}) + entry(kOrientation, kShort, orientation) + entry(kExifDirectory, kLong, behind) +
+                bytes({0, 0, 0, 0});
+        tiff += bytes({1, 0}) + entry(kFocalLengthIn35mmFilm, kShort, focal_35mm) + bytes({0, 0, 0, 0});
+    }
     const std::string exif = bytes({'E', 'x', 'i', 'f', 0, 0}) + tiff;
+    return bytes({0xFF, 0xE1, 0, static_cast<int>(exif.size()) + 2}) + exif;
+}
+
+// Puts the header into a JPEG file that has none.
+inline void add_exif(const std::filesystem::path& path, int orientation, int focal_35mm = 0) {
+    std::string file;
+    {
+        std::ifstream in(path, std::ios::binary);
+        file.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    std::ofstream(path, std::ios::binary)
+        << file.substr(0, 2) << exif_segment(orientation, focal_35mm) << file.substr(2);
+}
+
+// 8 x 8 grey pixels.
+inline void write_oriented_jpeg(const std::filesystem::path& path, int orientation, int focal_35mm = 0) {
     const std::string one_code = bytes({1}) + std::string(16, '\0');  // a single code, one bit long, for symbol 0
     std::ofstream(path, std::ios::binary)
-        << bytes({0xFF, 0xD8, 0xFF, 0xE1, 0, static_cast<int>(exif.size()) + 2}) << exif  //
-        << bytes({0xFF, 0xDB, 0, 67, 0}) << std::string(64, '\x10')                       // one quantisation table
-        << bytes({0xFF, 0xC0, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0})                       // 8 x 8, one component
-        << bytes({0xFF, 0xC4, 0, 20, 0x00}) << one_code                                   // DC
-        << bytes({0xFF, 0xC4, 0, 20, 0x10}) << one_code                                   // AC
-        << bytes({0xFF, 0xDA, 0, 8, 1, 1, 0, 0, 63, 0, 0x3F, 0xFF, 0xD9});                // one block: DC 0, end
+        << bytes({0xFF, 0xD8}) << exif_segment(orientation, focal_35mm)     //
+        << bytes({0xFF, 0xDB, 0, 67, 0}) << std::string(64, '\x10')         // one quantisation table
+        << bytes({0xFF, 0xC0, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0})         // 8 x 8, one component
+        << bytes({0xFF, 0xC4, 0, 20, 0x00}) << one_code                     // DC
+        << bytes({0xFF, 0xC4, 0, 20, 0x10}) << one_code                     // AC
+        << bytes({0xFF, 0xDA, 0, 8, 1, 1, 0, 0, 63, 0, 0x3F, 0xFF, 0xD9});  // one block: DC 0, end
 }
 
 }  // namespace rs::test

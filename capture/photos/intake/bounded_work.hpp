@@ -15,9 +15,13 @@ namespace rs::capture {
 // What all photographs in work may take together.
 inline constexpr std::int64_t kWorkingMemory_bytes = std::int64_t{4} << 30;
 
-// How many photographs of width x height pixels are worked on at a time where each takes `bytes_per_px`: as many as
-// kWorkingMemory_bytes holds, at least one, at most `threads`.
-int photos_at_a_time(int width, int height, int bytes_per_px, int threads);
+// What reading a picture takes at most, per pixel: its file's samples as floats and the picture.
+inline constexpr int kReadBytesPerPixel = 24;
+
+// How many of the folder's photographs are worked on at a time where each takes `bytes_per_px` of the size it is worked
+// on in, or kReadBytesPerPixel of the size it is read in: as many as kWorkingMemory_bytes holds, at least one, at most
+// `threads`.
+int photos_at_a_time(const PhotoFolder& folder, int bytes_per_px, int threads);
 
 // for_each_in_parallel() (rayspace/base/parallel.hpp) over the folder's photographs, photos_at_a_time() of them, with
 // no more threads than the calling tbb arena has. Work that waits for tasks of its own begins no other photograph.

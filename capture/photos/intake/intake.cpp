@@ -15,6 +15,19 @@ Result<Intake> take_in(PhotoFolder folder, Progress* progress) {
         taken.notes.push_back("left aside, not a picture: " + ignored.front() +
                               (ignored.size() > 1 ? " and " + std::to_string(ignored.size() - 1) + " more" : ""));
     }
+    const PhotoFolder& of = taken.folder;
+    if (of.otherwise_turned > 0) {
+        taken.notes.push_back("the camera states " + std::to_string(of.otherwise_turned) + " of " +
+                              std::to_string(of.photos.size()) +
+                              " pictures turned otherwise than the rest; all are taken as most of them are, EXIF "
+                              "orientation " +
+                              std::to_string(of.orientation));
+    }
+    if (of.reduction > 1) {
+        taken.notes.push_back("the photographs of " + std::to_string(of.shown_width) + "x" +
+                              std::to_string(of.shown_height) + " are taken as " + std::to_string(of.width) + "x" +
+                              std::to_string(of.height) + "; --max-side PX keeps more of them, and takes longer");
+    }
     if (test_repeat(taken.survey.thumbnails).last_repeats_first) {
         std::vector<std::filesystem::path>& photos = taken.folder.photos;
         taken.dropped_repeat = photos.back().filename().string();

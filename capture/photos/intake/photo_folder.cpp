@@ -1,10 +1,11 @@
 #include "capture/photos/intake/photo_folder.hpp"
 
-#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/check.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <system_error>
 
 namespace rs::capture {
@@ -29,6 +30,44 @@ std::string size_text(int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
+Status read_headers(PhotoFolder& found) {
+    std::array<int, 9> turned{};  // [orientation]: how many photographs
+    std::optional<PictureInfo> first;
+    found.has_alpha = true;
+    for (const std::filesystem::path& photo : found.photos) {
+        const Result<PictureInfo> info = read_picture_info(photo, kMaxPhotographSide_px);
+        if (!info) return info.error();
+        if (!first) first = *info;
+        if (info->width != first->width || info->height != first->height) {
+            return Error{photo.string() + ": is " + size_text(info->width, info->height) + " but " +
+                         found.photos.front().filename().string() + " is " + size_text(first->width, first->height) +
+                         "; all pictures of a turn must have one size"};
+        }
+        ++turned[static_cast<std::size_t>(info->orientation)];
+        found.has_alpha = found.has_alpha && info->has_alpha;
+        if (info->focal_35mm != first->focal_35mm) first->focal_35mm = 0;
+    }
+    const auto most = std::max_element(turned.begin(), turned.end());
+    found.orientation = static_cast<int>(most - turned.begin());
+    found.otherwise_turned = static_cast<int>(found.photos.size()) - *most;
+    found.focal_35mm = first->focal_35mm;
+    const bool on_its_side = found.orientation >= 5;
+    found.shown_width = on_its_side ? first->height : first->width;
+    found.shown_height = on_its_side ? first->width : first->height;
+    return {};
+}
+
+void set_reduction(PhotoFolder& found, int max_side_px) {
+    found.width = found.shown_width;
+    found.height = found.shown_height;
+    const int longer = std::max(found.width, found.height);
+    if (longer <= kReducedFrom * max_side_px && longer <= kMaxPictureSide_px) return;
+    found.reduction = static_cast<double>(longer) / max_side_px;
+    const auto whole = [&](int side) { return std::max(1, static_cast<int>(side / found.reduction + 1e-9)); };
+    found.width = whole(found.width);
+    found.height = whole(found.height);
+}
+
 }  // namespace
 
 bool natural_less(std::string_view a, std::string_view b) {
@@ -51,11 +90,19 @@ bool natural_less(std::string_view a, std::string_view b) {
 }
 
 bool is_picture_name(const std::filesystem::path& name) {
-    static constexpr std::array<std::string_view, 11> kExtensions = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp",
-                                                                     ".bmp", ".exr", ".hdr",  ".tga", ".ppm"};
+    static constexpr std::array<std::string_view, 14> kExtensions = {".png",  ".jpg",  ".jpeg", ".tif",  ".tiff",
+                                                                     ".webp", ".heic", ".heif", ".avif", ".bmp",
+                                                                     ".exr",  ".hdr",  ".tga",  ".ppm"};
     std::string extension = name.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), lower);
     return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+Error turned_beside(const PhotoFolder& folder, const std::string& other) {
+    return Error{other + ": the photographs want to be shown turned (EXIF orientation " +
+                 std::to_string(folder.orientation) +
+                 "), and nobody can tell whether this was made for them as they are stored or as they are shown; turn "
+                 "their pixels first, e.g. with exiftran -ai or mogrify -auto-orient, and make it anew where it needs"};
 }
 
 std::vector<std::string> file_names(const PhotoFolder& folder) {
@@ -64,7 +111,8 @@ std::vector<std::string> file_names(const PhotoFolder& folder) {
     return names;
 }
 
-Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder) {
+Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px) {
+    RS_CHECK(max_side_px >= kMinSide_px && max_side_px <= kMaxPictureSide_px);
     std::error_code failure;
     std::filesystem::directory_iterator entries(folder, failure);
     if (failure) {
@@ -85,7 +133,9 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder) {
     }
     if (failure) return Error{folder.string() + ": listing stopped (" + failure.message() + "); check the disk"};
     if (found.photos.empty()) {
-        return Error{folder.string() + ": holds no pictures; give a folder of PNG, JPEG, TIFF or WebP files"};
+        return Error{folder.string() +
+                     ": holds no pictures; give a folder of PNG, JPEG, TIFF, WebP or HEIC "
+                     "files (a camera's raw files must be developed first)"};
     }
     if (found.photos.size() > static_cast<std::size_t>(kMaxViews)) {
         return Error{folder.string() + ": holds " + std::to_string(found.photos.size()) + " pictures; at most " +
@@ -95,26 +145,8 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder) {
     std::sort(found.photos.begin(), found.photos.end(),
               [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
 
-    found.has_alpha = true;
-    for (const std::filesystem::path& photo : found.photos) {
-        const Result<PictureInfo> info = read_picture_info(photo);
-        if (!info) return info.error();
-        // Before the sizes are compared: photographs on their side and upright ones differ in size too.
-        if (info->orientation != 1) {
-            return Error{
-                photo.string() + ": wants to be shown turned (EXIF orientation " + std::to_string(info->orientation) +
-                "), which is not done here; rotate the pixels, e.g. with exiftran -ai or mogrify -auto-orient"};
-        }
-        if (found.width == 0) {
-            found.width = info->width;
-            found.height = info->height;
-        } else if (info->width != found.width || info->height != found.height) {
-            return Error{photo.string() + ": is " + size_text(info->width, info->height) + " but " +
-                         found.photos.front().filename().string() + " is " + size_text(found.width, found.height) +
-                         "; all pictures of a turn must have one size"};
-        }
-        found.has_alpha = found.has_alpha && info->has_alpha;
-    }
+    if (Status status = read_headers(found); !status) return status.error();
+    set_reduction(found, max_side_px);
     return found;
 }
 

@@ -2,7 +2,10 @@
 // The pictures of one turn, as they lie in a folder: which files they are, in which order, and whether they fit
 // together. The import begins with it (capture/photos/import.hpp).
 
+#include "rayspace/base/conventions.hpp"
 #include "rayspace/base/result.hpp"
+
+#include <glm/glm.hpp>
 
 #include <filesystem>
 #include <string>
@@ -16,23 +19,51 @@ namespace rs::capture {
 // fall back to comparing their bytes.
 bool natural_less(std::string_view a, std::string_view b);
 
-// True where the name ends like a picture: .png .jpg .jpeg .tif .tiff .webp .bmp .exr .hdr .tga .ppm, in any case.
+// True where the name ends like a picture: .png .jpg .jpeg .tif .tiff .webp .heic .heif .avif .bmp .exr .hdr .tga .ppm,
+// in any case.
 bool is_picture_name(const std::filesystem::path& name);
 
 struct PhotoFolder {
     std::vector<std::filesystem::path> photos;  // full paths, in natural order of their file names
     std::vector<std::string> ignored;           // names of other entries (folders too), hidden ones left out
-    int width = 0;                              // px, of every picture
+    // EXIF: how the files' pixels are turned to be shown (PictureInfo::orientation), one for all, as the camera stands
+    // still. Where files differ it is what most of them state: a camera that looks down does not know its own.
+    int orientation = 1;
+    int otherwise_turned = 0;  // files that state another one
+    int shown_width = 0;       // px, of every photograph as it is shown
+    int shown_height = 0;
+    double reduction = 1;  // shown pixels per pixel of the pictures that read_photograph() gives, of ...
+    int width = 0;         // ... so many pixels, the middle of what is shown
     int height = 0;
     bool has_alpha = false;  // of every picture
+    int focal_35mm = 0;      // EXIF, mm; 0 where it is not one for all, or unknown
+
+    // Where a point of a photograph as it is shown, in px, lies in its picture.
+    [[nodiscard]] glm::dvec2 in_picture(const glm::dvec2& shown_px) const {
+        const glm::dvec2 shown(shown_width, shown_height), picture(width, height);
+        return 0.5 * picture + (shown_px - 0.5 * shown) / reduction;
+    }
+    // Whether nobody can tell by its size if a mask or a camera is of the files' pixels or of what is shown.
+    [[nodiscard]] bool turns_unnoticed() const {
+        return orientation != 1 && (orientation < 5 || shown_width == shown_height);
+    }
 };
+
+// What is the matter where such photographs come with `other`, which is for pixels.
+Error turned_beside(const PhotoFolder& folder, const std::string& other);
 
 // [photograph], without the folder.
 std::vector<std::string> file_names(const PhotoFolder& folder);
 
-// Lists the folder and reads the pictures' headers. Fails where there are no pictures or more than kMaxViews, where a
-// header cannot be read, where one is to be shown turned (EXIF orientation other than 1), and where two sizes
-// differ (naming both files and sizes). Pixels are not looked at.
-Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder);
+// Photographs are made smaller where a side is longer than `max_side_px` by more than this factor: not for a little,
+// which would only blur them.
+inline constexpr double kReducedFrom = 1.25;
+
+// Lists the folder and reads the pictures' headers. Photographs with a side longer than kReducedFrom * max_side_px, or
+// than kMaxPictureSide_px, are to be read with max_side_px (kMinSide_px .. kMaxPictureSide_px) for the longer one.
+// Fails where there are no pictures or more than kMaxViews, where a header cannot be read, where a side is longer than
+// kMaxPhotographSide_px, and where two sizes differ (naming both files and sizes). Pixels are not looked at.
+inline constexpr int kMinSide_px = 64;
+Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px = kMaxPictureSide_px);
 
 }  // namespace rs::capture

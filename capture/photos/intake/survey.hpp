@@ -33,10 +33,6 @@ struct Survey {
     std::vector<Border> borders;  // [sample]: of the photograph itself, as noise averages out in small copies
 };
 
-// A picture made smaller by averaging, so that no side is longer than `side_px`; a copy where it is small enough.
-// Colours are averaged with alpha as their weight. Besides the result it takes the memory of a few rows.
-Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px);
-
 // The upper median of every channel by itself, opaque; of at least one.
 Rgba8 median_colour(std::span<const Rgba8> colours);
 
@@ -46,9 +42,6 @@ Rgba8 median_colour(std::span<const Rgba8> colours);
 // code.
 inline constexpr int kFlat_codes = 1;
 Border border_of(ConstImageView<Rgba8> picture);
-
-// What reading takes of memory per pixel of a picture, at most: 16-bit and float files pass through float.
-inline constexpr int kReadBytesPerPixel = 24;
 
 // Reads every picture; after one that cannot be read no further one is begun. Works side by side (bounded_work.hpp).
 Result<Survey> survey_photos(const PhotoFolder& folder, Progress* progress);

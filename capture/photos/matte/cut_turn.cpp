@@ -1,13 +1,15 @@
 #include "capture/photos/matte/cut_turn.hpp"
 
 #include "capture/photos/intake/bounded_work.hpp"
-#include "capture/photos/intake/survey.hpp"
+#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/reduction.hpp"
 #include "capture/photos/matte/cut_out.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <mutex>
+#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -40,7 +42,8 @@ bool reaches_border(const TurnOutline::Box& box, const PhotoFolder& folder) {
 }
 
 // The mask of a photograph; its grey becomes the photograph's alpha.
-Status apply_mask(const std::filesystem::path& masks, const std::filesystem::path& photo, Image<Rgba8>& picture) {
+Status apply_mask(const std::filesystem::path& masks, const PhotoFolder& folder, std::size_t i, Image<Rgba8>& picture) {
+    const std::filesystem::path& photo = folder.photos[i];
     std::filesystem::path found = masks / photo.filename();
     std::error_code failure;
     for (const char* ending : {"", ".png", ".PNG", ".jpg", ".JPG", ".jpeg", ".tif", ".tiff", ".webp", ".bmp"}) {
@@ -51,18 +54,19 @@ Status apply_mask(const std::filesystem::path& masks, const std::filesystem::pat
         return Error{masks.string() + ": has no mask for " + photo.filename().string() +
                      "; one picture per photograph is needed, of its name, white where the object is"};
     }
-    const Result<Image<Rgba8>> mask = read_picture(found);
+    Result<Image<Rgba8>> mask = read_picture(found, kMaxPhotographSide_px);
     if (!mask) return mask.error();
-    if (mask->width() != picture.width() || mask->height() != picture.height()) {
+    if (mask->width() != folder.shown_width || mask->height() != folder.shown_height) {
         return Error{found.string() + ": is " + std::to_string(mask->width()) + "x" + std::to_string(mask->height()) +
-                     ", the photograph " + std::to_string(picture.width()) + "x" + std::to_string(picture.height()) +
-                     "; masks have the photographs' size"};
+                     ", the photograph " + std::to_string(folder.shown_width) + "x" +
+                     std::to_string(folder.shown_height) + "; masks have the photographs' size"};
     }
+    for (Rgba8& m : mask->pixels()) {  // white on transparent is a mask too
+        m = {0, 0, 0, static_cast<std::uint8_t>((std::max({m.r, m.g, m.b}) * m.a + 127) / 255)};
+    }
+    const Image<Rgba8> alpha = in_working_size(std::move(*mask), folder);
     for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            const Rgba8 m = (*mask)(x, y);  // white on transparent is a mask too
-            picture(x, y).a = static_cast<std::uint8_t>((std::max({m.r, m.g, m.b}) * m.a + 127) / 255);
-        }
+        for (int x = 0; x < picture.width(); ++x) picture(x, y).a = alpha(x, y).a;
     }
     return {};
 }
@@ -87,13 +91,10 @@ Result<CutTurn> cut_turn(const PhotoFolder& folder, const CutSource& source, con
     int at_border = 0;  // views whose object reaches the picture's border
     const auto cut_photo = [&](std::size_t i) -> Status {
         const std::string name = folder.photos[i].string();
-        Result<Image<Rgba8>> photo = read_picture(folder.photos[i]);
+        Result<Image<Rgba8>> photo = read_photograph(folder, i);
         if (!photo) return photo.error();
-        if (photo->width() != folder.width || photo->height() != folder.height) {
-            return Error{name + ": changed while it was imported; import again"};
-        }
         if (!source.masks.empty()) {
-            if (Status status = apply_mask(source.masks, folder.photos[i], *photo); !status) return status;
+            if (Status status = apply_mask(source.masks, folder, i, *photo); !status) return status;
         }
         const Image<Rgba8> cut = cutter.cut(*photo);
         const double covered = coverage(cut);

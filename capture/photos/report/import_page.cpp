@@ -1,12 +1,12 @@
 #include "capture/photos/report/import_page.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
+#include "capture/photos/intake/photograph.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
 #include "rayspace/page/page_pictures.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 
 #include <opencv2/imgproc.hpp>
 
@@ -52,7 +52,7 @@ void draw_axis(cv::Mat& picture, const ImportReport& report, int view, double sc
             }
         }
     } else {
-        line = {{report.nominal.axis_x_px, 0}, {report.nominal.axis_x_px, static_cast<double>(report.height)}};
+        line = {{report.nominal.axis_x_px, 0}, {report.nominal.axis_x_px, static_cast<double>(report.folder.height)}};
     }
     for (const int thickness : {3, 1}) {
         for (std::size_t i = 1; i < line.size(); ++i) {
@@ -127,8 +127,8 @@ std::string what_it_rests_on(CalibrationMethod method) {
 }
 
 void add_summary(HtmlPage& page, const ImportReport& report) {
-    page.paragraph(std::to_string(report.views) + " views of " + std::to_string(report.width) + "x" +
-                   std::to_string(report.height) + " photographs. Calibration: " + to_string(report.method) +
+    page.paragraph(std::to_string(report.views) + " views of " + std::to_string(report.folder.width) + "x" +
+                   std::to_string(report.folder.height) + " photographs. Calibration: " + to_string(report.method) +
                    ". It rests on " + what_it_rests_on(report.method));
     if (report.notes.empty()) {
         page.paragraph("There is nothing to warn of.");
@@ -202,13 +202,13 @@ void add_plots(HtmlPage& page, const Calibration& found) {
     page.drawing(svg_of({"Observations", "photograph", "", {count}, 900, 220}));
 }
 
-Status add_photographs(HtmlPage& page, const std::filesystem::path& photos, const ImportReport& report) {
+Status add_photographs(HtmlPage& page, const ImportReport& report) {
     std::vector<CaptionedPicture> row;
-    for (const int view : evenly_spread(static_cast<int>(report.source_names.size()), kAnnotated)) {
-        const std::string& name = report.source_names[static_cast<std::size_t>(view)];
-        const Result<Image<Rgba8>> photo = read_picture(photos / name);
+    for (const int view : evenly_spread(static_cast<int>(report.folder.photos.size()), kAnnotated)) {
+        const auto i = static_cast<std::size_t>(view);
+        const Result<Image<Rgba8>> photo = read_photograph(report.folder, i);
         if (!photo) return photo.error();
-        row.push_back({annotated_photo(*photo, report, view), name});
+        row.push_back({annotated_photo(*photo, report, view), source_name(report, i)});
     }
     page.heading("The axis and the points");
     page.paragraph(
@@ -224,7 +224,7 @@ Status add_mattes(HtmlPage& page, const ImportReport& report) {
     for (const int view : evenly_spread(static_cast<int>(report.small_cut_outs.size()), kMattes)) {
         Image<Rgba8> matte = report.small_cut_outs[static_cast<std::size_t>(view)];
         for (Rgba8& p : matte.pixels()) p = over(p, kMagenta);
-        row.push_back({std::move(matte), report.source_names[static_cast<std::size_t>(view)]});
+        row.push_back({std::move(matte), source_name(report, static_cast<std::size_t>(view))});
     }
     page.heading("Mattes on magenta");
     return page.pictures(row, 260);
@@ -239,7 +239,7 @@ Result<std::string> import_page(const std::filesystem::path& photos, const Impor
         add_estimates(page, *report.calibration.calibration);
         add_plots(page, *report.calibration.calibration);
     }
-    if (Status status = add_photographs(page, photos, report); !status) return status.error();
+    if (Status status = add_photographs(page, report); !status) return status.error();
     if (Status status = add_mattes(page, report); !status) return status.error();
     return page.text();
 }

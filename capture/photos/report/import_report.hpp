@@ -14,16 +14,14 @@ namespace rs::capture {
 
 // With the notes of all stages.
 struct ImportReport : FoundRig {
-    int width = 0;  // px, of the photographs
-    int height = 0;
+    PhotoFolder folder{};  // the photographs that took part in calibration
     BackdropKind backdrop = BackdropKind::kAlpha;
     Rgba8 backdrop_colour{};
     bool backdrop_given = false;
     bool masks_given = false;
     std::string dropped_repeat{};  // name of the last photograph where it repeated the first; empty otherwise
-    std::vector<std::string> source_names{};  // [photograph] of all that took part in calibration
-    double min_coverage = 0;  // share of a photograph's pixels with alpha of 128 and more: smallest of all, ...
-    double max_coverage = 0;  // ... largest
+    double min_coverage = 0;       // share of a photograph's pixels with alpha of 128 and more: smallest of all, ...
+    double max_coverage = 0;       // ... largest
     std::vector<Image<Rgba8>> small_cut_outs{};  // [photograph], the longer side at most 512 px
 
     // Of the set written.
@@ -33,8 +31,12 @@ struct ImportReport : FoundRig {
     double distance = 0;  // object radii
 };
 
+inline std::string source_name(const ImportReport& report, std::size_t photo) {
+    return report.folder.photos[photo].filename().string();
+}
+
 inline bool is_left_out(const ImportReport& report, std::size_t photo) {
-    return std::find(report.left_out.begin(), report.left_out.end(), report.source_names[photo]) !=
+    return std::find(report.left_out.begin(), report.left_out.end(), source_name(report, photo)) !=
            report.left_out.end();
 }
 

@@ -26,15 +26,17 @@ void describe(const ImportReport& report, nlohmann::json& made) {
     made["turning"] = to_string(report.turning);
     made["degrees_per_view"] = report.step_deg;
     if (!report.dropped_repeat.empty()) made["dropped_repeat"] = utf8(report.dropped_repeat);
+    const PhotoFolder& folder = report.folder;
+    if (folder.reduction > 1) made["reduced_from"] = {folder.shown_width, folder.shown_height};
     for (const std::string& name : report.left_out) made["left_out"].push_back(utf8(name));
 }
 
 void name_views(const ImportReport& report, Rig& rig) {
     std::size_t view = 0;
-    for (std::size_t i = 0; i < report.source_names.size(); ++i) {
+    for (std::size_t i = 0; i < report.folder.photos.size(); ++i) {
         if (is_left_out(report, i)) continue;
         rig.views[view].file_path = cut_picture_name(view);
-        rig.views[view].extras["source_file"] = utf8(report.source_names[i]);
+        rig.views[view].extras["source_file"] = utf8(source_name(report, i));
         ++view;
     }
 }
@@ -50,8 +52,8 @@ std::optional<double> ground_height(const PhotoCalibration& calibration) {
 
 Rig nominal_import_rig(const ImportReport& report, const TurnOutline::Box& visible) {
     NominalRigOptions nominal;
-    nominal.width = report.width;
-    nominal.height = report.height;
+    nominal.width = report.folder.width;
+    nominal.height = report.folder.height;
     nominal.views = report.views;
     nominal.fov_deg = report.nominal.fov_deg;
     nominal.step_deg = report.nominal.step_deg;

@@ -66,7 +66,7 @@ Status write_as_they_are(const fs::path& set, const PhotoFolder& folder, const C
 
 Result<ImportReport> write_import_set(const fs::path& set, const PhotoFolder& folder, const CutTurn& turn,
                                       const CutPictures& cuts, ImportReport report, Progress* progress) {
-    report.views = static_cast<int>(report.source_names.size() - report.left_out.size());
+    report.views = static_cast<int>(report.folder.photos.size() - report.left_out.size());
     Rig rig;
     if (const auto& calibration = report.calibration.calibration) {
         const Result<UprightFrame> frame =

@@ -13,10 +13,20 @@ double sense(const NominalTurn& nominal) {
     return nominal.turning == Turning::kCounterClockwise ? 1 : -1;
 }
 
+// Of the pictures that are worked with, for what is given is of the photographs.
+RigRequest in_picture_px(RigRequest given, const PhotoFolder& folder) {
+    KnownInputs& known = given.known.known;
+    if (known.f_px) *known.f_px /= folder.reduction;
+    if (known.principal_point) known.principal_point = folder.in_picture(*known.principal_point);
+    if (given.axis_x_px) given.axis_x_px = folder.in_picture({*given.axis_x_px, 0}).x;
+    return given;
+}
+
 Result<KnownInputs> known_inputs(const RigRequest& request, const NominalTurn& nominal, const PhotoFolder& folder) {
     Result<KnownInputs> known = known_of_photographs(request.known, file_names(folder));
     if (!known) return known;
-    if (request.fov_deg) known->f_px = 0.5 * folder.width / std::tan(0.5 * radians(*request.fov_deg));
+    if (request.fov_deg)
+        known->f_px = 0.5 * folder.shown_width / folder.reduction / std::tan(0.5 * radians(*request.fov_deg));
     if (request.turning) known->counter_clockwise = *request.turning == Turning::kCounterClockwise;
     if (request.degrees_per_view) known->step_rad = sense(nominal) * radians(*request.degrees_per_view);
     return known;
@@ -24,7 +34,7 @@ Result<KnownInputs> known_inputs(const RigRequest& request, const NominalTurn& n
 
 TurntableModel nominal_model(const KnownInputs& known, const NominalTurn& nominal, const PhotoFolder& folder) {
     const double width = folder.width;
-    const double assumed_f_px = 0.5 * width / std::tan(0.5 * radians(kNominalFieldOfView_deg));
+    const double assumed_f_px = 0.5 * width / std::tan(0.5 * radians(nominal.fov_deg));
     TurntableModel model;
     model.lens =
         with_known(Lens{folder.width, folder.height, assumed_f_px, 0.5 * width, 0.5 * folder.height, 0, 0}, known);
@@ -76,8 +86,9 @@ void take_calibrated(FoundRig& rig, const PhotoFolder& folder) {
 
 }  // namespace
 
-Result<FoundRig> find_rig(const RigRequest& request, const PhotoFolder& folder, const CutTurn& turn,
+Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, const CutTurn& turn,
                           const CutPictures& cuts, Progress* progress) {
+    const RigRequest request = in_picture_px(given, folder);
     FoundRig rig;
     rig.nominal = find_nominal_turn(request, folder, turn);
     Result<KnownInputs> known = known_inputs(request, rig.nominal, folder);

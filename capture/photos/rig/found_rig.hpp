@@ -32,8 +32,9 @@ struct FoundRig {
     std::vector<std::string> notes;     // one line each: what the user should know
 };
 
-// `cuts` and `turn` are cut_turn()'s of `folder`. Errors: those of known_of_photographs() and calibrate_photos().
-Result<FoundRig> find_rig(const RigRequest& request, const PhotoFolder& folder, const CutTurn& turn,
+// `cuts` and `turn` are cut_turn()'s of `folder`. What is `given` in px is of the photographs as they are shown, what
+// is found of the folder's pictures. Errors: those of known_of_photographs() and calibrate_photos().
+Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, const CutTurn& turn,
                           const CutPictures& cuts, Progress* progress);
 
 }  // namespace rs::capture

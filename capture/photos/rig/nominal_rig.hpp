@@ -70,6 +70,10 @@ struct NominalTurnRequest {
     std::optional<double> axis_x_px;
 };
 
+// The lens as the camera states it (PhotoFolder::focal_35mm), else kNominalFieldOfView_deg; horizontal. A photograph
+// that was cropped shows less than that.
+double stated_field_of_view_deg(const PhotoFolder& folder);
+
 NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn);
 
 }  // namespace rs::capture

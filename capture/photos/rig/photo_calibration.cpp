@@ -3,7 +3,7 @@
 #include "capture/calibration/silhouettes/silhouettes.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/bounded_work.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "capture/photos/intake/photograph.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ Result<TurnPictures> read_turn(const PhotoFolder& folder, const CutPictures& cut
 
 Result<BoardCalibration> from_board(const PhotoFolder& folder, const CalibrationRequest& request,
                                     const std::vector<std::string>& names, Progress* progress) {
-    const auto load = [&](int i) { return read_picture(folder.photos[static_cast<std::size_t>(i)]); };
+    const auto load = [&](int i) { return read_photograph(folder, static_cast<std::size_t>(i)); };
     const Result<std::vector<BoardCorners>> views =
         detect_boards(static_cast<int>(folder.photos.size()), load, *request.board, progress);
     if (!views) return views.error();

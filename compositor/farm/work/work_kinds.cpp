@@ -35,7 +35,7 @@ Result<Extent> extent_of_photos(const fs::path& folder) {
         if (at->is_regular_file(error) && !at->path().filename().string().starts_with('.')) files.insert(at->path());
     }
     for (const fs::path& file : files) {
-        const Result<PictureInfo> info = read_picture_info(file);
+        const Result<PictureInfo> info = read_picture_info(file, kMaxPhotographSide_px);
         if (info) return Extent{static_cast<double>(files.size()), static_cast<double>(info->width) * info->height};
     }
     return Error{folder.string() + ": holds no photographs"};

@@ -46,7 +46,7 @@ struct OpenedPicture {
 
 enum class Need { kHeader, kWholeFile };
 
-Result<OpenedPicture> open_picture(const std::string& path, Need need) {
+Result<OpenedPicture> open_picture(const std::string& path, Need need, int max_side_px = kMaxPictureSide_px) {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) return Error{path + ": does not exist; check the name"};
     if (std::filesystem::is_directory(path, error)) return Error{path + ": is a folder, not a picture"};
@@ -61,10 +61,10 @@ Result<OpenedPicture> open_picture(const std::string& path, Need need) {
     const OIIO::ImageSpec& spec = input->spec();
     const int width = spec.full_width > 0 ? spec.full_width : spec.width;
     const int height = spec.full_height > 0 ? spec.full_height : spec.height;
-    const auto too_large = [](int side) { return side < 1 || side > kMaxPictureSide_px; };
+    const auto too_large = [&](int side) { return side < 1 || side > max_side_px; };
     if (too_large(spec.width) || too_large(spec.height) || too_large(width) || too_large(height)) {
         return Error{path + ": claims " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
-                     " pixels; each side must be 1.." + std::to_string(kMaxPictureSide_px)};
+                     " pixels; each side must be 1.." + std::to_string(max_side_px)};
     }
     if (spec.deep || spec.depth > 1 || spec.nchannels < 1) {
         return Error{path + ": holds deep or volume data; convert it to an ordinary picture"};
@@ -142,14 +142,18 @@ RgbaF pixel_of(const T* sample, const Channels& channels) {
     return pixel;
 }
 
-Result<PictureInfo> read_info(const std::string& path) {
+Result<PictureInfo> read_info(const std::string& path, int max_side_px) {
     return guarded(path, [&]() -> Result<PictureInfo> {
-        const auto picture = open_picture(path, Need::kHeader);
+        const auto picture = open_picture(path, Need::kHeader, max_side_px);
         if (!picture) return picture.error();
         const OIIO::ImageSpec& spec = picture->input->spec();
         const int orientation = spec.get_int_attribute("Orientation", 1);
-        return PictureInfo{picture->width, picture->height, spec.nchannels, choose_channels(spec).alpha,
-                           orientation >= 1 && orientation <= 8 ? orientation : 1};
+        return PictureInfo{picture->width,
+                           picture->height,
+                           spec.nchannels,
+                           choose_channels(spec).alpha,
+                           orientation >= 1 && orientation <= 8 ? orientation : 1,
+                           std::max(0, spec.get_int_attribute("Exif:FocalLengthIn35mmFilm", 0))};
     });
 }
 
@@ -167,9 +171,9 @@ Result<Image<Rgba8>> read_bytes(OpenedPicture& picture, const std::string& path,
     return image;
 }
 
-Result<Image<Rgba8>> read_picture(const std::string& path) {
+Result<Image<Rgba8>> read_picture(const std::string& path, int max_side_px) {
     return guarded(path, [&]() -> Result<Image<Rgba8>> {
-        auto picture = open_picture(path, Need::kWholeFile);
+        auto picture = open_picture(path, Need::kWholeFile, max_side_px);
         if (!picture) return picture.error();
         const Channels channels = choose_channels(picture->input->spec());
         const bool is_float = picture->input->spec().format.is_floating_point();

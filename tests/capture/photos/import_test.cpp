@@ -3,6 +3,7 @@
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "tests/capture/photos/turn_of_pictures.hpp"
+#include "tests/support/oriented_jpeg.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -80,6 +81,71 @@ TEST_F(ImportTest, MakesACaptureSet) {
         }
         EXPECT_LT(wrong, 0.02 * 3.14 * turn_.radius_px * turn_.radius_px) << "view " << i;
     }
+}
+
+// The same, as a phone keeps what it took on its side, with its lens.
+TEST_F(ImportTest, TurnsWhatAPhoneTookOnItsSide) {
+    for (int i = 0; i < turn_.views; ++i) {
+        const Image<Rgba8> shown = test::draw_view(turn_, i).photo;
+        Image<Rgba8> stored(shown.height(), shown.width());
+        for (int y = 0; y < shown.height(); ++y) {
+            for (int x = 0; x < shown.width(); ++x) stored(y, shown.width() - 1 - x) = shown(x, y);
+        }
+        const std::filesystem::path jpeg = folder_ / "photos" / (std::to_string(i + 1) + ".jpg");
+        ASSERT_TRUE(write_jpeg(jpeg, stored, 98).ok());
+        test::add_exif(jpeg, 6, 50);
+        std::filesystem::remove(photo(i + 1));
+    }
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_EQ(report->folder.width, turn_.width);
+    EXPECT_EQ(report->folder.height, turn_.height);
+    EXPECT_NEAR(report->nominal.axis_x_px, turn_.axis_x_px, 0.6);
+    // 43.27 mm of film across the diagonal, 50 mm behind the lens.
+    const double half_mm = 0.5 * 43.27 * turn_.width / std::hypot(turn_.width, turn_.height);
+    EXPECT_NEAR(report->nominal.fov_deg, 2 * std::atan(half_mm / 50) * 180 / 3.14159265, 1e-3);
+    const Result<Rig> rig = read_rig(options_.output);
+    ASSERT_TRUE(rig.ok()) << rig.error().message;
+    const Result<Image<Rgba8>> cut = read_picture(picture_path(options_.output, rig->views[3]));
+    ASSERT_TRUE(cut.ok()) << cut.error().message;
+    const test::DrawnView truth = test::draw_view(turn_, 3);
+    double wrong = 0;
+    for (int y = 0; y < turn_.height; ++y) {
+        for (int x = 0; x < turn_.width; ++x) wrong += std::abs((*cut)(x, y).a / 255.0 - truth.alpha(x, y));
+    }
+    EXPECT_LT(wrong, 0.03 * 3.14 * turn_.radius_px * turn_.radius_px);
+}
+
+TEST_F(ImportTest, RefusesMasksThatMayBeOfOtherPixels) {
+    for (int i = 0; i < turn_.views; ++i) {
+        const std::filesystem::path jpeg = folder_ / "photos" / (std::to_string(i + 1) + ".jpg");
+        ASSERT_TRUE(write_jpeg(jpeg, test::draw_view(turn_, i).photo, 98).ok());
+        test::add_exif(jpeg, 3);
+        std::filesystem::remove(photo(i + 1));
+    }
+    options_.masks = folder_ / "photos";
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_FALSE(report.ok());
+    EXPECT_THAT(report.error().message, HasSubstr("EXIF orientation 3"));
+    EXPECT_TRUE(output_is_clean());
+}
+
+TEST_F(ImportTest, LargePhotographsAreWorkedOnSmaller) {
+    options_.max_side_px = std::max(turn_.width, turn_.height) / 2;
+    const Result<ImportReport> report = import_photos(options_, nullptr);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_EQ(report->folder.width, turn_.width / 2);
+    EXPECT_NEAR(report->nominal.axis_x_px, turn_.axis_x_px / 2, 0.4);
+    ASSERT_FALSE(report->notes.empty());
+    EXPECT_THAT(report->notes.front(), HasSubstr("--max-side"));
+    const Result<Rig> rig = read_rig(options_.output);
+    ASSERT_TRUE(rig.ok()) << rig.error().message;
+    EXPECT_EQ(rig->views[0].camera.width, turn_.width / 2);
+    EXPECT_EQ(rig->extras["photo_import"]["reduced_from"][0], turn_.width);
+    options_.max_side_px = kMinSide_px - 1;
+    const Result<ImportReport> refused = import_photos(options_, nullptr);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_THAT(refused.error().message, HasSubstr("--max-side"));
 }
 
 TEST_F(ImportTest, DropsTheRepeatedLastView) {

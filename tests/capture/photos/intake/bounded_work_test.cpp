@@ -39,14 +39,33 @@ int most_at_a_time(const PhotoFolder& folder, int bytes_per_px, int threads, int
     return most;
 }
 
+PhotoFolder folder_of(int width, int height, int shown_width, int shown_height) {
+    PhotoFolder folder;
+    folder.width = width;
+    folder.height = height;
+    folder.shown_width = shown_width;
+    folder.shown_height = shown_height;
+    return folder;
+}
+
+int at_a_time(int width, int height, int bytes_per_px, int threads) {
+    return photos_at_a_time(folder_of(width, height, width, height), bytes_per_px, threads);
+}
+
 TEST(BoundedWork, TakesAsManyPhotographsAsTheMemoryHolds) {
-    EXPECT_EQ(photos_at_a_time(1000, 800, kCutBytesPerPixel, 16), 16);
-    EXPECT_EQ(photos_at_a_time(4000, 3000, kCutBytesPerPixel, 16), 2);
-    EXPECT_EQ(photos_at_a_time(4000, 3000, kCutBytesPerPixel, 1), 1);
-    EXPECT_EQ(photos_at_a_time(16384, 16384, kCutBytesPerPixel, 16), 1) << "never none";
+    EXPECT_EQ(at_a_time(1000, 800, kCutBytesPerPixel, 16), 16);
+    EXPECT_EQ(at_a_time(4000, 3000, kCutBytesPerPixel, 16), 2);
+    EXPECT_EQ(at_a_time(4000, 3000, kCutBytesPerPixel, 1), 1);
+    EXPECT_EQ(at_a_time(16384, 16384, kCutBytesPerPixel, 16), 1) << "never none";
     // 2^12 * 2^12 px * 2^6 bytes: four of them are the budget to the byte.
-    EXPECT_EQ(photos_at_a_time(4096, 4096, 64, 16), 4);
-    EXPECT_EQ(photos_at_a_time(4096, 4096, 65, 16), 3);
+    EXPECT_EQ(at_a_time(4096, 4096, 64, 16), 4);
+    EXPECT_EQ(at_a_time(4096, 4096, 65, 16), 3);
+}
+
+TEST(BoundedWork, CountsWhatReadingALargePhotographTakes) {
+    // 2^13 * 2^13 px * 24 bytes: 1.5 GB each, whatever the size that is worked with.
+    EXPECT_EQ(photos_at_a_time(folder_of(1024, 1024, 8192, 8192), 64, 16), 2);
+    EXPECT_EQ(photos_at_a_time(folder_of(1024, 1024, 2048, 2048), 64, 16), 16);
 }
 
 TEST(BoundedWork, KeepsToTheBound) {

@@ -86,14 +86,72 @@ TEST(PhotoFolder, NamesTwoPicturesOfDifferentSize) {
     for (const char* part : {"3.png", "6x5", "1.png", "6x4"}) EXPECT_THAT(found.error().message, HasSubstr(part));
 }
 
-TEST(PhotoFolder, RefusesAPictureThatWantsToBeTurned) {
+TEST(PhotoFolder, TurnsAllAsMostWantToBeShown) {
     const test::TemporaryFolder folder;
-    for (const char* name : {"1.jpg", "2.jpg", "3.jpg"}) test::write_oriented_jpeg(folder / name, 1);
-    EXPECT_TRUE(open_photo_folder(folder.path()).ok());
-    test::write_oriented_jpeg(folder / "2.jpg", 6);
-    const Result<PhotoFolder> found = open_photo_folder(folder.path());
-    ASSERT_FALSE(found.ok());
-    for (const char* part : {"2.jpg", "orientation 6", "exiftran"}) EXPECT_THAT(found.error().message, HasSubstr(part));
+    for (const char* name : {"1.jpg", "2.jpg", "3.jpg", "4.jpg"}) test::write_oriented_jpeg(folder / name, 6);
+    Result<PhotoFolder> found = open_photo_folder(folder.path());
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    EXPECT_EQ(found->orientation, 6);
+    EXPECT_EQ(found->otherwise_turned, 0);
+    test::write_oriented_jpeg(folder / "2.jpg", 1);
+    found = open_photo_folder(folder.path());
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    EXPECT_EQ(found->orientation, 6);
+    EXPECT_EQ(found->otherwise_turned, 1);
+}
+
+TEST(PhotoFolder, SaysWhatPhotographsShowWhenTheyAreTurned) {
+    const test::TemporaryFolder folder;
+    for (const int orientation : {1, 3, 6}) {
+        ASSERT_TRUE(write_jpeg(folder / "1.jpg", Image<Rgba8>(48, 32, Rgba8{9, 9, 9, 255}), 90).ok());
+        test::add_exif(folder / "1.jpg", orientation);
+        const Result<PhotoFolder> found = open_photo_folder(folder.path());
+        ASSERT_TRUE(found.ok()) << found.error().message;
+        EXPECT_EQ(found->shown_width, orientation == 6 ? 32 : 48);
+        EXPECT_EQ(found->shown_height, orientation == 6 ? 48 : 32);
+        EXPECT_EQ(found->width, found->shown_width);
+        // A mask of 48 x 32 tells by its size that it is not of what the third shows; of the second it does not.
+        EXPECT_EQ(found->turns_unnoticed(), orientation == 3);
+    }
+    const Error error = turned_beside(*open_photo_folder(folder.path()), "--masks there");
+    for (const char* part : {"--masks there", "orientation 6", "exiftran"}) EXPECT_THAT(error.message, HasSubstr(part));
+}
+
+TEST(PhotoFolder, MakesLargePhotographsSmaller) {
+    const test::TemporaryFolder folder;
+    write_picture(folder / "1.png", 400, 381);
+    const auto opened = [&](int max_side_px) {
+        const Result<PhotoFolder> found = open_photo_folder(folder.path(), max_side_px);
+        EXPECT_TRUE(found.ok());
+        return *found;
+    };
+    EXPECT_EQ(opened(kMaxPictureSide_px).width, 400);
+    EXPECT_EQ(opened(320).width, 400) << "to a quarter more they stay";
+    EXPECT_EQ(opened(320).reduction, 1);
+    const PhotoFolder small = opened(128);
+    EXPECT_EQ(small.reduction, 3.125);
+    EXPECT_EQ(small.width, 128);
+    EXPECT_EQ(small.height, 121);  // 121.92: what is left over goes
+    EXPECT_EQ(small.shown_width, 400);
+    EXPECT_EQ(small.in_picture({200, 190.5}), glm::dvec2(64, 60.5)) << "the middle stays the middle";
+    EXPECT_EQ(small.in_picture({200 + 31.25, 190.5 - 62.5}), glm::dvec2(74, 40.5));
+}
+
+TEST(PhotoFolder, KnowsTheLensThatAllPhotographsState) {
+    const test::TemporaryFolder folder;
+    test::write_oriented_jpeg(folder / "1.jpg", 1, 26);
+    test::write_oriented_jpeg(folder / "2.jpg", 1, 26);
+    EXPECT_EQ(open_photo_folder(folder.path())->focal_35mm, 26);
+    test::write_oriented_jpeg(folder / "3.jpg", 1, 52);
+    EXPECT_EQ(open_photo_folder(folder.path())->focal_35mm, 0);
+    test::write_oriented_jpeg(folder / "3.jpg", 1);
+    EXPECT_EQ(open_photo_folder(folder.path())->focal_35mm, 0);
+}
+
+TEST(PhotoFolder, TakesWhatPhonesWrite) {
+    for (const char* name : {"a.jpg", "IMG_1.HEIC", "b.heif", "c.avif", "d.tif"})
+        EXPECT_TRUE(is_picture_name(name)) << name;
+    for (const char* name : {"a.cr2", "heic", "b.txt"}) EXPECT_FALSE(is_picture_name(name)) << name;
 }
 
 TEST(PhotoFolder, NamesAPictureThatIsNone) {
