@@ -105,6 +105,21 @@ Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras
     return staged->commit();
 }
 
+// Views as captured may be as large as photographs are; a sheet of them is to be looked at.
+void fit_on_sheet(std::vector<Camera>& cameras, std::size_t columns) {
+    constexpr double kSheetSide_px = 4096;
+    columns = std::min(columns, cameras.size());
+    const auto rows = static_cast<double>((cameras.size() + columns - 1) / columns);
+    double scale = 1;
+    for (const Camera& camera : cameras) {
+        scale = std::min({scale, kSheetSide_px / (static_cast<double>(columns) * camera.width),
+                          kSheetSide_px / (rows * camera.height)});
+    }
+    if (scale == 1) return;
+    const auto scaled = [&](int side) { return std::max(1, static_cast<int>(side * scale)); };
+    for (Camera& camera : cameras) camera = resized(camera, scaled(camera.width), scaled(camera.height));
+}
+
 // Fails before anything is rendered where the views cannot become one picture.
 Status check_one_picture(const std::vector<Camera>& cameras, const RenderArguments& arguments) {
     if (arguments.sheet_columns == 0) {
@@ -155,8 +170,11 @@ Status run_render(const RenderArguments& arguments) {
     }
     const Result<Renderer> renderer = open_renderer(arguments.object, arguments.level);
     if (!renderer) return renderer.error();
-    const Result<std::vector<Camera>> cameras = requested_cameras(renderer->object(), arguments.views);
+    Result<std::vector<Camera>> cameras = requested_cameras(renderer->object(), arguments.views);
     if (!cameras) return cameras.error();
+    if (arguments.sheet_columns > 0 && arguments.views.size.empty()) {
+        fit_on_sheet(*cameras, static_cast<std::size_t>(arguments.sheet_columns));
+    }
 
     ProgressBar progress(arguments.quiet);
     switch (*kind) {
@@ -184,7 +202,10 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("--fps", arguments->frames_per_second, "frames per second of an .mp4")
         ->check(CLI::Range(1.0, 240.0))
         ->capture_default_str();
-    command->add_option("--sheet", arguments->sheet_columns, "with FILE.png: all views on one sheet, so many in a row")
+    command
+        ->add_option("--sheet", arguments->sheet_columns,
+                     "with FILE.png: all views on one sheet, so many in a row; of at most 4096 pixels a side where "
+                     "no --size is given")
         ->check(CLI::Range(1, 100));
     command->add_option("--level", arguments->level, "load only every 8th (0), 4th (1), 2nd (2) picture or all (3)")
         ->check(CLI::Range(0, kProgressiveLevels - 1))

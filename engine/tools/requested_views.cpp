@@ -26,21 +26,22 @@ Result<std::vector<Camera>> cameras_of_rig(const std::string& path, const ViewSh
     if (rig->views.empty()) return Error{path + ": holds no frames to render"};
     std::vector<Camera> cameras;
     for (const RigView& view : rig->views) {
-        Camera camera = view.camera;
-        if (shape.width > 0) {
-            camera.cx *= static_cast<double>(shape.width) / camera.width;
-            camera.fl_x *= static_cast<double>(shape.width) / camera.width;
-            camera.cy *= static_cast<double>(shape.height) / camera.height;
-            camera.fl_y *= static_cast<double>(shape.height) / camera.height;
-            camera.width = shape.width;
-            camera.height = shape.height;
-        }
-        cameras.push_back(camera);
+        cameras.push_back(shape.width > 0 ? resized(view.camera, shape.width, shape.height) : view.camera);
     }
     return cameras;
 }
 
 }  // namespace
+
+Camera resized(Camera camera, int width, int height) {
+    camera.cx *= static_cast<double>(width) / camera.width;
+    camera.fl_x *= static_cast<double>(width) / camera.width;
+    camera.cy *= static_cast<double>(height) / camera.height;
+    camera.fl_y *= static_cast<double>(height) / camera.height;
+    camera.width = width;
+    camera.height = height;
+    return camera;
+}
 
 Result<std::vector<Camera>> requested_cameras(const RaySpaceObject& object, const RequestedViews& views) {
     const Result<ViewShape> shape = view_shape(views);

@@ -79,6 +79,11 @@ TEST(WholeWay, AMeshBecomesAnObjectThatGivesItsPicturesBack) {
     ASSERT_TRUE(sheet.ok());
     EXPECT_EQ(sheet->width(), 192);
     EXPECT_EQ(sheet->height(), 128);
+    run("rs-engine", {"render", in("box.rso"), "--orbit", "90", "--sheet", "90", "-o", in("long.png"), "-q"});
+    const auto fitted = read_picture(folder / "long.png");
+    ASSERT_TRUE(fitted.ok());
+    EXPECT_EQ(fitted->width(), 90 * 45) << "not 90 * 64: a sheet is at most 4096 wide";
+    EXPECT_EQ(fitted->height(), 45);
     run("rs-engine", {"render", in("box.rso"), "--orbit", "2", "--depth", "-o", in("deep"), "-q"});
     const auto picture = read_picture(folder / "deep" / "0001.png");
     const auto depth = read_channel(folder / "deep" / "0001.depth.exr");

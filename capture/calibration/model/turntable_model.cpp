@@ -72,10 +72,19 @@ std::optional<glm::dvec2> undistorted(const Lens& lens, const glm::dvec2& p) {
     return d * (r / rd);
 }
 
-std::optional<glm::dvec3> table_ray(const Lens& lens, const CameraPose& pose, const glm::dvec2& p) {
-    const auto direction = undistorted(lens, p);
+TableRays::TableRays(const Lens& lens, const CameraPose& pose, double turn_rad)
+    : lens_(lens), from_camera_(glm::transpose(camera_rotation(pose))) {
+    if (turn_rad != 0) from_camera_ = about_y(turn_rad) * from_camera_;
+}
+
+std::optional<glm::dvec3> TableRays::through(const glm::dvec2& p) const {
+    const auto direction = undistorted(lens_, p);
     if (!direction) return std::nullopt;
-    return glm::normalize(glm::transpose(camera_rotation(pose)) * glm::dvec3(direction->x, -direction->y, -1));
+    return glm::normalize(from_camera_ * glm::dvec3(direction->x, -direction->y, -1));
+}
+
+std::optional<glm::dvec3> table_ray(const Lens& lens, const CameraPose& pose, const glm::dvec2& p) {
+    return TableRays(lens, pose).through(p);
 }
 
 Camera object_camera(const TurntableModel& model, std::size_t view, double scale, double origin_height) {

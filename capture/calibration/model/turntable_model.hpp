@@ -64,6 +64,17 @@ std::optional<glm::dvec2> undistorted(const Lens& lens, const glm::dvec2& p);
 // it is turned by -angle_i.
 std::optional<glm::dvec3> table_ray(const Lens& lens, const CameraPose& pose, const glm::dvec2& p);
 
+// The same of many pixels, each ray turned by `turn_rad` about the axis; the rotation is computed once.
+class TableRays {
+public:
+    TableRays(const Lens& lens, const CameraPose& pose, double turn_rad = 0);
+    [[nodiscard]] std::optional<glm::dvec3> through(const glm::dvec2& p) const;
+
+private:
+    Lens lens_;
+    glm::dmat3 from_camera_;
+};
+
 // The pinhole camera of one view in the object's frame (its world), distances scaled by `scale` and moved up so that
 // table height `origin_height` becomes Y = 0. The lens' distortion is left out.
 Camera object_camera(const TurntableModel& model, std::size_t view, double scale = 1, double origin_height = 0);

@@ -27,11 +27,12 @@ public:
     SelectedRays(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays)
         : turn_(turn), model_(model), left_out_(rays.left_out), views_(turn.views()) {
         RS_CHECK(model.angles_rad.size() == turn.views() && rays.every > 0);
+        const TableRays rays_of(model.lens, model.pose);
         for (std::size_t i = 0; i < turn.views(); ++i) {
             views_[i].first = count_;
             if (!counts(rays, i)) continue;
             for (std::size_t e = 0; e < turn.edges(i).size(); e += rays.every, ++count_) {
-                auto direction = table_ray(model.lens, model.pose, turn.edges(i)[e]);
+                auto direction = rays_of.through(turn.edges(i)[e]);
                 const double flat = direction ? std::hypot(direction->x, direction->z) : 0;
                 if (flat < 1e-3) direction.reset();
                 if (direction) reach_ = std::max(reach_, std::abs(direction->x) / flat);

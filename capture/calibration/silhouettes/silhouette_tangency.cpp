@@ -189,11 +189,12 @@ std::vector<double> tangency_residuals(const TurntableModel& model, std::span<co
     const std::size_t views = hulls.size();
     std::vector<std::vector<glm::dvec3>> rays(views);
     std::vector<glm::dvec3> centres;
+    const TableRays rays_of(model.lens, model.pose);
     for (std::size_t view = 0; view < views; ++view) {
         const double back = -model.angles_rad[view];
         centres.push_back(turned({0, 0, 1}, back));
         for (const glm::dvec2& p : hulls[view]) {
-            if (const auto ray = table_ray(model.lens, model.pose, p)) rays[view].push_back(turned(*ray, back));
+            if (const auto ray = rays_of.through(p)) rays[view].push_back(turned(*ray, back));
         }
     }
     std::vector<double> residuals(2 * pairs.size());

@@ -79,7 +79,8 @@ Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Turntable& turntable, 
     const Lens& lens = plan.model.lens;
     const CameraPose& pose = plan.model.pose;
     const glm::dvec3 eye(0, plan.camera_height, plan.distance);
-    const auto ray = [&](double x, double y) { return table_ray(lens, pose, {x, y}).value_or(glm::dvec3(0, 0, -1)); };
+    const TableRays rays(lens, pose);
+    const auto ray = [&](double x, double y) { return rays.through({x, y}).value_or(glm::dvec3(0, 0, -1)); };
 
     StillRoom room;
     room.unit = 0.25 * plan.distance;

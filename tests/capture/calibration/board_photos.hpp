@@ -31,7 +31,8 @@ struct BoardPhotos {
     [[nodiscard]] Photo taken(std::size_t view) const {
         Photo photo{drawn_drum(drum, model, view), Image<Rgba8>(model.lens.width, model.lens.height)};
         const double ground = drum.middle - drum.height / 2;
-        const double angle = model.angles_rad[view];
+        const glm::dvec3 from = capture::turned({0, 0, 1}, -model.angles_rad[view]);
+        const capture::TableRays rays(model.lens, model.pose, -model.angles_rad[view]);
         constexpr int kSide = 3;
         for (int y = 0; y < photo.picture.height(); ++y) {
             for (int x = 0; x < photo.picture.width(); ++x) {
@@ -41,10 +42,8 @@ struct BoardPhotos {
                 double light = 0;
                 for (int s = 0; s < kSide * kSide; ++s) {
                     const glm::dvec2 p(x + (s % kSide + 0.5) / kSide, y + (s / kSide + 0.5) / kSide);
-                    const auto ray = capture::table_ray(model.lens, model.pose, p);
-                    light += ray && ray->y < 0
-                                 ? light_at(capture::turned(glm::dvec3(0, 0, 1) + ground / ray->y * *ray, -angle))
-                                 : kBackdrop;
+                    const auto ray = rays.through(p);
+                    light += ray && ray->y < 0 ? light_at(from + ground / ray->y * *ray) : kBackdrop;
                 }
                 const double share = pixel.a / 255.0;
                 const auto code = [&](std::uint8_t own) {

@@ -63,19 +63,20 @@ inline Image<Rgba8> drawn(const capture::BoardTurn& turn, const capture::BoardDe
     std::mt19937 random(static_cast<std::uint32_t>(view) + 50);
     std::normal_distribution<float> noise(0, 1.5F);
     Image<Rgba8> picture(lens.width, lens.height);
+    const double angle = -turn.model.angles_rad[view];  // into the object's frame
+    const glm::dvec3 from = capture::turned({0, 0, 1}, angle);
+    const capture::TableRays rays(lens, turn.model.pose, angle);
     for (int y = 0; y < lens.height; ++y) {
         for (int x = 0; x < lens.width; ++x) {
             float light = 0;
             for (int s = 0; s < kSamples * kSamples; ++s) {
                 const glm::dvec2 p(x + (s % kSamples + 0.5) / kSamples, y + (s / kSamples + 0.5) / kSamples);
-                const auto ray = capture::table_ray(lens, turn.model.pose, p);
+                const auto ray = rays.through(p);
                 if (!ray) continue;
-                const double angle = -turn.model.angles_rad[view];  // into the object's frame
-                const glm::dvec3 from = capture::turned({0, 0, 1}, angle), along = capture::turned(*ray, angle);
                 const glm::dvec3& normal = turn.board.object_from_board[1];
-                const double t = glm::dot(normal, turn.board.middle - from) / glm::dot(normal, along);
+                const double t = glm::dot(normal, turn.board.middle - from) / glm::dot(normal, *ray);
                 const glm::dvec3 on_board = glm::transpose(turn.board.object_from_board) *
-                                            (from + t * along - turn.board.middle) / turn.board.units_per_mm;
+                                            (from + t * *ray - turn.board.middle) / turn.board.units_per_mm;
                 const double u = on_board.x / design.square_mm + 0.5 * design.squares_x;
                 const double v = on_board.z / design.square_mm + 0.5 * design.squares_y;
                 const bool on_paper =

@@ -82,15 +82,16 @@ inline Image<Rgba8> drawn_drum(const Drum& drum, const capture::TurntableModel& 
     const double angle = model.angles_rad[view];
     const glm::dvec3 origin = capture::turned({0, 0, 1}, -angle);
     Image<Rgba8> picture(model.lens.width, model.lens.height);
+    const capture::TableRays rays(model.lens, model.pose, -angle);
     for_each_index(picture.height(), [&](int y) {
         for (int x = 0; x < picture.width(); ++x) {
             glm::dvec3 sum(0.0);
             int inside = 0;
             for (int s = 0; s < kSide * kSide; ++s) {
                 const glm::dvec2 p(x + (s % kSide + 0.5) / kSide, y + (s / kSide + 0.5) / kSide);
-                const auto ray = capture::table_ray(model.lens, model.pose, p);
+                const auto ray = rays.through(p);
                 if (!ray) continue;
-                const auto met = drum::hit(drum, origin, capture::turned(*ray, -angle));
+                const auto met = drum::hit(drum, origin, *ray);
                 if (!met) continue;
                 sum += drum::colour(drum, *met);
                 ++inside;

@@ -56,14 +56,15 @@ inline std::vector<Image<std::uint8_t>> drawn(const std::vector<Ellipsoid>& body
     for (const double angle : model.angles_rad) {
         const glm::dvec3 origin = turned({0, 0, 1}, -angle);
         Image<std::uint8_t> mask(model.lens.width, model.lens.height);
+        const TableRays rays(model.lens, model.pose, -angle);
         for (int y = 0; y < mask.height(); ++y) {
             for (int x = 0; x < mask.width(); ++x) {
                 int inside = 0;
                 for (int s = 0; s < kMaskSamples * kMaskSamples; ++s) {
                     const glm::dvec2 p(x + (s % kMaskSamples + 0.5) / kMaskSamples,
                                        y + (s / kMaskSamples + 0.5) / kMaskSamples);
-                    const auto ray = table_ray(model.lens, model.pose, p);
-                    if (ray && hits(body, origin, turned(*ray, -angle))) ++inside;
+                    const auto ray = rays.through(p);
+                    if (ray && hits(body, origin, *ray)) ++inside;
                 }
                 mask(x, y) = static_cast<std::uint8_t>(inside * 255 / (kMaskSamples * kMaskSamples));
             }
