@@ -81,7 +81,9 @@ if [ "$SANITIZE" != none ]; then
     SELECTED=(-LE lint)
   else
     TARGETS=(test_rayspace test_reference test_conformance test_fuzz_replay test_compositor test_sequences)
-    SELECTED=(-L '^(bytes|fuzz-replay|gl)$' -E '^(Truth|Occlusion)[.]')  # whole pictures take long, and other tests the same ways
+    # Whole pictures take long, and other tests the same ways.
+    WHOLE='^(Truth|Occlusion)[.]|^WallPicture[.]IsTraced|^PhotometricWebProperty[.]|^TracedRenderer[.]EditedLight|^Shadows[.](OfObjects|OfWhat|ALit)'
+    SELECTED=(-L '^(bytes|fuzz-replay|gl)$' -E "$WHOLE")
   fi
   # By clang, which takes two thirds of g++'s time for it, and sees what g++ does not.
   say "Building with AddressSanitizer and UndefinedBehaviorSanitizer: ${TARGETS[*]}"

@@ -65,7 +65,7 @@ Status write_seeds(const fs::path& corpus) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
+    if (argc != 2 || argv[1][0] == '-') {
         std::fprintf(stderr, "usage: make_fuzz_seeds CORPUS-FOLDER\n");
         return 2;
     }

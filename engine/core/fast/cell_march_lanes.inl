@@ -153,7 +153,7 @@ private:
         Vector behind;
     };
 
-    HWY_INLINE Surfaces surfaces_at(Vector at_q12, LaneMask wanted) const {
+    HWY_INLINE Surfaces surfaces_at(Vector at_q12, LaneMask requested) const {
         const Vector h_part = hn::And(hn::ShiftRight<9>(at_q12), number(7));
         const Vector smooth = look_up(column_->smooth, entry_at(at_q12));
         const Vector low = hn::And(smooth, number((1 << kLowBits) - 1));
@@ -161,7 +161,7 @@ private:
         const Vector depth = hn::ShiftRight<6>(hn::Add(sum, number(32)));
         const Vector known = hn::IfThenElse(says(smooth, kSurfaceNothing), number(-1), shown_by_both(depth));
         const LaneMask steps = says(smooth, kSurfaceSteps);
-        if (hn::AllFalse(Lanes(), hn::And(steps, wanted))) return {known, number(-1)};
+        if (hn::AllFalse(Lanes(), hn::And(steps, requested))) return {known, number(-1)};
         const Vector both = hn::GatherIndex(Lanes(), column_->steps, hn::IfThenElseZero(steps, sum));
         const hn::RebindToUnsigned<Lanes> bits;
         const auto surface = [](Vector in_16_bits) {

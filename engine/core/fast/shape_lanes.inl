@@ -132,13 +132,14 @@ struct TexelGrid {
 };
 
 // Those at places x, y from texel (0, 0) of a picture, whose index is `start`, in eighths of a texel; zero where not
-// `wanted`. The rows of a view column go down the pictures: of few windows on a column, kLanes + 1 texels each, all of
-// them are taken.
-HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_q3, Vector y_q3, LaneMask wanted) {
+// `requested`. The rows of a view column go down the pictures: of few windows on a column, kLanes + 1 texels each, all
+// of them are taken.
+HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_q3, Vector y_q3, LaneMask requested) {
     alignas(64) std::int32_t columns[kBlockRows];
     alignas(64) std::int32_t rows[kBlockRows];
-    const Vector in_columns = hn::IfThenElseZero(wanted, hn::Mul(hn::ShiftRight<3>(x_q3), number(grid.column_stride)));
-    const Vector in_rows = hn::IfThenElseZero(wanted, hn::ShiftRight<3>(y_q3));
+    const Vector in_columns =
+        hn::IfThenElseZero(requested, hn::Mul(hn::ShiftRight<3>(x_q3), number(grid.column_stride)));
+    const Vector in_rows = hn::IfThenElseZero(requested, hn::ShiftRight<3>(y_q3));
     hn::Store(in_columns, Lanes(), columns);
     hn::Store(in_rows, Lanes(), rows);
     const Vector index = hn::Add(in_columns, in_rows);
@@ -153,15 +154,15 @@ HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_
         hwy::Prefetch(texel);
         hwy::Prefetch(texel - kBefore);
     }
-    while (!hn::AllFalse(Lanes(), wanted)) {
-        const auto lane = hn::FindFirstTrue(Lanes(), wanted);
+    while (!hn::AllFalse(Lanes(), requested)) {
+        const auto lane = hn::FindFirstTrue(Lanes(), requested);
         // A row further down the view may lie a little higher in the picture.
         const std::int32_t top = std::max(std::min(rows[lane] - kLanes / 8, grid.height - kLanes), -1);
         const std::int32_t begin = columns[lane] + top;
         const std::int32_t* const left = grid.texels + start + begin;
         const std::int32_t* const right = left + grid.column_stride;
         const Vector place = hn::Sub(index, number(begin));
-        const LaneMask inside = hn::And(wanted, is_lane(place));
+        const LaneMask inside = hn::And(requested, is_lane(place));
         const auto order = hn::IndicesFromVec(Lanes(), hn::And(place, number(kLanes - 1)));
         const auto take = [&](const std::int32_t* from, Vector& to) {
             to = hn::IfThenElse(inside, hn::TableLookupLanes(hn::LoadU(Lanes(), from), order), to);
@@ -170,7 +171,7 @@ HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_
         take(left + 1, quads.lower_left);
         take(right, quads.upper_right);
         take(right + 1, quads.lower_right);
-        wanted = hn::AndNot(inside, wanted);
+        requested = hn::AndNot(inside, requested);
     }
     return quads;
 }

@@ -14,9 +14,9 @@ struct SamplePlace {
     Vector y_q3;
 };
 
-// sample_picture() of the lanes `wanted`, as far as the texels.
+// sample_picture() of the lanes `requested`, as far as the texels.
 HWY_INLINE SamplePlace sample_place(const ShapeWalk& walk, const ShapePictureColumn& picture, Vector d, Vector y_q16,
-                                    LaneMask wanted) {
+                                    LaneMask requested) {
     const Vector l = hn::Add(number(picture.l0_q20), hn::ShiftRight<7>(hn::Mul(d, number(picture.l1_q24))));
     const Vector inverse_l = inverse(l);
     const Vector n = hn::Add(number(picture.n0_q12), hn::ShiftRight<3>(hn::Mul(d, number(picture.n1_q12))));
@@ -25,7 +25,7 @@ HWY_INLINE SamplePlace sample_place(const ShapeWalk& walk, const ShapePictureCol
     const Vector row =
         hn::Sub(number(picture.cy_q8), multiply_shift<20>(m, hn::Sub(y_q16, number(picture.height_q16))));
     SamplePlace place;
-    place.exists = hn::And(hn::And(wanted, hn::Gt(l, number(kNearest_q20 - 1))),
+    place.exists = hn::And(hn::And(requested, hn::Gt(l, number(kNearest_q20 - 1))),
                            hn::And(within(column, walk.width << 8), within(row, walk.height << 8)));
     place.x_q3 = hn::ShiftRight<5>(hn::Sub(column, number(128 - 16)));
     place.y_q3 = hn::ShiftRight<5>(hn::Sub(row, number(128 - 16)));
@@ -45,10 +45,10 @@ struct SurfacePlace {
 };
 
 HWY_INLINE SurfacePlace surface_place(const ShapeWalk& walk, const ShapeColumn& column, Vector rise, Vector d,
-                                      LaneMask wanted) {
+                                      LaneMask requested) {
     SurfacePlace place;
     place.lambda_q20 = hn::Add(number(column.lambda0_q20), hn::ShiftRight<4>(hn::Mul(d, number(column.lambda1_q21))));
-    const LaneMask looked_at = hn::And(wanted, hn::Gt(place.lambda_q20, hn::Zero(Lanes())));
+    const LaneMask looked_at = hn::And(requested, hn::Gt(place.lambda_q20, hn::Zero(Lanes())));
     const Vector y_q16 = hn::Add(number(walk.b_q16), multiply_shift_within<28>(place.lambda_q20, rise));
     const auto in_picture = [&](const ShapePictureColumn& picture) {
         return sample_place(walk, picture, d, y_q16, picture.used ? looked_at : none());
@@ -63,12 +63,12 @@ struct ShownLanes {
     Vector colour;
 };
 
-// leaning_weight() of the lanes `wanted`.
-HWY_INLINE Vector weight_of_second(const ShapeColumn& column, Vector surface, LaneMask wanted) {
+// leaning_weight() of the lanes `requested`.
+HWY_INLINE Vector weight_of_second(const ShapeColumn& column, Vector surface, LaneMask requested) {
     const Vector lean = hn::ShiftRight<kDepthBits>(surface);
     const Vector both = number(kBothShow);
     const Vector weight = number(column.weight);
-    if (HWY_LIKELY(hn::AllTrue(Lanes(), hn::Or(hn::Not(wanted), hn::Eq(lean, both))))) return weight;
+    if (HWY_LIKELY(hn::AllTrue(Lanes(), hn::Or(hn::Not(requested), hn::Eq(lean, both))))) return weight;
     const auto share = [](Vector of, Vector eighths) {
         return hn::ShiftRight<3>(hn::Add(hn::Mul(of, eighths), number(4)));
     };
@@ -91,9 +91,9 @@ HWY_INLINE Vector opaque_colour(const Sample& first, const Sample& second, Vecto
     return packed(hn::ShiftRight<14>(sum.r), hn::ShiftRight<14>(sum.g), hn::ShiftRight<14>(sum.b), number(255));
 }
 
-// shown_surface() of the lanes `wanted`: of `met`, whose place is known.
+// shown_surface() of the lanes `requested`: of `met`, whose place is known.
 HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& column, const SurfacePlace& place,
-                                  Vector met, LaneMask wanted) {
+                                  Vector met, LaneMask requested) {
     const Vector zero = hn::Zero(Lanes());
     // The texels' border stands in for the clamps of section 7.
     const TexelGrid grid{reinterpret_cast<const std::int32_t*>(walk.texels), walk.column_stride, walk.height};
@@ -108,9 +108,9 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& colu
     ShownLanes surface;
     const LaneMask both = hn::And(first_exists, second_exists);
     const Vector alphas = hn::Or(hn::And(all_bits(first.texels), all_bits(second.texels)), number(0x00FFFFFF));
-    if (HWY_LIKELY(hn::AllTrue(Lanes(), hn::Or(hn::Not(wanted), hn::And(both, hn::Eq(alphas, number(-1))))))) {
+    if (HWY_LIKELY(hn::AllTrue(Lanes(), hn::Or(hn::Not(requested), hn::And(both, hn::Eq(alphas, number(-1))))))) {
         surface.shown = both;
-        surface.colour = opaque_colour(first, second, weight_of_second(column, met, wanted));
+        surface.colour = opaque_colour(first, second, weight_of_second(column, met, requested));
         return surface;
     }
 
@@ -120,7 +120,7 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& colu
         hn::Or(hn::And(first_exists, hn::Eq(first_sum.a, zero)), hn::And(second_exists, hn::Eq(second_sum.a, zero)));
     surface.shown = hn::AndNot(transparent, hn::Or(first_exists, second_exists));
     const Vector weight =
-        hn::IfThenElse(both, weight_of_second(column, met, wanted), hn::IfThenZeroElse(first_exists, number(256)));
+        hn::IfThenElse(both, weight_of_second(column, met, requested), hn::IfThenZeroElse(first_exists, number(256)));
     const auto mixed = [&](Vector f, Vector s) { return hn::Add(hn::ShiftLeft<8>(f), hn::Mul(hn::Sub(s, f), weight)); };
     surface.colour = resolve_lanes({mixed(first_sum.r, second_sum.r), mixed(first_sum.g, second_sum.g),
                                     mixed(first_sum.b, second_sum.b), mixed(first_sum.a, second_sum.a)});

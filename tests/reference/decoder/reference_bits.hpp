@@ -13,14 +13,14 @@
 namespace rs::reference {
 
 // "Context adaptation": what a tile has taught one context so far.
-class LearnedContext {
+class AdaptiveContext {
 public:
-    LearnedContext() = default;
+    AdaptiveContext() = default;
     // "z = 256 p of its listed probability p (128 where it is not listed)"
-    LearnedContext(int context, int listed_probability) : z_(256 * listed_probability), n_(first_count(context)) {}
+    AdaptiveContext(int context, int listed_probability) : z_(256 * listed_probability), n_(first_count(context)) {}
 
-    static LearnedContext of(int z, int n) {
-        LearnedContext context;
+    static AdaptiveContext of(int z, int n) {
+        AdaptiveContext context;
         context.z_ = z;
         context.n_ = n;
         return context;
@@ -31,7 +31,7 @@ public:
 
     // "with s = floor(log2 n), z becomes z + ((65536 - z) >> s) if it is 0, z - (z >> s) if it is 1; and n grows by 1,
     // to 255 at most": s is that of n before it grows.
-    void learn(int bit) {
+    void adapt(int bit) {
         const int s = static_cast<int>(std::bit_width(static_cast<unsigned>(n_))) - 1;
         z_ = bit == 0 ? z_ + ((65536 - z_) >> s) : z_ - (z_ >> s);
         n_ = std::min(n_ + 1, 255);
@@ -81,22 +81,22 @@ private:
     std::uint16_t value_ = 0;
 };
 
-// One object reads one tile: "At the beginning of every tile" learning starts anew.
+// One object reads one tile: "At the beginning of every tile" adaptation starts anew.
 class Bits {
 public:
-    Bits(Bytes bytes, const std::array<int, kContexts[1]>& probability, bool is_learning)
-        : decoder_(bytes), probability_(probability), is_learning_(is_learning) {
-        for (std::size_t context = 0; context < learned_.size(); ++context) {
-            learned_[context] = LearnedContext(static_cast<int>(context), probability[context]);
+    Bits(Bytes bytes, const std::array<int, kContexts[1]>& probability, bool is_adaptive)
+        : decoder_(bytes), probability_(probability), is_adaptive_(is_adaptive) {
+        for (std::size_t context = 0; context < adaptive_.size(); ++context) {
+            adaptive_[context] = AdaptiveContext(static_cast<int>(context), probability[context]);
         }
     }
 
     int bit(int context) {
         const std::size_t c = static_cast<std::size_t>(context);
-        if (!is_learning_) return decoder_.decode(16 * static_cast<unsigned>(probability_.at(c)));
-        LearnedContext& learned = learned_.at(c);
-        const int result = decoder_.decode(static_cast<unsigned>(learned.probability()));
-        learned.learn(result);
+        if (!is_adaptive_) return decoder_.decode(16 * static_cast<unsigned>(probability_.at(c)));
+        AdaptiveContext& adaptive = adaptive_.at(c);
+        const int result = decoder_.decode(static_cast<unsigned>(adaptive.probability()));
+        adaptive.adapt(result);
         return result;
     }
     // "Raw bits teach nothing."
@@ -124,8 +124,8 @@ public:
 private:
     ArithmeticDecoder decoder_;
     const std::array<int, kContexts[1]>& probability_;
-    bool is_learning_;
-    std::array<LearnedContext, kContexts[1]> learned_;
+    bool is_adaptive_;
+    std::array<AdaptiveContext, kContexts[1]> adaptive_;
 };
 
 // Contexts by any name, which "begin with z = 32768 and n = 2".
@@ -136,16 +136,16 @@ public:
     explicit AdaptingBits(Bytes bytes) : decoder_(bytes) {}
 
     int bit(const Name& context) {
-        LearnedContext& learned = learned_.try_emplace(context, LearnedContext::of(32768, 2)).first->second;
-        const int result = decoder_.decode(static_cast<unsigned>(learned.probability()));
-        learned.learn(result);
+        AdaptiveContext& adaptive = adaptive_.try_emplace(context, AdaptiveContext::of(32768, 2)).first->second;
+        const int result = decoder_.decode(static_cast<unsigned>(adaptive.probability()));
+        adaptive.adapt(result);
         return result;
     }
     int raw() { return decoder_.decode(2048); }
 
 private:
     ArithmeticDecoder decoder_;
-    std::map<Name, LearnedContext> learned_;
+    std::map<Name, AdaptiveContext> adaptive_;
 };
 
 }  // namespace rs::reference

@@ -57,7 +57,7 @@ std::string read_fields(Bytes payload, Code& code) {
     if (code.alpha_bits < bits[0] || code.alpha_bits > bits[1]) return "alpha_bits is out of range";
     if (payload[7] > (is_board ? 0 : 7)) return "CODE has other features";
     code.has_smooth_edges = (payload[7] & 1) != 0;
-    code.is_learning = (payload[7] & 2) != 0;
+    code.is_adaptive = (payload[7] & 2) != 0;
     code.has_sign_data_hiding = (payload[7] & 4) != 0;
     return "";
 }

@@ -31,7 +31,7 @@ struct Code {
     int alpha_bits = 0;
     int alpha_coding = 0;
     bool has_smooth_edges = false;      // features, bit 0
-    bool is_learning = false;           // bit 1
+    bool is_adaptive = false;           // bit 1
     bool has_sign_data_hiding = false;  // bit 2
     std::array<int, 24> edge_alpha{};
     int u_offset = 0;

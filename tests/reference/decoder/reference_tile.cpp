@@ -21,7 +21,7 @@ TileDecoder::TileDecoder(const Code& code, const Pict& pict, std::array<const Pi
       pict_(pict),
       references_(references),
       picture_(picture),
-      bits_(bytes, code.probability, code.is_learning) {
+      bits_(bytes, code.probability, code.is_adaptive) {
     const int columns = ceil_div(picture.width, code.tile_width);
     tile_x_ = code.tile_width * (t % columns);
     tile_y_ = code.tile_height * (t / columns);

@@ -108,7 +108,7 @@ Status write_invalid(const fs::path& folder, const Drafts& drafts) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
+    if (argc != 2 || argv[1][0] == '-') {
         std::fprintf(stderr, "usage: make_golden FOLDER\n");
         return 2;
     }

@@ -298,7 +298,7 @@ Status make_all(const fs::path& folder, const std::string& edition) {
 }  // namespace rs::engine
 
 int main(int argc, char** argv) {
-    if (argc != 3) {
+    if (argc != 3 || argv[1][0] == '-') {
         std::fprintf(stderr, "usage: make_conformance_vectors FOLDER EDITION\n");
         return 2;
     }
