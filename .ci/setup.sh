@@ -5,7 +5,7 @@ BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config
   libopencv-dev libopenimageio-dev openimageio-tools libglm-dev libceres-dev libembree-dev libassimp-dev libcli11-dev
   nlohmann-json3-dev libtbb-dev libhwy-dev libepoxy-dev libegl-dev libgl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
-  libavcodec-dev libavformat-dev libswscale-dev libxxhash-dev libzstd-dev libcoin-dev zlib1g-dev libexpat1-dev libglfw3-dev libimgui-dev libasio-dev
+  libavcodec-dev libavformat-dev libswscale-dev libxxhash-dev libzstd-dev liblcms2-dev libcoin-dev zlib1g-dev libexpat1-dev libglfw3-dev libimgui-dev libasio-dev
   libopenmpi-dev openmpi-bin
 )
 # shellcheck disable=SC2034  # used by the scripts that source this file

@@ -37,15 +37,25 @@ inline std::string exif_segment(int orientation, int focal_35mm) {
     return bytes({0xFF, 0xE1, 0, static_cast<int>(exif.size()) + 2}) + exif;
 }
 
-// Puts the header into a JPEG file that has none.
-inline void add_exif(const std::filesystem::path& path, int orientation, int focal_35mm = 0) {
+// Puts a segment in front of all others of a JPEG file.
+inline void insert_segment(const std::filesystem::path& path, const std::string& segment) {
     std::string file;
     {
         std::ifstream in(path, std::ios::binary);
         file.assign(std::istreambuf_iterator<char>(in), {});
     }
-    std::ofstream(path, std::ios::binary)
-        << file.substr(0, 2) << exif_segment(orientation, focal_35mm) << file.substr(2);
+    std::ofstream(path, std::ios::binary) << file.substr(0, 2) << segment << file.substr(2);
+}
+
+inline void add_exif(const std::filesystem::path& path, int orientation, int focal_35mm = 0) {
+    insert_segment(path, exif_segment(orientation, focal_35mm));
+}
+
+// An ICC profile of at most 60 kB.
+inline void add_profile(const std::filesystem::path& path, const std::string& icc) {
+    const std::string payload = std::string("ICC_PROFILE") + bytes({0, 1, 1}) + icc;
+    const int size = static_cast<int>(payload.size()) + 2;
+    insert_segment(path, bytes({0xFF, 0xE2, size >> 8, size & 0xFF}) + payload);
 }
 
 // 8 x 8 grey pixels.

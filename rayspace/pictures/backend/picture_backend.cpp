@@ -3,8 +3,10 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/linear_light.hpp"
+#include "rayspace/pictures/backend/colour_profile.hpp"
 #include "rayspace/pictures/backend/exr_header.hpp"
 #include "rayspace/pictures/backend/png_integrity.hpp"
+#include "rayspace/pictures/backend/profile_integrity.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -14,6 +16,8 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <span>
 #include <type_traits>
 
 namespace rs::pictures {
@@ -54,6 +58,7 @@ Result<OpenedPicture> open_picture(const std::string& path, Need need, int max_s
         if (const Status status = check_png_integrity(path); !status) return status.error();
     }
     if (const Status status = check_exr_header(path); !status) return status.error();
+    if (const Status status = check_profile_integrity(path); !status) return status.error();
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);  // colours under alpha 0 must survive
     auto input = OIIO::ImageInput::open(path, &hints);
@@ -142,6 +147,12 @@ RgbaF pixel_of(const T* sample, const Channels& channels) {
     return pixel;
 }
 
+std::optional<ColourProfile> profile_of(const OpenedPicture& picture) {
+    const OIIO::ParamValue* const icc = picture.input->spec().find_attribute("ICCProfile");
+    if (icc == nullptr || icc->type().basetype != OIIO::TypeDesc::UINT8) return std::nullopt;
+    return ColourProfile::unlike_srgb({static_cast<const std::byte*>(icc->data()), icc->type().size()});
+}
+
 Result<PictureInfo> read_info(const std::string& path, int max_side_px) {
     return guarded(path, [&]() -> Result<PictureInfo> {
         const auto picture = open_picture(path, Need::kHeader, max_side_px);
@@ -177,8 +188,11 @@ Result<Image<Rgba8>> read_picture(const std::string& path, int max_side_px) {
         if (!picture) return picture.error();
         const Channels channels = choose_channels(picture->input->spec());
         const bool is_float = picture->input->spec().format.is_floating_point();
+        const std::optional<ColourProfile> profile = profile_of(*picture);
         if (picture->input->spec().format == OIIO::TypeUInt8 && (channels.straight || !channels.alpha)) {
-            return read_bytes(*picture, path, channels);
+            Result<Image<Rgba8>> image = read_bytes(*picture, path, channels);
+            if (image && profile) profile->to_srgb(std::span(image->pixels()));
+            return image;
         }
         Image<Rgba8> image(picture->width, picture->height);
         const auto store = [&](int x, int y, RgbaF p) {
@@ -189,6 +203,7 @@ Result<Image<Rgba8>> read_picture(const std::string& path, int max_side_px) {
         if (!samples) return samples.error();
         for_each_visible(*picture, *samples, channels.count,
                          [&](int x, int y, const float* s) { store(x, y, pixel_of(s, channels)); });
+        if (profile && !is_float) profile->to_srgb(std::span(image.pixels()));
         return image;
     });
 }
@@ -202,11 +217,13 @@ Result<Image<RgbaF>> read_picture_linear(const std::string& path) {
         const auto samples = read_samples<float>(*picture, path, 0, channels.count);
         if (!samples) return samples.error();
         Image<RgbaF> image(picture->width, picture->height);
-        for_each_visible(*picture, *samples, channels.count, [&](int x, int y, const float* s) {
-            RgbaF p = pixel_of(s, channels);
-            if (!is_float) p = {linear_from_srgb(p.r), linear_from_srgb(p.g), linear_from_srgb(p.b), p.a};
-            image(x, y) = p;
-        });
+        for_each_visible(*picture, *samples, channels.count,
+                         [&](int x, int y, const float* s) { image(x, y) = pixel_of(s, channels); });
+        if (is_float) return image;
+        if (const auto profile = profile_of(*picture)) profile->to_srgb(std::span(image.pixels()));
+        for (RgbaF& p : image.pixels()) {
+            p = {linear_from_srgb(p.r), linear_from_srgb(p.g), linear_from_srgb(p.b), p.a};
+        }
         return image;
     });
 }

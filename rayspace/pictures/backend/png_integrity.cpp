@@ -1,39 +1,24 @@
 #include "rayspace/pictures/backend/png_integrity.hpp"
 
+#include "rayspace/pictures/backend/byte_source.hpp"
+
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 
 namespace rs::pictures {
 namespace {
 
 constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 
-std::uint32_t big_endian(const unsigned char* bytes) {
-    return std::uint32_t{bytes[0]} << 24U | std::uint32_t{bytes[1]} << 16U | std::uint32_t{bytes[2]} << 8U | bytes[3];
-}
-
-class Source {
-public:
-    explicit Source(const std::string& path) : stream_(path, std::ios::binary) {}
-    bool take(unsigned char* to, std::size_t count) {
-        stream_.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(count));
-        return static_cast<bool>(stream_);
-    }
-
-private:
-    std::ifstream stream_;
-};
-
 }  // namespace
 
 Status check_png_integrity(const std::string& path) {
     const Error cut_short{path + ": is damaged or cut short: the file ends inside the picture; copy it again"};
-    Source source(path);
+    ByteSource source(path);
     std::array<unsigned char, kSignature.size()> signature{};
     if (!source.take(signature.data(), signature.size()) || signature != kSignature) return {};
     std::array<unsigned char, 65536> piece;
