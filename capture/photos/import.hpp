@@ -13,14 +13,11 @@
 #include "capture/photos/rig/found_rig.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/pictures/photograph_size.hpp"
 
 #include <filesystem>
 
 namespace rs::capture {
-
-// Shows an object at the height of a screen. Larger photographs take their pixels' share more time and memory, here,
-// in the encoder and wherever the object is shown.
-inline constexpr int kDefaultMaxSide_px = 2048;
 
 struct ImportOptions : RigRequest {
     std::filesystem::path photos;  // folder

@@ -82,6 +82,8 @@ void print_json(const std::string& output, const ImportReport& report) {
     json["views"] = report.views;
     json["width"] = report.folder.width;
     json["height"] = report.folder.height;
+    json["reduction"] = report.folder.reduction;
+    json["orientation"] = report.folder.orientation;
     json["photograph_width"] = report.folder.shown_width;
     json["photograph_height"] = report.folder.shown_height;
     json["backdrop"] = report.masks_given ? "masks" : backdrop_text(report);
@@ -95,6 +97,8 @@ void print_json(const std::string& output, const ImportReport& report) {
         json["axis_column_px"] = report.nominal.axis_x_px;
         json["axis_spread_px"] = report.nominal.axis_spread_px;
         json["axis_from"] = report.nominal.axis_from;
+        json["field_of_view_deg"] = report.nominal.fov_deg;
+        json["field_of_view_from"] = report.nominal.fov_from;
         json["turning_from"] = report.nominal.turning_from;
     }
     json["degrees_per_view"] = report.step_deg;
@@ -108,16 +112,18 @@ void print_json(const std::string& output, const ImportReport& report) {
 }
 
 void print_summary(const std::string& output, const ImportReport& report) {
-    std::printf(
-        "%s: %d views of %dx%d photographs, backdrop %s (%s), %.4g degrees per view %s, coverage %.1f..%.1f %%\n",
-        output.c_str(), report.views, report.folder.width, report.folder.height,
-        report.masks_given ? "masks" : backdrop_text(report).c_str(),
-        report.backdrop_given || report.masks_given ? "given" : "from the pictures", report.step_deg,
-        to_string(report.turning).c_str(), 100 * report.min_coverage, 100 * report.max_coverage);
+    std::printf("%s: %d views of %s, backdrop %s (%s), %.4g degrees per view %s, coverage %.1f..%.1f %%\n",
+                output.c_str(), report.views, sizes_text(report.folder).c_str(),
+                report.masks_given ? "masks" : backdrop_text(report).c_str(),
+                report.backdrop_given || report.masks_given ? "given" : "from the pictures", report.step_deg,
+                to_string(report.turning).c_str(), 100 * report.min_coverage, 100 * report.max_coverage);
     if (!report.calibration.calibration) {
         std::printf(
-            "calibration: nominal (equal steps, a level camera, an assumed lens); axis at column %.1f (%s), turning "
-            "%s\n",
+            "calibration: nominal (equal steps, a level camera, %.3g degrees of field of view, %s); axis at column "
+            "%.1f "
+            "(%s), turning %s\n",
+            report.nominal.fov_deg,
+            report.nominal.fov_from == "camera" ? "as the camera states" : report.nominal.fov_from.c_str(),
             report.nominal.axis_x_px, report.nominal.axis_from.c_str(), report.nominal.turning_from.c_str());
         return;
     }
@@ -153,7 +159,9 @@ Status run_import(const ImportCommandLine& given) {
     if (!given.known.empty()) {
         const Result<PhotoFolder> folder = open_photo_folder(options.photos);
         if (!folder) return folder.error();
-        if (folder->turns_unnoticed()) return turned_beside(*folder, "--known " + given.known);
+        if (folder->orientation != 1 || folder->otherwise_turned > 0) {
+            return turned_beside(*folder, "--known " + given.known);
+        }
         Result<KnownFile> known = read_known_file(given.known, {folder->shown_width, folder->shown_height});
         if (!known) return known.error();
         options.known = std::move(*known);

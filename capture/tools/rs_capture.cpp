@@ -8,8 +8,8 @@
 #include <malloc.h>
 
 int main(int argc, char** argv) {
-    // Large pictures come and go all the time. Given back to the system each time, an eighth of an import of large
-    // photographs would go into clearing their pages.
+    // Pictures come and go all the time. Given back to the system each time, a tenth of an import of large photographs
+    // would go into clearing their pages; glibc keeps blocks of up to 32 MB, if it is asked to.
     ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
     ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
     CLI::App app("Makes capture sets (pictures and transforms.json) of objects on a turntable", "rs-capture");

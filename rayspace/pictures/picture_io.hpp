@@ -35,10 +35,6 @@ struct PictureInfo {
     int focal_35mm = 0;
 };
 
-// Photographs may be larger than the pictures that are computed with, where they are made smaller at once: cameras of
-// 60 and 100 megapixels are 9,000 and 12,000 pixels wide.
-inline constexpr int kMaxPhotographSide_px = 16384;
-
 // Only the header is read.
 Result<PictureInfo> read_picture_info(const std::filesystem::path& path, int max_side_px = kMaxPictureSide_px);
 

@@ -15,6 +15,7 @@
 
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/photo_folder.hpp"
+#include "capture/photos/intake/photograph.hpp"
 #include "capture/photos/intake/survey.hpp"
 #include "capture/photos/matte/cut_out.hpp"
 #include "rayspace/pictures/picture_io.hpp"
@@ -182,7 +183,7 @@ Status run(const Arguments& arguments) {
     Wrong sum;
     double views = 0;
     for (std::size_t i = 0; i < folder->photos.size(); i += arguments.every) {
-        Result<Image<Rgba8>> picture = read_picture(folder->photos[i]);
+        Result<Image<Rgba8>> picture = read_photograph(*folder, i);
         if (!picture) return picture.error();
         const Result<Image<Rgba8>> truth = read_picture(truth_folder->photos[i]);
         if (!truth) return truth.error();

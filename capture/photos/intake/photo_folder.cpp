@@ -1,6 +1,7 @@
 #include "capture/photos/intake/photo_folder.hpp"
 
 #include "rayspace/base/check.hpp"
+#include "rayspace/pictures/photograph_size.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
@@ -60,10 +61,11 @@ Status read_headers(PhotoFolder& found) {
 void set_reduction(PhotoFolder& found, int max_side_px) {
     found.width = found.shown_width;
     found.height = found.shown_height;
-    const int longer = std::max(found.width, found.height);
-    if (longer <= kReducedFrom * max_side_px && longer <= kMaxPictureSide_px) return;
-    found.reduction = static_cast<double>(longer) / max_side_px;
-    const auto whole = [&](int side) { return std::max(1, static_cast<int>(side / found.reduction + 1e-9)); };
+    found.reduction = photograph_reduction(found.width, found.height, max_side_px);
+    if (found.reduction == 1) return;
+    // A thin one is made smaller as far as a pixel of it is left.
+    found.reduction = std::min(found.reduction, static_cast<double>(std::min(found.width, found.height)));
+    const auto whole = [&](int side) { return static_cast<int>(side / found.reduction + 1e-9); };
     found.width = whole(found.width);
     found.height = whole(found.height);
 }
@@ -99,10 +101,13 @@ bool is_picture_name(const std::filesystem::path& name) {
 }
 
 Error turned_beside(const PhotoFolder& folder, const std::string& other) {
-    return Error{other + ": the photographs want to be shown turned (EXIF orientation " +
-                 std::to_string(folder.orientation) +
-                 "), and nobody can tell whether this was made for them as they are stored or as they are shown; turn "
-                 "their pixels first, e.g. with exiftran -ai or mogrify -auto-orient, and make it anew where it needs"};
+    const std::string states = folder.otherwise_turned > 0
+                                   ? "the photographs state several EXIF orientations"
+                                   : "the photographs' EXIF orientation is " + std::to_string(folder.orientation);
+    return Error{
+        other + ": " + states +
+        ", and whether this is of their pixels as they are stored or as they are shown cannot be told; turn the "
+        "pixels first, e.g. with exiftran -ai or mogrify -auto-orient, and then make this again"};
 }
 
 std::vector<std::string> file_names(const PhotoFolder& folder) {

@@ -45,7 +45,7 @@ struct PhotoFolder {
     }
     // Whether nobody can tell by its size if a mask or a camera is of the files' pixels or of what is shown.
     [[nodiscard]] bool turns_unnoticed() const {
-        return orientation != 1 && (orientation < 5 || shown_width == shown_height);
+        return otherwise_turned > 0 || (orientation != 1 && (orientation < 5 || shown_width == shown_height));
     }
 };
 
@@ -55,15 +55,14 @@ Error turned_beside(const PhotoFolder& folder, const std::string& other);
 // [photograph], without the folder.
 std::vector<std::string> file_names(const PhotoFolder& folder);
 
-// Photographs are made smaller where a side is longer than `max_side_px` by more than this factor: not for a little,
-// which would only blur them.
-inline constexpr double kReducedFrom = 1.25;
-
-// Lists the folder and reads the pictures' headers. Photographs with a side longer than kReducedFrom * max_side_px, or
-// than kMaxPictureSide_px, are to be read with max_side_px (kMinSide_px .. kMaxPictureSide_px) for the longer one.
-// Fails where there are no pictures or more than kMaxViews, where a header cannot be read, where a side is longer than
-// kMaxPhotographSide_px, and where two sizes differ (naming both files and sizes). Pixels are not looked at.
+// The least that photographs are made smaller to.
 inline constexpr int kMinSide_px = 64;
+
+// Lists the folder and reads the pictures' headers. Large photographs are to be read with max_side_px
+// (kMinSide_px .. kMaxPictureSide_px) for the longer side (photograph_reduction()).
+// Fails where there are no pictures or more than kMaxViews, where a header cannot be read, where a side is longer than
+// kMaxPhotographSide_px, and where two sizes differ (naming both files and sizes). What is left of a thin photograph
+// that is made smaller is a pixel at least. Pixels are not looked at.
 Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px = kMaxPictureSide_px);
 
 }  // namespace rs::capture

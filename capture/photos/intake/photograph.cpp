@@ -2,6 +2,7 @@
 
 #include "capture/photos/intake/reduction.hpp"
 #include "rayspace/base/check.hpp"
+#include "rayspace/pictures/photograph_size.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <utility>

@@ -4,6 +4,7 @@
 #include "capture/photos/intake/photograph.hpp"
 #include "capture/photos/intake/reduction.hpp"
 #include "capture/photos/matte/cut_out.hpp"
+#include "rayspace/pictures/photograph_size.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>

@@ -121,15 +121,14 @@ std::string what_it_rests_on(CalibrationMethod method) {
             return "the outlines of the object alone, which know little of the lens, and of round bodies nothing of "
                    "the steps.";
         case CalibrationMethod::kNominal:
-            return "nothing but assumptions: equal steps, a level camera, a usual lens.";
+            return "little but assumptions: equal steps, a level camera, and a usual lens where none is known.";
     }
     return "";
 }
 
 void add_summary(HtmlPage& page, const ImportReport& report) {
-    page.paragraph(std::to_string(report.views) + " views of " + std::to_string(report.folder.width) + "x" +
-                   std::to_string(report.folder.height) + " photographs. Calibration: " + to_string(report.method) +
-                   ". It rests on " + what_it_rests_on(report.method));
+    page.paragraph(std::to_string(report.views) + " views of " + sizes_text(report.folder) +
+                   ". Calibration: " + to_string(report.method) + ". It rests on " + what_it_rests_on(report.method));
     if (report.notes.empty()) {
         page.paragraph("There is nothing to warn of.");
     } else {

@@ -17,7 +17,8 @@ inline constexpr int kAnnotatedSide_px = 560;
 // points drawn on it. `view` counts the photographs of the report.
 Image<Rgba8> annotated_photo(ConstImageView<Rgba8> photo, const ImportReport& report, int view);
 
-// Reads some photographs of the folder `photos` again to draw on them; fails where one cannot be read.
+// Reads some of the report's photographs again to draw on them; fails where one cannot be read. `photos` names them all
+// in the title.
 Result<std::string> import_page(const std::filesystem::path& photos, const ImportReport& report);
 
 }  // namespace rs::capture

@@ -31,6 +31,9 @@ struct ImportReport : FoundRig {
     double distance = 0;  // object radii
 };
 
+// "4000x3810 photographs taken as 2048x1950".
+std::string sizes_text(const PhotoFolder& folder);
+
 inline std::string source_name(const ImportReport& report, std::size_t photo) {
     return report.folder.photos[photo].filename().string();
 }

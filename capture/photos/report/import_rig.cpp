@@ -50,6 +50,13 @@ std::optional<double> ground_height(const PhotoCalibration& calibration) {
 
 }  // namespace
 
+std::string sizes_text(const PhotoFolder& folder) {
+    const auto size = [](int width, int height) { return std::to_string(width) + "x" + std::to_string(height); };
+    std::string text = size(folder.shown_width, folder.shown_height) + " photographs";
+    if (folder.reduction > 1) text += " taken as " + size(folder.width, folder.height);
+    return text;
+}
+
 Rig nominal_import_rig(const ImportReport& report, const TurnOutline::Box& visible) {
     NominalRigOptions nominal;
     nominal.width = report.folder.width;
@@ -69,6 +76,7 @@ Rig nominal_import_rig(const ImportReport& report, const TurnOutline::Box& visib
     made["axis_from"] = report.nominal.axis_from;
     made["turning_from"] = report.nominal.turning_from;
     made["field_of_view_deg"] = nominal.fov_deg;
+    made["field_of_view_from"] = report.nominal.fov_from;
     return rig;
 }
 

@@ -34,7 +34,7 @@ Result<KnownInputs> known_inputs(const RigRequest& request, const NominalTurn& n
 
 TurntableModel nominal_model(const KnownInputs& known, const NominalTurn& nominal, const PhotoFolder& folder) {
     const double width = folder.width;
-    const double assumed_f_px = 0.5 * width / std::tan(0.5 * radians(nominal.fov_deg));
+    const double assumed_f_px = 0.5 * width / std::tan(0.5 * radians(kNominalFieldOfView_deg));
     TurntableModel model;
     model.lens =
         with_known(Lens{folder.width, folder.height, assumed_f_px, 0.5 * width, 0.5 * folder.height, 0, 0}, known);

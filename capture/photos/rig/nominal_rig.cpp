@@ -94,18 +94,21 @@ void find_turning_sense(const NominalTurnRequest& request, const PhotoFolder& fo
 
 }  // namespace
 
-double stated_field_of_view_deg(const PhotoFolder& folder) {
+std::optional<double> stated_field_of_view_deg(const PhotoFolder& folder) {
     constexpr double kFilmDiagonal_mm = 43.27;
-    if (folder.focal_35mm == 0) return kNominalFieldOfView_deg;
+    if (folder.focal_35mm == 0) return std::nullopt;
     const double share = folder.width / std::hypot(folder.width, folder.height);
     const double fov_deg = degrees(2 * std::atan(0.5 * kFilmDiagonal_mm * share / folder.focal_35mm));
-    return fov_deg >= 1 && fov_deg <= 120 ? fov_deg : kNominalFieldOfView_deg;
+    if (fov_deg < 1 || fov_deg > 120) return std::nullopt;
+    return fov_deg;
 }
 
 NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn) {
     const auto views = static_cast<double>(folder.photos.size());
     NominalTurn found;
-    found.fov_deg = request.fov_deg.value_or(stated_field_of_view_deg(folder));
+    const std::optional<double> stated = stated_field_of_view_deg(folder);
+    found.fov_deg = request.fov_deg.value_or(stated.value_or(kNominalFieldOfView_deg));
+    found.fov_from = request.fov_deg ? "given" : stated ? "camera" : "assumed";
     found.step_deg = request.degrees_per_view.value_or(360.0 / views);
     const bool closed = std::abs(found.step_deg * views - 360) < 1.5 * found.step_deg && views >= 4;
     find_axis(request, folder, turn, closed, found);

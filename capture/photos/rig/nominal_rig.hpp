@@ -53,6 +53,7 @@ Rig make_nominal_rig(const NominalRigOptions& options, const TurnOutline::Box& v
 // nominal rig stands on it, and calibration begins with it.
 struct NominalTurn {
     double fov_deg = kNominalFieldOfView_deg;
+    std::string fov_from;  // "given", "camera" (EXIF), "assumed"
     double step_deg = 0;
     double axis_x_px = 0;
     double axis_spread_px = 0;
@@ -70,9 +71,9 @@ struct NominalTurnRequest {
     std::optional<double> axis_x_px;
 };
 
-// The lens as the camera states it (PhotoFolder::focal_35mm), else kNominalFieldOfView_deg; horizontal. A photograph
-// that was cropped shows less than that.
-double stated_field_of_view_deg(const PhotoFolder& folder);
+// The lens as the camera states it (PhotoFolder::focal_35mm), where that is 1..120 degrees; horizontal. A photograph
+// that was cropped shows less than that, so calibration takes nothing from it.
+std::optional<double> stated_field_of_view_deg(const PhotoFolder& folder);
 
 NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn);
 

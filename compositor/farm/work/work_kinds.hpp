@@ -28,7 +28,7 @@ struct WorkKind {
     const char* input;    // what it takes, for people
     const char* ending;   // of a result's name
     bool reads_folder;
-    Result<Extent> (*extent_of)(const std::filesystem::path& input);
+    Result<Extent> (*extent_of)(const std::filesystem::path& input, const std::vector<std::string>& options);
     // What the tool takes: so much, and of every picture's pixel, and of one picture's. Of encode as measured (8 x
     // 64x64: 142 MB, 35 x 914x892: 507 MB), of import as capture/photos/import.hpp states it, for two photographs at a
     // time.

@@ -69,6 +69,9 @@ void ColourProfile::to_srgb(std::span<Rgba8> pixels) const {
 
 void ColourProfile::to_srgb(std::span<RgbaF> pixels) const {
     transform(of_floats_, pixels);
+    for (RgbaF& p : pixels) {
+        p = {std::clamp(p.r, 0.0F, 1.0F), std::clamp(p.g, 0.0F, 1.0F), std::clamp(p.b, 0.0F, 1.0F), p.a};
+    }
 }
 
 }  // namespace rs::pictures

@@ -15,7 +15,8 @@ constexpr std::size_t kLongestName = 255;
 
 class HeaderReader {
 public:
-    explicit HeaderReader(const std::string& path) : path_(path), stream_(path, std::ios::binary) {
+    HeaderReader(const std::string& path, int max_side_px)
+        : path_(path), max_side_px_(max_side_px), stream_(path, std::ios::binary) {
         stream_.seekg(0, std::ios::end);
         size_ = static_cast<std::int64_t>(stream_.tellg());
         stream_.seekg(0);
@@ -72,7 +73,7 @@ private:
         } else if (type == "preview" && size >= 8) {
             const std::uint64_t width = number();
             const std::uint64_t height = number();
-            if (width > kMaxPictureSide_px || height > kMaxPictureSide_px ||
+            if (width > static_cast<std::uint64_t>(max_side_px_) || height > static_cast<std::uint64_t>(max_side_px_) ||
                 4 * width * height > static_cast<std::uint64_t>(size)) {
                 return cut_short();
             }
@@ -81,9 +82,9 @@ private:
             for (std::int64_t& c : corner) c = static_cast<std::int32_t>(number());
             const std::int64_t width = corner[2] - corner[0] + 1;
             const std::int64_t height = corner[3] - corner[1] + 1;
-            if (width < 1 || height < 1 || width > kMaxPictureSide_px || height > kMaxPictureSide_px) {
+            if (width < 1 || height < 1 || width > max_side_px_ || height > max_side_px_) {
                 return Error{path_ + ": claims " + std::to_string(width) + "x" + std::to_string(height) +
-                             " pixels; each side must be 1.." + std::to_string(kMaxPictureSide_px)};
+                             " pixels; each side must be 1.." + std::to_string(max_side_px_)};
             }
         }
         stream_.seekg(end);
@@ -91,14 +92,15 @@ private:
     }
 
     const std::string& path_;
+    int max_side_px_;
     std::ifstream stream_;
     std::int64_t size_ = 0;
 };
 
 }  // namespace
 
-Status check_exr_header(const std::string& path) {
-    return HeaderReader(path).check();
+Status check_exr_header(const std::string& path, int max_side_px) {
+    return HeaderReader(path, max_side_px).check();
 }
 
 }  // namespace rs::pictures

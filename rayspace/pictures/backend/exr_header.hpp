@@ -11,6 +11,6 @@ namespace rs::pictures {
 // Walks the attributes of all parts' headers (OpenEXR file layout, "Header Attributes"): no attribute, nor a text or
 // preview inside of one, may be larger than the rest of the file, and no window larger than a picture may be. Files
 // that are no EXR pass: they are not for this function to judge. Reads the header once; memory: some hundred bytes.
-Status check_exr_header(const std::string& path);
+Status check_exr_header(const std::string& path, int max_side_px);
 
 }  // namespace rs::pictures

@@ -103,6 +103,7 @@ TEST_F(ImportTest, TurnsWhatAPhoneTookOnItsSide) {
     EXPECT_NEAR(report->nominal.axis_x_px, turn_.axis_x_px, 0.6);
     // 43.27 mm of film across the diagonal, 50 mm behind the lens.
     const double half_mm = 0.5 * 43.27 * turn_.width / std::hypot(turn_.width, turn_.height);
+    EXPECT_EQ(report->nominal.fov_from, "camera");
     EXPECT_NEAR(report->nominal.fov_deg, 2 * std::atan(half_mm / 50) * 180 / 3.14159265, 1e-3);
     const Result<Rig> rig = read_rig(options_.output);
     ASSERT_TRUE(rig.ok()) << rig.error().message;
@@ -126,8 +127,21 @@ TEST_F(ImportTest, RefusesMasksThatMayBeOfOtherPixels) {
     options_.masks = folder_ / "photos";
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_FALSE(report.ok());
-    EXPECT_THAT(report.error().message, HasSubstr("EXIF orientation 3"));
+    EXPECT_THAT(report.error().message, HasSubstr("EXIF orientation is 3"));
     EXPECT_TRUE(output_is_clean());
+    // One of them turned, which a tool that makes masks may have followed.
+    for (int i = 0; i < turn_.views; ++i) {
+        const std::filesystem::path jpeg = folder_ / "photos" / (std::to_string(i + 1) + ".jpg");
+        ASSERT_TRUE(write_jpeg(jpeg, test::draw_view(turn_, i).photo, 98).ok());
+        if (i == 4) test::add_exif(jpeg, 3);
+    }
+    const Result<ImportReport> mixed = import_photos(options_, nullptr);
+    ASSERT_FALSE(mixed.ok());
+    EXPECT_THAT(mixed.error().message, HasSubstr("several EXIF orientations"));
+    options_.masks.clear();
+    const Result<ImportReport> without = import_photos(options_, nullptr);
+    ASSERT_TRUE(without.ok()) << without.error().message;
+    EXPECT_EQ(without->nominal.fov_from, "assumed");
 }
 
 TEST_F(ImportTest, LargePhotographsAreWorkedOnSmaller) {

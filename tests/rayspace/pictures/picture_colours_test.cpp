@@ -7,11 +7,14 @@
 
 #include <gtest/gtest.h>
 #include <lcms2.h>
+#include <zlib.h>
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 #include <string>
 
@@ -124,21 +127,98 @@ TEST_F(PictureColours, OfADamagedProfileAreRefusedOrRead) {
     EXPECT_LT(refused, 390);
 }
 
-TEST_F(PictureColours, OfATiffOrWebpWithADamagedProfileAreRefusedToo) {
-    // A profile of one tag that lies behind its end, as it stands in files of both kinds.
-    std::string profile(144, '\0');
-    profile[3] = static_cast<char>(144);
+// A profile with one tag, of which `at` says where it is; sound at 144.
+std::string profile_of_a_tag(unsigned char at) {
+    std::string profile(164, '\0');
+    profile[3] = static_cast<char>(164);
     profile.replace(36, 4, "acsp");
     profile[131] = 1;
     profile.replace(132, 4, "desc");
-    profile[138] = 1;  // at 256
+    profile[139] = static_cast<char>(at);
     profile[143] = 20;
-    for (const std::string& begin : {std::string("II*\0", 4), std::string("RIFF....WEBP")}) {
-        std::ofstream(file_, std::ios::binary) << begin << std::string(100, 'x') << profile << "end";
+    profile.replace(144, 4, "desc");
+    return profile;
+}
+
+std::string big_endian(std::uint32_t n) {
+    return test::bytes({static_cast<int>(n >> 24U), static_cast<int>(n >> 16U & 255U), static_cast<int>(n >> 8U & 255U),
+                        static_cast<int>(n & 255U)});
+}
+
+std::string png_chunk(const std::string& type, const std::string& data) {
+    const std::string checked = type + data;
+    const auto sum = crc32(0, reinterpret_cast<const Bytef*>(checked.data()), static_cast<uInt>(checked.size()));
+    return big_endian(static_cast<std::uint32_t>(data.size())) + checked + big_endian(static_cast<std::uint32_t>(sum));
+}
+
+std::string deflated(const std::string& data) {
+    std::string packed(data.size() + 100, '\0');
+    uLongf size = packed.size();
+    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(data.data()), data.size());
+    packed.resize(size);
+    return packed;
+}
+
+// Files that are nothing but a header and a profile.
+std::map<std::string, std::string> files_with(const std::string& profile) {
+    std::map<std::string, std::string> files;
+    const std::string png =
+        std::string("\x89PNG\r\n\x1a\n") + png_chunk("IHDR", std::string("\0\0\0\4\0\0\0\4\10\2\0\0\0", 13));
+    const std::string iccp = png_chunk("iCCP", std::string("p\0\0", 3) + deflated(profile));
+    const std::string rest = png_chunk("IDAT", deflated(std::string(52, '\0'))) + png_chunk("IEND", "");
+    files["png"] = png + iccp + rest;
+    files["png with more behind the profile"] =
+        png + png_chunk("iCCP", std::string("p\0\0", 3) + deflated(profile + "more")) + rest;
+    files["png of two"] = png + png_chunk("iCCP", "p") + iccp + rest;
+    const std::string part = "ICC_PROFILE" + test::bytes({0, 1, 1}) + profile;
+    const std::string app2 = test::bytes({0xFF, 0xE2, 0, static_cast<int>(part.size()) + 2}) + part;
+    const std::string half = "ICC_PROFILE" + test::bytes({0, 2, 2}) + profile.substr(80);
+    const std::string first = "ICC_PROFILE" + test::bytes({0, 1, 2}) + profile.substr(0, 80);
+    for (const auto& [name, between] :
+         std::map<std::string, std::string>{{"jpeg", ""},
+                                            {"jpeg with a stray byte", "x"},
+                                            {"jpeg with a marker alone", "\xFF\x01\xFF\xD0"},
+                                            {"jpeg with zeros", std::string("\0\xFF\0", 3)},
+                                            {"jpeg with filling", "\xFF\xFF"}}) {
+        files[name] = "\xFF\xD8" + between + app2 + "\xFF\xD9";
+    }
+    files["jpeg of two parts"] = "\xFF\xD8" + test::bytes({0xFF, 0xE2, 0, static_cast<int>(half.size()) + 2}) + half +
+                                 test::bytes({0xFF, 0xE2, 0, static_cast<int>(first.size()) + 2}) + first + "\xFF\xD9";
+    const auto size = static_cast<int>(profile.size());
+    files["tiff"] = std::string("II*\0\10\0\0\0\1\0", 10) +
+                    test::bytes({0x73, 0x87, 7, 0, size, 0, 0, 0, 26, 0, 0, 0}) + std::string(4, '\0') + profile;
+    files["big tiff"] = std::string("MM\0\53\0\10\0\0\0\0\0\0\0\0\0\20\0\0\0\0\0\0\0\1", 24) +
+                        test::bytes({0x87, 0x73, 0, 1, 0, 0, 0, 0, 0, 0, 0, size, 0, 0, 0, 0, 0, 0, 0, 44}) + profile;
+    files["webp"] = "RIFF....WEBPVP8X" + std::string("\12\0\0\0", 4) + std::string(10, 'x') + "ICCP" +
+                    test::bytes({size, 0, 0, 0}) + profile;
+    return files;
+}
+
+TEST_F(PictureColours, OfDamagedProfilesAreFoundInEveryKindOfFile) {
+    const auto refuses = [&](const std::string& file) {
+        std::ofstream(file_, std::ios::binary) << file;
+        const Result<PictureInfo> info = read_picture_info(file_);
+        return !info.ok() && info.error().message.find("its colour profile is damaged") != std::string::npos;
+    };
+    for (const auto& [name, file] : files_with(profile_of_a_tag(144))) EXPECT_FALSE(refuses(file)) << name;
+    for (const auto& [name, file] : files_with(profile_of_a_tag(145))) EXPECT_TRUE(refuses(file)) << name;
+    std::string other = files_with(profile_of_a_tag(144)).at("tiff");
+    other[12] = 3;  // libtiff would make bytes of two-byte numbers
+    EXPECT_TRUE(refuses(other));
+    for (const std::string& kind : {std::string("\0\0\1\0icon", 8), std::string("8BPS")}) {
+        std::ofstream(file_, std::ios::binary) << kind;
         const Result<PictureInfo> info = read_picture_info(file_);
         ASSERT_FALSE(info.ok());
-        EXPECT_NE(info.error().message.find("its colour profile is damaged"), std::string::npos)
-            << info.error().message;
+        EXPECT_NE(info.error().message.find("are not read; convert it"), std::string::npos) << info.error().message;
+    }
+}
+
+TEST_F(PictureColours, BeyondSrgbAreNoNegativeLight) {
+    read({250, 10, 20, 255}, icc_of(Primaries::display_p3));
+    const Result<Image<RgbaF>> light = read_picture_linear(file_);
+    ASSERT_TRUE(light.ok()) << light.error().message;
+    for (const RgbaF& p : light->pixels()) {
+        ASSERT_TRUE(p.r <= 1 && p.g >= 0 && p.b >= 0) << p.r << " " << p.g << " " << p.b;
     }
 }
 

@@ -7,7 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <zlib.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 
 namespace rs::capture {
@@ -114,7 +117,8 @@ TEST(PhotoFolder, SaysWhatPhotographsShowWhenTheyAreTurned) {
         EXPECT_EQ(found->turns_unnoticed(), orientation == 3);
     }
     const Error error = turned_beside(*open_photo_folder(folder.path()), "--masks there");
-    for (const char* part : {"--masks there", "orientation 6", "exiftran"}) EXPECT_THAT(error.message, HasSubstr(part));
+    for (const char* part : {"--masks there", "orientation is 6", "exiftran"})
+        EXPECT_THAT(error.message, HasSubstr(part));
 }
 
 TEST(PhotoFolder, MakesLargePhotographsSmaller) {
@@ -135,6 +139,41 @@ TEST(PhotoFolder, MakesLargePhotographsSmaller) {
     EXPECT_EQ(small.shown_width, 400);
     EXPECT_EQ(small.in_picture({200, 190.5}), glm::dvec2(64, 60.5)) << "the middle stays the middle";
     EXPECT_EQ(small.in_picture({200 + 31.25, 190.5 - 62.5}), glm::dvec2(74, 40.5));
+}
+
+TEST(PhotoFolder, LeavesAPixelOfAThinPhotograph) {
+    const test::TemporaryFolder folder;
+    write_picture(folder / "1.png", 2600, 1);
+    const Result<PhotoFolder> thin = open_photo_folder(folder.path(), 2048);
+    ASSERT_TRUE(thin.ok()) << thin.error().message;
+    EXPECT_EQ(thin->reduction, 1);
+    EXPECT_EQ(thin->width, 2600);
+    write_picture(folder / "1.png", 2600, 20);
+    EXPECT_EQ(open_photo_folder(folder.path(), 64)->height, 1);
+}
+
+TEST(PhotoFolder, TakesPhotographsThatAreLargerThanPictures) {
+    const test::TemporaryFolder folder;
+    write_picture(folder / "1.png", kMaxPictureSide_px, 64);
+    // write_png() writes none as large: its header is made to claim so, which is all that is read here.
+    const auto claim = [&](std::uint32_t width) {
+        std::fstream png(folder / "1.png", std::ios::in | std::ios::out | std::ios::binary);
+        std::string header(17, 0);
+        png.seekg(12);
+        png.read(header.data(), 17);
+        for (std::size_t i = 0; i < 4; ++i) header[4 + i] = static_cast<char>(width >> (24 - 8 * i));
+        const auto crc = static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(header.data()), 17));
+        for (std::size_t i = 0; i < 4; ++i) header += static_cast<char>(crc >> (24 - 8 * i));
+        png.seekp(12);
+        png.write(header.data(), 21);
+    };
+    claim(9504);
+    const Result<PhotoFolder> large = open_photo_folder(folder.path(), kMaxPictureSide_px);
+    ASSERT_TRUE(large.ok()) << large.error().message;
+    EXPECT_EQ(large->shown_width, 9504);
+    EXPECT_EQ(large->width, kMaxPictureSide_px);
+    claim(16385);
+    EXPECT_FALSE(open_photo_folder(folder.path()).ok());
 }
 
 TEST(PhotoFolder, KnowsTheLensThatAllPhotographsState) {
