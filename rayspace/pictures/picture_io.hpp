@@ -38,11 +38,11 @@ struct PictureInfo {
 // Only the header is read.
 Result<PictureInfo> read_picture_info(const std::filesystem::path& path, int max_side_px = kMaxPictureSide_px);
 
-// Any picture format that OpenImageIO reads, as 8-bit sRGB with straight alpha (255 where the file has none). Colours
-// of an ICC profile become sRGB, but of float files (a HEIC file's profile is not read by OpenImageIO 2.4). Grey is
-// spread to RGB; 16-bit and float files are converted (float as linear light). Associated alpha is undone. EXIF
-// orientation is not applied (PictureInfo has it): pixels stay where the camera model has them. A damaged or truncated
-// file is an error.
+// Any picture format that OpenImageIO reads, but icons, Photoshop's and JPEG 2000 files, as 8-bit sRGB with straight
+// alpha (255 where the file has none). Colours of an RGB profile (ICC) become sRGB, but of float files (a HEIC file's
+// profile is not read by OpenImageIO 2.4); a file with a damaged profile is an error. Grey is spread to RGB; 16-bit and
+// float files are converted (float as linear light). Associated alpha is undone. EXIF orientation is not applied
+// (PictureInfo has it): pixels stay where the camera model has them. A damaged or truncated file is an error.
 Result<Image<Rgba8>> read_picture(const std::filesystem::path& path, int max_side_px = kMaxPictureSide_px);
 
 // Linear-light float RGBA, alpha straight: EXR and HDR as they are, 8- and 16-bit files through the sRGB curve.
