@@ -78,8 +78,9 @@ ImportReport report_of(const ImportOptions& options, const Intake& intake, const
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
     Result<PhotoFolder> folder = open_photo_folder(options.photos, options.max_side_px);
     if (!folder) return folder.error();
-    if (!options.masks.empty() && folder->turns_unnoticed())
+    if (!options.masks.empty() && folder->turns_unnoticed()) {
         return turned_beside(*folder, "--masks " + options.masks.string());
+    }
     if (Status status = check_places(options); !status) return status.error();
     Result<StagedFolder> staged = StagedFolder::create(options.output);
     if (!staged) return staged.error();

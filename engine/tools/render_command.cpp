@@ -109,11 +109,11 @@ Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras
 void fit_on_sheet(std::vector<Camera>& cameras, std::size_t columns) {
     constexpr double kSheetSide_px = 4096;
     columns = std::min(columns, cameras.size());
-    const auto rows = static_cast<double>((cameras.size() + columns - 1) / columns);
+    const std::size_t rows = (cameras.size() + columns - 1) / columns;
     double scale = 1;
     for (const Camera& camera : cameras) {
         scale = std::min({scale, kSheetSide_px / (static_cast<double>(columns) * camera.width),
-                          kSheetSide_px / (rows * camera.height)});
+                          kSheetSide_px / (static_cast<double>(rows) * camera.height)});
     }
     if (scale == 1) return;
     const auto scaled = [&](int side) { return std::max(1, static_cast<int>(side * scale)); };

@@ -59,10 +59,10 @@ std::vector<std::string> file_names(const PhotoFolder& folder);
 inline constexpr int kMinSide_px = 64;
 
 // Lists the folder and reads the pictures' headers. Large photographs are to be read with max_side_px
-// (kMinSide_px .. kMaxPictureSide_px) for the longer side (photograph_reduction()).
-// Fails where there are no pictures or more than kMaxViews, where a header cannot be read, where a side is longer than
-// kMaxPhotographSide_px, and where two sizes differ (naming both files and sizes). What is left of a thin photograph
-// that is made smaller is a pixel at least. Pixels are not looked at.
+// (kMinSide_px .. kMaxPictureSide_px) for the longer side (photograph_reduction()). Fails where there are no pictures
+// or more than kMaxViews, where a header cannot be read, where a side is longer than kMaxPhotographSide_px, and where
+// two sizes differ (naming both files and sizes). What is left of a thin photograph that is made smaller is a pixel at
+// least. Pixels are not looked at.
 Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px = kMaxPictureSide_px);
 
 }  // namespace rs::capture
