@@ -125,7 +125,7 @@ TEST_F(PhotoCalibrationTest, AChoiceIsTakenOrFails) {
     EXPECT_THAT(nominal->notes, Contains(HasSubstr("takes nothing of what was given as known")));
     const auto plain_page = import_page(options_.photos, *nominal);
     ASSERT_TRUE(plain_page.ok()) << plain_page.error().message;
-    EXPECT_THAT(*plain_page, AllOf(HasSubstr("nothing but assumptions"), Not(HasSubstr("Estimates"))));
+    EXPECT_THAT(*plain_page, AllOf(HasSubstr("little but assumptions"), Not(HasSubstr("Estimates"))));
 }
 
 Image<Rgba8> grey_where(const Image<std::uint8_t>& mask) {
