@@ -119,9 +119,8 @@ void print_summary(const std::string& output, const ImportReport& report) {
                 to_string(report.turning).c_str(), 100 * report.min_coverage, 100 * report.max_coverage);
     if (!report.calibration.calibration) {
         std::printf(
-            "calibration: nominal (equal steps, a level camera, %.3g degrees of field of view, %s); axis at column "
-            "%.1f "
-            "(%s), turning %s\n",
+            "calibration: nominal (equal steps, a level camera, %.3g degrees of field of view, %s); "
+            "axis at column %.1f (%s), turning %s\n",
             report.nominal.fov_deg,
             report.nominal.fov_from == "camera" ? "as the camera states" : report.nominal.fov_from.c_str(),
             report.nominal.axis_x_px, report.nominal.axis_from.c_str(), report.nominal.turning_from.c_str());

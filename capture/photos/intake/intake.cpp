@@ -24,9 +24,8 @@ Result<Intake> take_in(PhotoFolder folder, Progress* progress) {
                               std::to_string(of.orientation));
     }
     if (of.reduction > 1) {
-        taken.notes.push_back("the photographs of " + std::to_string(of.shown_width) + "x" +
-                              std::to_string(of.shown_height) + " are taken as " + std::to_string(of.width) + "x" +
-                              std::to_string(of.height) + "; --max-side PX keeps more of them, and takes longer");
+        taken.notes.push_back("the photographs of " + size_text(of.shown_width, of.shown_height) + " are taken as " +
+                              size_text(of.width, of.height) + "; --max-side PX keeps more of them, and takes longer");
     }
     if (test_repeat(taken.survey.thumbnails).last_repeats_first) {
         std::vector<std::filesystem::path>& photos = taken.folder.photos;

@@ -27,10 +27,6 @@ std::string_view take_number(std::string_view text, std::size_t& at) {
     return text.substr(begin, at - begin);
 }
 
-std::string size_text(int width, int height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-}
-
 Status read_headers(PhotoFolder& found) {
     std::array<int, 9> turned{};  // [orientation]: how many photographs
     std::optional<PictureInfo> first;
@@ -98,6 +94,10 @@ bool is_picture_name(const std::filesystem::path& name) {
     std::string extension = name.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), lower);
     return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+std::string size_text(int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
 }
 
 Error turned_beside(const PhotoFolder& folder, const std::string& other) {

@@ -49,6 +49,9 @@ struct PhotoFolder {
     }
 };
 
+// "4000x3000".
+std::string size_text(int width, int height);
+
 // What is the matter where such photographs come with `other`, which is for pixels.
 Error turned_beside(const PhotoFolder& folder, const std::string& other);
 

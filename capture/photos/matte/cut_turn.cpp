@@ -58,9 +58,8 @@ Status apply_mask(const std::filesystem::path& masks, const PhotoFolder& folder,
     Result<Image<Rgba8>> mask = read_picture(found, kMaxPhotographSide_px);
     if (!mask) return mask.error();
     if (mask->width() != folder.shown_width || mask->height() != folder.shown_height) {
-        return Error{found.string() + ": is " + std::to_string(mask->width()) + "x" + std::to_string(mask->height()) +
-                     ", the photograph " + std::to_string(folder.shown_width) + "x" +
-                     std::to_string(folder.shown_height) + "; masks have the photographs' size"};
+        return Error{found.string() + ": is " + size_text(mask->width(), mask->height()) + ", the photograph " +
+                     size_text(folder.shown_width, folder.shown_height) + "; masks have the photographs' size"};
     }
     for (Rgba8& m : mask->pixels()) {  // white on transparent is a mask too
         m = {0, 0, 0, static_cast<std::uint8_t>((std::max({m.r, m.g, m.b}) * m.a + 127) / 255)};

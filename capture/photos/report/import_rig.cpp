@@ -51,9 +51,8 @@ std::optional<double> ground_height(const PhotoCalibration& calibration) {
 }  // namespace
 
 std::string sizes_text(const PhotoFolder& folder) {
-    const auto size = [](int width, int height) { return std::to_string(width) + "x" + std::to_string(height); };
-    std::string text = size(folder.shown_width, folder.shown_height) + " photographs";
-    if (folder.reduction > 1) text += " taken as " + size(folder.width, folder.height);
+    std::string text = size_text(folder.shown_width, folder.shown_height) + " photographs";
+    if (folder.reduction > 1) text += " taken as " + size_text(folder.width, folder.height);
     return text;
 }
 

@@ -25,8 +25,9 @@ RigRequest in_picture_px(RigRequest given, const PhotoFolder& folder) {
 Result<KnownInputs> known_inputs(const RigRequest& request, const NominalTurn& nominal, const PhotoFolder& folder) {
     Result<KnownInputs> known = known_of_photographs(request.known, file_names(folder));
     if (!known) return known;
-    if (request.fov_deg)
+    if (request.fov_deg) {
         known->f_px = 0.5 * folder.shown_width / folder.reduction / std::tan(0.5 * radians(*request.fov_deg));
+    }
     if (request.turning) known->counter_clockwise = *request.turning == Turning::kCounterClockwise;
     if (request.degrees_per_view) known->step_rad = sense(nominal) * radians(*request.degrees_per_view);
     return known;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace rs::capture {
 
@@ -92,8 +93,8 @@ void find_turning_sense(const NominalTurnRequest& request, const PhotoFolder& fo
     }
 }
 
-}  // namespace
-
+// The lens as the camera states it, where that is 1..120 degrees; horizontal. A photograph that was cropped shows less
+// than that, so calibration takes nothing from it.
 std::optional<double> stated_field_of_view_deg(const PhotoFolder& folder) {
     constexpr double kFilmDiagonal_mm = 43.27;
     if (folder.focal_35mm == 0) return std::nullopt;
@@ -102,6 +103,8 @@ std::optional<double> stated_field_of_view_deg(const PhotoFolder& folder) {
     if (fov_deg < 1 || fov_deg > 120) return std::nullopt;
     return fov_deg;
 }
+
+}  // namespace
 
 NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn) {
     const auto views = static_cast<double>(folder.photos.size());

@@ -71,10 +71,6 @@ struct NominalTurnRequest {
     std::optional<double> axis_x_px;
 };
 
-// The lens as the camera states it (PhotoFolder::focal_35mm), where that is 1..120 degrees; horizontal. A photograph
-// that was cropped shows less than that, so calibration takes nothing from it.
-std::optional<double> stated_field_of_view_deg(const PhotoFolder& folder);
-
 NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn);
 
 }  // namespace rs::capture

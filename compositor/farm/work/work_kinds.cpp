@@ -35,10 +35,11 @@ int max_side_of(const std::vector<std::string>& options) {
     for (std::size_t i = 0; i < options.size(); ++i) {
         std::string_view value;
         if (options[i] == kOption && i + 1 < options.size()) value = options[i + 1];
-        if (options[i].starts_with(std::string(kOption) + "="))
+        if (options[i].starts_with(std::string(kOption) + "=")) {
             value = std::string_view(options[i]).substr(kOption.size() + 1);
-        std::from_chars(value.data(), value.data() + value.size(),
-                        max_side_px);  // what is no number rs-capture refuses
+        }
+        // What is no number rs-capture refuses.
+        std::from_chars(value.data(), value.data() + value.size(), max_side_px);
     }
     return std::clamp(max_side_px, 1, kMaxPictureSide_px);
 }

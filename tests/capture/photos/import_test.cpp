@@ -3,7 +3,7 @@
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "tests/capture/photos/turn_of_pictures.hpp"
-#include "tests/support/oriented_jpeg.hpp"
+#include "tests/support/camera_jpeg.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>

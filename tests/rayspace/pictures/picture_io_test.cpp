@@ -2,6 +2,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "tests/support/png_header.hpp"
 #include "tests/support/small_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -39,25 +40,6 @@ void put_bytes(const fs::path& path, std::span<const std::byte> bytes) {
 
 void put_bytes(const fs::path& path, const std::string& text) {
     put_bytes(path, std::as_bytes(std::span(text)));
-}
-
-std::uint32_t crc32(std::span<const std::byte> bytes) {
-    std::uint32_t crc = 0xFFFFFFFFU;
-    for (const std::byte b : bytes) {
-        crc ^= static_cast<std::uint32_t>(b);
-        for (int i = 0; i < 8; ++i) crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
-    }
-    return ~crc;
-}
-
-// Changes the width and height that a PNG claims, its check sum with them.
-void claim_size(std::vector<std::byte>& png, std::uint32_t width, std::uint32_t height) {
-    const auto put_big_endian = [&](std::size_t at, std::uint32_t n) {
-        for (int i = 0; i < 4; ++i) png[at + static_cast<std::size_t>(i)] = static_cast<std::byte>(n >> (24 - 8 * i));
-    };
-    put_big_endian(16, width);
-    put_big_endian(20, height);
-    put_big_endian(29, crc32(std::span(png).subspan(12, 17)));
 }
 
 std::string picture_error(const fs::path& path) {
@@ -236,11 +218,11 @@ TEST(PictureIo, HugeHeadersAreRefusedBeforeAnythingIsAllocated) {
     ASSERT_TRUE(write_png(folder / "a.png", noise(8, 8)).ok());
     auto bytes = read_file(folder / "a.png", 1 << 20);
     ASSERT_TRUE(bytes.ok());
-    claim_size(*bytes, 60000, 60000);
+    test::claim_size(*bytes, 60000, 60000);
     put_bytes(folder / "bomb.png", *bytes);
     EXPECT_FALSE(read_picture_info(folder / "bomb.png").ok());
     EXPECT_THAT(picture_error(folder / "bomb.png"), HasSubstr("claims 60000x60000 pixels; each side must be 1..8192"));
-    claim_size(*bytes, 8193, 8);
+    test::claim_size(*bytes, 8193, 8);
     put_bytes(folder / "wide.png", *bytes);
     EXPECT_THAT(picture_error(folder / "wide.png"), HasSubstr("8193x8"));
 }

@@ -1,5 +1,5 @@
 #include "rayspace/pictures/picture_io.hpp"
-#include "tests/support/oriented_jpeg.hpp"
+#include "tests/support/camera_jpeg.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,13 @@
 #include "capture/photos/intake/photo_folder.hpp"
 
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/pictures/picture_io.hpp"
-#include "tests/support/oriented_jpeg.hpp"
+#include "tests/support/camera_jpeg.hpp"
+#include "tests/support/png_header.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -157,15 +157,10 @@ TEST(PhotoFolder, TakesPhotographsThatAreLargerThanPictures) {
     write_picture(folder / "1.png", kMaxPictureSide_px, 64);
     // write_png() writes none as large: its header is made to claim so, which is all that is read here.
     const auto claim = [&](std::uint32_t width) {
-        std::fstream png(folder / "1.png", std::ios::in | std::ios::out | std::ios::binary);
-        std::string header(17, 0);
-        png.seekg(12);
-        png.read(header.data(), 17);
-        for (std::size_t i = 0; i < 4; ++i) header[4 + i] = static_cast<char>(width >> (24 - 8 * i));
-        const auto crc = static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(header.data()), 17));
-        for (std::size_t i = 0; i < 4; ++i) header += static_cast<char>(crc >> (24 - 8 * i));
-        png.seekp(12);
-        png.write(header.data(), 21);
+        auto png = read_file(folder / "1.png", 1 << 20);
+        ASSERT_TRUE(png.ok()) << png.error().message;
+        test::claim_size(*png, width, 64);
+        ASSERT_TRUE(write_file(folder / "1.png", *png).ok());
     };
     claim(9504);
     const Result<PhotoFolder> large = open_photo_folder(folder.path(), kMaxPictureSide_px);

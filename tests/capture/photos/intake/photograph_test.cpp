@@ -1,7 +1,7 @@
 #include "capture/photos/intake/photograph.hpp"
 
 #include "rayspace/pictures/picture_io.hpp"
-#include "tests/support/oriented_jpeg.hpp"
+#include "tests/support/camera_jpeg.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
