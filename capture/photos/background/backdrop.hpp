@@ -6,6 +6,7 @@
 // is that still picture: per pixel the value that most pictures agree on, where it is of the colours seen along the
 // border; filled in smoothly from around where the object always hides it.
 
+#include "capture/photos/intake/colour_difference.hpp"
 #include "capture/photos/intake/survey.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
@@ -49,6 +50,10 @@ struct Backdrop {
     Image<std::uint8_t> hidden{};
     // 255 on a turntable's disc and around it, where the object's shadow falls; empty where no disc was found.
     Image<std::uint8_t> ground{};
+    // The plate's light in a grey or white studio, where it is an even course (even_plate.hpp): right behind the
+    // object, too, with none of its shadow, and finer than codes are. Empty for another backdrop.
+    Image<LinearRgb> even{};
+    Image<std::uint8_t> above_shadows{};  // of a studio: 255 where the object throws none; empty: nobody can tell
     // Mean difference near by between the samples that show the plate and the plate; as empty.
     Image<float> noise_delta_e{};
 };

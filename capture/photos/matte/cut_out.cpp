@@ -1,7 +1,7 @@
 #include "capture/photos/matte/cut_out.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
-#include "capture/photos/background/even_plate.hpp"
+#include "capture/photos/background/light_share.hpp"
 #include "capture/photos/intake/exposure.hpp"
 #include "capture/photos/intake/survey.hpp"
 #include "capture/photos/matte/enclosed_parts.hpp"
@@ -108,41 +108,19 @@ Image<T> scaled(const Image<T>& mask, int width, int height) {
     return result;
 }
 
-// The plate, but as `course` says; its own around the picture where it clearly differs, as a mark on a wall. Farther
-// inside, what never moves may be the object. The noise is that around the picture, where the plate surely is right.
-CleanPlateView followed(const CleanPlateView& plate, ConstImageView<std::uint8_t> untouched, Image<LinearRgb> course) {
-    constexpr float kVisible_delta_e = 2.5F;
-    const int width = course.width(), height = course.height();
-    double noise = 0;
-    int seen = 0;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            if (untouched(x, y) == 0 || !in_border_band(x, y, width, height)) continue;
-            const LinearRgb& own = plate.light(x, y);
-            const float off = delta_e(lab_from_linear(own), lab_from_linear(course(x, y)));
-            if (off > kVisible_delta_e) course(x, y) = own;
-            noise += plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
-            ++seen;
-        }
-    }
-    CleanPlateView result;
-    result.light = std::move(course);
-    result.screen = plate.screen;
-    result.noise_delta_e = Image<float>(width, height, static_cast<float>(noise / std::max(1, seen)));
-    return result;
-}
-
 }  // namespace
 
 ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
     : kind_(backdrop.kind),
       options_(mask_options_for(backdrop)),
       flat_grey_(backdrop.flat_grey),
+      is_even_(!backdrop.even.empty()),
       band_px_(expected_band_px(width, height)) {
     if (kind_ == BackdropKind::kAlpha) return;
     RS_CHECK(!backdrop.plate.empty());
     cv::Mat3f plate;
-    cv::resize(linear_mat(backdrop.plate), plate, {width, height}, 0, 0, cv::INTER_LINEAR);
+    cv::resize(is_even_ ? light_mat(backdrop.even) : linear_mat(backdrop.plate), plate, {width, height}, 0, 0,
+               cv::INTER_LINEAR);
     plate_.light = Image<LinearRgb>(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) plate_.light(x, y) = {plate(y, x)[0], plate(y, x)[1], plate(y, x)[2]};
@@ -150,14 +128,10 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
     for (const Rgba8& colour : backdrop.screen) plate_.screen.push_back(linear_rgb(colour));
     plate_.noise_delta_e = scaled(backdrop.noise_delta_e, width, height);
     plate_.ground = scaled(backdrop.ground, width, height);
+    plate_.above = scaled(backdrop.above_shadows, width, height);
     plate_.hidden = scaled(backdrop.hidden, width, height);
     untouched_ = scaled(backdrop.untouched, width, height);
     if (flat_grey_) flat_plate_ = flat_plate(plate_, untouched_, linear_rgb(*flat_grey_));
-    const bool grey = kind_ != BackdropKind::kBlack && !is_colourful(linear_rgb(backdrop.colour));
-    if (grey && !untouched_.empty() && backdrop.ground.empty()) {
-        const Image<LinearRgb> course = even_plate(backdrop.plate, backdrop.untouched);
-        if (!course.empty()) even_plate_ = followed(plate_, untouched_, scaled(course, width, height));
-    }
 }
 
 CleanPlateView ObjectCutter::exposed_as(ConstImageView<Rgba8> photo, CleanPlateView plate) const {
@@ -177,10 +151,9 @@ Image<Rgba8> ObjectCutter::cut(ConstImageView<Rgba8> photo) const {
     } else {
         Image<std::uint8_t> mask;
         const bool flat = flat_grey_ && within_codes(border_of(photo).median, *flat_grey_, kFlat_codes);
-        if (!flat && !even_plate_.light.empty()) {
-            mask = find_object_by_edges(photo, exposed_as(photo, even_plate_), options_);
-        }
-        if (mask.empty()) mask = find_object(photo, exposed_as(photo, plate_), options_);
+        const CleanPlateView plate = exposed_as(photo, plate_);
+        if (!flat && is_even_) mask = find_object_by_edges(photo, plate, options_);
+        if (mask.empty()) mask = find_object(photo, plate, options_);
         if (flat) add_grey_parts(mask, photo, flat_plate_);
         cut = unmix(photo, soften_edge(photo, mask, band_px_));
     }

@@ -43,7 +43,7 @@ private:
     CleanPlateView plate_;
     std::optional<Rgba8> flat_grey_;
     CleanPlateView flat_plate_;      // where that is known
-    CleanPlateView even_plate_;      // where the plate is a grey of an even course; otherwise empty
+    bool is_even_;                   // the plate is that of a studio
     Image<std::uint8_t> untouched_;  // of the plate; empty where nobody can tell
     int band_px_;
 };

@@ -1,6 +1,7 @@
 #include "capture/photos/matte/enclosed_parts.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
+#include "capture/photos/background/light_share.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
 #include "rayspace/base/check.hpp"
 
@@ -18,9 +19,6 @@ namespace {
 constexpr int kSide_px = 1024;
 constexpr double kSmoothing_px = 1;
 
-// Of the logarithm of what the photograph has of the plate's light.
-constexpr float kEdge_per_px = 0.02F;
-
 constexpr float kSurely = 1;  // what speaks so for the object is taken for it
 constexpr int kWall_px = 2;   // edges are made wider by so much, and so closed where they vanish for four pixels
 constexpr int kGap_px = 9;
@@ -33,17 +31,6 @@ constexpr double kDust = 0.002;    // of the picture
 constexpr double kSpot = 0.01;
 constexpr double kMuchOfObject = 0.3;
 
-cv::Mat3f plate_mat(const CleanPlateView& plate) {
-    cv::Mat3f light(plate.light.height(), plate.light.width());
-    for (int y = 0; y < light.rows; ++y) {
-        for (int x = 0; x < light.cols; ++x) {
-            const LinearRgb& p = plate.light(x, y);
-            light(y, x) = {p.r, p.g, p.b};
-        }
-    }
-    return light;
-}
-
 cv::Mat3f smoothed(const cv::Mat3f& light, cv::Size size) {
     cv::Mat3f result;
     cv::resize(light, result, size, 0, 0, cv::INTER_AREA);
@@ -51,34 +38,8 @@ cv::Mat3f smoothed(const cv::Mat3f& light, cv::Size size) {
     return result;
 }
 
-float brightness(const cv::Vec3f& light) {
-    constexpr float kDark = 1e-3F;
-    return std::max(kDark, (light[0] + light[1] + light[2]) / 3);
-}
-
 LinearRgb light_of(const cv::Vec3f& light) {
     return {light[0], light[1], light[2]};
-}
-
-// 255 where the photograph's share of the plate's light jumps.
-cv::Mat1b edges_of(const cv::Mat3f& photo, const cv::Mat3f& plate) {
-    cv::Mat1f share(photo.size());
-    for (int y = 0; y < share.rows; ++y) {
-        for (int x = 0; x < share.cols; ++x) share(y, x) = brightness(photo(y, x)) / brightness(plate(y, x));
-    }
-    cv::log(share, share);
-    constexpr double kPerPixel = 1.0 / 8;
-    cv::Mat1f across, down;
-    cv::Sobel(share, across, CV_32F, 1, 0, 3, kPerPixel);
-    cv::Sobel(share, down, CV_32F, 0, 1, 3, kPerPixel);
-    cv::Mat1b edges(share.size());
-    for (int y = 0; y < share.rows; ++y) {
-        for (int x = 0; x < share.cols; ++x) {
-            const float squared = across(y, x) * across(y, x) + down(y, x) * down(y, x);
-            edges(y, x) = squared > kEdge_per_px * kEdge_per_px ? 255 : 0;
-        }
-    }
-    return edges;
 }
 
 // Parts of a picture without edges; 255 or 0. A part at the picture's border that differs from the plate there is in
@@ -147,7 +108,7 @@ Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, CleanPlate
     if (photo.width() == 0 || photo.height() == 0) return {};
     const double scale = std::min(1.0, static_cast<double>(kSide_px) / std::max(photo.width(), photo.height()));
     const cv::Size size(std::max(1, cvRound(photo.width() * scale)), std::max(1, cvRound(photo.height() * scale)));
-    const cv::Mat3f light = smoothed(linear_mat(photo), size), behind = smoothed(plate_mat(plate), size);
+    const cv::Mat3f light = smoothed(linear_mat(photo), size), behind = smoothed(light_mat(plate.light), size);
     cv::Mat1b object = [&] {
         const Image<float> preference = object_preference(photo, plate, options);
         cv::Mat1b strong(photo.height(), photo.width());
@@ -159,7 +120,7 @@ Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, CleanPlate
     cv::resize(object, object, size, 0, 0, cv::INTER_NEAREST);
 
     cv::Mat1b walls;
-    cv::bitwise_or(edges_of(light, behind), object, walls);
+    cv::bitwise_or(edges_of_share(log_light_share(light, behind)), object, walls);
     cv::dilate(walls, walls, cv::Mat(), {-1, -1}, kWall_px);
     cv::Mat1b open, differs(size);
     cv::bitwise_not(walls, open);

@@ -41,6 +41,11 @@ bool on_ground(const CleanPlateView& plate, int x, int y) {
     return !plate.ground.empty() && plate.ground(x, y) != 0;
 }
 
+bool above_ground(const CleanPlateView& plate, int x, int y) {
+    if (!plate.ground.empty()) return plate.ground(x, y) == 0;
+    return !plate.above.empty() && plate.above(x, y) != 0;
+}
+
 // Where an object throws its shadow the light that it mirrors falls, too, and between its feet next to none.
 MaskOptions options_on_ground(MaskOptions options) {
     options.possible_delta_e = 12;
@@ -331,7 +336,8 @@ Image<float> preference_by(const Looks& looks, ConstImageView<Rgba8> photo, cons
                 preference(x, y) = -kDecided;
                 continue;
             }
-            const MaskOptions& options = plate.ground.empty() ? anywhere : (on_ground(plate, x, y) ? ground : above);
+            const MaskOptions& options =
+                above_ground(plate, x, y) ? above : (on_ground(plate, x, y) ? ground : anywhere);
             const KnownColour pixel(linear_rgb(photo(x, y)), looks.photo(x, y));
             const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
             const KnownColour behind(plate.light(x, y), looks.plate(x, y));

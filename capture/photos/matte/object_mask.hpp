@@ -54,7 +54,8 @@ struct CleanPlateView {
     Image<LinearRgb> light;         // exposed like the photograph
     Image<std::uint8_t> hidden;     // 255 where the object always is before it; empty: nobody can tell
     Image<std::uint8_t> seen;       // 255 where it is seen, in a shadow or not; empty: nobody can tell
-    Image<std::uint8_t> ground;     // 255 where shadows fall; empty: they may fall anywhere
+    Image<std::uint8_t> ground;     // 255 on a turntable's disc and around it, where shadows fall; empty: no disc
+    Image<std::uint8_t> above;      // 255 where no shadow falls; empty: nobody can tell. Not read where a ground is
     std::vector<LinearRgb> screen;  // colours that are backdrop wherever they are seen, lit or in shadow
     Image<float> noise_delta_e;     // how far the photograph is from it where it shows it; empty: next to nothing
 };

@@ -77,10 +77,76 @@ TEST(EvenPlate, AShadowThatFadesOutThereDoesNoHarm) {
     EXPECT_NEAR(codes_at(even, 80, 50).g, course(80, 50), 1.5);
 }
 
-TEST(EvenPlate, AHorizonIsAnotherBackdrop) {
+// Where a wall meets a table: below a line, which falls by `slope` px per px to the right, three quarters of the light.
+double with_horizon(int x, int y, double slope) {
+    const double below = y - 60 - slope * (x - 80);
+    return course(x, y) * (1 - 0.125 * (1 + std::tanh(below / 3)));
+}
+
+Studio with_horizon(double slope) {
     Studio studio(Rgba8{250, 250, 250, 255});
-    for (int y = 60; y < kPlate_height; ++y) {
-        for (int x = 0; x < kPlate_width; ++x) studio.plate(x, y) = {120, 120, 120, 255};
+    for (int y = 0; y < kPlate_height; ++y) {
+        for (int x = 0; x < kPlate_width; ++x) {
+            const auto code = static_cast<std::uint8_t>(std::lround(with_horizon(x, y, slope)));
+            if (!in_middle(x, y)) studio.plate(x, y) = {code, code, code, 255};
+        }
+    }
+    return studio;
+}
+
+TEST(EvenPlate, AHorizonGoesOnBehindTheObject) {
+    for (const double slope : {0.0, 0.05, -0.05}) {
+        SCOPED_TRACE(slope);
+        const Studio studio = with_horizon(slope);
+        const Image<LinearRgb> even = even_plate(studio.plate, studio.untouched);
+        ASSERT_FALSE(even.empty());
+        double worst = 0;
+        for (int y = 0; y < kPlate_height; ++y) {
+            for (int x = 0; x < kPlate_width; ++x) {
+                worst = std::max(worst, std::abs(codes_at(even, x, y).g - with_horizon(x, y, slope)));
+            }
+        }
+        EXPECT_LE(worst, 3);
+    }
+}
+
+// Where nothing is seen of a row but the object and its shadow, it lies between those above and below.
+TEST(EvenPlate, RowsThatAreNotSeenLieBetweenTheirNeighbours) {
+    Studio studio(Rgba8{250, 250, 250, 255});
+    for (int y = 70; y < 78; ++y) {
+        for (int x = 0; x < kPlate_width; ++x) studio.untouched(x, y) = 0;
+    }
+    const Image<LinearRgb> even = even_plate(studio.plate, studio.untouched);
+    ASSERT_FALSE(even.empty());
+    EXPECT_NEAR(codes_at(even, 5, 74).g, course(5, 74), 1.5);
+    EXPECT_NEAR(codes_at(even, 80, 74).g, course(80, 74), 1.5);
+}
+
+TEST(EvenPlate, AMarkOnTheWallIsNotOfIt) {
+    Studio studio(Rgba8{250, 250, 250, 255});
+    for (int y = 5; y < 11; ++y) {
+        for (int x = 8; x < 50; ++x) studio.plate(x, y) = {20, 20, 20, 255};
+    }
+    const Image<LinearRgb> even = even_plate(studio.plate, studio.untouched);
+    ASSERT_FALSE(even.empty());
+    EXPECT_NEAR(codes_at(even, 30, 8).g, course(30, 8), 1.5);
+}
+
+TEST(EvenPlate, WhatRunsDownIsAnotherBackdrop) {
+    Studio studio(Rgba8{250, 250, 250, 255});
+    for (int y = 0; y < kPlate_height; ++y) {
+        for (int x = 100; x < kPlate_width; ++x) studio.plate(x, y) = {120, 120, 120, 255};
+    }
+    EXPECT_TRUE(even_plate(studio.plate, studio.untouched).empty());
+}
+
+// It goes on behind the object, and little is seen of it.
+TEST(EvenPlate, ATurntableIsAnotherBackdrop) {
+    Studio studio(Rgba8{250, 250, 250, 255});
+    for (int y = 0; y < kPlate_height; ++y) {
+        for (int x = 0; x < kPlate_width; ++x) {
+            if (std::hypot((x - 80) / 60.0, (y - 78) / 12.0) < 1) studio.plate(x, y) = {235, 235, 235, 255};
+        }
     }
     EXPECT_TRUE(even_plate(studio.plate, studio.untouched).empty());
 }

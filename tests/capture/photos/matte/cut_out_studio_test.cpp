@@ -106,6 +106,60 @@ TEST(CutOutInAStudio, KeepsSidesThatAShadowCouldExplainAndNoShadow) {
     }
 }
 
+// The core of a shadow lies where it lies in most pictures, so that a plate of what is seen the most holds it; where
+// the floor is lit in another picture, it is no object for that.
+TEST(CutOutInAStudio, TheFloorThatIsLitInSomePicturesIsNoObject) {
+    constexpr int kTimes = 2, kViews = 36, kWidth = kTimes * kStudio_width, kHeight = kTimes * kStudio_height;
+    // Broad from the side and narrow from its front, as a shoe; in pixels of the studio.
+    const auto reach = [](int view) { return 14 + 46 * std::abs(std::cos(2 * kPi * view / kViews)); };
+    const auto ground = [](int view) { return 110 + 4 * std::abs(std::sin(2 * kPi * view / kViews)); };
+    const auto in_object = [&](int view, double x, double y) {
+        return std::abs(x - 120) < reach(view) && y >= 40 && y < ground(view);
+    };
+    // Of wall and floor what the shadow leaves.
+    const auto light_at = [&](int view, double x, double y) {
+        const double u = (x - 120) / 120, v = (y - 80) / 80;
+        const double floor = 1 + 0.07 * std::tanh((y - 96) / 4);
+        const double across = (x - 120) / (1.2 * reach(view));
+        const double down = (y - ground(view) - 2) / (0.3 * std::max(24.0, reach(view)));
+        const double light = linear_from_srgb(static_cast<float>(0.9 * floor * (210 - 14 * v - 10 * u * u) / 255));
+        return light * (1 - 0.8 * std::exp(-std::pow(across, 4) - down * down));
+    };
+    std::vector<Image<Rgba8>> photos;
+    for (int view = 0; view < kViews; ++view) {
+        std::minstd_rand random(static_cast<unsigned>(view) + 1);
+        std::uniform_int_distribution<int> noise(-1, 1);
+        Image<Rgba8>& photo = photos.emplace_back(kWidth, kHeight);
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                const double u = static_cast<double>(x) / kTimes, v = static_cast<double>(y) / kTimes;
+                const std::uint8_t grey = srgb8_from_linear(static_cast<float>(light_at(view, u, v)));
+                const auto noisy = [&](int code) { return static_cast<std::uint8_t>(code + noise(random)); };
+                photo(x, y) = in_object(view, u, v) ? Rgba8{noisy(20), noisy(110), noisy(130), 255}
+                                                    : Rgba8{noisy(grey), noisy(grey), noisy(grey), 255};
+            }
+        }
+    }
+    const Result<Backdrop> backdrop = test::backdrop_behind(photos);
+    ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
+    const ObjectCutter cutter(*backdrop, kWidth, kHeight);
+    for (const int view : {0, 5, 9, 12}) {
+        SCOPED_TRACE(view);
+        const Image<Rgba8> cut = cutter.cut(photos[static_cast<std::size_t>(view)]);
+        int lost = 0, added = 0;
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                const double u = static_cast<double>(x) / kTimes, v = static_cast<double>(y) / kTimes;
+                const bool solid = cut(x, y).a >= 128, object = in_object(view, u, v);
+                lost += object && !solid ? 1 : 0;
+                added += !object && solid ? 1 : 0;
+            }
+        }
+        EXPECT_LE(lost, 60) << "of 7840 and more";
+        EXPECT_LE(added, 60);
+    }
+}
+
 CleanPlateView studio_plate() {
     CleanPlateView plate;
     plate.light = Image<LinearRgb>(kStudio_width, kStudio_height);
@@ -243,6 +297,23 @@ TEST(ObjectMask, WhatIsSeenIsBackdrop) {
     EXPECT_EQ(object_preference(photo, plate, MaskOptions{})(10, 10), kDecided);
     plate.hidden = plate.seen = Image<std::uint8_t>(kStudio_width, kStudio_height, 255);
     EXPECT_EQ(object_preference(photo, plate, MaskOptions{})(10, 10), -kDecided);
+}
+
+// Above what the object stands on, what a shadow could explain is rather the object.
+TEST(ObjectMask, AboveShadowsGreyLeansToTheObject) {
+    CleanPlateView plate = studio_plate();
+    const LinearRgb behind = plate.light(10, 10);
+    const std::uint8_t code = srgb8_from_linear(0.6F * behind.r);
+    const Image<Rgba8> photo(kStudio_width, kStudio_height, {code, code, code, 255});
+    MaskOptions options;
+    options.shadow_or_grey = -0.1F;
+    EXPECT_LT(object_preference(photo, plate, options)(10, 10), 0);
+    plate.above = Image<std::uint8_t>(kStudio_width, kStudio_height);
+    plate.above(10, 10) = 255;
+    EXPECT_GT(object_preference(photo, plate, options)(10, 10), 0);
+    EXPECT_LT(object_preference(photo, plate, options)(11, 10), 0);
+    plate.ground = Image<std::uint8_t>(kStudio_width, kStudio_height, 255);  // of a turntable: it is believed
+    EXPECT_EQ(object_preference(photo, plate, options)(10, 10), object_preference(photo, plate, options)(11, 10));
 }
 
 }  // namespace

@@ -1,0 +1,96 @@
+#include "capture/photos/background/shadow_ground.hpp"
+
+#include "capture/opencv/opencv_image.hpp"
+#include "capture/photos/background/light_share.hpp"
+#include "rayspace/base/check.hpp"
+#include "rayspace/base/parallel_loop.hpp"
+#include "rayspace/image/linear_light.hpp"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rs::capture {
+namespace {
+
+constexpr double kSmoothing_px = 1;
+constexpr int kWall_px = 4;            // edges are made wider by so much, and so closed where they vanish for eight
+constexpr float kShadow_log = -0.1F;   // of the plate's light a tenth is missing
+constexpr double kLeastShadow = 0.01;  // px of shadow in a row
+constexpr std::size_t kOneIn = 4;      // samples that show it: an outline that vanishes lets single pictures leak
+constexpr double kAbove = 0.02;        // of the picture's height: where a shadow fades out
+
+cv::Mat3f smoothed_light(ConstImageView<Rgba8> picture) {
+    cv::Mat3f light = linear_mat(picture);
+    cv::GaussianBlur(light, light, {0, 0}, kSmoothing_px);
+    return light;
+}
+
+// The label of the part that has most of the picture's border; 0 where none has any.
+int part_around(const cv::Mat1i& labels, int count) {
+    std::vector<int> at_border(static_cast<std::size_t>(count));
+    const auto visit = [&](int x, int y) { ++at_border[static_cast<std::size_t>(labels(y, x))]; };
+    for (int x = 0; x < labels.cols; ++x) {
+        visit(x, 0);
+        visit(x, labels.rows - 1);
+    }
+    for (int y = 0; y < labels.rows; ++y) {
+        visit(0, y);
+        visit(labels.cols - 1, y);
+    }
+    at_border[0] = 0;  // edges
+    const auto most = std::ranges::max_element(at_border);
+    return *most == 0 ? 0 : static_cast<int>(most - at_border.begin());
+}
+
+// [y]: whether the row shows a shadow that fades out.
+std::vector<bool> rows_with_shadow(const cv::Mat3f& photo, const cv::Mat3f& plate) {
+    const cv::Mat1f share = log_light_share(photo, plate);
+    cv::Mat1b walls = edges_of_share(share), open;
+    cv::dilate(walls, walls, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kWall_px + 1, 2 * kWall_px + 1}));
+    cv::bitwise_not(walls, open);
+    cv::Mat1i labels;
+    const int around = part_around(labels, cv::connectedComponents(open, labels, 4));
+    std::vector<bool> rows(static_cast<std::size_t>(share.rows));
+    if (around == 0) return rows;
+    for (int y = 0; y < share.rows; ++y) {
+        int shadow_px = 0;
+        for (int x = 0; x < share.cols; ++x) {
+            shadow_px += labels(y, x) == around && share(y, x) < kShadow_log ? 1 : 0;
+        }
+        rows[static_cast<std::size_t>(y)] = shadow_px > kLeastShadow * share.cols;
+    }
+    return rows;
+}
+
+}  // namespace
+
+Image<std::uint8_t> above_shadows(const EvenedSamples& samples, ConstImageView<Rgba8> plate) {
+    const int width = samples.width(), height = samples.height();
+    RS_CHECK(plate.width() == width && plate.height() == height);
+    const cv::Mat3f behind = smoothed_light(plate);
+    std::vector<std::vector<bool>> shadows(samples.count());
+    for_each_index(samples.count(), [&](std::size_t i) {
+        Image<Rgba8> sample(width, height);
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) sample(x, y) = samples.smooth(i, x, y);
+        }
+        shadows[i] = rows_with_shadow(smoothed_light(sample), behind);
+    });
+    for (int y = 0; y < height; ++y) {
+        const auto row = static_cast<std::size_t>(y);
+        const auto show_it = std::ranges::count_if(shadows, [&](const std::vector<bool>& rows) { return rows[row]; });
+        if (kOneIn * static_cast<std::size_t>(show_it) < samples.count()) continue;
+        Image<std::uint8_t> above(width, height);
+        const int end = std::max(0, y - static_cast<int>(kAbove * height));
+        std::fill_n(above.data(), static_cast<std::ptrdiff_t>(end) * width, std::uint8_t{255});
+        return above;
+    }
+    return {};
+}
+
+}  // namespace rs::capture
