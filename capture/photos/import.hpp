@@ -34,7 +34,7 @@ struct ImportOptions : RigRequest {
 // range; an output folder that is or contains the folder of photographs.
 //
 // Works on all cores as long as the photographs in work together stay below kWorkingMemory_bytes, 4 GiB
-// (bounded_work.hpp): at 4000x3000 pixels that are not made smaller, kCutBytesPerPixel = 150 bytes each, on two of
+// (bounded_work.hpp): at 4000x3000 pixels that are not made smaller, kCutBytesPerPixel = 170 bytes each, on two of
 // them. To that come 12 bytes per pixel of one picture for the clean plate, 16 more before a flat grey, and small
 // copies of all photographs: 0.2 GB for the first pass, up to 1 MB per view for the second and up to 6.5 MB per view
 // for calibration.

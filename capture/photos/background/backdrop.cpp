@@ -217,34 +217,23 @@ void cap_noise(Image<float>& noise_delta_e) {
     for (float& noise : noise_delta_e.pixels()) noise = std::min(noise, most);
 }
 
-// As much everywhere as where the pictures always show the plate: where a shadow comes and goes it would look noisy.
-void level_noise(Image<float>& noise_delta_e, ConstImageView<std::uint8_t> untouched) {
-    const int width = noise_delta_e.width(), height = noise_delta_e.height();
-    const cv::Mat1f noise(height, width, noise_delta_e.data());
-    noise_delta_e = Image<float>(width, height, static_cast<float>(cv::mean(noise, mat_over(untouched))[0]));
+// A plate that goes on evenly behind the object.
+void take_even_plate(Backdrop& backdrop, const EvenedSamples& samples) {
+    backdrop.even = even_plate(backdrop.plate, backdrop.untouched);
+    if (backdrop.even.empty()) return;
+    std::ranges::transform(backdrop.even.pixels(), backdrop.plate.pixels().begin(), [](const LinearRgb& light) {
+        return Rgba8{srgb8_from_linear(light.r), srgb8_from_linear(light.g), srgb8_from_linear(light.b), 255};
+    });
+    backdrop.above_shadows = above_shadows(samples, backdrop.plate);
 }
 
-// A plate that goes on evenly behind the object. Around the picture its own colour stays where it clearly differs, as a
-// mark on a wall; farther inside, what hardly moves may be the object.
-void take_even_plate(Backdrop& backdrop, const EvenedSamples& samples) {
-    constexpr float kVisible_delta_e = 2.5F;
-    backdrop.even = even_plate(backdrop.plate, backdrop.untouched);
-    for (int y = 0; y < backdrop.even.height(); ++y) {
-        for (int x = 0; x < backdrop.even.width(); ++x) {
-            LinearRgb& light = backdrop.even(x, y);
-            Rgba8& pixel = backdrop.plate(x, y);
-            const LinearRgb own = linear_rgb(pixel);
-            const bool stays = backdrop.untouched(x, y) != 0 &&
-                               in_border_band(x, y, backdrop.even.width(), backdrop.even.height()) &&
-                               delta_e(lab_from_linear(own), lab_from_linear(light)) > kVisible_delta_e;
-            if (stays) {
-                light = own;
-            } else {
-                pixel = {srgb8_from_linear(light.r), srgb8_from_linear(light.g), srgb8_from_linear(light.b), 255};
-            }
-        }
-    }
-    if (!backdrop.even.empty()) backdrop.above_shadows = above_shadows(samples, backdrop.plate);
+// Before an even plate as much everywhere as where the pictures always show it: where a shadow comes and goes it would
+// look noisy.
+Image<float> noise_of(const EvenedSamples& samples, const Backdrop& backdrop) {
+    if (backdrop.even.empty()) return plate_noise(samples, backdrop.plate, backdrop.known);
+    Image<float> noise_delta_e = plate_noise(samples, backdrop.plate, backdrop.untouched);
+    const cv::Mat1f noise(noise_delta_e.height(), noise_delta_e.width(), noise_delta_e.data());
+    return Image<float>(noise.cols, noise.rows, static_cast<float>(cv::mean(noise, mat_over(backdrop.untouched))[0]));
 }
 
 // Those of the border's colours that are strong, as objects hardly have them.
@@ -382,9 +371,7 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     if (turn && !disc && found.kind != BackdropKind::kBlack && !is_colourful(linear_rgb(found.colour))) {
         take_even_plate(found, samples);
     }
-    if (turn)
-        found.noise_delta_e = plate_noise(samples, found.plate, found.even.empty() ? found.known : found.untouched);
-    if (!found.even.empty()) level_noise(found.noise_delta_e, found.untouched);
+    if (turn) found.noise_delta_e = noise_of(samples, found);
     if (found.black == BlackGround::kEven) cap_noise(found.noise_delta_e);
     return found;
 }

@@ -4,7 +4,7 @@
 // The camera of a turntable stands still, so whatever is behind the object and does not turn with it (the wall, an even
 // turntable disc, the black frame of a frame grabber) is the same in every picture. The *clean plate*, plate for short,
 // is that still picture: per pixel the value that most pictures agree on, where it is of the colours seen along the
-// border; filled in smoothly from around where the object always hides it.
+// border; filled in smoothly from around where the object always hides it. In a studio it is an even course instead.
 
 #include "capture/photos/intake/colour_difference.hpp"
 #include "capture/photos/intake/survey.hpp"
@@ -43,7 +43,7 @@ struct Backdrop {
     Rgba8 colour;                 // the commonest colour along the border (kAlpha: transparent black)
     std::vector<Rgba8> screen{};  // strong colours of the border, as of a chroma key: backdrop wherever they are seen
     Image<Rgba8> plate;           // sRGB, opaque, in the samples' size; empty for kAlpha
-    Image<std::uint8_t> known{};  // 255 where the pictures show it, 0 where it is filled in; empty for kAlpha
+    Image<std::uint8_t> known{};  // 255 where the pictures show it; empty for kAlpha
     // 255 where nothing ever covers it; and where the object always does although it stands still there, as the white
     // ground of a painted vase. Empty where there are too few pictures to tell.
     Image<std::uint8_t> untouched{};
@@ -54,7 +54,8 @@ struct Backdrop {
     // object, too, with none of its shadow, and finer than codes are. Empty for another backdrop.
     Image<LinearRgb> even{};
     Image<std::uint8_t> above_shadows{};  // of a studio: 255 where the object throws none; empty: nobody can tell
-    // Mean difference near by between the samples that show the plate and the plate; as empty.
+    // Mean difference near by between the samples that show the plate and the plate, before an even one everywhere the
+    // same; empty where `untouched` is.
     Image<float> noise_delta_e{};
 };
 

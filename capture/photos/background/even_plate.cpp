@@ -1,6 +1,7 @@
 #include "capture/photos/background/even_plate.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
+#include "capture/photos/background/light_share.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel_loop.hpp"
@@ -33,11 +34,7 @@ constexpr double kEnoughOfRow = 0.04;  // of a row; others lie between their nei
 constexpr double kFits_codes = 3;      // so near the course is ...
 constexpr double kFittingShare = 0.8;  // ... most of the band; a shadow may reach it
 constexpr int kRounds = 4;             // of what is near; for each, twice as near
-// Of what is seen may be neither the course nor a shadow on it. Measured: studios 0, rims of turntables 0.003 and more.
-constexpr double kOthers = 0.001;
-constexpr float kDeepestOnCourse = 0.25F;
-constexpr float kShadow_delta_e = 6;
-constexpr double kMostSlope = 0.07;  // of a horizon, where the camera is rolled
+constexpr double kMostSlope = 0.07;    // of a horizon, where the camera is rolled
 
 int band_px_of(int width, int height) {
     return std::max(1, static_cast<int>(kBand * std::min(width, height)));
@@ -86,7 +83,7 @@ public:
     [[nodiscard]] double at(int x, int y) const { return y + slope_ * (x - middle_) + margin_; }
     // The pixel of a column that is nearest to a row; it may lie outside of the picture.
     [[nodiscard]] int y_of(int row, int x) const {
-        return static_cast<int>(std::lround(row - margin_ - slope_ * (x - middle_)));
+        return static_cast<int>(std::floor(row - margin_ - slope_ * (x - middle_) + 0.5));
     }
 
 private:
@@ -113,7 +110,7 @@ struct Course {
 };
 
 // What a row has for a fit, about its own means.
-struct RowSums {
+struct RowFit {
     std::ptrdiff_t seen = 0, count = 0;  // px of the band; those of them that take part
     Terms terms;                         // means
     Codes logarithms;                    // means
@@ -122,10 +119,10 @@ struct RowSums {
 };
 
 template <class TakesPart>
-RowSums row_sums(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> untouched, const Rows& rows, int row,
-                 TakesPart takes_part) {
+RowFit row_fit(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> untouched, const Rows& rows, int row,
+               TakesPart takes_part) {
     const int width = plate.width(), height = plate.height();
-    RowSums sums;
+    RowFit sums;
     for (int x = 0; x < width; ++x) {
         const int y = rows.y_of(row, x);
         if (y < 0 || y >= height || untouched(x, y) == 0 || !in_border_band(x, y, width, height)) continue;
@@ -190,10 +187,10 @@ std::optional<Course> median_course(ConstImageView<Rgba8> plate, ConstImageView<
     return Course{rows, height, *std::move(of_row), Along::zeros()};
 }
 
-std::optional<Course> fitted(const std::vector<RowSums>& sums, const Rows& rows, int height) {
+std::optional<Course> fitted(const std::vector<RowFit>& sums, const Rows& rows, int height) {
     Matrix normal = Matrix::zeros();
     Along right_side = Along::zeros();
-    for (const RowSums& row : sums) {
+    for (const RowFit& row : sums) {
         normal += row.normal;
         right_side += row.right_side;
     }
@@ -239,6 +236,7 @@ double slope_of(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> untouc
     const auto left = steps_down(plate, untouched, 0, band_px);
     const auto right = steps_down(plate, untouched, width - band_px, width);
     const int apart_px = width - band_px;
+    if (apart_px <= 0) return 0;
     const auto left_over = [&](int shift) -> std::optional<double> {
         double squared = 0;
         int count = 0;
@@ -290,38 +288,70 @@ Image<LinearRgb> light_of(const Course& course) {
     return light;
 }
 
-// Whether hardly anything is seen that the course does not explain and that may go on behind the object, as a turntable
-// does: it hangs together with what the object sweeps. A mark on the wall does not.
-bool explains(const Image<LinearRgb>& course, ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> untouched) {
-    constexpr double kSwept = 0.01;  // of the picture; less is noise
-    cv::Mat1b differs(course.height(), course.width());
+cv::Mat3f smoothed(cv::Mat3f light) {
+    cv::GaussianBlur(light, light, {0, 0}, 1);
+    return light;
+}
+
+// What is seen of other things than the course; 255 or 0.
+struct Others {
+    cv::Mat1b differ;  // that looks otherwise ...
+    cv::Mat1b clear;   // ... and is no shadow on it, for a soft one has no edges
+};
+
+Others others_of(const Image<LinearRgb>& course, ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> untouched) {
+    constexpr float kVisible_delta_e = 2.5F, kNoShadow_delta_e = 6, kDeepestOnCourse = 0.25F;
+    const cv::Mat1b edges = edges_of_share(log_light_share(smoothed(linear_mat(plate)), smoothed(light_mat(course))));
+    Others others{cv::Mat1b(edges.size(), std::uint8_t{0}), cv::Mat1b(edges.size(), std::uint8_t{0})};
     for_each_index(course.height(), [&](int y) {
         for (int x = 0; x < course.width(); ++x) {
-            const bool seen = untouched(x, y) != 0;
+            if (untouched(x, y) == 0) continue;
             const Explanation e = explain_by_backdrop(linear_rgb(plate(x, y)), course(x, y), kDeepestOnCourse, 1);
-            differs(y, x) = !seen || e.shaded > kShadow_delta_e ? 255 : 0;
+            if (e.plain <= kVisible_delta_e) continue;
+            others.differ(y, x) = 255;
+            others.clear(y, x) = edges(y, x) != 0 || e.shaded > kNoShadow_delta_e ? 255 : 0;
         }
     });
+    return others;
+}
+
+// Other things stay as they are where they stand alone, as a mark on the wall or a cable. False where there are many,
+// and where one hangs together with what the object sweeps, for it may go on behind the object, as a turntable does.
+bool keep_marks(Image<LinearRgb>& course, ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> untouched) {
+    // Of the picture. Measured at the object: studios 0, with steep shadows up to 0.0015; turntables 0.0012 to 0.02.
+    constexpr double kAtObject = 0.002, kElsewhere = 0.05, kSwept = 0.01;
+    constexpr int kRim_px = 4;  // the region swept ends where a grid's cell does
+    const Others others = others_of(course, plate, untouched);
+    cv::Mat1b swept, beside, both;
+    cv::bitwise_not(mat_over(untouched), swept);
+    cv::dilate(swept, beside, cv::getStructuringElement(cv::MORPH_RECT, {2 * kRim_px + 1, 2 * kRim_px + 1}));
+    cv::bitwise_or(others.differ, swept, both);
     cv::Mat1i labels;
-    const int count = cv::connectedComponents(differs, labels, 8);
+    const int count = cv::connectedComponents(both, labels, 8);
     struct Tally {
-        std::ptrdiff_t swept = 0, others = 0;  // px
+        int swept = 0, clear = 0;  // px
     };
     std::vector<Tally> tallies(static_cast<std::size_t>(count));
-    std::ptrdiff_t seen = 0;
     for (int y = 0; y < labels.rows; ++y) {
         for (int x = 0; x < labels.cols; ++x) {
-            seen += untouched(x, y) != 0 ? 1 : 0;
-            if (differs(y, x) == 0) continue;
             Tally& tally = tallies[static_cast<std::size_t>(labels(y, x))];
-            (untouched(x, y) != 0 ? tally.others : tally.swept) += 1;
+            tally.swept += swept(y, x) != 0 ? 1 : 0;
+            tally.clear += others.clear(y, x) != 0 && beside(y, x) == 0 ? 1 : 0;
         }
     }
-    std::ptrdiff_t others = 0;
-    for (const Tally& tally : tallies) {
-        if (static_cast<double>(tally.swept) >= kSwept * static_cast<double>(labels.total())) others += tally.others;
+    const auto picture = static_cast<double>(labels.total());
+    const auto is_at_object = [&](const Tally& tally) { return tally.swept >= kSwept * picture; };
+    int at_object = 0, elsewhere = 0;  // px
+    for (const Tally& tally : tallies) (is_at_object(tally) ? at_object : elsewhere) += tally.clear;
+    if (at_object > kAtObject * picture || elsewhere > kElsewhere * picture) return false;
+    for (int y = 0; y < labels.rows; ++y) {
+        for (int x = 0; x < labels.cols; ++x) {
+            const bool is_mark =
+                others.differ(y, x) != 0 && !is_at_object(tallies[static_cast<std::size_t>(labels(y, x))]);
+            if (is_mark) course(x, y) = linear_rgb(plate(x, y));
+        }
     }
-    return static_cast<double>(others) <= kOthers * static_cast<double>(seen);
+    return true;
 }
 
 }  // namespace
@@ -333,27 +363,26 @@ Image<LinearRgb> even_plate(ConstImageView<Rgba8> plate, ConstImageView<std::uin
     if (!all_sides_seen(untouched)) return {};
     const Rows rows(width, height, slope_of(plate, untouched));
     std::optional<Course> course = median_course(plate, untouched, rows);
+    std::vector<RowFit> sums(static_cast<std::size_t>(rows.count()));
     for (int round = 0; course && round <= kRounds; ++round) {  // the last only looks whether it fits
         const double near_codes = std::ldexp(kFits_codes, kRounds - round);
         const auto takes_part = [&](int x, int y) {
             return is_near(course->at(x, y), codes_of(plate(x, y)), near_codes);
         };
-        std::vector<RowSums> sums(static_cast<std::size_t>(rows.count()));
         for_each_index(rows.count(), [&](int row) {
-            sums[static_cast<std::size_t>(row)] = row_sums(plate, untouched, rows, row, takes_part);
+            sums[static_cast<std::size_t>(row)] = row_fit(plate, untouched, rows, row, takes_part);
         });
-        std::ptrdiff_t seen = 0, fits = 0;  // px
-        for (const RowSums& row : sums) {
-            seen += row.seen;
-            fits += row.count;
-        }
-        if (static_cast<double>(fits) < kFittingShare * static_cast<double>(seen)) return {};
-        if (round == kRounds) break;
-        course = fitted(sums, rows, height);
+        if (round < kRounds) course = fitted(sums, rows, height);
     }
     if (!course) return {};
+    std::ptrdiff_t seen = 0, fits = 0;  // px
+    for (const RowFit& row : sums) {
+        seen += row.seen;
+        fits += row.count;
+    }
+    if (static_cast<double>(fits) < kFittingShare * static_cast<double>(seen)) return {};
     Image<LinearRgb> light = light_of(*course);
-    return explains(light, plate, untouched) ? std::move(light) : Image<LinearRgb>{};
+    return keep_marks(light, plate, untouched) ? std::move(light) : Image<LinearRgb>{};
 }
 
 }  // namespace rs::capture

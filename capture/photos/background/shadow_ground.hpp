@@ -8,8 +8,9 @@
 namespace rs::capture {
 
 // 255 in the rows above the highest one in which a quarter of the samples show a shadow, with a little between: what is
-// darker than the plate and fades into it without an edge. `plate` has the samples' size and holds no shadow
-// (even_plate.hpp). Empty where there is no shadow, or one without a soft edge.
+// darker than the plate and fades into it without an edge. `plate` has the samples' size and is even (even_plate.hpp).
+// Empty where no shadow has a soft edge; all 0 where there is one at the very top. A shadow that fewer samples show,
+// and one with sharp edges alone, is not seen.
 Image<std::uint8_t> above_shadows(const EvenedSamples& samples, ConstImageView<Rgba8> plate);
 
 }  // namespace rs::capture

@@ -20,7 +20,7 @@ namespace rs::capture {
 // What cutting takes of memory per pixel of the photograph, at most: where every pixel is undecided and becomes a node
 // with eight edges of the minimum cut (contrast_cut.hpp). Ordinary photographs take two thirds of it, the
 // floating-point colours of both sides of the edge (soft_edge.hpp).
-inline constexpr int kCutBytesPerPixel = 150;
+inline constexpr int kCutBytesPerPixel = 170;
 
 // What tells the object from the rest: the backdrop, or, where it is not empty, a folder with one mask per photograph,
 // of its name or that name with another picture ending, of its size, white where the object is.

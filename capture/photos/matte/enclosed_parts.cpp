@@ -17,10 +17,10 @@ namespace {
 
 // Edges are looked for in pictures of at most this side: there they are a pixel or two wide.
 constexpr int kSide_px = 1024;
-constexpr double kSmoothing_px = 1;
+constexpr double kSmoothEdges_px = 1;
 
-constexpr float kSurely = 1;  // what speaks so for the object is taken for it
-constexpr int kWall_px = 2;   // edges are made wider by so much, and so closed where they vanish for four pixels
+constexpr float kSurely = 1;     // what speaks so for the object is taken for it
+constexpr int kEdgeWall_px = 2;  // edges are made wider by so much, and so closed where they vanish for four pixels
 constexpr int kGap_px = 9;
 
 constexpr double kGoodPart = 0.3;  // objects have sides that look plain
@@ -34,7 +34,7 @@ constexpr double kMuchOfObject = 0.3;
 cv::Mat3f smoothed(const cv::Mat3f& light, cv::Size size) {
     cv::Mat3f result;
     cv::resize(light, result, size, 0, 0, cv::INTER_AREA);
-    cv::GaussianBlur(result, result, {0, 0}, kSmoothing_px);
+    cv::GaussianBlur(result, result, {0, 0}, kSmoothEdges_px);
     return result;
 }
 
@@ -102,7 +102,7 @@ Image<std::uint8_t> in_size_of(ConstImageView<Rgba8> photo, const cv::Mat1b& mas
 
 }  // namespace
 
-Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, CleanPlateView plate,
+Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, const CleanPlateView& plate,
                                          const MaskOptions& options) {
     RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
     if (photo.width() == 0 || photo.height() == 0) return {};
@@ -121,7 +121,7 @@ Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, CleanPlate
 
     cv::Mat1b walls;
     cv::bitwise_or(edges_of_share(log_light_share(light, behind)), object, walls);
-    cv::dilate(walls, walls, cv::Mat(), {-1, -1}, kWall_px);
+    cv::dilate(walls, walls, cv::Mat(), {-1, -1}, kEdgeWall_px);
     cv::Mat1b open, differs(size);
     cv::bitwise_not(walls, open);
     for (int y = 0; y < differs.rows; ++y) {
@@ -136,17 +136,18 @@ Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, CleanPlate
     if (!much || cv::countNonZero(parts.reached) < kSeen * (size.area() - object_px - enclosed_px)) return {};
     cv::Mat1b enclosed, hidden, beside;
     cv::bitwise_or(parts.enclosed, parts.spots, enclosed);
-    cv::dilate(enclosed, enclosed, cv::Mat(), {-1, -1}, kWall_px - 1);
+    cv::dilate(enclosed, enclosed, cv::Mat(), {-1, -1}, kEdgeWall_px - 1);
     cv::bitwise_or(enclosed, object, enclosed);
     // What lies between two parts of the object, as a door's gap, is a part of it, and a narrow slit is closed with it.
     cv::morphologyEx(enclosed, hidden, cv::MORPH_CLOSE,
                      cv::getStructuringElement(cv::MORPH_ELLIPSE, {kGap_px, kGap_px}));
     cv::bitwise_or(parts.reached, parts.plain, beside);
-    cv::dilate(beside, beside, cv::Mat(), {-1, -1}, kWall_px + 1);
+    cv::dilate(beside, beside, cv::Mat(), {-1, -1}, kEdgeWall_px + 1);
     hidden.setTo(0, beside);
-    plate.hidden = in_size_of(photo, hidden);
-    plate.seen = in_size_of(photo, parts.reached);
-    return find_object(photo, plate, options);
+    CleanPlateView told = plate;
+    told.hidden = in_size_of(photo, hidden);
+    told.seen = in_size_of(photo, parts.reached);
+    return find_object(photo, told, options);
 }
 
 }  // namespace rs::capture

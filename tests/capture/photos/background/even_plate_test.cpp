@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -114,7 +115,10 @@ TEST(EvenPlate, AHorizonGoesOnBehindTheObject) {
 TEST(EvenPlate, RowsThatAreNotSeenLieBetweenTheirNeighbours) {
     Studio studio(Rgba8{250, 250, 250, 255});
     for (int y = 70; y < 78; ++y) {
-        for (int x = 0; x < kPlate_width; ++x) studio.untouched(x, y) = 0;
+        for (int x = 0; x < kPlate_width; ++x) {
+            studio.untouched(x, y) = 0;
+            studio.plate(x, y) = {60, 60, 60, 255};
+        }
     }
     const Image<LinearRgb> even = even_plate(studio.plate, studio.untouched);
     ASSERT_FALSE(even.empty());
@@ -122,14 +126,44 @@ TEST(EvenPlate, RowsThatAreNotSeenLieBetweenTheirNeighbours) {
     EXPECT_NEAR(codes_at(even, 80, 74).g, course(80, 74), 1.5);
 }
 
-TEST(EvenPlate, AMarkOnTheWallIsNotOfIt) {
+// Such as a shop's name, a dark card, farther inside than the band, and a seam: what stands alone is backdrop as it is.
+TEST(EvenPlate, AMarkStaysAsItIs) {
+    const std::pair<int, int> on_mark{30, 8}, on_card{12, 40}, on_seam{150, 60};
     Studio studio(Rgba8{250, 250, 250, 255});
-    for (int y = 5; y < 11; ++y) {
-        for (int x = 8; x < 50; ++x) studio.plate(x, y) = {20, 20, 20, 255};
-    }
+    const auto fill = [&](int from_x, int to_x, int from_y, int to_y, double share) {
+        for (int y = from_y; y < to_y; ++y) {
+            for (int x = from_x; x < to_x; ++x) {
+                const auto code = static_cast<std::uint8_t>(std::lround(share * course(x, y)));
+                studio.plate(x, y) = {code, code, code, 255};
+            }
+        }
+    };
+    fill(8, 50, 5, 11, 0.1);
+    fill(4, 19, 36, 46, 0.8);
+    fill(149, 152, 45, 95, 0.9);
     const Image<LinearRgb> even = even_plate(studio.plate, studio.untouched);
     ASSERT_FALSE(even.empty());
-    EXPECT_NEAR(codes_at(even, 30, 8).g, course(30, 8), 1.5);
+    for (const auto& [x, y] : {on_mark, on_card, on_seam}) {
+        SCOPED_TRACE(x);
+        EXPECT_NEAR(codes_at(even, x, y).g, studio.plate(x, y).g, 1);
+    }
+    for (const auto& [x, y] : {std::pair{30, 14}, {12, 52}, {156, 60}, {80, 8}, {80, 40}}) {
+        SCOPED_TRACE(x);
+        EXPECT_NEAR(codes_at(even, x, y).g, course(x, y), 1.5) << "beside them";
+    }
+}
+
+// It goes on behind the object.
+TEST(EvenPlate, ADarkTableIsAnotherBackdrop) {
+    Studio studio(Rgba8{250, 250, 250, 255});
+    for (int y = 60; y < kPlate_height; ++y) {
+        for (int x = 12; x < kPlate_width - 12; ++x) {
+            if (in_middle(x, y)) continue;
+            const auto code = static_cast<std::uint8_t>(std::lround(0.88 * course(x, y)));
+            studio.plate(x, y) = {code, code, code, 255};
+        }
+    }
+    EXPECT_TRUE(even_plate(studio.plate, studio.untouched).empty());
 }
 
 TEST(EvenPlate, WhatRunsDownIsAnotherBackdrop) {

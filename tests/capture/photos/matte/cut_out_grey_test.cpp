@@ -95,7 +95,7 @@ TEST(CutOutBeforeGrey, KeepsABodyOfLikeGreyAndTheLoopBesideIt) {
         EXPECT_EQ(found.flat_grey->g, look.backdrop);
         ASSERT_FALSE(found.even.empty());
         const ObjectCutter studio(found, kBoxes_width, kBoxes_height);
-        Backdrop backdrop = found;  // not known as a studio's: a plate that grows takes the body for it
+        Backdrop backdrop = found;  // not known as a studio's, and the body taken for the plate, as one that grows does
         backdrop.even = {};
         backdrop.above_shadows = {};
         backdrop.plate = photo_of(GreyBox(0), {look.backdrop, look.top_off, look.bottom_off, false});
