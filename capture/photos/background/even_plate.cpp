@@ -118,31 +118,38 @@ struct RowFit {
     Along right_side = Along::zeros();
 };
 
+// Calls visit(x, y) for what is seen of a row in the band.
+template <class Visit>
+void for_seen(ConstImageView<std::uint8_t> untouched, const Rows& rows, int row, Visit visit) {
+    const int width = untouched.width(), height = untouched.height();
+    for (int x = 0; x < width; ++x) {
+        const int y = rows.y_of(row, x);
+        if (y >= 0 && y < height && untouched(x, y) != 0 && in_border_band(x, y, width, height)) visit(x, y);
+    }
+}
+
 template <class TakesPart>
 RowFit row_fit(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> untouched, const Rows& rows, int row,
                TakesPart takes_part) {
-    const int width = plate.width(), height = plate.height();
-    RowFit sums;
-    for (int x = 0; x < width; ++x) {
-        const int y = rows.y_of(row, x);
-        if (y < 0 || y >= height || untouched(x, y) == 0 || !in_border_band(x, y, width, height)) continue;
-        sums.seen += 1;
-        if (!takes_part(x, y)) continue;
-        const Terms terms = terms_at(x, y, width, height);
+    RowFit fit;
+    for_seen(untouched, rows, row, [&](int x, int y) {
+        fit.seen += 1;
+        if (!takes_part(x, y)) return;
+        const Terms terms = terms_at(x, y, plate.width(), plate.height());
         const Codes logarithms = logarithms_of(plate(x, y));
-        sums.count += 1;
-        sums.terms += terms;
-        sums.logarithms += logarithms;
-        sums.normal += terms * terms.t();
-        sums.right_side += terms * logarithms.t();
-    }
-    if (sums.count == 0) return sums;
-    const auto count = static_cast<double>(sums.count);
-    sums.terms *= 1 / count;
-    sums.logarithms *= 1 / count;
-    sums.normal -= count * (sums.terms * sums.terms.t());
-    sums.right_side -= count * (sums.terms * sums.logarithms.t());
-    return sums;
+        fit.count += 1;
+        fit.terms += terms;
+        fit.logarithms += logarithms;
+        fit.normal += terms * terms.t();
+        fit.right_side += terms * logarithms.t();
+    });
+    if (fit.count == 0) return fit;
+    const auto count = static_cast<double>(fit.count);
+    fit.terms *= 1 / count;
+    fit.logarithms *= 1 / count;
+    fit.normal -= count * (fit.terms * fit.terms.t());
+    fit.right_side -= count * (fit.terms * fit.logarithms.t());
+    return fit;
 }
 
 // What a course has of each row that is seen enough; others lie evenly between those beside them. Nothing where no row
@@ -168,23 +175,20 @@ std::optional<std::vector<Codes>> filled(const std::vector<std::optional<Codes>>
 // Every row at the median of what the band shows of it, which a mark does not move.
 std::optional<Course> median_course(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> untouched,
                                     const Rows& rows) {
-    const int width = plate.width(), height = plate.height();
     std::vector<std::optional<Codes>> medians(static_cast<std::size_t>(rows.count()));
     for_each_index(rows.count(), [&](int row) {
         std::array<std::vector<double>, 3> logarithms;  // [channel]
-        for (int x = 0; x < width; ++x) {
-            const int y = rows.y_of(row, x);
-            if (y < 0 || y >= height || untouched(x, y) == 0 || !in_border_band(x, y, width, height)) continue;
+        for_seen(untouched, rows, row, [&](int x, int y) {
             const Codes of_pixel = logarithms_of(plate(x, y));
             for (int c = 0; c < 3; ++c) logarithms[static_cast<std::size_t>(c)].push_back(of_pixel(c));
-        }
-        if (static_cast<double>(logarithms[0].size()) < kEnoughOfRow * width) return;
+        });
+        if (static_cast<double>(logarithms[0].size()) < kEnoughOfRow * plate.width()) return;
         medians[static_cast<std::size_t>(row)] =
             Codes(median(std::move(logarithms[0])), median(std::move(logarithms[1])), median(std::move(logarithms[2])));
     });
     std::optional<std::vector<Codes>> of_row = filled(medians);
     if (!of_row) return std::nullopt;
-    return Course{rows, height, *std::move(of_row), Along::zeros()};
+    return Course{rows, plate.height(), *std::move(of_row), Along::zeros()};
 }
 
 std::optional<Course> fitted(const std::vector<RowFit>& sums, const Rows& rows, int height) {
