@@ -7,7 +7,6 @@
 #include "capture/photos/background/shadow_ground.hpp"
 #include "capture/photos/background/still_picture.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
-#include "rayspace/image/linear_light.hpp"
 
 #include <opencv2/core.hpp>
 
@@ -222,7 +221,7 @@ void take_even_plate(Backdrop& backdrop, const EvenedSamples& samples) {
     backdrop.even = even_plate(backdrop.plate, backdrop.untouched);
     if (backdrop.even.empty()) return;
     std::ranges::transform(backdrop.even.pixels(), backdrop.plate.pixels().begin(), [](const LinearRgb& light) {
-        return Rgba8{srgb8_from_linear(light.r), srgb8_from_linear(light.g), srgb8_from_linear(light.b), 255};
+        return rgba8_from_linear({light.r, light.g, light.b}, 255);
     });
     backdrop.above_shadows = above_shadows(samples, backdrop.plate);
 }

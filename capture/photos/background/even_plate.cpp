@@ -40,14 +40,11 @@ int band_px_of(int width, int height) {
     return std::max(1, static_cast<int>(kBand * std::min(width, height)));
 }
 
-}  // namespace
-
+// Where the backdrop surely is seen.
 bool in_border_band(int x, int y, int width, int height) {
     const int band_px = band_px_of(width, height);
     return x < band_px || y < band_px || x >= width - band_px || y >= height - band_px;
 }
-
-namespace {
 
 // Without a constant, which is the row's.
 Terms terms_at(int x, int y, int width, int height) {
@@ -292,11 +289,6 @@ Image<LinearRgb> light_of(const Course& course) {
     return light;
 }
 
-cv::Mat3f smoothed(cv::Mat3f light) {
-    cv::GaussianBlur(light, light, {0, 0}, 1);
-    return light;
-}
-
 // What is seen of other things than the course; 255 or 0.
 struct Others {
     cv::Mat1b differ;  // that looks otherwise ...
@@ -305,7 +297,8 @@ struct Others {
 
 Others others_of(const Image<LinearRgb>& course, ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> untouched) {
     constexpr float kVisible_delta_e = 2.5F, kNoShadow_delta_e = 6, kDeepestOnCourse = 0.25F;
-    const cv::Mat1b edges = edges_of_share(log_light_share(smoothed(linear_mat(plate)), smoothed(light_mat(course))));
+    const cv::Mat1b edges =
+        edges_of_share(log_light_share(smoothed_light(linear_mat(plate)), smoothed_light(light_mat(course))));
     Others others{cv::Mat1b(edges.size(), std::uint8_t{0}), cv::Mat1b(edges.size(), std::uint8_t{0})};
     for_each_index(course.height(), [&](int y) {
         for (int x = 0; x < course.width(); ++x) {

@@ -10,14 +10,11 @@
 
 namespace rs::capture {
 
-// Whether a pixel lies in the band around a picture, of .15 of its shorter side, where the backdrop surely is seen.
-bool in_border_band(int x, int y, int width, int height);
-
 // A row's own light times a polynomial along it that goes over slowly from row to row, fitted to the band around the
-// plate where `untouched` (of its size) is not 0. What is seen farther inside is compared with it: things that stand
-// alone, as a mark on the wall or a cable, are in the result as they are. Empty where most of the band does not fit or
-// is hardly seen on one of its sides, where there are many such things, and where one hangs together with the region
-// that the object sweeps, for it may go on behind the object: a table, a turntable, a seam.
+// plate, of .15 of its shorter side, where `untouched` (of its size) is not 0. What is seen farther inside is compared
+// with it: things that stand alone, as a mark on the wall or a cable, are in the result as they are. Empty where most
+// of the band does not fit or is hardly seen on one of its sides, where there are many such things, and where one hangs
+// together with the region that the object sweeps, for it may go on behind the object: a table, a turntable, a seam.
 Image<LinearRgb> even_plate(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> untouched);
 
 }  // namespace rs::capture

@@ -26,6 +26,12 @@ cv::Mat3f light_mat(const Image<LinearRgb>& light) {
     return result;
 }
 
+cv::Mat3f smoothed_light(cv::Mat3f light) {
+    constexpr double kSmoothing_px = 1;
+    cv::GaussianBlur(light, light, {0, 0}, kSmoothing_px);
+    return light;
+}
+
 cv::Mat1f log_light_share(const cv::Mat3f& photo, const cv::Mat3f& plate) {
     RS_CHECK(photo.size() == plate.size());
     cv::Mat1f share(photo.size());

@@ -13,6 +13,9 @@ namespace rs::capture {
 // A copy.
 cv::Mat3f light_mat(const Image<LinearRgb>& light);
 
+// Without the noise of single pixels, for which edges would be found.
+cv::Mat3f smoothed_light(cv::Mat3f light);
+
 // The logarithm of the share, of means of linear light in pictures of one size. Dark pixels are taken to be a little
 // lighter.
 cv::Mat1f log_light_share(const cv::Mat3f& photo, const cv::Mat3f& plate);

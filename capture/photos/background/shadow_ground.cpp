@@ -17,18 +17,11 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kSmoothing_px = 1;
 constexpr int kWall_px = 4;            // edges are made wider by so much, and so closed where they vanish for eight
 constexpr float kShadow_log = -0.1F;   // of the plate's light a tenth is missing
 constexpr double kLeastShadow = 0.01;  // px of shadow in a row
 constexpr std::size_t kOneIn = 4;      // samples that show it: an outline that vanishes lets single pictures leak
 constexpr double kAbove = 0.02;        // of the picture's height: where a shadow fades out
-
-cv::Mat3f smoothed_light(ConstImageView<Rgba8> picture) {
-    cv::Mat3f light = linear_mat(picture);
-    cv::GaussianBlur(light, light, {0, 0}, kSmoothing_px);
-    return light;
-}
 
 // The label of the part that has most of the picture's border; 0 where none has any.
 int part_around(const cv::Mat1i& labels, int count) {
@@ -72,14 +65,14 @@ std::vector<bool> rows_with_shadow(const cv::Mat3f& photo, const cv::Mat3f& plat
 Image<std::uint8_t> above_shadows(const EvenedSamples& samples, ConstImageView<Rgba8> plate) {
     const int width = samples.width(), height = samples.height();
     RS_CHECK(plate.width() == width && plate.height() == height);
-    const cv::Mat3f behind = smoothed_light(plate);
+    const cv::Mat3f behind = smoothed_light(linear_mat(plate));
     std::vector<std::vector<bool>> shadows(samples.count());
     for_each_index(samples.count(), [&](std::size_t i) {
         Image<Rgba8> sample(width, height);
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) sample(x, y) = samples.smooth(i, x, y);
         }
-        shadows[i] = rows_with_shadow(smoothed_light(sample), behind);
+        shadows[i] = rows_with_shadow(smoothed_light(linear_mat(sample)), behind);
     });
     for (int y = 0; y < height; ++y) {
         const auto row = static_cast<std::size_t>(y);

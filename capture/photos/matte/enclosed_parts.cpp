@@ -17,7 +17,6 @@ namespace {
 
 // Edges are looked for in pictures of at most this side: there they are a pixel or two wide.
 constexpr int kSide_px = 1024;
-constexpr double kSmoothEdges_px = 1;
 
 constexpr float kSurely = 1;     // what speaks so for the object is taken for it
 constexpr int kEdgeWall_px = 2;  // edges are made wider by so much, and so closed where they vanish for four pixels
@@ -34,8 +33,7 @@ constexpr double kMuchOfObject = 0.3;
 cv::Mat3f smoothed(const cv::Mat3f& light, cv::Size size) {
     cv::Mat3f result;
     cv::resize(light, result, size, 0, 0, cv::INTER_AREA);
-    cv::GaussianBlur(result, result, {0, 0}, kSmoothEdges_px);
-    return result;
+    return smoothed_light(result);
 }
 
 LinearRgb light_of(const cv::Vec3f& light) {
