@@ -21,6 +21,7 @@ constexpr double kMostUncertainLens = 0.25;  // deviation of f over f
 constexpr double kStepWarning_deg = 0.5;
 constexpr double kRepeat = 0.1;  // of the median step
 constexpr double kGap = 1.6;
+constexpr std::size_t kFewUneven = 4;  // steps that are named one by one
 constexpr double kAxesApart_px = 0.5;
 
 // [view], of its candidates: those that agree with the rig.
@@ -147,6 +148,8 @@ bool changes_at_one_moment(const Bundle& bundle, std::span<const int> candidates
 std::vector<std::string> step_warnings(std::span<const double> angles, const ModelDeviations& deviations,
                                        std::span<const std::string> names) {
     std::vector<std::string> lines;
+    std::vector<double> uneven_deg;
+    std::vector<std::string> of_uneven;
     const double usual = degrees(median_step(angles));
     const auto off = [&](std::size_t i) {  // how far step i - 1 -> i differs from the usual one, degrees forward
         return (degrees(angles[i] - angles[i - 1]) - usual) * (usual < 0 ? -1 : 1);
@@ -169,10 +172,20 @@ std::vector<std::string> step_warnings(std::span<const double> angles, const Mod
             lines.push_back("there is a gap of " + with_digits(step, 1) + " degrees between " + names[i - 1] + " and " +
                             names[i] + " where other steps are " + with_digits(std::abs(usual), 1));
         } else {
-            lines.push_back("the step from " + names[i - 1] + " to " + names[i] + " is " + with_digits(step, 1) +
-                            " degrees where others are " + with_digits(std::abs(usual), 1) +
-                            "; the true angles are used");
+            uneven_deg.push_back(step);
+            of_uneven.push_back("the step from " + names[i - 1] + " to " + names[i] + " is " + with_digits(step, 1) +
+                                " degrees where others are " + with_digits(std::abs(usual), 1) +
+                                "; the true angles are used");
         }
+    }
+    if (of_uneven.size() <= kFewUneven) {
+        lines.insert(lines.end(), of_uneven.begin(), of_uneven.end());
+    } else {
+        const auto [least, most] = std::ranges::minmax(uneven_deg);
+        lines.push_back(std::to_string(of_uneven.size()) + " of " + std::to_string(angles.size() - 1) +
+                        " steps are " + with_digits(least, 1) + " to " + with_digits(most, 1) +
+                        " degrees where others are " + with_digits(std::abs(usual), 1) +
+                        "; the true angles are used");
     }
     const double closing = 360 - std::abs(degrees(angles.back() - angles.front()));
     if (closing > kGap * std::abs(usual) && closing < 90) {

@@ -283,9 +283,7 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
     return result;
 }
 
-}  // namespace
-
-Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
+Result<TrackCalibration> calibrate_placed(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
     std::optional<PlacedTurn> placed;
     Result<TrackCalibration> still = calibrate_still(turn, known, progress, &placed);
     if (!placed || placed->agreeing < kFewestAgreeingPlaced) return still;
@@ -302,6 +300,32 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const K
         }
         for (std::size_t i = 0; i < places.size(); ++i) places[i] = places[i].of((*remaining)[i]);
     }
+}
+
+// No lens folds its own picture over itself: what the distortion would explain then is something else.
+bool folds(const Lens& lens) {
+    for (const double x : {0.0, static_cast<double>(lens.width)}) {
+        for (const double y : {0.0, static_cast<double>(lens.height)}) {
+            if (!undistorted(lens, {x, y})) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
+    Result<TrackCalibration> found = calibrate_placed(turn, known, progress);
+    if (!found || known.distortion || !folds(found->calibration.model.lens)) return found;
+    KnownInputs straight = known;
+    straight.distortion = glm::dvec2(0);
+    found = calibrate_placed(turn, straight, progress);
+    if (found) {
+        found->calibration.warnings.emplace_back(
+            "the object's points do not show how the lens distorts, so it is taken not to; --known FILE gives what is "
+            "known of it");
+    }
+    return found;
 }
 
 }  // namespace rs::capture

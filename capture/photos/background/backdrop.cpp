@@ -24,6 +24,9 @@ constexpr double kMinTransparentShare = 0.01;  // ... and so many of them are a 
 constexpr int kWhite_code = 225;               // every channel at least
 constexpr int kBlack_code = 40;                // every channel at most
 constexpr double kBorderMajority = 0.6;
+constexpr double kOtherThings = 0.1;     // of the border, beside a white or a black: a room, not a studio
+constexpr int kBrightOnBlack_code = 110;  // the brightest channel of what no black is, however it is lit
+constexpr float kDeepestShade = 0.25F;    // light left of a white
 constexpr int kBorderColours = 4;
 constexpr double kStillBorder = 0.5;
 constexpr float kStillShare = 0.6F;  // of the samples agree: never or seldom hidden
@@ -128,8 +131,13 @@ bool is_black(const Rgba8& c) {
     return std::max({c.r, c.g, c.b}) <= kBlack_code;
 }
 
+bool is_white_in_some_light(const Rgba8& c) {
+    return explain_by_backdrop(linear_rgb(c), {1, 1, 1}, kDeepestShade, 1).shaded < kSameColour_delta_e;
+}
+
 struct BorderShares {
     double white = 0, black = 0;
+    double not_white = 0, not_black = 0;  // still things that no light makes of it
     double still = 0;  // agree over time
 };
 
@@ -141,10 +149,15 @@ BorderShares border_shares(const StillPicture& still) {
         ++count;
         shares.white += is_white(c) ? 1 : 0;
         shares.black += is_black(c) ? 1 : 0;
-        shares.still += still.agreement(x, y) >= kStillShare ? 1 : 0;
+        const bool rests = still.agreement(x, y) >= kStillShare;
+        shares.still += rests ? 1 : 0;
+        shares.not_white += rests && !is_white_in_some_light(c) ? 1 : 0;
+        shares.not_black += rests && std::max({c.r, c.g, c.b}) > kBrightOnBlack_code ? 1 : 0;
     });
     shares.white /= count;
     shares.black /= count;
+    shares.not_white /= count;
+    shares.not_black /= count;
     shares.still /= count;
     return shares;
 }
@@ -302,9 +315,9 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     std::vector<Rgba8> colours = border_colours(still, turn);
     if (request.kind) {
         found.kind = *request.kind;
-    } else if (shares.white >= kBorderMajority) {
+    } else if (shares.white >= kBorderMajority && shares.not_white < kOtherThings) {
         found.kind = BackdropKind::kWhite;
-    } else if (shares.black >= kBorderMajority) {
+    } else if (shares.black >= kBorderMajority && shares.not_black < kOtherThings) {
         found.kind = BackdropKind::kBlack;
     } else if (colours.empty() || (turn && shares.still < kStillBorder)) {
         return Error{where + kNoColour};
@@ -342,9 +355,12 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
         still.colour = std::move(plate.colour);
         known = std::move(plate.known);
         disc = plate.disc;
-        found.untouched = std::move(plate.untouched);
+        std::swap(found.untouched, plate.untouched);
         // Through the loops of an object a white or black backdrop looks the same all the time, too.
-        if (found.kind == BackdropKind::kColour) found.hidden = std::move(plate.hidden);
+        if (found.kind == BackdropKind::kColour) {
+            found.hidden = std::move(plate.hidden);
+            found.still = std::move(plate.untouched);
+        }
         if (found.kind != BackdropKind::kBlack && !disc) found.flat_grey = flat_grey_of(survey);
     } else {
         known = alike(still, colours, turn);

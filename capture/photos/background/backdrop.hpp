@@ -48,6 +48,7 @@ struct Backdrop {
     // ground of a painted vase. Empty where there are too few pictures to tell.
     Image<std::uint8_t> untouched{};
     Image<std::uint8_t> hidden{};
+    Image<std::uint8_t> still{};  // 255 where nothing ever changes, backdrop or not; empty as `hidden` is
     // 255 on a turntable's disc and around it, where the object's shadow falls; empty where no disc was found.
     Image<std::uint8_t> ground{};
     // The plate's light in a grey or white studio, where it is an even course (even_plate.hpp): right behind the

@@ -5,6 +5,7 @@
 #include "capture/photos/background/still_picture.hpp"
 #include "capture/photos/background/swept_region.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
+#include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
 #include <opencv2/core.hpp>
@@ -141,6 +142,39 @@ Image<std::uint8_t> hidden_within(ConstImageView<std::uint8_t> motionless, Const
     return hidden;
 }
 
+// Column of the turntable's axis: what turns sweeps as much to its left as to its right.
+std::optional<double> middle_of(ConstImageView<std::uint8_t> swept) {
+    std::vector<double> middles;
+    for (int y = 0; y < swept.height(); ++y) {
+        int left = 0, right = swept.width();
+        while (left < right && swept(left, y) == 0) ++left;
+        while (right > left && swept(right - 1, y) == 0) --right;
+        if (left < right) middles.push_back(0.5 * (left + right));
+    }
+    if (middles.empty()) return std::nullopt;
+    return median(std::move(middles));
+}
+
+// Where the still picture looks as it does on the other side of the axis in no light, or nothing is there.
+Image<std::uint8_t> one_sided_parts(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> swept) {
+    constexpr float kDarkest = 0.25F, kLightest = 4;
+    constexpr float kUnlike_delta_e = 10;
+    Image<std::uint8_t> one_sided(still.width(), still.height());
+    const std::optional<double> axis = middle_of(swept);
+    if (!axis) return one_sided;
+    for_each_index(still.height(), [&](int y) {
+        for (int x = 0; x < still.width(); ++x) {
+            const int mirrored = static_cast<int>(2 * *axis) - 1 - x;
+            const bool is_alike = mirrored >= 0 && mirrored < still.width() &&
+                                  explain_by_backdrop(linear_rgb(still(x, y)), linear_rgb(still(mirrored, y)), kDarkest,
+                                                      kLightest)
+                                          .shaded < kUnlike_delta_e;
+            one_sided(x, y) = is_alike ? 0 : 255;
+        }
+    });
+    return one_sided;
+}
+
 }  // namespace
 
 CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba8> still,
@@ -174,6 +208,7 @@ CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba
     fill_unknown(guess, bridged);
     result.hidden = hidden_within(motionless, swept, guess, still);
     grow_plate(samples, guess, confirm_plate(samples, guess, guessed), result.hidden, plate, Growth::kNearGuess);
+    grow_across_edges(samples, result.hidden, one_sided_parts(still, swept), plate);
     result.colour = sharp_colours(samples, plate);
     result.known = seen_in(plate);
     return result;

@@ -27,6 +27,14 @@ constexpr int kFront_px = 4;
 constexpr int kFewestInFront = 4;
 constexpr double kAlikeShare = 0.5;  // of the pixels in front that are the plate already
 
+// What stands still behind the object has edges, too. Across one all witnesses show another colour at once; of an object
+// they would not, for its outlines lie elsewhere in each picture, unless they are few: those that show a flat object
+// from its edge.
+constexpr int kFewestWitnessesAtEdge = 6;
+constexpr double kWitnessShareAtEdge = 0.25;  // of all samples
+constexpr double kKeptShareAtEdge = 0.9;
+constexpr double kMostWitnessesBehindEdge = 0.9;  // of all samples: what hardly ever changes may be the object's
+
 // A plate that is only expected is confirmed by patches of 5 x 5 pixels; it may err by more than one that is seen.
 constexpr int kExpected_codes = 8;
 constexpr int kPatch_px = 2;
@@ -61,6 +69,105 @@ Rgba8 smooth_mean(const EvenedSamples& samples, std::uint64_t witnesses, int x, 
     return mean_of(witnesses, [&](std::size_t i) { return samples.smooth(i, x, y); });
 }
 
+// A plate and the places it can still grow from.
+class GrowingPlate {
+public:
+    GrowingPlate(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred, GrownCleanPlate& plate)
+        : samples_(samples), barred_(barred), plate_(plate) {
+        RS_CHECK(barred.width() == samples.width() && barred.height() == samples.height());
+        RS_CHECK(samples.count() <= kMostWitnesses);
+    }
+
+    // The pixel is the plate's.
+    void accept(int x, int y, const Rgba8& colour, std::uint64_t witnesses) {
+        plate_.colour(x, y) = colour;
+        plate_.witnesses(x, y) = witnesses;
+        begin_at(x, y);
+    }
+    void begin_at(int x, int y) {
+        open_[static_cast<std::size_t>(std::popcount(plate_.witnesses(x, y)))].emplace_back(x, y);
+    }
+
+    // From pixel (x, y) of the plate to its neighbour (u, v) of the same colour: how many witnesses that has, 0 where
+    // it is not accepted. `may_have(colour)`.
+    template <class MayHave>
+    int go_on(int x, int y, int u, int v, MayHave may_have) {
+        const std::uint64_t before = plate_.witnesses(x, y);
+        std::uint64_t witnesses = witnesses_of(samples_, plate_.colour(x, y), u, v) & before;
+        if (std::popcount(witnesses) < kFewestWitnesses) return 0;
+        if (std::popcount(witnesses) < kKeptShare * std::popcount(before)) return 0;
+        Rgba8 colour = smooth_mean(samples_, witnesses, u, v);
+        witnesses = witnesses_of(samples_, colour, u, v);
+        if (witnesses == 0) return 0;
+        const auto looks_alike = [&](const Rgba8& seen) { return samples_agree(seen, colour, kTolerance_codes); };
+        if (!has_front(u, v, witnesses, looks_alike) || !may_have(colour)) return 0;
+        colour = smooth_mean(samples_, witnesses, u, v);
+        accept(u, v, colour, witnesses);
+        return std::popcount(witnesses);
+    }
+
+    // The same to a neighbour of another colour.
+    int cross(int x, int y, int u, int v, bool is_one_sided) {
+        const auto samples = static_cast<double>(samples_.count());
+        const std::uint64_t before = plate_.witnesses(x, y);
+        if (std::popcount(before) < std::max<double>(kFewestWitnessesAtEdge, kWitnessShareAtEdge * samples)) return 0;
+        std::uint64_t witnesses = before;
+        Rgba8 colour;
+        for (int round = 0; round < 2; ++round) {
+            colour = smooth_mean(samples_, witnesses, u, v);
+            witnesses = witnesses_of(samples_, colour, u, v);
+            if (std::popcount(witnesses & before) < kKeptShareAtEdge * std::popcount(before)) return 0;
+        }
+        if (std::popcount(witnesses) > kMostWitnessesBehindEdge * samples && !is_one_sided) return 0;
+        if (!has_front(u, v, witnesses, [](const Rgba8&) { return true; })) return 0;
+        accept(u, v, colour, witnesses);
+        return std::popcount(witnesses);
+    }
+
+    // The pixels with the most witnesses grow first: they know best. `step(x, y, u, v)` as go_on() and cross().
+    template <class Step>
+    void grow(Step step) {
+        for (int most = kMostWitnesses; most > 0;) {
+            auto& queue = open_[static_cast<std::size_t>(most)];
+            if (queue.empty()) {
+                --most;
+                continue;
+            }
+            const auto [x, y] = queue.front();
+            queue.pop_front();
+            int found = 0;
+            for (int v = std::max(0, y - 1); v <= std::min(samples_.height() - 1, y + 1); ++v) {
+                for (int u = std::max(0, x - 1); u <= std::min(samples_.width() - 1, x + 1); ++u) {
+                    if (plate_.witnesses(u, v) == 0 && barred_(u, v) == 0) found = std::max(found, step(x, y, u, v));
+                }
+            }
+            most = std::max(most, found);
+        }
+    }
+
+private:
+    // Whether around (u, v) enough of the plate is seen by the same pictures, of those whose colour is `alike`.
+    template <class Alike>
+    [[nodiscard]] bool has_front(int u, int v, std::uint64_t witnesses, Alike alike) const {
+        int count = 0;
+        int known = 0;
+        for (int y = std::max(0, v - kFront_px); y <= std::min(samples_.height() - 1, v + kFront_px); ++y) {
+            for (int x = std::max(0, u - kFront_px); x <= std::min(samples_.width() - 1, u + kFront_px); ++x) {
+                const int held = std::popcount(plate_.witnesses(x, y));
+                known += held == 0 ? 0 : 1;
+                if (held == 0 || !alike(plate_.colour(x, y))) continue;
+                count += std::popcount(witnesses & plate_.witnesses(x, y)) >= kKeptShare * held ? 1 : 0;
+            }
+        }
+        return count >= kFewestInFront && count >= kAlikeShare * known;
+    }
+
+    const EvenedSamples& samples_;
+    ConstImageView<std::uint8_t> barred_;
+    GrownCleanPlate& plate_;
+    std::array<std::deque<std::pair<int, int>>, kMostWitnesses + 1> open_;  // by how many witnesses they have
+};
+
 }  // namespace
 
 void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, ConstImageView<std::uint8_t> seeds,
@@ -69,18 +176,10 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
     const int height = samples.height();
     RS_CHECK(guess.width() == width && guess.height() == height);
     RS_CHECK(seeds.width() == width && seeds.height() == height);
-    RS_CHECK(barred.width() == width && barred.height() == height);
-    RS_CHECK(samples.count() <= kMostWitnesses);
     if (plate.colour.empty()) {
         plate = {Image<Rgba8>(width, height), Image<std::uint64_t>(width, height)};
     }
-    // The pixels with the most witnesses grow first: they know best.
-    std::array<std::deque<std::pair<int, int>>, kMostWitnesses + 1> open;
-    const auto accept = [&](int x, int y, const Rgba8& colour, std::uint64_t witnesses) {
-        plate.colour(x, y) = colour;
-        plate.witnesses(x, y) = witnesses;
-        open[static_cast<std::size_t>(std::popcount(witnesses))].emplace_back(x, y);
-    };
+    GrowingPlate growing(samples, barred, plate);
     GrownCleanPlate seeded{Image<Rgba8>(width, height), Image<std::uint64_t>(width, height)};
     for_each_index(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
@@ -93,52 +192,30 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
     });
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            if (seeded.witnesses(x, y) != 0) accept(x, y, seeded.colour(x, y), seeded.witnesses(x, y));
+            if (seeded.witnesses(x, y) != 0) growing.accept(x, y, seeded.colour(x, y), seeded.witnesses(x, y));
         }
     }
-    // Pixels of the plate around (u, v) that show the same in the same pictures.
-    const auto support = [&](int u, int v, const Rgba8& colour, std::uint64_t witnesses) {
-        int count = 0;
-        int known = 0;
-        for (int y = std::max(0, v - kFront_px); y <= std::min(height - 1, v + kFront_px); ++y) {
-            for (int x = std::max(0, u - kFront_px); x <= std::min(width - 1, u + kFront_px); ++x) {
-                const int held = std::popcount(plate.witnesses(x, y));
-                known += held == 0 ? 0 : 1;
-                if (held == 0 || !samples_agree(plate.colour(x, y), colour, kTolerance_codes)) continue;
-                count += std::popcount(witnesses & plate.witnesses(x, y)) >= kKeptShare * held ? 1 : 0;
-            }
+    growing.grow([&](int x, int y, int u, int v) {
+        return growing.go_on(x, y, u, v, [&](const Rgba8& colour) {
+            return growth == Growth::kFree || samples_agree(colour, guess(u, v), kGuessed_codes);
+        });
+    });
+}
+
+void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred,
+                       ConstImageView<std::uint8_t> one_sided, GrownCleanPlate& plate) {
+    RS_CHECK(one_sided.width() == samples.width() && one_sided.height() == samples.height());
+    RS_CHECK(plate.witnesses.width() == samples.width() && plate.witnesses.height() == samples.height());
+    GrowingPlate growing(samples, barred, plate);
+    for (int y = 0; y < samples.height(); ++y) {
+        for (int x = 0; x < samples.width(); ++x) {
+            if (plate.witnesses(x, y) != 0) growing.begin_at(x, y);
         }
-        return count >= kAlikeShare * known ? count : 0;
-    };
-    const auto try_from = [&](int x, int y, int u, int v) {
-        const std::uint64_t before = plate.witnesses(x, y);
-        std::uint64_t witnesses = witnesses_of(samples, plate.colour(x, y), u, v) & before;
-        if (std::popcount(witnesses) < kFewestWitnesses) return 0;
-        if (std::popcount(witnesses) < kKeptShare * std::popcount(before)) return 0;
-        Rgba8 colour = smooth_mean(samples, witnesses, u, v);
-        witnesses = witnesses_of(samples, colour, u, v);
-        if (witnesses == 0 || support(u, v, colour, witnesses) < kFewestInFront) return 0;
-        if (growth == Growth::kNearGuess && !samples_agree(colour, guess(u, v), kGuessed_codes)) return 0;
-        colour = smooth_mean(samples, witnesses, u, v);
-        accept(u, v, colour, witnesses);
-        return std::popcount(witnesses);
-    };
-    for (int most = kMostWitnesses; most > 0;) {
-        auto& queue = open[static_cast<std::size_t>(most)];
-        if (queue.empty()) {
-            --most;
-            continue;
-        }
-        const auto [x, y] = queue.front();
-        queue.pop_front();
-        int found = 0;
-        for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v) {
-            for (int u = std::max(0, x - 1); u <= std::min(width - 1, x + 1); ++u) {
-                if (plate.witnesses(u, v) == 0 && barred(u, v) == 0) found = std::max(found, try_from(x, y, u, v));
-            }
-        }
-        most = std::max(most, found);
     }
+    growing.grow([&](int x, int y, int u, int v) {
+        const int found = growing.go_on(x, y, u, v, [](const Rgba8&) { return true; });
+        return found > 0 ? found : growing.cross(x, y, u, v, one_sided(u, v) != 0);
+    });
 }
 
 Image<Rgba8> sharp_colours(const EvenedSamples& samples, const GrownCleanPlate& plate) {

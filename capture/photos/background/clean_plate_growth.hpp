@@ -26,6 +26,13 @@ enum class Growth { kFree, kNearGuess };
 void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, ConstImageView<std::uint8_t> seeds,
                 ConstImageView<std::uint8_t> barred, GrownCleanPlate& plate, Growth growth = Growth::kFree);
 
+// Grows a plate on from wherever it has come to, across edges of what stands still behind the object, too, but not to
+// where `barred` is not 0. All witnesses show another colour at once there; of an object they would not, for its outline
+// lies elsewhere in each picture, unless it looks the same from all sides, and then it does so to both sides of the
+// axis alike. So what hardly any picture shows otherwise is left alone but where `one_sided` is not 0.
+void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred,
+                       ConstImageView<std::uint8_t> one_sided, GrownCleanPlate& plate);
+
 // The plate's colours as sharp as the pictures are; it is grown by smoothed ones. Black where it has no witnesses.
 Image<Rgba8> sharp_colours(const EvenedSamples& samples, const GrownCleanPlate& plate);
 

@@ -130,6 +130,7 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
     plate_.ground = scaled(backdrop.ground, width, height);
     plate_.above = scaled(backdrop.above_shadows, width, height);
     plate_.hidden = scaled(backdrop.hidden, width, height);
+    plate_.still = scaled(backdrop.still, width, height);
     untouched_ = scaled(backdrop.untouched, width, height);
     if (flat_grey_) flat_plate_ = flat_plate(plate_, untouched_, linear_rgb(*flat_grey_));
 }

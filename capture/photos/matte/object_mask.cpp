@@ -80,6 +80,7 @@ float preference_against(const KnownColour& pixel, const KnownColour& behind, fl
     return likely ? options.shadow_or_grey : std::abs(options.shadow_or_grey);
 }
 
+constexpr int kBorderShare = 50;  // of the picture's shorter side, that is its border
 constexpr int kHoleRim_px = 2;
 constexpr double kTinyHole_px = 8;  // closed in pictures of any size
 // Connected parts of a binary picture; label 0 is what is outside all parts.
@@ -91,12 +92,16 @@ public:
     [[nodiscard]] int count() const { return count_; }
     [[nodiscard]] int label(int x, int y) const { return labels_(y, x); }
     [[nodiscard]] int area(int label) const { return stats_.at<int>(label, cv::CC_STAT_AREA); }
-    [[nodiscard]] bool touches_border(int label) const {
+    // Of the picture that a part comes so near to, a bit each.
+    [[nodiscard]] unsigned sides(int label, int near_px) const {
         const int x = stats_.at<int>(label, cv::CC_STAT_LEFT);
         const int y = stats_.at<int>(label, cv::CC_STAT_TOP);
-        return x == 0 || y == 0 || x + stats_.at<int>(label, cv::CC_STAT_WIDTH) == labels_.cols ||
-               y + stats_.at<int>(label, cv::CC_STAT_HEIGHT) == labels_.rows;
+        const int right = labels_.cols - x - stats_.at<int>(label, cv::CC_STAT_WIDTH);
+        const int below = labels_.rows - y - stats_.at<int>(label, cv::CC_STAT_HEIGHT);
+        return (x <= near_px ? 1U : 0U) | (y <= near_px ? 2U : 0U) | (right <= near_px ? 4U : 0U) |
+               (below <= near_px ? 8U : 0U);
     }
+    [[nodiscard]] bool touches_border(int label) const { return sides(label, 0) != 0; }
     // One value per label, 0 at first.
     template <class T>
     [[nodiscard]] std::vector<T> per_label() const {
@@ -129,32 +134,45 @@ void doubt_small_islands(Image<float>& preference, ConstImageView<Lab> plate, do
     }
 }
 
-// Keeps the parts of `mask` that hold a pixel which strongly speaks for the object, and are no specks.
-void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, const MaskOptions& options) {
+// Keeps the parts of `mask` that hold a pixel which strongly speaks for the object, and are no specks. Beside the
+// largest, what stands still where the object only comes by is a thing of the room, and so is in a room what reaches a
+// side of the picture that the largest does not: hands and heads of who turns the table.
+void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, const Image<std::uint8_t>& still,
+                      const MaskOptions& options) {
     const Parts parts(mask, 8);
     auto keep = parts.per_label<std::uint8_t>();
+    auto resting = parts.per_label<int>();  // pixels
     for (int y = 0; y < mask.rows; ++y) {
         for (int x = 0; x < mask.cols; ++x) {
-            if (mask(y, x) != 0 && preference(x, y) >= kStrong) keep[static_cast<std::size_t>(parts.label(x, y))] = 1;
+            if (mask(y, x) == 0) continue;
+            const auto label = static_cast<std::size_t>(parts.label(x, y));
+            if (preference(x, y) >= kStrong) keep[label] = 1;
+            resting[label] += !still.empty() && still(x, y) != 0 ? 1 : 0;
         }
     }
-    if (options.may_be_faint && std::ranges::count(keep, 0) == std::ssize(keep)) {
-        int first = 0;
-        for (int label = 1; label < parts.count(); ++label) {
-            if (first == 0 || parts.area(label) > parts.area(first)) first = label;
-        }
-        keep[static_cast<std::size_t>(first)] = 1;
-    }
+    const bool is_faint = options.may_be_faint && std::ranges::count(keep, 0) == std::ssize(keep);
     int largest = 0;
     for (int label = 1; label < parts.count(); ++label) {
-        if (keep[static_cast<std::size_t>(label)] != 0) largest = std::max(largest, parts.area(label));
+        if (!is_faint && keep[static_cast<std::size_t>(label)] == 0) continue;
+        if (largest == 0 || parts.area(label) > parts.area(largest)) largest = label;
+    }
+    const int near_px = std::max(1, std::min(mask.rows, mask.cols) / kBorderShare);
+    const auto comes_in = [&](int label) {
+        return options.is_room && (parts.sides(label, near_px) & ~parts.sides(largest, near_px)) != 0;
+    };
+    for (int label = 1; label < parts.count(); ++label) {
+        auto& kept = keep[static_cast<std::size_t>(label)];
+        if (label == largest) {
+            kept = 1;
+        } else if (parts.area(label) < options.min_part * parts.area(largest) ||
+                   2 * resting[static_cast<std::size_t>(label)] > parts.area(label) || comes_in(label)) {
+            kept = 0;
+        }
     }
     for (int y = 0; y < mask.rows; ++y) {
         for (int x = 0; x < mask.cols; ++x) {
             const int label = parts.label(x, y);
-            const bool solid = label != 0 && keep[static_cast<std::size_t>(label)] != 0 &&
-                               parts.area(label) >= options.min_part * largest;
-            mask(y, x) = solid ? 255 : 0;
+            mask(y, x) = label != 0 && keep[static_cast<std::size_t>(label)] != 0 ? 255 : 0;
         }
     }
 }
@@ -288,6 +306,7 @@ MaskOptions mask_options_for(const Backdrop& backdrop) {
     }
     // A plate that is known exactly, texture and all, is hardly met by chance.
     if (backdrop.kind == BackdropKind::kColour && !backdrop.untouched.empty()) {
+        options.is_room = true;
         options.max_island = kChance;
         options.shadow_or_grey = kShadowRather;
         options.possible_delta_e = 6;
@@ -382,7 +401,7 @@ Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const CleanPlateVie
     doubt_small_islands(preference, looks.plate, options.max_island);
     result = cut_coarse_first(looks.photo, preference, options.cut);
     cv::Mat1b mask(result.height(), result.width(), result.data());
-    keep_solid_parts(mask, preference, options);
+    keep_solid_parts(mask, preference, plate.still, options);
     close_false_holes(mask, preference, looks.plate, options);
     return result;
 }

@@ -40,6 +40,7 @@ struct MaskOptions {
     float thin_delta_e = 0;
     float thin_on_ground_delta_e = 0;
     CutOptions cut{};
+    bool is_room = false;       // people and things may reach into the picture
     bool may_be_faint = false;  // where no part is clearly the object's, the largest is
     double max_island = 0.003;  // plain grey patches smaller than this share of the picture may be the object's
     double min_part = 0.01;     // parts smaller than this share of the largest are specks
@@ -53,6 +54,7 @@ struct MaskOptions {
 struct CleanPlateView {
     Image<LinearRgb> light;         // exposed like the photograph
     Image<std::uint8_t> hidden;     // 255 where the object always is before it; empty: nobody can tell
+    Image<std::uint8_t> still;      // 255 where no picture shows anything else; empty: nobody can tell
     Image<std::uint8_t> seen;       // 255 where it is seen, in a shadow or not; empty: nobody can tell
     Image<std::uint8_t> ground;     // 255 on a turntable's disc and around it, where shadows fall; empty: no disc
     Image<std::uint8_t> above;      // 255 where no shadow falls; empty: nobody can tell. Not read where a ground is

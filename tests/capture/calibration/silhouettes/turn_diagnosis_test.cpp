@@ -87,6 +87,16 @@ TEST(TurnDiagnosis, NamesAStepGapAndPictureTakenTwice) {
     EXPECT_THAT(judge(truth, truth).warnings, Contains(HasSubstr("from 008.jpg to 009.jpg is 12.0 degrees")));
 }
 
+// As of every n-th frame of a film.
+TEST(TurnDiagnosis, ManyUnevenStepsAreOneLine) {
+    TurntableModel truth = test::turn_model(36, radians(10));
+    for (std::size_t i = 1; i < truth.angles_rad.size(); i += 2) truth.angles_rad[i] += radians(2);
+    const Judged judged = judge(truth, truth);
+    EXPECT_TRUE(judged.accepted.ok()) << judged.accepted.error().message;
+    ASSERT_EQ(judged.warnings.size(), 1U);
+    EXPECT_THAT(judged.warnings[0], HasSubstr("17 of 35 steps are 8.0 to 8.0 degrees where others are 12.0"));
+}
+
 TEST(TurnDiagnosis, TheLastViewMayRepeatTheFirst) {
     for (const double sense : {1.0, -1.0}) {
         TurntableModel truth = test::turn_model(37, sense * radians(10));
