@@ -5,6 +5,7 @@
 #include "capture/photos/background/disc_bridging.hpp"
 #include "capture/photos/background/even_plate.hpp"
 #include "capture/photos/background/shadow_ground.hpp"
+#include "capture/photos/background/still_border.hpp"
 #include "capture/photos/background/still_picture.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
 
@@ -21,36 +22,12 @@ namespace {
 
 constexpr int kTransparent = 128;              // alpha below this is a hole ...
 constexpr double kMinTransparentShare = 0.01;  // ... and so many of them are a matte
-constexpr int kWhite_code = 225;               // every channel at least
-constexpr int kBlack_code = 40;                // every channel at most
-constexpr double kBorderMajority = 0.6;
-constexpr double kOtherThings = 0.1;     // of the border, beside a white or a black: a room, not a studio
-constexpr int kBrightOnBlack_code = 110;  // the brightest channel of what no black is, however it is lit
-constexpr float kDeepestShade = 0.25F;    // light left of a white
-constexpr int kBorderColours = 4;
 constexpr double kStillBorder = 0.5;
-constexpr float kStillShare = 0.6F;  // of the samples agree: never or seldom hidden
 constexpr float kNeverHidden = 0.95F;
 constexpr float kSeenShare = 0.3F;     // of the samples agree: the backdrop, if its colour is right
 constexpr double kShadowReach = 0.25;  // of the disc's radius
 constexpr float kSameColour_delta_e = 16;
 constexpr std::size_t kMinSamplesForStillness = 6;
-
-int border_px(int width, int height) {
-    return std::max(2, std::min(width, height) / 50);
-}
-
-template <class Visit>
-void for_border(int width, int height, Visit visit) {
-    const int border = border_px(width, height);
-    for (int y = 0; y < height; ++y) {
-        const bool whole_row = y < border || y >= height - border;
-        for (int x = 0; x < width; ++x) {
-            if (!whole_row && x == border) x = std::max(border, width - border);
-            visit(x, y);
-        }
-    }
-}
 
 bool brings_alpha(const Survey& survey) {
     std::size_t matted = 0;
@@ -63,38 +40,13 @@ bool brings_alpha(const Survey& survey) {
     return 2 * matted > survey.samples.size();
 }
 
-// The few colours that the border consists of, commonest first.
-std::vector<Rgba8> border_colours(const StillPicture& still, bool only_still) {
-    std::vector<cv::Vec3f> seen;
-    for_border(still.colour.width(), still.colour.height(), [&](int x, int y) {
-        if (only_still && still.agreement(x, y) < kStillShare) return;
-        const Rgba8& c = still.colour(x, y);
-        seen.emplace_back(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b));
-    });
-    if (seen.size() < kBorderColours) return {};
-    cv::theRNG().state = 1;  // kmeans draws its starts from here: the same pictures must give the same backdrop
-    std::vector<int> labels;
-    cv::Mat centres;
-    cv::kmeans(cv::Mat(seen).reshape(1), kBorderColours, labels,
-               cv::TermCriteria(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 20, 0.5), 3, cv::KMEANS_PP_CENTERS,
-               centres);
-    std::vector<std::pair<std::ptrdiff_t, Rgba8>> ranked;
-    for (int k = 0; k < centres.rows; ++k) {
-        const auto code = [&](int channel) { return cv::saturate_cast<std::uint8_t>(centres.at<float>(k, channel)); };
-        ranked.emplace_back(std::count(labels.begin(), labels.end(), k), Rgba8{code(0), code(1), code(2), 255});
-    }
-    std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<Rgba8> colours;
-    for (const auto& [count, colour] : ranked) {
-        if (static_cast<double>(count) >= 0.02 * static_cast<double>(seen.size())) colours.push_back(colour);
-    }
-    return colours;
+bool looks_like(const LinearRgb& pixel, const LinearRgb& colour) {
+    return explain_by_backdrop(pixel, colour, 0.5F, 1.5F).shaded < kSameColour_delta_e;
 }
 
 bool resembles(const Rgba8& pixel, const std::vector<Rgba8>& colours) {
-    return std::any_of(colours.begin(), colours.end(), [&](const Rgba8& colour) {
-        return explain_by_backdrop(linear_rgb(pixel), linear_rgb(colour), 0.5F, 1.5F).shaded < kSameColour_delta_e;
-    });
+    return std::any_of(colours.begin(), colours.end(),
+                       [&](const Rgba8& colour) { return looks_like(linear_rgb(pixel), linear_rgb(colour)); });
 }
 
 // Where the exposure changes much from picture to picture, nothing agrees over time: what the border shows at the
@@ -121,45 +73,6 @@ std::optional<Rgba8> own_colour(BackdropKind kind) {
     if (kind == BackdropKind::kWhite) return Rgba8{255, 255, 255, 255};
     if (kind == BackdropKind::kBlack) return Rgba8{0, 0, 0, 255};
     return std::nullopt;
-}
-
-bool is_white(const Rgba8& c) {
-    return std::min({c.r, c.g, c.b}) >= kWhite_code;
-}
-
-bool is_black(const Rgba8& c) {
-    return std::max({c.r, c.g, c.b}) <= kBlack_code;
-}
-
-bool is_white_in_some_light(const Rgba8& c) {
-    return explain_by_backdrop(linear_rgb(c), {1, 1, 1}, kDeepestShade, 1).shaded < kSameColour_delta_e;
-}
-
-struct BorderShares {
-    double white = 0, black = 0;
-    double not_white = 0, not_black = 0;  // still things that no light makes of it
-    double still = 0;  // agree over time
-};
-
-BorderShares border_shares(const StillPicture& still) {
-    BorderShares shares;
-    double count = 0;
-    for_border(still.colour.width(), still.colour.height(), [&](int x, int y) {
-        const Rgba8& c = still.colour(x, y);
-        ++count;
-        shares.white += is_white(c) ? 1 : 0;
-        shares.black += is_black(c) ? 1 : 0;
-        const bool rests = still.agreement(x, y) >= kStillShare;
-        shares.still += rests ? 1 : 0;
-        shares.not_white += rests && !is_white_in_some_light(c) ? 1 : 0;
-        shares.not_black += rests && std::max({c.r, c.g, c.b}) > kBrightOnBlack_code ? 1 : 0;
-    });
-    shares.white /= count;
-    shares.black /= count;
-    shares.not_white /= count;
-    shares.not_black /= count;
-    shares.still /= count;
-    return shares;
 }
 
 template <class Condition>
@@ -199,6 +112,21 @@ std::optional<Rgba8> flat_grey_of(const Survey& survey) {
     return grey;
 }
 
+// Where the plate shows other things, too, than `even(x, y)` in some light: a room.
+template <class Even>
+bool shows_a_room(const Image<Rgba8>& plate, const Image<std::uint8_t>& known, Even even) {
+    constexpr double kShare = 0.02;
+    std::int64_t seen = 0, other = 0;
+    for (int y = 0; y < plate.height(); ++y) {
+        for (int x = 0; x < plate.width(); ++x) {
+            if (known(x, y) == 0) continue;
+            ++seen;
+            other += looks_like(linear_rgb(plate(x, y)), even(x, y)) ? 0 : 1;
+        }
+    }
+    return static_cast<double>(other) > kShare * static_cast<double>(seen);
+}
+
 // How even the black is that the pictures' borders show.
 BlackGround black_ground_of(const Survey& survey, const Lab& look) {
     constexpr double kEvenShare = 0.95;
@@ -231,8 +159,9 @@ void cap_noise(Image<float>& noise_delta_e) {
 
 // A plate that goes on evenly behind the object.
 void take_even_plate(Backdrop& backdrop, const EvenedSamples& samples) {
-    backdrop.even = even_plate(backdrop.plate, backdrop.untouched);
-    if (backdrop.even.empty()) return;
+    Image<LinearRgb> even = even_plate(backdrop.plate, backdrop.untouched);
+    if (even.empty() || shows_a_room(backdrop.plate, backdrop.known, [&](int x, int y) { return even(x, y); })) return;
+    backdrop.even = std::move(even);
     std::ranges::transform(backdrop.even.pixels(), backdrop.plate.pixels().begin(), [](const LinearRgb& light) {
         return rgba8_from_linear({light.r, light.g, light.b}, 255);
     });
@@ -315,9 +244,9 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     std::vector<Rgba8> colours = border_colours(still, turn);
     if (request.kind) {
         found.kind = *request.kind;
-    } else if (shares.white >= kBorderMajority && shares.not_white < kOtherThings) {
+    } else if (shares.is_white_studio()) {
         found.kind = BackdropKind::kWhite;
-    } else if (shares.black >= kBorderMajority && shares.not_black < kOtherThings) {
+    } else if (shares.is_black_studio()) {
         found.kind = BackdropKind::kBlack;
     } else if (colours.empty() || (turn && shares.still < kStillBorder)) {
         return Error{where + kNoColour};
@@ -362,6 +291,8 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
             found.still = std::move(plate.untouched);
         }
         if (found.kind != BackdropKind::kBlack && !disc) found.flat_grey = flat_grey_of(survey);
+        const auto grey = [&](int, int) { return linear_rgb(*found.flat_grey); };
+        if (found.flat_grey && shows_a_room(still.colour, known, grey)) found.flat_grey.reset();
     } else {
         known = alike(still, colours, turn);
     }

@@ -165,10 +165,10 @@ Image<std::uint8_t> one_sided_parts(ConstImageView<Rgba8> still, ConstImageView<
     for_each_index(still.height(), [&](int y) {
         for (int x = 0; x < still.width(); ++x) {
             const int mirrored = static_cast<int>(2 * *axis) - 1 - x;
-            const bool is_alike = mirrored >= 0 && mirrored < still.width() &&
-                                  explain_by_backdrop(linear_rgb(still(x, y)), linear_rgb(still(mirrored, y)), kDarkest,
-                                                      kLightest)
-                                          .shaded < kUnlike_delta_e;
+            const bool is_alike =
+                mirrored >= 0 && mirrored < still.width() &&
+                explain_by_backdrop(linear_rgb(still(x, y)), linear_rgb(still(mirrored, y)), kDarkest, kLightest)
+                        .shaded < kUnlike_delta_e;
             one_sided(x, y) = is_alike ? 0 : 255;
         }
     });

@@ -27,9 +27,9 @@ constexpr int kFront_px = 4;
 constexpr int kFewestInFront = 4;
 constexpr double kAlikeShare = 0.5;  // of the pixels in front that are the plate already
 
-// What stands still behind the object has edges, too. Across one all witnesses show another colour at once; of an object
-// they would not, for its outlines lie elsewhere in each picture, unless they are few: those that show a flat object
-// from its edge.
+// What stands still behind the object has edges, too. Across one all witnesses show another colour at once; of an
+// object they would not, for its outlines lie elsewhere in each picture, unless they are few: those that show a flat
+// object from its edge.
 constexpr int kFewestWitnessesAtEdge = 6;
 constexpr double kWitnessShareAtEdge = 0.25;  // of all samples
 constexpr double kKeptShareAtEdge = 0.9;

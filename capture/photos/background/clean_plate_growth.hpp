@@ -27,9 +27,9 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
                 ConstImageView<std::uint8_t> barred, GrownCleanPlate& plate, Growth growth = Growth::kFree);
 
 // Grows a plate on from wherever it has come to, across edges of what stands still behind the object, too, but not to
-// where `barred` is not 0. All witnesses show another colour at once there; of an object they would not, for its outline
-// lies elsewhere in each picture, unless it looks the same from all sides, and then it does so to both sides of the
-// axis alike. So what hardly any picture shows otherwise is left alone but where `one_sided` is not 0.
+// where `barred` is not 0. All witnesses show another colour at once there; of an object they would not, for its
+// outline lies elsewhere in each picture, unless it looks the same from all sides, and then it does so to both sides of
+// the axis alike. So what hardly any picture shows otherwise is left alone but where `one_sided` is not 0.
 void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred,
                        ConstImageView<std::uint8_t> one_sided, GrownCleanPlate& plate);
 

@@ -205,6 +205,17 @@ TEST(TrackCalibration, FindsTheTurnOfADrum) {
     EXPECT_LT(calibration.deviations.f_px, 0.05 * expected.lens.f_px);
 }
 
+// A lens that explains the points best but folds the picture's corners over: something else bends their ways.
+TEST(TrackCalibration, TakesNoLensThatFoldsItsPicture) {
+    TurntableModel bent = truth();
+    bent.lens.k1 = -3;
+    ASSERT_FALSE(undistorted(bent.lens, {0, 0}).has_value());
+    const auto found = calibrate_with_tracks(pictures_of(bent), lens_and_sense(), nullptr);
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    EXPECT_EQ(found->calibration.model.lens.k1, 0);
+    EXPECT_THAT(found->calibration.warnings, Contains(HasSubstr("do not show how the lens distorts")));
+}
+
 TEST(TrackCalibration, NamesTheViewsThatStandWrongOrAreBlurred) {
     TurntableModel model = truth();
     model.angles_rad[9] += radians(1.8);

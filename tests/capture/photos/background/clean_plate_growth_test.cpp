@@ -130,6 +130,36 @@ TEST(GrowPlate, StaysNearAGuessIfAsked) {
     EXPECT_EQ(near.witnesses(40, 24), 0U);
 }
 
+// A picture on the wall, its frame all around; the post stands beside it and looks the same to both sides.
+TEST(GrowAcrossEdges, EntersWhatHangsBehindAndNotWhatNeverChanges) {
+    std::vector<Image<Rgba8>> photos = bars_and_a_post();
+    constexpr Rgba8 kOnTheWall{30, 60, 200, 255};
+    for (std::size_t i = 0; i < photos.size(); ++i) {
+        for (int y = 12; y < 34; ++y) {
+            for (int x = 20; x < 32; ++x) {
+                if (photos[i](x, y) != kObject) photos[i](x, y) = kOnTheWall;
+            }
+        }
+    }
+    const EvenedSamples samples(photos);
+    const Image<std::uint8_t> nothing(kPlateWidth, kPlateHeight);
+    GrownCleanPlate plate = grown(samples, photos[0], seeds());
+    EXPECT_EQ(plate.witnesses(26, 23), 0U) << "growth alone stops at its edge";
+    grow_across_edges(samples, nothing, nothing, plate);
+    EXPECT_NE(plate.witnesses(26, 23), 0U);
+    EXPECT_NEAR(sharp_colours(samples, plate)(26, 23).b, kOnTheWall.b, 2);
+    EXPECT_EQ(plate.witnesses(40, 24), 0U) << "the post";
+
+    GrownCleanPlate barred = grown(samples, photos[0], seeds());
+    grow_across_edges(samples, Image<std::uint8_t>(kPlateWidth, kPlateHeight, 255), nothing, barred);
+    EXPECT_EQ(barred.witnesses(26, 23), 0U);
+
+    // What is one-sided cannot be the object's, however still it is.
+    GrownCleanPlate one_sided = grown(samples, photos[0], seeds());
+    grow_across_edges(samples, nothing, Image<std::uint8_t>(kPlateWidth, kPlateHeight, 255), one_sided);
+    EXPECT_NE(one_sided.witnesses(40, 24), 0U);
+}
+
 TEST(ConfirmPlate, NeedsPatchesInThreePictures) {
     std::vector<Image<Rgba8>> photos(5, Image<Rgba8>(kPlateWidth, kPlateHeight, kObject));
     const Rgba8 behind{100, 110, 120, 255};
