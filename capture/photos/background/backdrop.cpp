@@ -244,9 +244,9 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     std::vector<Rgba8> colours = border_colours(still, turn);
     if (request.kind) {
         found.kind = *request.kind;
-    } else if (shares.is_white_studio()) {
+    } else if (shares.is_white()) {
         found.kind = BackdropKind::kWhite;
-    } else if (shares.is_black_studio()) {
+    } else if (shares.is_black(turn)) {
         found.kind = BackdropKind::kBlack;
     } else if (colours.empty() || (turn && shares.still < kStillBorder)) {
         return Error{where + kNoColour};
@@ -280,7 +280,8 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     Image<std::uint8_t> known;
     std::optional<TurntableDisc> disc;
     if (turn && shares.still >= kStillBorder) {
-        CleanPlate plate = clean_plate_of_turn(samples, still.colour, found.untouched);
+        const Behind behind = found.kind == BackdropKind::kColour ? Behind::kAnything : Behind::kStudio;
+        CleanPlate plate = clean_plate_of_turn(samples, still.colour, found.untouched, behind);
         still.colour = std::move(plate.colour);
         known = std::move(plate.known);
         disc = plate.disc;

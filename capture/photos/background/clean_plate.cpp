@@ -155,30 +155,10 @@ std::optional<double> middle_of(ConstImageView<std::uint8_t> swept) {
     return median(std::move(middles));
 }
 
-// Where the still picture looks as it does on the other side of the axis in no light, or nothing is there.
-Image<std::uint8_t> one_sided_parts(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> swept) {
-    constexpr float kDarkest = 0.25F, kLightest = 4;
-    constexpr float kUnlike_delta_e = 10;
-    Image<std::uint8_t> one_sided(still.width(), still.height());
-    const std::optional<double> axis = middle_of(swept);
-    if (!axis) return one_sided;
-    for_each_index(still.height(), [&](int y) {
-        for (int x = 0; x < still.width(); ++x) {
-            const int mirrored = static_cast<int>(2 * *axis) - 1 - x;
-            const bool is_alike =
-                mirrored >= 0 && mirrored < still.width() &&
-                explain_by_backdrop(linear_rgb(still(x, y)), linear_rgb(still(mirrored, y)), kDarkest, kLightest)
-                        .shaded < kUnlike_delta_e;
-            one_sided(x, y) = is_alike ? 0 : 255;
-        }
-    });
-    return one_sided;
-}
-
 }  // namespace
 
 CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba8> still,
-                               ConstImageView<std::uint8_t> motionless) {
+                               ConstImageView<std::uint8_t> motionless, Behind behind) {
     const Image<std::uint8_t> moves = where(motionless, motionless, [](bool rests, bool) { return !rests; });
     Image<std::uint8_t> swept = swept_region(still, moves);
     CleanPlate result;
@@ -189,8 +169,9 @@ CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba
     Image<Rgba8> guess = plate.colour;
     Image<std::uint8_t> known = seen_in(plate);
     result.disc = find_turntable_disc(guess, known, swept);
+    Image<std::uint8_t> foot(still.width(), still.height());
     if (result.disc) {  // a foot that looks the same from all sides was taken for the disc
-        const Image<std::uint8_t> foot = still_foot(*result.disc, still, known, swept);
+        foot = still_foot(*result.disc, still, known, swept);
         for (int y = 0; y < foot.height(); ++y) {
             for (int x = 0; x < foot.width(); ++x) {
                 if (foot(x, y) == 0) continue;
@@ -208,7 +189,11 @@ CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba
     fill_unknown(guess, bridged);
     result.hidden = hidden_within(motionless, swept, guess, still);
     grow_plate(samples, guess, confirm_plate(samples, guess, guessed), result.hidden, plate, Growth::kNearGuess);
-    grow_across_edges(samples, result.hidden, one_sided_parts(still, swept), plate);
+    const std::optional<double> axis_px = middle_of(swept);
+    if (behind == Behind::kAnything && axis_px) {
+        const auto either = [](bool hides, bool stands) { return hides || stands; };
+        grow_across_edges(samples, where(result.hidden, foot, either), *axis_px, plate);
+    }
     result.colour = sharp_colours(samples, plate);
     result.known = seen_in(plate);
     return result;

@@ -1,7 +1,7 @@
 #pragma once
 // The clean plate of a turn, put together: the region that the object sweeps is told from the rest (swept_region.hpp),
 // then the plate grows from the rest inwards, and from what the rows show at both ends of the region
-// (clean_plate_growth.hpp).
+// (clean_plate_growth.hpp); in a room it grows across the edges of what stands there, too.
 
 #include "capture/photos/background/evened_samples.hpp"
 #include "capture/photos/background/turntable_disc.hpp"
@@ -22,10 +22,13 @@ struct CleanPlate {
     std::optional<TurntableDisc> disc;  // where one stands out
 };
 
+// What may stand behind the object: a studio's even backdrop, or a room.
+enum class Behind { kStudio, kAnything };
+
 // `still` is the picture that most samples agree on; `motionless` is not 0 where they all do, backdrop or not. At most
 // 64 samples.
 CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba8> still,
-                               ConstImageView<std::uint8_t> motionless);
+                               ConstImageView<std::uint8_t> motionless, Behind behind = Behind::kAnything);
 
 // Mean delta E between the samples and the plate, over those samples that show it, averaged over a neighbourhood; only
 // where `known` is not 0 the plate is compared, elsewhere what is known near by holds, or 0.

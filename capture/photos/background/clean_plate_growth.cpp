@@ -1,11 +1,13 @@
 #include "capture/photos/background/clean_plate_growth.hpp"
 
 #include "capture/photos/background/still_picture.hpp"
+#include "capture/photos/intake/colour_difference.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <deque>
@@ -33,7 +35,6 @@ constexpr double kAlikeShare = 0.5;  // of the pixels in front that are the plat
 constexpr int kFewestWitnessesAtEdge = 6;
 constexpr double kWitnessShareAtEdge = 0.25;  // of all samples
 constexpr double kKeptShareAtEdge = 0.9;
-constexpr double kMostWitnessesBehindEdge = 0.9;  // of all samples: what hardly ever changes may be the object's
 
 // A plate that is only expected is confirmed by patches of 5 x 5 pixels; it may err by more than one that is seen.
 constexpr int kExpected_codes = 8;
@@ -107,7 +108,7 @@ public:
     }
 
     // The same to a neighbour of another colour.
-    int cross(int x, int y, int u, int v, bool is_one_sided) {
+    int cross(int x, int y, int u, int v) {
         const auto samples = static_cast<double>(samples_.count());
         const std::uint64_t before = plate_.witnesses(x, y);
         if (std::popcount(before) < std::max<double>(kFewestWitnessesAtEdge, kWitnessShareAtEdge * samples)) return 0;
@@ -118,7 +119,6 @@ public:
             witnesses = witnesses_of(samples_, colour, u, v);
             if (std::popcount(witnesses & before) < kKeptShareAtEdge * std::popcount(before)) return 0;
         }
-        if (std::popcount(witnesses) > kMostWitnessesBehindEdge * samples && !is_one_sided) return 0;
         if (!has_front(u, v, witnesses, [](const Rgba8&) { return true; })) return 0;
         accept(u, v, colour, witnesses);
         return std::popcount(witnesses);
@@ -202,9 +202,34 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
     });
 }
 
-void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred,
-                       ConstImageView<std::uint8_t> one_sided, GrownCleanPlate& plate) {
-    RS_CHECK(one_sided.width() == samples.width() && one_sided.height() == samples.height());
+namespace {
+
+// Whether what the witnesses show at (x, y) looks, in some light, as most of them see it on the other side of the axis.
+bool is_mirrored(const EvenedSamples& samples, std::uint64_t witnesses, int x, int y, double axis_px) {
+    constexpr float kDarkest = 0.25F, kLightest = 4;
+    constexpr float kUnlike_delta_e = 10;
+    constexpr int kReach_px = 3;
+    const int mirrored = static_cast<int>(std::lround(2 * axis_px)) - 1 - x;
+    const LinearRgb own = linear_rgb(smooth_mean(samples, witnesses, x, y));
+    int alike = 0;
+    for (std::uint64_t left = witnesses; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        for (const int shift : {0, -kReach_px, kReach_px}) {
+            const int u = mirrored + shift;
+            if (u < 0 || u >= samples.width()) continue;
+            const LinearRgb other = linear_rgb(samples.smooth(i, u, y));
+            if (explain_by_backdrop(own, other, kDarkest, kLightest).shaded >= kUnlike_delta_e) continue;
+            ++alike;
+            break;
+        }
+    }
+    return 2 * alike > std::popcount(witnesses);
+}
+
+}  // namespace
+
+void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred, double axis_px,
+                       GrownCleanPlate& plate) {
     RS_CHECK(plate.witnesses.width() == samples.width() && plate.witnesses.height() == samples.height());
     GrowingPlate growing(samples, barred, plate);
     for (int y = 0; y < samples.height(); ++y) {
@@ -213,8 +238,9 @@ void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t
         }
     }
     growing.grow([&](int x, int y, int u, int v) {
+        if (is_mirrored(samples, plate.witnesses(x, y), u, v, axis_px)) return 0;
         const int found = growing.go_on(x, y, u, v, [](const Rgba8&) { return true; });
-        return found > 0 ? found : growing.cross(x, y, u, v, one_sided(u, v) != 0);
+        return found > 0 ? found : growing.cross(x, y, u, v);
     });
 }
 

@@ -5,7 +5,8 @@
 // shows: the backdrop goes on evenly, and a picture that shows it at one pixel mostly shows it at the next one too. So
 // every pixel of the plate carries the pictures in which it is seen (its witnesses), and the next pixel belongs to it
 // if most of those witnesses show the same colour there. Where the object always hides the backdrop the witnesses
-// run out, and growing stops: the object's own colour, however many pictures agree on it, has none.
+// run out, and growing stops: the object's own colour, however many pictures agree on it, has none. Edges of the
+// backdrop are crossed only afterwards (grow_across_edges).
 
 #include "capture/photos/background/evened_samples.hpp"
 #include "rayspace/image/image.hpp"
@@ -28,10 +29,10 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
 
 // Grows a plate on from wherever it has come to, across edges of what stands still behind the object, too, but not to
 // where `barred` is not 0. All witnesses show another colour at once there; of an object they would not, for its
-// outline lies elsewhere in each picture, unless it looks the same from all sides, and then it does so to both sides of
-// the axis alike. So what hardly any picture shows otherwise is left alone but where `one_sided` is not 0.
-void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred,
-                       ConstImageView<std::uint8_t> one_sided, GrownCleanPlate& plate);
+// outline lies elsewhere in each picture, unless it looks the same from all sides. That it does to both sides of the
+// axis, the column `axis_px`, so what witnesses see on the other side, too, in whatever light, is left alone.
+void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred, double axis_px,
+                       GrownCleanPlate& plate);
 
 // The plate's colours as sharp as the pictures are; it is grown by smoothed ones. Black where it has no witnesses.
 Image<Rgba8> sharp_colours(const EvenedSamples& samples, const GrownCleanPlate& plate);

@@ -1,7 +1,5 @@
 #include "capture/photos/background/still_border.hpp"
 
-#include "capture/photos/intake/colour_difference.hpp"
-
 #include <opencv2/core.hpp>
 
 #include <cstddef>
@@ -16,18 +14,12 @@ constexpr int kBlack_code = 40;   // every channel at most
 constexpr double kBorderMajority = 0.6;
 constexpr double kOtherThings = 0.1;      // of the border
 constexpr int kBrightOnBlack_code = 110;  // the brightest channel of what no black is, however it is lit
-constexpr float kDeepestShade = 0.25F;    // light left of a white
-constexpr float kStillWhite_delta_e = 16;
 constexpr int kBorderColours = 4;
 constexpr double kFewestOfColour = 0.02;  // of the pixels
 constexpr float kStillShare = 0.6F;       // of the samples agree: never or seldom hidden
 
 bool is_white(const Rgba8& c) {
     return std::min({c.r, c.g, c.b}) >= kWhite_code;
-}
-
-bool is_white_in_some_light(const Rgba8& c) {
-    return explain_by_backdrop(linear_rgb(c), {1, 1, 1}, kDeepestShade, 1).shaded < kStillWhite_delta_e;
 }
 
 }  // namespace
@@ -63,12 +55,12 @@ bool is_black(const Rgba8& colour) {
     return std::max({colour.r, colour.g, colour.b}) <= kBlack_code;
 }
 
-bool BorderShares::is_white_studio() const {
-    return white >= kBorderMajority && not_white < kOtherThings;
+bool BorderShares::is_white() const {
+    return white >= kBorderMajority;
 }
 
-bool BorderShares::is_black_studio() const {
-    return black >= kBorderMajority && not_black < kOtherThings;
+bool BorderShares::is_black(bool still_is_known) const {
+    return black >= kBorderMajority && (!still_is_known || bright < kOtherThings);
 }
 
 BorderShares border_shares(const StillPicture& still) {
@@ -81,13 +73,11 @@ BorderShares border_shares(const StillPicture& still) {
         shares.black += is_black(c) ? 1 : 0;
         const bool rests = still.agreement(x, y) >= kStillShare;
         shares.still += rests ? 1 : 0;
-        shares.not_white += rests && !is_white_in_some_light(c) ? 1 : 0;
-        shares.not_black += rests && std::max({c.r, c.g, c.b}) > kBrightOnBlack_code ? 1 : 0;
+        shares.bright += rests && std::max({c.r, c.g, c.b}) > kBrightOnBlack_code ? 1 : 0;
     });
     shares.white /= count;
     shares.black /= count;
-    shares.not_white /= count;
-    shares.not_black /= count;
+    shares.bright /= count;
     shares.still /= count;
     return shares;
 }

@@ -35,12 +35,12 @@ bool is_black(const Rgba8& colour);  // no channel above code 40
 // Shares of the border's pixels.
 struct BorderShares {
     double white = 0, black = 0;
-    double not_white = 0, not_black = 0;  // still things that no light makes of it
-    double still = 0;                     // agree over time
+    double bright = 0;  // still things that no black is, however it is lit
+    double still = 0;   // agree over time
 
-    // Most of it; and hardly anything else stands there, as in a room.
-    [[nodiscard]] bool is_white_studio() const;
-    [[nodiscard]] bool is_black_studio() const;
+    // Most of it is. Before a black hardly anything bright stands still; `still_is_known`: of enough pictures.
+    [[nodiscard]] bool is_white() const;
+    [[nodiscard]] bool is_black(bool still_is_known) const;
 };
 BorderShares border_shares(const StillPicture& still);
 

@@ -1,6 +1,7 @@
 #include "capture/photos/matte/object_mask.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
+#include "capture/photos/matte/connected_parts.hpp"
 #include "capture/photos/matte/contrast_cut.hpp"
 
 #include <opencv2/core.hpp>
@@ -81,39 +82,9 @@ float preference_against(const KnownColour& pixel, const KnownColour& behind, fl
 }
 
 constexpr int kBorderShare = 50;  // of the picture's shorter side, that is its border
+constexpr int kLargeShare = 4;    // one in so many of the largest part is large, too
 constexpr int kHoleRim_px = 2;
 constexpr double kTinyHole_px = 8;  // closed in pictures of any size
-// Connected parts of a binary picture; label 0 is what is outside all parts.
-class Parts {
-public:
-    Parts(const cv::Mat1b& picture, int connectivity) {
-        count_ = cv::connectedComponentsWithStats(picture, labels_, stats_, centroids_, connectivity);
-    }
-    [[nodiscard]] int count() const { return count_; }
-    [[nodiscard]] int label(int x, int y) const { return labels_(y, x); }
-    [[nodiscard]] int area(int label) const { return stats_.at<int>(label, cv::CC_STAT_AREA); }
-    // Of the picture that a part comes so near to, a bit each.
-    [[nodiscard]] unsigned sides(int label, int near_px) const {
-        const int x = stats_.at<int>(label, cv::CC_STAT_LEFT);
-        const int y = stats_.at<int>(label, cv::CC_STAT_TOP);
-        const int right = labels_.cols - x - stats_.at<int>(label, cv::CC_STAT_WIDTH);
-        const int below = labels_.rows - y - stats_.at<int>(label, cv::CC_STAT_HEIGHT);
-        return (x <= near_px ? 1U : 0U) | (y <= near_px ? 2U : 0U) | (right <= near_px ? 4U : 0U) |
-               (below <= near_px ? 8U : 0U);
-    }
-    [[nodiscard]] bool touches_border(int label) const { return sides(label, 0) != 0; }
-    // One value per label, 0 at first.
-    template <class T>
-    [[nodiscard]] std::vector<T> per_label() const {
-        return std::vector<T>(static_cast<std::size_t>(count_));
-    }
-
-private:
-    int count_ = 0;
-    cv::Mat1i labels_;
-    cv::Mat stats_;
-    cv::Mat centroids_;
-};
 
 // White patches of an object look like a white backdrop. What looks plain on a grey backdrop but is a small island, cut
 // off from the border of the picture, is no longer certain: it becomes a slight preference, and the contrast around it
@@ -123,7 +94,7 @@ void doubt_small_islands(Image<float>& preference, ConstImageView<Lab> plate, do
     for (int y = 0; y < plain.rows; ++y) {
         for (int x = 0; x < plain.cols; ++x) plain(y, x) = preference(x, y) <= -kDecided ? 255 : 0;
     }
-    const Parts parts(plain, 4);
+    const ConnectedParts parts(plain, 4);
     for (int y = 0; y < plain.rows; ++y) {
         for (int x = 0; x < plain.cols; ++x) {
             const int label = parts.label(x, y);
@@ -135,44 +106,55 @@ void doubt_small_islands(Image<float>& preference, ConstImageView<Lab> plate, do
 }
 
 // Keeps the parts of `mask` that hold a pixel which strongly speaks for the object, and are no specks. Beside the
-// largest, what stands still where the object only comes by is a thing of the room, and so is in a room what reaches a
-// side of the picture that the largest does not: hands and heads of who turns the table.
-void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, const Image<std::uint8_t>& still,
+// largest, what stands still where the object only comes by is a thing of the room; so is in a room what is small and
+// reaches a side of the picture that the largest does not: hands and heads of who turns the table.
+void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, const CleanPlateView& plate,
                       const MaskOptions& options) {
-    const Parts parts(mask, 8);
-    auto keep = parts.per_label<std::uint8_t>();
-    auto resting = parts.per_label<int>();  // pixels
+    const ConnectedParts parts(mask, 8);
+    struct Tally {
+        bool strong = false;
+        int still = 0, hidden = 0;  // pixels
+    };
+    auto tallies = parts.per_label<Tally>();
+    const auto is_set = [](const Image<std::uint8_t>& where, int x, int y) {
+        return !where.empty() && where(x, y) != 0;
+    };
     for (int y = 0; y < mask.rows; ++y) {
         for (int x = 0; x < mask.cols; ++x) {
             if (mask(y, x) == 0) continue;
-            const auto label = static_cast<std::size_t>(parts.label(x, y));
-            if (preference(x, y) >= kStrong) keep[label] = 1;
-            resting[label] += !still.empty() && still(x, y) != 0 ? 1 : 0;
+            Tally& tally = tallies[static_cast<std::size_t>(parts.label(x, y))];
+            tally.strong |= preference(x, y) >= kStrong;
+            tally.still += is_set(plate.still, x, y) ? 1 : 0;
+            tally.hidden += is_set(plate.hidden, x, y) ? 1 : 0;
         }
     }
-    const bool is_faint = options.may_be_faint && std::ranges::count(keep, 0) == std::ssize(keep);
+    const bool is_faint = options.may_be_faint && std::ranges::none_of(tallies, &Tally::strong);
     int largest = 0;
     for (int label = 1; label < parts.count(); ++label) {
-        if (!is_faint && keep[static_cast<std::size_t>(label)] == 0) continue;
+        if (!is_faint && !tallies[static_cast<std::size_t>(label)].strong) continue;
         if (largest == 0 || parts.area(label) > parts.area(largest)) largest = label;
     }
     const int near_px = std::max(1, std::min(mask.rows, mask.cols) / kBorderShare);
-    const auto comes_in = [&](int label) {
-        return options.is_room && (parts.sides(label, near_px) & ~parts.sides(largest, near_px)) != 0;
+    // A foot that the object always hides stands under the rest.
+    const auto stands_still = [&](int label) {
+        const Tally& tally = tallies[static_cast<std::size_t>(label)];
+        const bool may_be_foot = 2 * tally.hidden > parts.area(label) && parts.share_columns(label, largest);
+        return 2 * tally.still > parts.area(label) && !may_be_foot;
     };
+    const auto comes_in = [&](int label) {
+        return options.is_room && kLargeShare * parts.area(label) < parts.area(largest) &&
+               (parts.sides(label, near_px) & ~parts.sides(largest, near_px)) != 0;
+    };
+    auto keep = parts.per_label<std::uint8_t>();
     for (int label = 1; label < parts.count(); ++label) {
-        auto& kept = keep[static_cast<std::size_t>(label)];
-        if (label == largest) {
-            kept = 1;
-        } else if (parts.area(label) < options.min_part * parts.area(largest) ||
-                   2 * resting[static_cast<std::size_t>(label)] > parts.area(label) || comes_in(label)) {
-            kept = 0;
-        }
+        const bool is_kept = tallies[static_cast<std::size_t>(label)].strong &&
+                             parts.area(label) >= options.min_part * parts.area(largest) && !stands_still(label) &&
+                             !comes_in(label);
+        keep[static_cast<std::size_t>(label)] = is_kept || label == largest ? 1 : 0;
     }
     for (int y = 0; y < mask.rows; ++y) {
         for (int x = 0; x < mask.cols; ++x) {
-            const int label = parts.label(x, y);
-            mask(y, x) = label != 0 && keep[static_cast<std::size_t>(label)] != 0 ? 255 : 0;
+            mask(y, x) = keep[static_cast<std::size_t>(parts.label(x, y))] != 0 ? 255 : 0;
         }
     }
 }
@@ -186,7 +168,7 @@ void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstI
     cv::bitwise_not(mask, outside);
     cv::Mat1b inner;
     cv::erode(outside, inner, cv::Mat(), {-1, -1}, kHoleRim_px);
-    const Parts holes(outside, 4);
+    const ConnectedParts holes(outside, 4);
     struct Tally {
         int area = 0, seen = 0;              // of the whole hole
         int inner_area = 0, inner_seen = 0;  // without its rim
@@ -401,7 +383,7 @@ Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const CleanPlateVie
     doubt_small_islands(preference, looks.plate, options.max_island);
     result = cut_coarse_first(looks.photo, preference, options.cut);
     cv::Mat1b mask(result.height(), result.width(), result.data());
-    keep_solid_parts(mask, preference, plate.still, options);
+    keep_solid_parts(mask, preference, plate, options);
     close_false_holes(mask, preference, looks.plate, options);
     return result;
 }

@@ -94,7 +94,7 @@ TEST(TurnDiagnosis, ManyUnevenStepsAreOneLine) {
     const Judged judged = judge(truth, truth);
     EXPECT_TRUE(judged.accepted.ok()) << judged.accepted.error().message;
     ASSERT_EQ(judged.warnings.size(), 1U);
-    EXPECT_THAT(judged.warnings[0], HasSubstr("17 of 35 steps are 8.0 to 8.0 degrees where others are 12.0"));
+    EXPECT_THAT(judged.warnings[0], HasSubstr("17 of 35 steps are 8.0 degrees where others are 12.0"));
 }
 
 TEST(TurnDiagnosis, TheLastViewMayRepeatTheFirst) {

@@ -51,22 +51,21 @@ TEST(Backdrop, FindsEachKind) {
     EXPECT_LE(distance(found->colour, blue), 2);
 }
 
-// Most of the border is dark, or light, and the rest is a room: no black and no white that a studio has.
-TEST(Backdrop, ADarkRoomIsNoBlackAndALightOneNoWhite) {
-    for (const auto& [backdrop, window, kind] :
-         {std::tuple{Rgba8{12, 12, 14, 255}, Rgba8{150, 180, 230, 255}, BackdropKind::kBlack},
-          std::tuple{Rgba8{250, 251, 249, 255}, Rgba8{60, 40, 20, 255}, BackdropKind::kWhite}}) {
-        for (const auto& [columns, is_room] : {std::pair{0.02, false}, std::pair{0.35, true}}) {
-            test::DrawnTurn turn;
-            turn.backdrop = backdrop;
-            std::vector<Image<Rgba8>> photos = test::draw_photos(turn);
-            for (Image<Rgba8>& photo : photos) {
-                for (int y = 0; y < photo.height() / 6; ++y) {
-                    for (int x = 0; x < columns * photo.width(); ++x) photo(x, y) = window;
-                }
+// Most of the border is dark, and the rest is a room.
+TEST(Backdrop, ADarkRoomIsNoBlack) {
+    for (const auto& [columns, kind] :
+         {std::pair{0.02, BackdropKind::kBlack}, std::pair{0.35, BackdropKind::kColour}}) {
+        test::DrawnTurn turn;
+        turn.backdrop = {12, 12, 14, 255};
+        std::vector<Image<Rgba8>> photos = test::draw_photos(turn);
+        for (Image<Rgba8>& photo : photos) {
+            for (int y = 0; y < photo.height() / 6; ++y) {
+                for (int x = 0; x < columns * photo.width(); ++x) photo(x, y) = {150, 180, 230, 255};
             }
-            EXPECT_EQ(find_backdrop(survey_of(photos), {}, "x")->kind, is_room ? BackdropKind::kColour : kind);
         }
+        EXPECT_EQ(find_backdrop(survey_of(photos), {}, "x")->kind, kind);
+        photos.resize(3);  // too few to see what stands still
+        EXPECT_EQ(find_backdrop(survey_of(photos), {}, "x")->kind, BackdropKind::kBlack);
     }
 }
 

@@ -1,0 +1,49 @@
+#pragma once
+// The connected parts of a mask, by OpenCV, and what is asked of them when a mask is tidied up.
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace rs::capture {
+
+// Connected parts of a binary picture; label 0 is what is outside all parts.
+class ConnectedParts {
+public:
+    ConnectedParts(const cv::Mat1b& picture, int connectivity) {
+        count_ = cv::connectedComponentsWithStats(picture, labels_, stats_, centroids_, connectivity);
+    }
+    [[nodiscard]] int count() const { return count_; }
+    [[nodiscard]] int label(int x, int y) const { return labels_(y, x); }
+    [[nodiscard]] int area(int label) const { return stats_.at<int>(label, cv::CC_STAT_AREA); }
+    // Of the picture that a part comes so near to, a bit each.
+    [[nodiscard]] unsigned sides(int label, int near_px) const {
+        const int x = stats_.at<int>(label, cv::CC_STAT_LEFT);
+        const int y = stats_.at<int>(label, cv::CC_STAT_TOP);
+        const int right = labels_.cols - x - stats_.at<int>(label, cv::CC_STAT_WIDTH);
+        const int below = labels_.rows - y - stats_.at<int>(label, cv::CC_STAT_HEIGHT);
+        return (x <= near_px ? 1U : 0U) | (y <= near_px ? 2U : 0U) | (right <= near_px ? 4U : 0U) |
+               (below <= near_px ? 8U : 0U);
+    }
+    [[nodiscard]] bool touches_border(int label) const { return sides(label, 0) != 0; }
+    [[nodiscard]] bool share_columns(int a, int b) const {
+        const int left_a = stats_.at<int>(a, cv::CC_STAT_LEFT), left_b = stats_.at<int>(b, cv::CC_STAT_LEFT);
+        return left_a < left_b + stats_.at<int>(b, cv::CC_STAT_WIDTH) &&
+               left_b < left_a + stats_.at<int>(a, cv::CC_STAT_WIDTH);
+    }
+    // One value per label, 0 at first.
+    template <class T>
+    [[nodiscard]] std::vector<T> per_label() const {
+        return std::vector<T>(static_cast<std::size_t>(count_));
+    }
+
+private:
+    int count_ = 0;
+    cv::Mat1i labels_;
+    cv::Mat stats_;
+    cv::Mat centroids_;
+};
+
+}  // namespace rs::capture
