@@ -184,7 +184,7 @@ std::vector<std::string> step_warnings(std::span<const double> angles, const Mod
         const auto [least, most] = std::ranges::minmax(uneven_deg);
         const std::string from = with_digits(least, 1), to = with_digits(most, 1);
         lines.push_back(std::to_string(of_uneven.size()) + " of " + std::to_string(angles.size() - 1) + " steps are " +
-                        with_digits(least, 1) + " to " + with_digits(most, 1) + " degrees where others are " +
+                        from + (from == to ? "" : " to " + to) + " degrees where others are " +
                         with_digits(std::abs(usual), 1) + "; the true angles are used");
     }
     const double closing = 360 - std::abs(degrees(angles.back() - angles.front()));
