@@ -2,7 +2,8 @@
 // Calibration of a turn from points of the object: start search, bundle, outliers, hold-out, judgement. The outlines of
 // a full turn have their say in where the axis is (silhouette_symmetry.hpp). Where no turn before a still camera
 // explains the points, pictures are taken to have been moved and scaled one by one, as shops do, and put back
-// (picture_places.hpp).
+// (picture_places.hpp). Where the points are explained best by a lens that folds its own picture over, all is done
+// again without distortion.
 
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/points/bundle.hpp"

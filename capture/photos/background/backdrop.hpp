@@ -61,9 +61,9 @@ struct Backdrop {
 };
 
 // Automatic: the pictures' own alpha where at least 1 % of the pixels are transparent in most of the samples; otherwise
-// white or black where most of the border is; otherwise colour. Fails where the border is neither of few colours nor
-// still, where alpha is requested and there is none, and where there are no samples. `where` names the folder in
-// errors.
+// white or black where most of the border is, and black only where nothing bright stands there; otherwise colour. Fails
+// where the border is neither of few colours nor still, where alpha is requested and there is none, and where there are
+// no samples. `where` names the folder in errors.
 Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& request, const std::string& where);
 
 }  // namespace rs::capture

@@ -102,7 +102,7 @@ TEST(CutOutInARoom, WhoTurnsTheTableIsNoObject) {
     EXPECT_LE(errors.lost, 60);
 }
 
-// A part of the object that is cut off by the same side as the rest stays, and so does all in a studio.
+// A part that is cut off by the same side as the rest stays, and so does a large one.
 TEST(ObjectMask, WhatReachesIntoARoomIsNoObject) {
     Image<Rgba8> photo(120, 90, Rgba8{90, 110, 160, 255});
     const auto paint = [&](int left, int top, int right, int bottom) {
@@ -118,7 +118,9 @@ TEST(ObjectMask, WhatReachesIntoARoomIsNoObject) {
     MaskOptions options;
     EXPECT_EQ(find_object(photo, plate, options)(114, 30), 255);
     options.is_room = true;
+    paint(2, 20, 20, 70);  // the other shoe
     const Image<std::uint8_t> mask = find_object(photo, plate, options);
+    EXPECT_EQ(mask(10, 40), 255);
     EXPECT_EQ(mask(60, 50), 255);
     EXPECT_EQ(mask(90, 80), 255);
     EXPECT_EQ(mask(114, 30), 0);
