@@ -281,7 +281,7 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     std::optional<TurntableDisc> disc;
     if (turn && shares.still >= kStillBorder) {
         const Behind behind = found.kind == BackdropKind::kColour ? Behind::kAnything : Behind::kStudio;
-        CleanPlate plate = clean_plate_of_turn(samples, still.colour, found.untouched, behind);
+        CleanPlate plate = clean_plate_of_turn(samples, still, found.untouched, behind);
         still.colour = std::move(plate.colour);
         known = std::move(plate.known);
         disc = plate.disc;

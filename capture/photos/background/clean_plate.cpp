@@ -2,10 +2,9 @@
 
 #include "capture/photos/background/clean_plate_growth.hpp"
 #include "capture/photos/background/disc_bridging.hpp"
-#include "capture/photos/background/still_picture.hpp"
+#include "capture/photos/background/revolution_rows.hpp"
 #include "capture/photos/background/swept_region.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
-#include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
 #include <opencv2/core.hpp>
@@ -142,36 +141,45 @@ Image<std::uint8_t> hidden_within(ConstImageView<std::uint8_t> motionless, Const
     return hidden;
 }
 
-// Column of the turntable's axis: what turns sweeps as much to its left as to its right.
-std::optional<double> middle_of(ConstImageView<std::uint8_t> swept) {
-    std::vector<double> middles;
-    for (int y = 0; y < swept.height(); ++y) {
-        int left = 0, right = swept.width();
-        while (left < right && swept(left, y) == 0) ++left;
-        while (right > left && swept(right - 1, y) == 0) --right;
-        if (left < right) middles.push_back(0.5 * (left + right));
+// Of what never changes within the region swept, only what may be a body of revolution is the object's in a room.
+void keep_bodies_of_revolution(const RevolutionRows& rows, ConstImageView<Rgba8> still, Image<std::uint8_t>& hidden) {
+    const cv::Mat1b mask(hidden.height(), hidden.width(), hidden.data());
+    cv::Mat1i label;
+    std::vector<int> balance(
+        static_cast<std::size_t>(cv::connectedComponents(mask, label, 8)));  // pixels for and against
+    for (int y = 0; y < hidden.height(); ++y) {
+        for (int x = 0; x < hidden.width(); ++x) {
+            if (hidden(x, y) == 0) continue;
+            const LinearRgb own = linear_rgb(still(x, y));
+            const auto is_alike = [&](int u) { return alike_in_some_light(own, linear_rgb(still(u, y))); };
+            const bool may_be = rows.may_be_body(x, y) && rows.any_mirrored(x, is_alike);
+            balance[static_cast<std::size_t>(label(y, x))] += may_be ? 1 : -1;
+        }
     }
-    if (middles.empty()) return std::nullopt;
-    return median(std::move(middles));
+    for (int y = 0; y < hidden.height(); ++y) {
+        for (int x = 0; x < hidden.width(); ++x) {
+            if (balance[static_cast<std::size_t>(label(y, x))] < 0) hidden(x, y) = 0;
+        }
+    }
 }
 
 }  // namespace
 
-CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba8> still,
+CleanPlate clean_plate_of_turn(const EvenedSamples& samples, const StillPicture& still,
                                ConstImageView<std::uint8_t> motionless, Behind behind) {
     const Image<std::uint8_t> moves = where(motionless, motionless, [](bool rests, bool) { return !rests; });
-    Image<std::uint8_t> swept = swept_region(still, moves);
+    auto [swept, axis_px] = swept_region(still.colour, moves);
     CleanPlate result;
     result.untouched = where(motionless, swept, [](bool rests, bool within) { return rests && !within; });
     result.hidden = where(motionless, swept, [](bool rests, bool within) { return rests && within; });
     GrownCleanPlate plate;
-    grow_plate(samples, still, result.untouched, result.hidden, plate);
+    grow_plate(samples, still.colour, result.untouched, result.hidden, plate);
     Image<Rgba8> guess = plate.colour;
     Image<std::uint8_t> known = seen_in(plate);
     result.disc = find_turntable_disc(guess, known, swept);
-    Image<std::uint8_t> foot(still.width(), still.height());
+    Image<std::uint8_t> foot(swept.width(), swept.height());
     if (result.disc) {  // a foot that looks the same from all sides was taken for the disc
-        foot = still_foot(*result.disc, still, known, swept);
+        foot = still_foot(*result.disc, still.colour, known, swept);
         for (int y = 0; y < foot.height(); ++y) {
             for (int x = 0; x < foot.width(); ++x) {
                 if (foot(x, y) == 0) continue;
@@ -187,12 +195,14 @@ CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba
     bridge_gaps(result.disc, guess, bridged);
     const Image<std::uint8_t> guessed = where(bridged, known, [](bool has, bool had) { return has && !had; });
     fill_unknown(guess, bridged);
-    result.hidden = hidden_within(motionless, swept, guess, still);
+    result.hidden = hidden_within(motionless, swept, guess, still.colour);
+    std::optional<RevolutionRows> rows;
+    if (behind == Behind::kAnything && axis_px) rows.emplace(still, *axis_px);
+    if (rows) keep_bodies_of_revolution(*rows, still.colour, result.hidden);
     grow_plate(samples, guess, confirm_plate(samples, guess, guessed), result.hidden, plate, Growth::kNearGuess);
-    const std::optional<double> axis_px = middle_of(swept);
-    if (behind == Behind::kAnything && axis_px) {
+    if (rows) {
         const auto either = [](bool hides, bool stands) { return hides || stands; };
-        grow_across_edges(samples, where(result.hidden, foot, either), *axis_px, plate);
+        grow_across_edges(samples, where(result.hidden, foot, either), *rows, plate);
     }
     result.colour = sharp_colours(samples, plate);
     result.known = seen_in(plate);

@@ -4,6 +4,7 @@
 // (clean_plate_growth.hpp); in a room it grows across the edges of what stands there, too.
 
 #include "capture/photos/background/evened_samples.hpp"
+#include "capture/photos/background/still_picture.hpp"
 #include "capture/photos/background/turntable_disc.hpp"
 #include "rayspace/image/image.hpp"
 
@@ -25,9 +26,8 @@ struct CleanPlate {
 // What may stand behind the object: a studio's even backdrop, or a room.
 enum class Behind { kStudio, kAnything };
 
-// `still` is the picture that most samples agree on; `motionless` is not 0 where they all do, backdrop or not. At most
-// 64 samples.
-CleanPlate clean_plate_of_turn(const EvenedSamples& samples, ConstImageView<Rgba8> still,
+// `still` is the samples' own; `motionless` is not 0 where they all agree, backdrop or not. At most 64 samples.
+CleanPlate clean_plate_of_turn(const EvenedSamples& samples, const StillPicture& still,
                                ConstImageView<std::uint8_t> motionless, Behind behind = Behind::kAnything);
 
 // Mean delta E between the samples and the plate, over those samples that show it, averaged over a neighbourhood; only

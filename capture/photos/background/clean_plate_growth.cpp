@@ -205,30 +205,20 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
 namespace {
 
 // Whether what the witnesses show at (x, y) looks, in some light, as most of them see it on the other side of the axis.
-bool is_mirrored(const EvenedSamples& samples, std::uint64_t witnesses, int x, int y, double axis_px) {
-    constexpr float kDarkest = 0.25F, kLightest = 4;
-    constexpr float kUnlike_delta_e = 10;
-    constexpr int kReach_px = 3;
-    const int mirrored = static_cast<int>(std::lround(2 * axis_px)) - 1 - x;
+bool is_mirrored(const EvenedSamples& samples, std::uint64_t witnesses, int x, int y, const RevolutionRows& rows) {
     const LinearRgb own = linear_rgb(smooth_mean(samples, witnesses, x, y));
     int alike = 0;
     for (std::uint64_t left = witnesses; left != 0; left &= left - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));
-        for (const int shift : {0, -kReach_px, kReach_px}) {
-            const int u = mirrored + shift;
-            if (u < 0 || u >= samples.width()) continue;
-            const LinearRgb other = linear_rgb(samples.smooth(i, u, y));
-            if (explain_by_backdrop(own, other, kDarkest, kLightest).shaded >= kUnlike_delta_e) continue;
-            ++alike;
-            break;
-        }
+        const auto looks_alike = [&](int u) { return alike_in_some_light(own, linear_rgb(samples.smooth(i, u, y))); };
+        alike += rows.any_mirrored(x, looks_alike) ? 1 : 0;
     }
     return 2 * alike > std::popcount(witnesses);
 }
 
 }  // namespace
 
-void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred, double axis_px,
+void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred, const RevolutionRows& rows,
                        GrownCleanPlate& plate) {
     RS_CHECK(plate.witnesses.width() == samples.width() && plate.witnesses.height() == samples.height());
     GrowingPlate growing(samples, barred, plate);
@@ -238,7 +228,7 @@ void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t
         }
     }
     growing.grow([&](int x, int y, int u, int v) {
-        if (is_mirrored(samples, plate.witnesses(x, y), u, v, axis_px)) return 0;
+        if (rows.may_be_body(u, v) && is_mirrored(samples, plate.witnesses(x, y), u, v, rows)) return 0;
         const int found = growing.go_on(x, y, u, v, [](const Rgba8&) { return true; });
         return found > 0 ? found : growing.cross(x, y, u, v);
     });

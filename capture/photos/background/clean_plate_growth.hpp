@@ -9,6 +9,7 @@
 // backdrop are crossed only afterwards (grow_across_edges).
 
 #include "capture/photos/background/evened_samples.hpp"
+#include "capture/photos/background/revolution_rows.hpp"
 #include "rayspace/image/image.hpp"
 
 namespace rs::capture {
@@ -29,9 +30,9 @@ void grow_plate(const EvenedSamples& samples, ConstImageView<Rgba8> guess, Const
 
 // Grows a plate on from wherever it has come to, across edges of what stands still behind the object, too, but not to
 // where `barred` is not 0. All witnesses show another colour at once there; of an object they would not, for its
-// outline lies elsewhere in each picture, unless it looks the same from all sides. That it does to both sides of the
-// axis, the column `axis_px`, so what witnesses see on the other side, too, in whatever light, is left alone.
-void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred, double axis_px,
+// outline lies elsewhere in each picture, unless it is a body of revolution: what `rows` let be one, and witnesses see
+// on the other side of the axis, too, in whatever light, is left alone.
+void grow_across_edges(const EvenedSamples& samples, ConstImageView<std::uint8_t> barred, const RevolutionRows& rows,
                        GrownCleanPlate& plate);
 
 // The plate's colours as sharp as the pictures are; it is grown by smoothed ones. Black where it has no witnesses.

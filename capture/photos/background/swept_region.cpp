@@ -108,9 +108,7 @@ cv::Mat1b edges_of(const Image<Cell>& cells) {
 // A part of a turning object that never changes is one of revolution, so in every row it lies evenly to both sides of
 // the axis, within an edge: the lip of a vase above all that moves, and the rim of its belly. So does the disc, but
 // that is much wider than what stands on it.
-void add_parts_of_revolution(const Image<Cell>& cells, cv::Mat1b& swept) {
-    const std::optional<double> axis = axis_of(swept);
-    if (!axis) return;
+void add_parts_of_revolution(const Image<Cell>& cells, double axis, cv::Mat1b& swept) {
     const cv::Rect moving = cv::boundingRect(swept);
     cv::Mat1b surfaces;
     cv::bitwise_not(edges_of(cells) | swept, surfaces);
@@ -125,7 +123,7 @@ void add_parts_of_revolution(const Image<Cell>& cells, cv::Mat1b& swept) {
     }
     const auto enclosed = [&](int u, int v) { return !backdrop[static_cast<std::size_t>(labels(v, u))]; };
     // From the axis outwards; the shorter side counts.
-    const int middle = std::clamp(static_cast<int>(*axis), 0, swept.cols - 1);
+    const int middle = std::clamp(static_cast<int>(axis), 0, swept.cols - 1);
     const auto reach = [&](auto holds, int v) {
         int wide = 0;
         while (middle - wide >= 0 && middle + wide < swept.cols && holds(middle - wide, v) && holds(middle + wide, v)) {
@@ -177,10 +175,10 @@ void close_bands(cv::Mat1b& swept) {
 
 }  // namespace
 
-Image<std::uint8_t> swept_region(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> moves) {
+SweptRegion swept_region(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> moves) {
     RS_CHECK(still.width() == moves.width() && still.height() == moves.height());
-    Image<std::uint8_t> region(still.width(), still.height());
-    if (region.empty()) return region;
+    SweptRegion region{Image<std::uint8_t>(still.width(), still.height()), std::nullopt};
+    if (region.mask.empty()) return region;
     const int side_px = (std::max(still.width(), still.height()) + kGridSide - 1) / kGridSide;
     const Image<Cell> cells = cells_of(still, moves, side_px);
     const int width = cells.width();
@@ -215,10 +213,13 @@ Image<std::uint8_t> swept_region(ConstImageView<Rgba8> still, ConstImageView<std
     graph.maxFlow();
     cv::Mat1b swept(height, width);
     for (int i = 0; i < nodes; ++i) swept(i / width, i % width) = graph.inSourceSegment(i) ? 255 : 0;
-    add_parts_of_revolution(cells, swept);
+    if (const std::optional<double> axis = axis_of(swept)) {
+        add_parts_of_revolution(cells, *axis, swept);
+        region.axis_px = *axis * side_px;
+    }
     close_bands(swept);
-    for (int y = 0; y < region.height(); ++y) {
-        for (int x = 0; x < region.width(); ++x) region(x, y) = swept(y / side_px, x / side_px);
+    for (int y = 0; y < region.mask.height(); ++y) {
+        for (int x = 0; x < region.mask.width(); ++x) region.mask(x, y) = swept(y / side_px, x / side_px);
     }
     return region;
 }

@@ -9,11 +9,18 @@
 
 #include "rayspace/image/image.hpp"
 
+#include <optional>
+
 namespace rs::capture {
 
-// 255 within the region. `still` is the still picture; `moves` is not 0 where the samples disagree over time. Both have
+struct SweptRegion {
+    Image<std::uint8_t> mask;       // 255 within the region
+    std::optional<double> axis_px;  // column of the turntable's axis; none where nothing moves
+};
+
+// `still` is the still picture; `moves` is not 0 where the samples disagree over time. Both have
 // one size. Costs a minimum cut over a grid of at most 256 cells a side, whatever the pictures' size; the region has
 // the precision of such a cell.
-Image<std::uint8_t> swept_region(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> moves);
+SweptRegion swept_region(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> moves);
 
 }  // namespace rs::capture

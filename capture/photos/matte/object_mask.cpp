@@ -135,11 +135,12 @@ void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, const C
         if (largest == 0 || parts.area(label) > parts.area(largest)) largest = label;
     }
     const int near_px = std::max(1, std::min(mask.rows, mask.cols) / kBorderShare);
-    // A foot that the object always hides stands under the rest.
+    // A foot or a lip that the object always hides stands under the rest or right above it.
     const auto stands_still = [&](int label) {
         const Tally& tally = tallies[static_cast<std::size_t>(label)];
-        const bool may_be_foot = 2 * tally.hidden > parts.area(label) && parts.share_columns(label, largest);
-        return 2 * tally.still > parts.area(label) && !may_be_foot;
+        const bool may_be_of_it = 2 * tally.hidden > parts.area(label) && parts.share_columns(label, largest) &&
+                                  parts.rows_above(label, largest) <= near_px;
+        return 2 * tally.still > parts.area(label) && !may_be_of_it;
     };
     const auto comes_in = [&](int label) {
         return options.is_room && kLargeShare * parts.area(label) < parts.area(largest) &&

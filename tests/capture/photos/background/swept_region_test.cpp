@@ -32,7 +32,7 @@ Image<std::uint8_t> mask_where(Condition condition) {
 TEST(SweptRegion, IsWhatMovesWhereTheBackdropIsEven) {
     const Image<Rgba8> still(kSide, kSide, kWall);
     const auto disc = [](int x, int y) { return std::hypot(x - 60, y - 60) < 25; };
-    const Image<std::uint8_t> region = swept_region(still, mask_where(disc));
+    const Image<std::uint8_t> region = swept_region(still, mask_where(disc)).mask;
     for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) {
             const double from_axis = std::hypot(x - 60, y - 60);
@@ -52,7 +52,7 @@ TEST(SweptRegion, HoldsTheStillPartsOfTheObject) {
             if (in_body(x, y)) still(x, y) = kBody;
         }
     }
-    const Image<std::uint8_t> region = swept_region(still, mask_where(in_bands));
+    const Image<std::uint8_t> region = swept_region(still, mask_where(in_bands)).mask;
     EXPECT_EQ(region(60, 60), 255) << "between the bands";
     EXPECT_EQ(region(48, 60), 255);
     EXPECT_EQ(region(60, 34), 255) << "the lip above them";
@@ -70,7 +70,7 @@ TEST(SweptRegion, HoldsALipNearThePicturesBorder) {
         }
     }
     const Image<std::uint8_t> region =
-        swept_region(still, mask_where([](int x, int y) { return in_bands(x, y + kUp); }));
+        swept_region(still, mask_where([](int x, int y) { return in_bands(x, y + kUp); })).mask;
     EXPECT_EQ(region(60, 2), 255);
     EXPECT_EQ(region(60, 8), 255);
     EXPECT_EQ(region(30, 3), 0);
@@ -84,7 +84,7 @@ TEST(SweptRegion, HoldsTheFootOfWhatIsNarrowBelow) {
             if (moves(x, y) || (y >= 86 && y < 92 && std::abs(x - 60) < 6)) still(x, y) = kBody;
         }
     }
-    const Image<std::uint8_t> region = swept_region(still, mask_where(moves));
+    const Image<std::uint8_t> region = swept_region(still, mask_where(moves)).mask;
     EXPECT_EQ(region(60, 86), 255);
     EXPECT_EQ(region(70, 86), 0);
     EXPECT_EQ(region(60, 100), 0);
@@ -92,7 +92,7 @@ TEST(SweptRegion, HoldsTheFootOfWhatIsNarrowBelow) {
 
 TEST(SweptRegion, IsEmptyWhereNothingMoves) {
     const Image<std::uint8_t> region =
-        swept_region(Image<Rgba8>(kSide, kSide, kWall), mask_where([](int, int) { return false; }));
+        swept_region(Image<Rgba8>(kSide, kSide, kWall), mask_where([](int, int) { return false; })).mask;
     EXPECT_EQ(std::count(region.pixels().begin(), region.pixels().end(), 0), kSide * kSide);
 }
 
