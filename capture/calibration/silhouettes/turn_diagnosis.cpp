@@ -148,18 +148,18 @@ bool changes_at_one_moment(const Bundle& bundle, std::span<const int> candidates
 std::vector<std::string> step_warnings(std::span<const double> angles, const ModelDeviations& deviations,
                                        std::span<const std::string> names) {
     std::vector<std::string> lines;
-    std::vector<double> uneven_deg;
-    std::vector<std::string> of_uneven;
+    std::vector<std::size_t> uneven;  // steps to these views
     const double usual = degrees(median_step(angles));
     const auto off = [&](std::size_t i) {  // how far step i - 1 -> i differs from the usual one, degrees forward
         return (degrees(angles[i] - angles[i - 1]) - usual) * (usual < 0 ? -1 : 1);
     };
+    const auto step_to = [&](std::size_t i) { return std::abs(usual) + off(i); };
     const auto tolerance = [&](std::size_t i) {
         return std::max(kStepWarning_deg,
                         4 * degrees(std::hypot(deviations.angles_rad[i], deviations.angles_rad[i - 1])));
     };
     for (std::size_t i = 1; i < angles.size(); ++i) {
-        const double step = std::abs(usual) + off(i);
+        const double step = step_to(i);
         if (std::abs(off(i)) <= tolerance(i)) continue;
         if (std::abs(step) < kRepeat * std::abs(usual)) {
             lines.push_back(names[i] + " stands where " + names[i - 1] + " does (" + with_digits(step, 2) +
@@ -172,20 +172,21 @@ std::vector<std::string> step_warnings(std::span<const double> angles, const Mod
             lines.push_back("there is a gap of " + with_digits(step, 1) + " degrees between " + names[i - 1] + " and " +
                             names[i] + " where other steps are " + with_digits(std::abs(usual), 1));
         } else {
-            uneven_deg.push_back(step);
-            of_uneven.push_back("the step from " + names[i - 1] + " to " + names[i] + " is " + with_digits(step, 1) +
-                                " degrees where others are " + with_digits(std::abs(usual), 1) +
-                                "; the true angles are used");
+            uneven.push_back(i);
         }
     }
-    if (of_uneven.size() <= kFewUneven) {
-        lines.insert(lines.end(), of_uneven.begin(), of_uneven.end());
+    const std::string others =
+        " degrees where others are " + with_digits(std::abs(usual), 1) + "; the true angles are used";
+    if (uneven.size() <= kFewUneven) {
+        for (const std::size_t i : uneven) {
+            lines.push_back("the step from " + names[i - 1] + " to " + names[i] + " is " + with_digits(step_to(i), 1) +
+                            others);
+        }
     } else {
-        const auto [least, most] = std::ranges::minmax(uneven_deg);
-        const std::string from = with_digits(least, 1), to = with_digits(most, 1);
-        lines.push_back(std::to_string(of_uneven.size()) + " of " + std::to_string(angles.size() - 1) + " steps are " +
-                        from + (from == to ? "" : " to " + to) + " degrees where others are " +
-                        with_digits(std::abs(usual), 1) + "; the true angles are used");
+        const auto [least, most] = std::ranges::minmax(uneven, {}, step_to);
+        const std::string from = with_digits(step_to(least), 1), to = with_digits(step_to(most), 1);
+        lines.push_back(std::to_string(uneven.size()) + " of " + std::to_string(angles.size() - 1) + " steps are " +
+                        from + (from == to ? "" : " to " + to) + others);
     }
     const double closing = 360 - std::abs(degrees(angles.back() - angles.front()));
     if (closing > kGap * std::abs(usual) && closing < 90) {

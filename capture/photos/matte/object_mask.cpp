@@ -1,6 +1,7 @@
 #include "capture/photos/matte/object_mask.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
+#include "capture/photos/background/still_border.hpp"
 #include "capture/photos/matte/connected_parts.hpp"
 #include "capture/photos/matte/contrast_cut.hpp"
 
@@ -81,8 +82,7 @@ float preference_against(const KnownColour& pixel, const KnownColour& behind, fl
     return likely ? options.shadow_or_grey : std::abs(options.shadow_or_grey);
 }
 
-constexpr int kBorderShare = 50;  // of the picture's shorter side, that is its border
-constexpr int kLargeShare = 4;    // one in so many of the largest part is large, too
+constexpr int kLargeShare = 4;  // one in so many of the largest part is large, too
 constexpr int kHoleRim_px = 2;
 constexpr double kTinyHole_px = 8;  // closed in pictures of any size
 
@@ -134,7 +134,7 @@ void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, const C
         if (!is_faint && !tallies[static_cast<std::size_t>(label)].strong) continue;
         if (largest == 0 || parts.area(label) > parts.area(largest)) largest = label;
     }
-    const int near_px = std::max(1, std::min(mask.rows, mask.cols) / kBorderShare);
+    const int near_px = border_px(mask.cols, mask.rows);
     // A foot or a lip that the object always hides stands under the rest or right above it.
     const auto stands_still = [&](int label) {
         const Tally& tally = tallies[static_cast<std::size_t>(label)];

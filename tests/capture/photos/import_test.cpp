@@ -162,6 +162,37 @@ TEST_F(ImportTest, LargePhotographsAreWorkedOnSmaller) {
     EXPECT_THAT(refused.error().message, HasSubstr("--max-side"));
 }
 
+// A piece of furniture that masks hold, too, and a flag at the border that changes.
+TEST_F(ImportTest, SaysSoWhereWhatReachesTheBorderNeverChanges) {
+    std::filesystem::create_directory(folder_ / "masks");
+    options_.masks = folder_ / "masks";
+    for (const bool changes : {true, false}) {
+        for (int i = 0; i < turn_.views; ++i) {
+            test::DrawnView view = test::draw_view(turn_, i);
+            Image<Rgba8> mask(turn_.width, turn_.height, Rgba8{0, 0, 0, 255});
+            for (int y = 0; y < turn_.height; ++y) {
+                for (int x = 0; x < turn_.width; ++x) {
+                    const bool thing = x < turn_.width / 8 && y > turn_.height / 2;
+                    const auto code = static_cast<std::uint8_t>(changes ? 20 * i : 90);
+                    if (thing) view.photo(x, y) = {code, 120, 40, 255};
+                    if (thing || view.alpha(x, y) > 0.5) mask(x, y) = {255, 255, 255, 255};
+                }
+            }
+            write(i + 1, view.photo);
+            ASSERT_TRUE(write_png(options_.masks / (std::to_string(i + 1) + ".png"), mask).ok());
+        }
+        const Result<ImportReport> report = import_photos(options_, nullptr);
+        ASSERT_TRUE(report.ok()) << report.error().message;
+        const auto never_changes = testing::Contains(HasSubstr("never changes"));
+        EXPECT_THAT(report->notes, testing::Contains(HasSubstr("reaches the picture's border in 12 of 12")));
+        if (changes) {
+            EXPECT_THAT(report->notes, testing::Not(never_changes));
+        } else {
+            EXPECT_THAT(report->notes, never_changes);
+        }
+    }
+}
+
 TEST_F(ImportTest, DropsTheRepeatedLastView) {
     write(13, test::draw_view(turn_, 0).photo);
     const Result<ImportReport> report = import_photos(options_, nullptr);
