@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -197,7 +198,7 @@ CleanPlate clean_plate_of_turn(const EvenedSamples& samples, const StillPicture&
     fill_unknown(guess, bridged);
     result.hidden = hidden_within(motionless, swept, guess, still.colour);
     std::optional<RevolutionRows> rows;
-    if (behind == Behind::kAnything && axis_px) rows.emplace(still, *axis_px);
+    if (behind == Behind::kAnything && axis_px) rows.emplace(still, result.untouched, *axis_px);
     if (rows) keep_bodies_of_revolution(*rows, still.colour, result.hidden);
     grow_plate(samples, guess, confirm_plate(samples, guess, guessed), result.hidden, plate, Growth::kNearGuess);
     if (rows) {

@@ -14,8 +14,9 @@
 namespace rs::capture {
 
 struct SweptRegion {
-    Image<std::uint8_t> mask;       // 255 within the region
-    std::optional<double> axis_px;  // column of the turntable's axis; none where nothing moves
+    Image<std::uint8_t> mask;  // 255 within the region
+    std::optional<double>
+        axis_px;  // the turntable's axis, between what moves in the upper half; none where nothing does
 };
 
 // `still` is the still picture; `moves` is not 0 where the samples disagree over time. Both have

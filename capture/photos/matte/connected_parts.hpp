@@ -33,10 +33,10 @@ public:
         return left_a < left_b + stats_.at<int>(b, cv::CC_STAT_WIDTH) &&
                left_b < left_a + stats_.at<int>(a, cv::CC_STAT_WIDTH);
     }
+    [[nodiscard]] int height(int label) const { return stats_.at<int>(label, cv::CC_STAT_HEIGHT); }
     // How many rows are free between part `a` and part `b` below it; less than 0 where it is not all above.
     [[nodiscard]] int rows_above(int a, int b) const {
-        return stats_.at<int>(b, cv::CC_STAT_TOP) - stats_.at<int>(a, cv::CC_STAT_TOP) -
-               stats_.at<int>(a, cv::CC_STAT_HEIGHT);
+        return stats_.at<int>(b, cv::CC_STAT_TOP) - stats_.at<int>(a, cv::CC_STAT_TOP) - height(a);
     }
     // One value per label, 0 at first.
     template <class T>

@@ -135,11 +135,11 @@ void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, const C
         if (largest == 0 || parts.area(label) > parts.area(largest)) largest = label;
     }
     const int near_px = border_px(mask.cols, mask.rows);
-    // A foot or a lip that the object always hides stands under the rest or right above it.
+    // A foot that the object always hides stands under or beside the rest; a lip is nearer above it than it is tall.
     const auto stands_still = [&](int label) {
         const Tally& tally = tallies[static_cast<std::size_t>(label)];
         const bool may_be_of_it = 2 * tally.hidden > parts.area(label) && parts.share_columns(label, largest) &&
-                                  parts.rows_above(label, largest) <= near_px;
+                                  parts.rows_above(label, largest) <= parts.height(label);
         return 2 * tally.still > parts.area(label) && !may_be_of_it;
     };
     const auto comes_in = [&](int label) {

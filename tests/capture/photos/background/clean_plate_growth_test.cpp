@@ -151,17 +151,18 @@ TEST(GrowAcrossEdges, EntersWhatHangsBehindAndNotWhatLooksTheSameFromAllSides) {
     GrownCleanPlate plate = grown(samples, photos[0], seeds());
     EXPECT_EQ(plate.witnesses(26, 23), 0U) << "growth alone stops at its edge";
     const StillPicture still = agree_over_time(samples);
-    grow_across_edges(samples, nothing, RevolutionRows(still, 40), plate);
+    grow_across_edges(samples, nothing, RevolutionRows(still, nothing, 40), plate);
     EXPECT_NE(plate.witnesses(26, 23), 0U);
     EXPECT_NEAR(sharp_colours(samples, plate)(26, 23).b, kOnTheWall.b, 2);
     EXPECT_EQ(plate.witnesses(40, 24), 0U) << "the post";
 
     GrownCleanPlate barred = grown(samples, photos[0], seeds());
-    grow_across_edges(samples, Image<std::uint8_t>(kPlateWidth, kPlateHeight, 255), RevolutionRows(still, 40), barred);
+    grow_across_edges(samples, Image<std::uint8_t>(kPlateWidth, kPlateHeight, 255), RevolutionRows(still, nothing, 40),
+                      barred);
     EXPECT_EQ(barred.witnesses(26, 23), 0U);
 
     GrownCleanPlate elsewhere = grown(samples, photos[0], seeds());
-    grow_across_edges(samples, nothing, RevolutionRows(still, 20), elsewhere);
+    grow_across_edges(samples, nothing, RevolutionRows(still, nothing, 20), elsewhere);
     EXPECT_NE(elsewhere.witnesses(40, 24), 0U) << "a post beside the axis is none of the object";
 }
 

@@ -2,63 +2,88 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+#include <utility>
+
 namespace rs::capture {
 namespace {
 
-constexpr int kSide_px = 60;
-constexpr double kAxis_px = 30;
+constexpr int kWidth_px = 160, kRows = 30;
+constexpr int kLeft_px = 50, kRight_px = 110;  // of the body
+constexpr double kAxis_px = 80;
 
-// A body from column 20 to 39 before a wall, seen whole in all pictures.
-StillPicture still_body() {
-    StillPicture still{Image<Rgba8>(kSide_px, kSide_px, Rgba8{90, 110, 160, 255}),
-                       Image<float>(kSide_px, kSide_px, 1.0F)};
-    for (int y = 0; y < kSide_px; ++y) {
-        for (int x = 20; x < 40; ++x) {
-            const auto lit = static_cast<std::uint8_t>(120 + 2 * (x - 20));  // from one side
+// A body in the middle before a wall of stripes as wide as `stripe_px`, or an even one; all of it stands still.
+StillPicture still_body(int stripe_px) {
+    StillPicture still{Image<Rgba8>(kWidth_px, kRows, Rgba8{90, 110, 160, 255}), Image<float>(kWidth_px, kRows, 1.0F)};
+    for (int y = 0; y < kRows; ++y) {
+        for (int x = 0; x < kWidth_px; ++x) {
+            if (stripe_px > 0 && x / stripe_px % 2 == 0) still.colour(x, y) = {60, 60, 60, 255};
+        }
+        for (int x = kLeft_px; x < kRight_px; ++x) {
+            const auto lit = static_cast<std::uint8_t>(120 + x / 2);  // from one side
             still.colour(x, y) = {lit, lit, lit, 255};
         }
     }
     return still;
 }
 
-TEST(RevolutionRows, AnEvenBodyMayBeOneOfRevolution) {
-    const RevolutionRows rows(still_body(), kAxis_px);
-    EXPECT_TRUE(rows.may_be_body(20, 30));
-    EXPECT_TRUE(rows.may_be_body(39, 30));
-    EXPECT_TRUE(rows.may_be_body(29, 30)) << "so near to the axis there is nothing to see";
-}
-
-TEST(RevolutionRows, AHighlightIsNoReasonAgainstItAndThingsAre) {
-    StillPicture still = still_body();
-    for (int x = 28; x < 31; ++x) still.colour(x, 10) = {250, 250, 250, 255};
-    for (const int x : {25, 26, 32, 33}) still.colour(x, 20) = {250, 250, 250, 255};
-    const RevolutionRows rows(still, kAxis_px);
-    EXPECT_TRUE(rows.may_be_body(20, 10));
-    EXPECT_FALSE(rows.may_be_body(20, 20));
-    EXPECT_TRUE(rows.may_be_body(20, 21)) << "each row by itself";
-}
-
-// What is drawn on a body moves; so does an object before a wall, but it moves all over.
-TEST(RevolutionRows, WhatMovesHasNoEdgesAndSomeOfABodyStandsStill) {
-    StillPicture still = still_body();
-    for (int x = 25; x < 33; ++x) {
-        still.colour(x, 10) = still.colour(x, 20) = {static_cast<std::uint8_t>(x % 2 == 0 ? 250 : 10), 20, 20, 255};
-        still.agreement(x, 10) = still.agreement(x, 20) = 0.3F;
+RevolutionRows rows_of(const StillPicture& still, double axis_px = kAxis_px) {
+    Image<std::uint8_t> untouched(kWidth_px, kRows);
+    for (int y = 0; y < kRows; ++y) {
+        for (int x = 0; x < kWidth_px; ++x) untouched(x, y) = x < kLeft_px || x >= kRight_px ? 255 : 0;
     }
-    for (int x = 22; x < 38; ++x) still.agreement(x, 20) = 0.3F;
-    const RevolutionRows rows(still, kAxis_px);
-    EXPECT_TRUE(rows.may_be_body(20, 10));
-    EXPECT_FALSE(rows.may_be_body(20, 20));
+    return {still, untouched, axis_px};
+}
+
+// Bars of eight pixels from each of these columns on, which stand still or move.
+void draw_bars(StillPicture& still, int y, std::initializer_list<int> columns, bool move = false) {
+    for (const int column : columns) {
+        for (int x = column; x < column + 8; ++x) {
+            still.colour(x, y) = {250, 30, 30, 255};
+            if (move) still.agreement(x, y) = 0.3F;
+        }
+    }
+}
+
+TEST(RevolutionRows, ARowOfABodyIsMoreEvenThanTheRoomBesideIt) {
+    StillPicture still = still_body(10);  // sixty pixels of it have six edges
+    draw_bars(still, 5, {75});
+    draw_bars(still, 10, {60, 90});
+    const RevolutionRows rows = rows_of(still);
+    EXPECT_TRUE(rows.may_be_body(kLeft_px, 15));
+    EXPECT_TRUE(rows.may_be_body(kRight_px - 1, 15));
+    EXPECT_TRUE(rows.may_be_body(kLeft_px, 5)) << "a highlight";
+    EXPECT_FALSE(rows.may_be_body(kLeft_px, 10)) << "things";
+    EXPECT_FALSE(rows.may_be_body(kRight_px - 1, 10));
+    EXPECT_TRUE(rows.may_be_body(67, 10)) << "what lies between the things and the axis";
+}
+
+TEST(RevolutionRows, AnEvenBackdropSaysNothingAgainstIt) {
+    StillPicture still = still_body(0);
+    draw_bars(still, 10, {53, 66, 79, 92});
+    EXPECT_TRUE(rows_of(still).may_be_body(kLeft_px, 10)) << "lamps that a glossy body mirrors";
+}
+
+TEST(RevolutionRows, WhatMovesHasNoEdges) {
+    StillPicture still = still_body(10);
+    draw_bars(still, 10, {55, 67, 79, 91}, true);
+    EXPECT_TRUE(rows_of(still).may_be_body(kLeft_px, 10)) << "painted motifs";
+}
+
+TEST(RevolutionRows, WhereNearlyAllMovesAnObjectIsBeforeARoom) {
+    StillPicture still = still_body(10);
+    for (int x = 56; x < 104; ++x) still.agreement(x, 10) = 0.3F;
+    EXPECT_FALSE(rows_of(still).may_be_body(kLeft_px, 10));
+    EXPECT_TRUE(rows_of(still).may_be_body(kLeft_px, 11));
 }
 
 TEST(RevolutionRows, TheOtherSideIsLookedForWhereItIsInThePicture) {
-    const RevolutionRows rows(still_body(), kAxis_px);
+    const RevolutionRows rows = rows_of(still_body(0));
     const auto is = [](int column) { return [column](int u) { return u == column; }; };
-    EXPECT_TRUE(rows.any_mirrored(20, is(39)));
-    EXPECT_TRUE(rows.any_mirrored(20, is(36)));
-    EXPECT_FALSE(rows.any_mirrored(20, is(20)));
-    const RevolutionRows aside(still_body(), 55);
-    EXPECT_FALSE(aside.any_mirrored(40, [](int) { return true; })) << "beyond the picture";
+    EXPECT_TRUE(rows.any_mirrored(kLeft_px, is(kRight_px - 1)));
+    EXPECT_TRUE(rows.any_mirrored(kLeft_px, is(kRight_px - 4)));
+    EXPECT_FALSE(rows.any_mirrored(kLeft_px, is(kLeft_px)));
+    EXPECT_FALSE(rows_of(still_body(0), 150).any_mirrored(100, [](int) { return true; })) << "beyond the picture";
 }
 
 TEST(RevolutionRows, LightMakesNoOtherSurface) {
