@@ -146,8 +146,8 @@ Image<std::uint8_t> hidden_within(ConstImageView<std::uint8_t> motionless, Const
 void keep_bodies_of_revolution(const RevolutionRows& rows, ConstImageView<Rgba8> still, Image<std::uint8_t>& hidden) {
     const cv::Mat1b mask(hidden.height(), hidden.width(), hidden.data());
     cv::Mat1i label;
-    std::vector<int> balance(
-        static_cast<std::size_t>(cv::connectedComponents(mask, label, 8)));  // pixels for and against
+    const int parts = cv::connectedComponents(mask, label, 8);
+    std::vector<int> balance(static_cast<std::size_t>(parts));  // [part] pixels for it less those against
     for (int y = 0; y < hidden.height(); ++y) {
         for (int x = 0; x < hidden.width(); ++x) {
             if (hidden(x, y) == 0) continue;

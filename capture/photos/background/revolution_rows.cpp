@@ -72,10 +72,4 @@ bool RevolutionRows::may_be_body(int x, int y) const {
            edges_(to, y) - edges_(from, y) <= std::max<double>(kFewEdges, kEvenShare * edges_beside * resting);
 }
 
-bool alike_in_some_light(const LinearRgb& a, const LinearRgb& b) {
-    constexpr float kDarkest = 0.25F, kLightest = 4;
-    constexpr float kUnlike_delta_e = 10;
-    return explain_by_backdrop(a, b, kDarkest, kLightest).shaded < kUnlike_delta_e;
-}
-
 }  // namespace rs::capture

@@ -14,8 +14,7 @@ namespace rs::capture {
 
 class RevolutionRows {
 public:
-    // `untouched` is not 0 where the object never comes; `axis_px` is the axis' column. All of the still picture's
-    // size.
+    // `untouched`, in the still picture's size, is not 0 where the object never comes; `axis_px` is the axis' column.
     RevolutionRows(const StillPicture& still, ConstImageView<std::uint8_t> untouched, double axis_px);
 
     // Whether the row lets pixel (x, y) be one of such a body, which then reaches from there to the other side. Where
@@ -42,8 +41,5 @@ private:
     Image<int> still_, edges_;
     std::vector<double> edges_beside_;  // [row] per pixel of what is untouched there and in rows near by
 };
-
-// Whether both may be one surface, each in a light of its own.
-bool alike_in_some_light(const LinearRgb& a, const LinearRgb& b);
 
 }  // namespace rs::capture

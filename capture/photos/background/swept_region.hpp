@@ -14,14 +14,13 @@
 namespace rs::capture {
 
 struct SweptRegion {
-    Image<std::uint8_t> mask;  // 255 within the region
-    std::optional<double>
-        axis_px;  // the turntable's axis, between what moves in the upper half; none where nothing does
+    Image<std::uint8_t> mask;       // 255 within the region
+    std::optional<double> axis_px;  // the axis' column, between what moves in the upper half; none where nothing does
 };
 
-// `still` is the still picture; `moves` is not 0 where the samples disagree over time. Both have
-// one size. Costs a minimum cut over a grid of at most 256 cells a side, whatever the pictures' size; the region has
-// the precision of such a cell.
+// `still` is the still picture; `moves` is not 0 where the samples disagree over time. Both have one size. Costs a
+// minimum cut over a grid of at most 256 cells a side, whatever the pictures' size; region and axis have the precision
+// of such a cell.
 SweptRegion swept_region(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> moves);
 
 }  // namespace rs::capture

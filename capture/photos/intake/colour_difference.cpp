@@ -100,4 +100,9 @@ Explanation explain_by_backdrop(const KnownColour& pixel, const KnownColour& bac
     return result;
 }
 
+bool alike_in_some_light(const LinearRgb& a, const LinearRgb& b) {
+    constexpr float kUnlike_delta_e = 10;
+    return explain_by_backdrop(a, b, 0.25F, 4).shaded < kUnlike_delta_e;
+}
+
 }  // namespace rs::capture

@@ -54,4 +54,7 @@ Explanation explain_by_backdrop(const LinearRgb& pixel, const LinearRgb& backdro
 Explanation explain_by_backdrop(const KnownColour& pixel, const KnownColour& backdrop, float min_shade, float max_shade,
                                 float enough_delta_e);
 
+// Whether both may be one surface, each in a light of its own: from a quarter to four times as bright.
+bool alike_in_some_light(const LinearRgb& a, const LinearRgb& b);
+
 }  // namespace rs::capture

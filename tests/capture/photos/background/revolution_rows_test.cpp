@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <initializer_list>
-#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -84,11 +83,6 @@ TEST(RevolutionRows, TheOtherSideIsLookedForWhereItIsInThePicture) {
     EXPECT_TRUE(rows.any_mirrored(kLeft_px, is(kRight_px - 4)));
     EXPECT_FALSE(rows.any_mirrored(kLeft_px, is(kLeft_px)));
     EXPECT_FALSE(rows_of(still_body(0), 150).any_mirrored(100, [](int) { return true; })) << "beyond the picture";
-}
-
-TEST(RevolutionRows, LightMakesNoOtherSurface) {
-    EXPECT_TRUE(alike_in_some_light({0.4F, 0.3F, 0.2F}, {0.2F, 0.15F, 0.1F}));
-    EXPECT_FALSE(alike_in_some_light({0.4F, 0.3F, 0.2F}, {0.2F, 0.3F, 0.4F}));
 }
 
 }  // namespace
