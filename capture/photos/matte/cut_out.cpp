@@ -123,8 +123,12 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
                cv::INTER_LINEAR);
     plate_.light = Image<LinearRgb>(width, height);
     for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) plate_.light(x, y) = {plate(y, x)[0], plate(y, x)[1], plate(y, x)[2]};
+        for (int x = 0; x < width; ++x) {
+            const cv::Vec3f& p = plate(y, x);
+            plate_.light(x, y) = {std::min(1.0F, p[0]), std::min(1.0F, p[1]), std::min(1.0F, p[2])};
+        }
     }
+    plate_.looks = lab_picture(plate_.light);
     for (const Rgba8& colour : backdrop.screen) plate_.screen.push_back(linear_rgb(colour));
     plate_.noise_delta_e = scaled(backdrop.noise_delta_e, width, height);
     plate_.ground = scaled(backdrop.ground, width, height);
@@ -138,9 +142,11 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
 CleanPlateView ObjectCutter::exposed_as(ConstImageView<Rgba8> photo, CleanPlateView plate) const {
     if (untouched_.empty()) return plate;
     const LinearRgb gain = exposure_gain(photo, plate.light, untouched_);
+    if (gain.r == 1 && gain.g == 1 && gain.b == 1) return plate;
     for (LinearRgb& p : plate.light.pixels()) {
         p = {std::min(1.0F, p.r * gain.r), std::min(1.0F, p.g * gain.g), std::min(1.0F, p.b * gain.b)};
     }
+    plate.looks = lab_picture(plate.light);
     return plate;
 }
 
@@ -153,9 +159,10 @@ Image<Rgba8> ObjectCutter::cut(ConstImageView<Rgba8> photo) const {
         Image<std::uint8_t> mask;
         const bool flat = flat_grey_ && within_codes(border_of(photo).median, *flat_grey_, kFlat_codes);
         const CleanPlateView plate = exposed_as(photo, plate_);
-        if (!flat && is_even_) mask = find_object_by_edges(photo, plate, options_);
-        if (mask.empty()) mask = find_object(photo, plate, options_);
-        if (flat) add_grey_parts(mask, photo, flat_plate_);
+        const SeenPhoto seen(photo);
+        if (!flat && is_even_) mask = find_object_by_edges(seen, plate, options_);
+        if (mask.empty()) mask = find_object(seen, plate, options_);
+        if (flat) add_grey_parts(mask, seen, flat_plate_);
         cut = unmix(photo, soften_edge(photo, mask, band_px_));
     }
     bleed_colours(cut);

@@ -100,13 +100,13 @@ Image<std::uint8_t> in_size_of(ConstImageView<Rgba8> photo, const cv::Mat1b& mas
 
 }  // namespace
 
-Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, const CleanPlateView& plate,
+Image<std::uint8_t> find_object_by_edges(const SeenPhoto& photo, const CleanPlateView& plate,
                                          const MaskOptions& options) {
     RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
     if (photo.width() == 0 || photo.height() == 0) return {};
     const double scale = std::min(1.0, static_cast<double>(kSide_px) / std::max(photo.width(), photo.height()));
     const cv::Size size(std::max(1, cvRound(photo.width() * scale)), std::max(1, cvRound(photo.height() * scale)));
-    const cv::Mat3f light = smoothed(linear_mat(photo), size), behind = smoothed(light_mat(plate.light), size);
+    const cv::Mat3f light = smoothed(linear_mat(photo.picture), size), behind = smoothed(light_mat(plate.light), size);
     cv::Mat1b object = [&] {
         const Image<float> preference = object_preference(photo, plate, options);
         cv::Mat1b strong(photo.height(), photo.width());
@@ -143,8 +143,8 @@ Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, const Clea
     cv::dilate(beside, beside, cv::Mat(), {-1, -1}, kEdgeWall_px + 1);
     hidden.setTo(0, beside);
     CleanPlateView told = plate;
-    told.hidden = in_size_of(photo, hidden);
-    told.seen = in_size_of(photo, parts.reached);
+    told.hidden = in_size_of(photo.picture, hidden);
+    told.seen = in_size_of(photo.picture, parts.reached);
     return find_object(photo, told, options);
 }
 

@@ -13,7 +13,7 @@ namespace rs::capture {
 // tenths of such a part differ from the plate; plain parts of a hundredth of the object count too, larger ones stay
 // open. Empty where that is little beside the object, for a shadow in a loop is enclosed, too, and where noise makes
 // edges everywhere. The plate must be right where the object hides it (even_plate.hpp); its `seen` is not read.
-Image<std::uint8_t> find_object_by_edges(ConstImageView<Rgba8> photo, const CleanPlateView& plate,
+Image<std::uint8_t> find_object_by_edges(const SeenPhoto& photo, const CleanPlateView& plate,
                                          const MaskOptions& options);
 
 }  // namespace rs::capture

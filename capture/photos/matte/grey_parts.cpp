@@ -30,12 +30,11 @@ void add_if_large(Image<std::uint8_t>& mask, Image<std::uint8_t> whole) {
 }
 
 // How many pixels look different from what is behind the object.
-std::ptrdiff_t differing(ConstImageView<Rgba8> photo, const CleanPlateView& plate) {
+std::ptrdiff_t differing(const SeenPhoto& photo, const CleanPlateView& plate) {
     std::ptrdiff_t count = 0;
     for (int y = 0; y < photo.height(); ++y) {
         for (int x = 0; x < photo.width(); ++x) {
-            const Lab look = lab_from_linear(linear_rgb(photo(x, y)));
-            count += delta_e(look, lab_from_linear(plate.light(x, y))) > kVisible_delta_e ? 1 : 0;
+            count += delta_e(photo.looks(x, y), plate.looks(x, y)) > kVisible_delta_e ? 1 : 0;
         }
     }
     return count;
@@ -57,10 +56,11 @@ CleanPlateView flat_plate(const CleanPlateView& plate, ConstImageView<std::uint8
             if (!plate.noise_delta_e.empty()) flat.noise_delta_e(x, y) = plate.noise_delta_e(x, y);
         }
     }
+    flat.looks = lab_picture(flat.light);
     return flat;
 }
 
-void add_grey_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, const CleanPlateView& flat) {
+void add_grey_parts(Image<std::uint8_t>& mask, const SeenPhoto& photo, const CleanPlateView& flat) {
     constexpr double kHardlyAny = 0.2;  // of what differs: the rest cannot all be shadow
     constexpr double kDust = 0.002;     // of the picture
     if (mask.empty()) return;

@@ -16,6 +16,6 @@ CleanPlateView flat_plate(const CleanPlateView& plate, ConstImageView<std::uint8
 // Adds what find_object() before `flat` shows to `mask` (255 = object) where that lacks a large part of it. Where that
 // leaves hardly any of what differs from `flat`, as nothing of the object is clearly no shadow, its shadow comes along:
 // better than no object.
-void add_grey_parts(Image<std::uint8_t>& mask, ConstImageView<Rgba8> photo, const CleanPlateView& flat);
+void add_grey_parts(Image<std::uint8_t>& mask, const SeenPhoto& photo, const CleanPlateView& flat);
 
 }  // namespace rs::capture

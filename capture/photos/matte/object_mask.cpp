@@ -314,19 +314,26 @@ MaskOptions mask_options_for_flat_grey() {
 
 namespace {
 
-// The photograph and what is behind the object, as they look.
-struct Looks {
-    Image<Lab> photo;
-    Image<Lab> plate;
+// Of what is behind the object; computed where the plate lacks them.
+class PlateLooks {
+public:
+    explicit PlateLooks(const CleanPlateView& plate)
+        : own_(plate.looks.empty() ? lab_picture(plate.light) : Image<Lab>{}),
+          looks_(plate.looks.empty() ? own_ : plate.looks) {
+        RS_CHECK(looks_.width() == plate.light.width() && looks_.height() == plate.light.height());
+    }
+    PlateLooks(const PlateLooks&) = delete;
+    PlateLooks& operator=(const PlateLooks&) = delete;
+    operator ConstImageView<Lab>() const { return looks_; }
+
+private:
+    Image<Lab> own_;
+    ConstImageView<Lab> looks_;
 };
 
-Looks looks_of(ConstImageView<Rgba8> photo, const CleanPlateView& plate) {
-    RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
-    return {lab_picture(photo), lab_picture(plate.light)};
-}
-
-Image<float> preference_by(const Looks& looks, ConstImageView<Rgba8> photo, const CleanPlateView& plate,
+Image<float> preference_by(const SeenPhoto& photo, const CleanPlateView& plate, ConstImageView<Lab> plate_looks,
                            const MaskOptions& anywhere) {
+    RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
     const MaskOptions ground = options_on_ground(anywhere);
     const MaskOptions above = options_above_ground(anywhere);
     std::vector<KnownColour> screen;
@@ -340,9 +347,9 @@ Image<float> preference_by(const Looks& looks, ConstImageView<Rgba8> photo, cons
             }
             const MaskOptions& options =
                 above_ground(plate, x, y) ? above : (on_ground(plate, x, y) ? ground : anywhere);
-            const KnownColour pixel(linear_rgb(photo(x, y)), looks.photo(x, y));
+            const KnownColour pixel(linear_rgb(photo.picture(x, y)), photo.looks(x, y));
             const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
-            const KnownColour behind(plate.light(x, y), looks.plate(x, y));
+            const KnownColour behind(plate.light(x, y), plate_looks(x, y));
             float best = preference_against(pixel, behind, noise, options);
             if (!plate.hidden.empty() && plate.hidden(x, y) != 0) {
                 preference(x, y) = std::max(best, kHidden);
@@ -353,7 +360,7 @@ Image<float> preference_by(const Looks& looks, ConstImageView<Rgba8> photo, cons
                      {std::pair{-kShake_px, 0}, {kShake_px, 0}, {0, -kShake_px}, {0, kShake_px}}) {
                     const int u = std::clamp(x + dx, 0, photo.width() - 1);
                     const int v = std::clamp(y + dy, 0, photo.height() - 1);
-                    const KnownColour beside(plate.light(u, v), looks.plate(u, v));
+                    const KnownColour beside(plate.light(u, v), plate_looks(u, v));
                     if (delta_e(beside.look, behind.look) < options.plain_delta_e) continue;
                     best = std::min(best, preference_against(pixel, beside, noise, options));
                 }
@@ -370,22 +377,22 @@ Image<float> preference_by(const Looks& looks, ConstImageView<Rgba8> photo, cons
 
 }  // namespace
 
-Image<float> object_preference(ConstImageView<Rgba8> photo, const CleanPlateView& plate, const MaskOptions& options) {
-    return preference_by(looks_of(photo, plate), photo, plate, options);
+Image<float> object_preference(const SeenPhoto& photo, const CleanPlateView& plate, const MaskOptions& options) {
+    return preference_by(photo, plate, PlateLooks(plate), options);
 }
 
-Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const CleanPlateView& plate, const MaskOptions& options) {
+Image<std::uint8_t> find_object(const SeenPhoto& photo, const CleanPlateView& plate, const MaskOptions& options) {
     RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
     Image<std::uint8_t> result(photo.width(), photo.height());
     if (result.empty()) return result;
-    const Looks looks = looks_of(photo, plate);
-    Image<float> preference = preference_by(looks, photo, plate, options);
-    if (options.thin_delta_e > 0) lean_to_object_in_thin_parts(photo, plate, looks.plate, options, preference);
-    doubt_small_islands(preference, looks.plate, options.max_island);
-    result = cut_coarse_first(looks.photo, preference, options.cut);
+    const PlateLooks plate_looks(plate);
+    Image<float> preference = preference_by(photo, plate, plate_looks, options);
+    if (options.thin_delta_e > 0) lean_to_object_in_thin_parts(photo.picture, plate, plate_looks, options, preference);
+    doubt_small_islands(preference, plate_looks, options.max_island);
+    result = cut_coarse_first(photo.looks, preference, options.cut);
     cv::Mat1b mask(result.height(), result.width(), result.data());
     keep_solid_parts(mask, preference, plate, options);
-    close_false_holes(mask, preference, looks.plate, options);
+    close_false_holes(mask, preference, plate_looks, options);
     return result;
 }
 

@@ -50,9 +50,20 @@ struct MaskOptions {
     double min_hole = 0.00004;  // holes smaller than this share of the picture are closed
 };
 
+// A photograph, and how it looks, which is worked out once for all that is asked of it. The picture must outlive it.
+struct SeenPhoto {
+    ConstImageView<Rgba8> picture;
+    Image<Lab> looks;
+    SeenPhoto(ConstImageView<Rgba8> photo) : picture(photo), looks(lab_picture(photo)) {}
+    SeenPhoto(const Image<Rgba8>& photo) : SeenPhoto(ConstImageView<Rgba8>(photo)) {}
+    [[nodiscard]] int width() const { return picture.width(); }
+    [[nodiscard]] int height() const { return picture.height(); }
+};
+
 // What is behind the object in one photograph, in its size.
 struct CleanPlateView {
     Image<LinearRgb> light;         // exposed like the photograph
+    Image<Lab> looks;               // of `light`; empty: they are computed from it
     Image<std::uint8_t> hidden;     // 255 where the object always is before it; empty: nobody can tell
     Image<std::uint8_t> still;      // 255 where no picture shows anything else; empty: nobody can tell
     Image<std::uint8_t> seen;       // 255 where it is seen, in a shadow or not; empty: nobody can tell
@@ -70,9 +81,9 @@ MaskOptions mask_options_for_flat_grey();
 
 // The preference, -kDecided..kDecided; the ends are certain.
 inline constexpr float kDecided = 4;
-Image<float> object_preference(ConstImageView<Rgba8> photo, const CleanPlateView& plate, const MaskOptions& options);
+Image<float> object_preference(const SeenPhoto& photo, const CleanPlateView& plate, const MaskOptions& options);
 
 // 255 = object, 0 = backdrop.
-Image<std::uint8_t> find_object(ConstImageView<Rgba8> photo, const CleanPlateView& plate, const MaskOptions& options);
+Image<std::uint8_t> find_object(const SeenPhoto& photo, const CleanPlateView& plate, const MaskOptions& options);
 
 }  // namespace rs::capture
