@@ -98,22 +98,28 @@ BundleOptions rough(BundleOptions options) {
     return options;
 }
 
-// From a start that is roughly right to the best bundle of features as they were detected and matched.
+// From a start that is roughly right to a good bundle of features as they were detected and matched; leaves in
+// `options` the loss that fits them.
 bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k1_is_free, BundleOptions& options) {
+    constexpr int kMostRounds = 5;
+    constexpr double kSameLoss = 0.02;
     options.loss_px = 2.0 * reduction;
-    for (int round = 0; round < 5; ++round) {
+    for (int round = 0; round < kMostRounds; ++round) {
         options.free.k1 = round > 0 && k1_is_free;
         if (!adjust(bundle, rough(options))) return false;
         const double limit = outlier_limit(bundle, reduction);
-        // Observations lost to a poor start get another chance.
-        if (round < 4) {
-            bundle = make_agreeing_bundle(bundle.model, tracks, limit);
-        } else {
-            drop_outliers(bundle, limit);
-        }
+        const double before_px = options.loss_px;
         options.loss_px = std::max(0.3 * reduction, 2 * robust_deviation_px(bundle));
+        const bool is_last =
+            round + 1 == kMostRounds || (round > 1 && std::abs(options.loss_px / before_px - 1) < kSameLoss);
+        if (is_last) {
+            drop_outliers(bundle, limit);
+            break;
+        }
+        // Observations lost to a poor start get another chance.
+        bundle = make_agreeing_bundle(bundle.model, tracks, limit);
     }
-    return adjust(bundle, options).has_value();
+    return adjust(bundle, rough(options)).has_value();
 }
 
 // The way around the turn from which a track is seen.
@@ -238,6 +244,7 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
         return accepted.error();
     }
     const Bundle settled = bundle;
+    const BundleOptions as_settled = options;
     // Now that it is known where a point can be, more of them are found.
     const Result<std::vector<Track>> guided =
         follower->follow_guided(bundle.model, kRoom * farthest_radius(bundle), 2.0 * turn.reduction);
@@ -251,7 +258,13 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
     keep_enough_tracks(bundle);
     std::optional<Bundle> finest = refined(bundle, turn, options, kObservationsPerView * static_cast<int>(views));
     const bool is_aligned = finest && finest->tracks.size() >= kFewestTracks / 2;
-    bundle = is_aligned ? *std::move(finest) : settled;
+    if (is_aligned) {
+        bundle = *std::move(finest);
+    } else {
+        bundle = settled;
+        options = as_settled;
+        if (!adjust(bundle, options)) return Error{kNoSolution};
+    }
     TrackSolution solution{
         std::move(bundle), NumberPlaces(options.free, std::vector<bool>(views, true)), {}, at_px, {}};
     solution.covariance = bundle_covariance(solution.bundle, options, kSharedError_px * turn.reduction);
