@@ -1,5 +1,6 @@
 #include "capture/photos/background/clean_plate.hpp"
 
+#include "capture/opencv/connected_parts.hpp"
 #include "capture/photos/background/clean_plate_growth.hpp"
 #include "capture/photos/background/disc_bridging.hpp"
 #include "capture/photos/background/revolution_rows.hpp"
@@ -75,39 +76,32 @@ public:
     // `is_backdrop(x, y)` of a place that does not move.
     template <class IsBackdrop>
     Ends(const cv::Mat1b& mask, ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> motionless,
-         IsBackdrop is_backdrop) {
-        constexpr int kReach_px = 3;
-        constexpr float kClear_delta_e = 6;
-        counts_.resize(static_cast<std::size_t>(cv::connectedComponents(mask, label_, 8)));
-        for (int y = 0; y < mask.rows; ++y) {
-            for (int x = 0; x < mask.cols; ++x) {
-                if (mask(y, x) == 0) continue;
-                for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-                    const int u = x + kReach_px * dx;
-                    const int v = y + kReach_px * dy;
-                    if (u < 0 || v < 0 || u >= mask.cols || v >= mask.rows || mask(y + dy, x + dx) != 0) continue;
-                    Count& count = counts_[static_cast<std::size_t>(label_(y, x))];
-                    if (motionless(u, v) == 0) {
-                        ++count.moving;
-                    } else if (is_backdrop(u, v)) {
-                        const int in_x = std::clamp(x - kReach_px * dx, 0, mask.cols - 1);
-                        const int in_y = std::clamp(y - kReach_px * dy, 0, mask.rows - 1);
-                        ++count.still;
-                        count.clear += delta_e(lab_from_linear(linear_rgb(still(u, v))),
-                                               lab_from_linear(linear_rgb(still(in_x, in_y)))) > kClear_delta_e
-                                           ? 1
-                                           : 0;
-                    }
-                }
-            }
-        }
-    }
+         IsBackdrop is_backdrop)
+        : parts_(mask, 8), counts_(parts_.tallied<Count>([&](int x, int y, Count& count) {
+              constexpr int kReach_px = 3;
+              constexpr float kClear_delta_e = 6;
+              for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+                  const int u = x + kReach_px * dx;
+                  const int v = y + kReach_px * dy;
+                  if (u < 0 || v < 0 || u >= mask.cols || v >= mask.rows || mask(y + dy, x + dx) != 0) continue;
+                  if (motionless(u, v) == 0) {
+                      ++count.moving;
+                  } else if (is_backdrop(u, v)) {
+                      const int in_x = std::clamp(x - kReach_px * dx, 0, mask.cols - 1);
+                      const int in_y = std::clamp(y - kReach_px * dy, 0, mask.rows - 1);
+                      const float step = delta_e(lab_from_linear(linear_rgb(still(u, v))),
+                                                 lab_from_linear(linear_rgb(still(in_x, in_y))));
+                      ++count.still;
+                      count.clear += step > kClear_delta_e ? 1 : 0;
+                  }
+              }
+          })) {}
     // Of the part that (x, y) belongs to.
-    [[nodiscard]] const Count& at(int x, int y) const { return counts_[static_cast<std::size_t>(label_(y, x))]; }
+    [[nodiscard]] const Count& at(int x, int y) const { return counts_[parts_.label(x, y)]; }
 
 private:
-    cv::Mat1i label_;
-    std::vector<Count> counts_;
+    ConnectedParts parts_;
+    PerPart<Count> counts_;
 };
 
 // Where the object always hides the plate: what never changes within the region swept, less
@@ -145,23 +139,16 @@ Image<std::uint8_t> hidden_within(ConstImageView<std::uint8_t> motionless, Const
 // Of what never changes within the region swept, only what may be a body of revolution is the object's in a room.
 void keep_bodies_of_revolution(const RevolutionRows& rows, ConstImageView<Rgba8> still, Image<std::uint8_t>& hidden) {
     const cv::Mat1b mask(hidden.height(), hidden.width(), hidden.data());
-    cv::Mat1i label;
-    const int parts = cv::connectedComponents(mask, label, 8);
-    std::vector<int> balance(static_cast<std::size_t>(parts));  // [part] pixels for it less those against
-    for (int y = 0; y < hidden.height(); ++y) {
-        for (int x = 0; x < hidden.width(); ++x) {
-            if (hidden(x, y) == 0) continue;
-            const LinearRgb own = linear_rgb(still(x, y));
-            const auto is_alike = [&](int u) { return alike_in_some_light(own, linear_rgb(still(u, y))); };
-            const bool may_be = rows.may_be_body(x, y) && rows.any_mirrored(x, is_alike);
-            balance[static_cast<std::size_t>(label(y, x))] += may_be ? 1 : -1;
-        }
-    }
-    for (int y = 0; y < hidden.height(); ++y) {
-        for (int x = 0; x < hidden.width(); ++x) {
-            if (balance[static_cast<std::size_t>(label(y, x))] < 0) hidden(x, y) = 0;
-        }
-    }
+    const ConnectedParts parts(mask, 8);
+    // Pixels for it less those against.
+    const auto balance = parts.tallied<int>([&](int x, int y, int& sum) {
+        const LinearRgb own = linear_rgb(still(x, y));
+        const auto is_alike = [&](int u) { return alike_in_some_light(own, linear_rgb(still(u, y))); };
+        sum += rows.may_be_body(x, y) && rows.any_mirrored(x, is_alike) ? 1 : -1;
+    });
+    parts.for_each_pixel([&](int x, int y, int label) {
+        if (balance[label] < 0) hidden(x, y) = 0;
+    });
 }
 
 }  // namespace

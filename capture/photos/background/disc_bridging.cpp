@@ -1,5 +1,6 @@
 #include "capture/photos/background/disc_bridging.hpp"
 
+#include "capture/opencv/connected_parts.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/disc_plane.hpp"
 #include "capture/photos/background/still_picture.hpp"
@@ -165,20 +166,11 @@ Image<std::uint8_t> still_foot(const TurntableDisc& disc, ConstImageView<Rgba8> 
         }
     }
     cv::morphologyEx(joined, joined, cv::MORPH_CLOSE, cv::Mat(), {-1, -1}, 1);
-    cv::Mat1i label;
-    const int count = cv::connectedComponents(joined, label, 4);
-    std::vector<bool> reached(static_cast<std::size_t>(count), false);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            if (swept(x, y) != 0) reached[static_cast<std::size_t>(label(y, x))] = true;
-        }
-    }
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const bool part = joined(y, x) != 0 && reached[static_cast<std::size_t>(label(y, x))];
-            foot(x, y) = part && swept(x, y) == 0 ? 255 : 0;
-        }
-    }
+    const ConnectedParts parts(joined, 4);
+    const auto swept_px = parts.tallied<int>([&](int x, int y, int& count) { count += swept(x, y) != 0 ? 1 : 0; });
+    parts.for_each_pixel([&](int x, int y, int label) {
+        if (swept_px[label] > 0 && swept(x, y) == 0) foot(x, y) = 255;
+    });
     return foot;
 }
 

@@ -1,5 +1,6 @@
 #include "capture/photos/background/even_plate.hpp"
 
+#include "capture/opencv/connected_parts.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/light_share.hpp"
 #include "rayspace/base/check.hpp"
@@ -323,31 +324,23 @@ bool keep_marks(Image<LinearRgb>& course, ConstImageView<Rgba8> plate, ConstImag
     cv::bitwise_not(mat_over(untouched), swept);
     cv::dilate(swept, beside, cv::getStructuringElement(cv::MORPH_RECT, {2 * kRim_px + 1, 2 * kRim_px + 1}));
     cv::bitwise_or(others.differ, swept, both);
-    cv::Mat1i labels;
-    const int count = cv::connectedComponents(both, labels, 8);
+    const ConnectedParts parts(both, 8);
     struct Tally {
         int swept = 0, clear = 0;  // px
     };
-    std::vector<Tally> tallies(static_cast<std::size_t>(count));
-    for (int y = 0; y < labels.rows; ++y) {
-        for (int x = 0; x < labels.cols; ++x) {
-            Tally& tally = tallies[static_cast<std::size_t>(labels(y, x))];
-            tally.swept += swept(y, x) != 0 ? 1 : 0;
-            tally.clear += others.clear(y, x) != 0 && beside(y, x) == 0 ? 1 : 0;
-        }
-    }
-    const auto picture = static_cast<double>(labels.total());
+    const auto tallies = parts.tallied<Tally>([&](int x, int y, Tally& tally) {
+        tally.swept += swept(y, x) != 0 ? 1 : 0;
+        tally.clear += others.clear(y, x) != 0 && beside(y, x) == 0 ? 1 : 0;
+    });
+    const auto picture = static_cast<double>(both.total());
     const auto is_at_object = [&](const Tally& tally) { return tally.swept >= kSwept * picture; };
     int at_object = 0, elsewhere = 0;  // px
     for (const Tally& tally : tallies) (is_at_object(tally) ? at_object : elsewhere) += tally.clear;
     if (at_object > kAtObject * picture || elsewhere > kElsewhere * picture) return false;
-    for (int y = 0; y < labels.rows; ++y) {
-        for (int x = 0; x < labels.cols; ++x) {
-            const bool is_mark =
-                others.differ(y, x) != 0 && !is_at_object(tallies[static_cast<std::size_t>(labels(y, x))]);
-            if (is_mark) course(x, y) = linear_rgb(plate(x, y));
-        }
-    }
+    parts.for_each_pixel([&](int x, int y, int label) {
+        const bool is_mark = others.differ(y, x) != 0 && !is_at_object(tallies[label]);
+        if (is_mark) course(x, y) = linear_rgb(plate(x, y));
+    });
     return true;
 }
 

@@ -1,5 +1,6 @@
 #include "capture/photos/background/shadow_ground.hpp"
 
+#include "capture/opencv/connected_parts.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/light_share.hpp"
 #include "rayspace/base/check.hpp"
@@ -24,20 +25,12 @@ constexpr std::size_t kOneIn = 4;      // samples that show it: an outline that 
 constexpr double kAbove = 0.02;        // of the picture's height: where a shadow fades out
 
 // The label of the part that has most of the picture's border; 0 where none has any.
-int part_around(const cv::Mat1i& labels, int count) {
-    std::vector<int> at_border(static_cast<std::size_t>(count));
-    const auto visit = [&](int x, int y) { ++at_border[static_cast<std::size_t>(labels(y, x))]; };
-    for (int x = 0; x < labels.cols; ++x) {
-        visit(x, 0);
-        visit(x, labels.rows - 1);
-    }
-    for (int y = 0; y < labels.rows; ++y) {
-        visit(0, y);
-        visit(labels.cols - 1, y);
-    }
-    at_border[0] = 0;  // edges
+int part_around(const ConnectedParts& parts, cv::Size size) {
+    const auto at_border = parts.tallied<int>([&](int x, int y, int& count) {
+        count += (x == 0 || x == size.width - 1 ? 1 : 0) + (y == 0 || y == size.height - 1 ? 1 : 0);
+    });
     const auto most = std::ranges::max_element(at_border);
-    return *most == 0 ? 0 : static_cast<int>(most - at_border.begin());
+    return most == at_border.end() || *most == 0 ? 0 : static_cast<int>(most - at_border.begin()) + 1;
 }
 
 // [y]: whether the row shows a shadow that fades out.
@@ -46,14 +39,14 @@ std::vector<bool> rows_with_shadow(const cv::Mat3f& photo, const cv::Mat3f& plat
     cv::Mat1b walls = edges_of_share(share), open;
     cv::dilate(walls, walls, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kWall_px + 1, 2 * kWall_px + 1}));
     cv::bitwise_not(walls, open);
-    cv::Mat1i labels;
-    const int around = part_around(labels, cv::connectedComponents(open, labels, 4));
+    const ConnectedParts parts(open, 4);
+    const int around = part_around(parts, open.size());
     std::vector<bool> rows(static_cast<std::size_t>(share.rows));
     if (around == 0) return rows;
     for (int y = 0; y < share.rows; ++y) {
         int shadow_px = 0;
         for (int x = 0; x < share.cols; ++x) {
-            shadow_px += labels(y, x) == around && share(y, x) < kShadow_log ? 1 : 0;
+            shadow_px += parts.label(x, y) == around && share(y, x) < kShadow_log ? 1 : 0;
         }
         rows[static_cast<std::size_t>(y)] = shadow_px > kLeastShadow * share.cols;
     }

@@ -1,5 +1,6 @@
 #include "capture/photos/background/swept_region.hpp"
 
+#include "capture/opencv/connected_parts.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
 #include "rayspace/base/median.hpp"
 
@@ -112,16 +113,11 @@ void add_parts_of_revolution(const Image<Cell>& cells, double axis, cv::Mat1b& s
     const cv::Rect moving = cv::boundingRect(swept);
     cv::Mat1b surfaces;
     cv::bitwise_not(edges_of(cells) | swept, surfaces);
-    cv::Mat1i labels;
-    const int count = cv::connectedComponents(surfaces, labels, 4);
-    std::vector<bool> backdrop(static_cast<std::size_t>(count), false);
-    for (int v = 0; v < labels.rows; ++v) {
-        for (int u = 0; u < labels.cols; ++u) {
-            const bool border = u == 0 || v == 0 || u == labels.cols - 1 || v == labels.rows - 1;
-            if (border && labels(v, u) > 0) backdrop[static_cast<std::size_t>(labels(v, u))] = true;
-        }
-    }
-    const auto enclosed = [&](int u, int v) { return !backdrop[static_cast<std::size_t>(labels(v, u))]; };
+    const ConnectedParts parts(surfaces, 4);
+    const auto enclosed = [&](int u, int v) {
+        const int label = parts.label(u, v);
+        return label == 0 || !parts.touches_border(label);
+    };
     // From the axis outwards; the shorter side counts.
     const int middle = std::clamp(static_cast<int>(axis), 0, swept.cols - 1);
     const auto reach = [&](auto holds, int v) {

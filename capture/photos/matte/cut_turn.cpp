@@ -1,12 +1,10 @@
 #include "capture/photos/matte/cut_turn.hpp"
 
-#include "capture/photos/background/still_border.hpp"
 #include "capture/photos/intake/bounded_work.hpp"
-#include "capture/photos/intake/colour_difference.hpp"
 #include "capture/photos/intake/photograph.hpp"
 #include "capture/photos/intake/reduction.hpp"
-#include "capture/photos/intake/survey.hpp"
 #include "capture/photos/matte/cut_out.hpp"
+#include "capture/photos/matte/still_at_border.hpp"
 #include "rayspace/pictures/photograph_size.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 
@@ -43,33 +41,6 @@ Status check_coverage(double covered, BackdropKind kind, const std::string& phot
 
 bool reaches_border(const TurnOutline::Box& box, const PhotoFolder& folder) {
     return box.left == 0 || box.top == 0 || box.right == folder.width || box.bottom == folder.height;
-}
-
-// Whether most of what reaches the picture's border in most cut-outs never changes.
-bool is_still_at_border(const std::vector<Image<Rgba8>>& small) {
-    constexpr std::size_t kFewestViews = 6;
-    constexpr double kMost = 0.7;
-    constexpr double kFewestOfBorder = 0.02;
-    constexpr int kSame_codes = 24;  // exposures differ
-    if (small.size() < kFewestViews) return false;
-    const int width = small[0].width(), height = small[0].height();
-    const double most = kMost * static_cast<double>(small.size());
-    int border = 0, covered = 0, still = 0;  // pixels
-    std::vector<Rgba8> seen;
-    for_border(width, height, [&](int x, int y) {
-        ++border;
-        seen.clear();
-        for (const Image<Rgba8>& view : small) {
-            if (view(x, y).a >= 128) seen.push_back(view(x, y));
-        }
-        if (static_cast<double>(seen.size()) < most) return;
-        ++covered;
-        const Rgba8 usual = median_colour(seen);
-        const auto same =
-            std::ranges::count_if(seen, [&](const Rgba8& c) { return within_codes(c, usual, kSame_codes); });
-        still += static_cast<double>(same) >= most ? 1 : 0;
-    });
-    return covered > kFewestOfBorder * border && 2 * still > covered;
 }
 
 // The mask of a photograph; its grey becomes the photograph's alpha.

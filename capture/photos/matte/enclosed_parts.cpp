@@ -1,5 +1,6 @@
 #include "capture/photos/matte/enclosed_parts.hpp"
 
+#include "capture/opencv/connected_parts.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/light_share.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
@@ -50,44 +51,36 @@ struct OpenParts {
 };
 
 OpenParts parts_of(const cv::Mat1b& open, const cv::Mat1b& differs, double spot_px) {
-    cv::Mat1i labels;
-    const int count = cv::connectedComponents(open, labels, 4);
+    const ConnectedParts all(open, 4);
     struct Tally {
-        int area = 0, differs = 0, at_border = 0, differs_there = 0;  // px
+        int differs = 0, at_border = 0, differs_there = 0;  // px
     };
-    std::vector<Tally> tallies(static_cast<std::size_t>(count));
-    for (int y = 0; y < labels.rows; ++y) {
-        for (int x = 0; x < labels.cols; ++x) {
-            Tally& tally = tallies[static_cast<std::size_t>(labels(y, x))];
-            const bool at_border = x == 0 || y == 0 || x == labels.cols - 1 || y == labels.rows - 1;
-            const bool is_other = differs(y, x) != 0;
-            tally.area += 1;
-            tally.differs += is_other ? 1 : 0;
-            tally.at_border += at_border ? 1 : 0;
-            tally.differs_there += at_border && is_other ? 1 : 0;
-        }
-    }
+    const auto tallies = all.tallied<Tally>([&](int x, int y, Tally& tally) {
+        const bool at_border = x == 0 || y == 0 || x == open.cols - 1 || y == open.rows - 1;
+        const bool is_other = differs(y, x) != 0;
+        tally.differs += is_other ? 1 : 0;
+        tally.at_border += at_border ? 1 : 0;
+        tally.differs_there += at_border && is_other ? 1 : 0;
+    });
     const cv::Mat1b nothing(open.size(), std::uint8_t{0});
     OpenParts parts{nothing.clone(), nothing.clone(), nothing.clone(), nothing.clone()};
     // Most of the border shows the backdrop, even where this picture is exposed otherwise.
-    const auto around = std::ranges::max_element(tallies.begin() + 1, tallies.end(), {}, &Tally::at_border);
-    std::vector<cv::Mat1b*> of_part(static_cast<std::size_t>(count));
-    for (int part = 1; part < count; ++part) {
-        const Tally& tally = tallies[static_cast<std::size_t>(part)];
-        cv::Mat1b*& of = of_part[static_cast<std::size_t>(part)];
+    const auto around = std::ranges::max_element(tallies, {}, &Tally::at_border);
+    PerPart<cv::Mat1b*> of_part(all.count());
+    for (int label = 1; label < all.count(); ++label) {
+        const Tally& tally = tallies[label];
+        cv::Mat1b*& of = of_part[label];
         if (tally.at_border > 0) {
             if (&tally == &*around || 2 * tally.differs_there <= tally.at_border) of = &parts.reached;
-        } else if (tally.differs >= kGoodPart * tally.area) {
+        } else if (tally.differs >= kGoodPart * all.area(label)) {
             of = &parts.enclosed;
         } else {
-            of = tally.area <= spot_px ? &parts.spots : &parts.plain;
+            of = all.area(label) <= spot_px ? &parts.spots : &parts.plain;
         }
     }
-    for (int y = 0; y < labels.rows; ++y) {
-        for (int x = 0; x < labels.cols; ++x) {
-            if (cv::Mat1b* part = of_part[static_cast<std::size_t>(labels(y, x))]) (*part)(y, x) = 255;
-        }
-    }
+    all.for_each_pixel([&](int x, int y, int label) {
+        if (cv::Mat1b* part = of_part[label]) (*part)(y, x) = 255;
+    });
     return parts;
 }
 

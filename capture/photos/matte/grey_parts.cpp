@@ -1,5 +1,6 @@
 #include "capture/photos/matte/grey_parts.hpp"
 
+#include "capture/opencv/connected_parts.hpp"
 #include "rayspace/base/check.hpp"
 
 #include <opencv2/core.hpp>
@@ -21,11 +22,9 @@ void add_if_large(Image<std::uint8_t>& mask, Image<std::uint8_t> whole) {
     const cv::Mat1b all(whole.height(), whole.width(), whole.data());
     cv::Mat1b lacks(all.size(), std::uint8_t{0});
     cv::bitwise_xor(all, found, lacks, all);
-    cv::Mat1i labels;
-    cv::Mat stats, centroids;
-    const int parts = cv::connectedComponentsWithStats(lacks, labels, stats, centroids, 4);
+    const ConnectedParts parts(lacks, 4);
     int largest_px = 0;
-    for (int part = 1; part < parts; ++part) largest_px = std::max(largest_px, stats.at<int>(part, cv::CC_STAT_AREA));
+    for (int label = 1; label < parts.count(); ++label) largest_px = std::max(largest_px, parts.area(label));
     if (largest_px >= kLarge * cv::countNonZero(all)) cv::bitwise_or(found, all, found);
 }
 

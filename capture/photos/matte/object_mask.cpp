@@ -1,8 +1,8 @@
 #include "capture/photos/matte/object_mask.hpp"
 
+#include "capture/opencv/connected_parts.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/still_border.hpp"
-#include "capture/photos/matte/connected_parts.hpp"
 #include "capture/photos/matte/contrast_cut.hpp"
 
 #include <opencv2/core.hpp>
@@ -95,14 +95,11 @@ void doubt_small_islands(Image<float>& preference, ConstImageView<Lab> plate, do
         for (int x = 0; x < plain.cols; ++x) plain(y, x) = preference(x, y) <= -kDecided ? 255 : 0;
     }
     const ConnectedParts parts(plain, 4);
-    for (int y = 0; y < plain.rows; ++y) {
-        for (int x = 0; x < plain.cols; ++x) {
-            const int label = parts.label(x, y);
-            if (label == 0 || parts.touches_border(label)) continue;
-            const bool small = parts.area(label) < max_island * static_cast<double>(plain.total());
-            if (small && !is_colourful(plate(x, y))) preference(x, y) = kIsland;
-        }
-    }
+    parts.for_each_pixel([&](int x, int y, int label) {
+        if (parts.touches_border(label)) return;
+        const bool small = parts.area(label) < max_island * static_cast<double>(plain.total());
+        if (small && !is_colourful(plate(x, y))) preference(x, y) = kIsland;
+    });
 }
 
 // Keeps the parts of `mask` that hold a pixel which strongly speaks for the object, and are no specks. Beside the
@@ -115,29 +112,24 @@ void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, const C
         bool strong = false;
         int still = 0, hidden = 0;  // pixels
     };
-    auto tallies = parts.per_label<Tally>();
     const auto is_set = [](const Image<std::uint8_t>& where, int x, int y) {
         return !where.empty() && where(x, y) != 0;
     };
-    for (int y = 0; y < mask.rows; ++y) {
-        for (int x = 0; x < mask.cols; ++x) {
-            if (mask(y, x) == 0) continue;
-            Tally& tally = tallies[static_cast<std::size_t>(parts.label(x, y))];
-            tally.strong |= preference(x, y) >= kStrong;
-            tally.still += is_set(plate.still, x, y) ? 1 : 0;
-            tally.hidden += is_set(plate.hidden, x, y) ? 1 : 0;
-        }
-    }
+    const auto tallies = parts.tallied<Tally>([&](int x, int y, Tally& tally) {
+        tally.strong |= preference(x, y) >= kStrong;
+        tally.still += is_set(plate.still, x, y) ? 1 : 0;
+        tally.hidden += is_set(plate.hidden, x, y) ? 1 : 0;
+    });
     const bool is_faint = options.may_be_faint && std::ranges::none_of(tallies, &Tally::strong);
     int largest = 0;
     for (int label = 1; label < parts.count(); ++label) {
-        if (!is_faint && !tallies[static_cast<std::size_t>(label)].strong) continue;
+        if (!is_faint && !tallies[label].strong) continue;
         if (largest == 0 || parts.area(label) > parts.area(largest)) largest = label;
     }
     const int near_px = border_px(mask.cols, mask.rows);
     // A foot that the object always hides stands under or beside the rest; a lip is nearer above it than it is tall.
     const auto stands_still = [&](int label) {
-        const Tally& tally = tallies[static_cast<std::size_t>(label)];
+        const Tally& tally = tallies[label];
         const bool may_be_of_it = 2 * tally.hidden > parts.area(label) && parts.share_columns(label, largest) &&
                                   parts.rows_above(label, largest) <= parts.height(label);
         return 2 * tally.still > parts.area(label) && !may_be_of_it;
@@ -146,18 +138,15 @@ void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, const C
         return options.is_room && kLargeShare * parts.area(label) < parts.area(largest) &&
                (parts.sides(label, near_px) & ~parts.sides(largest, near_px)) != 0;
     };
-    auto keep = parts.per_label<std::uint8_t>();
+    PerPart<std::uint8_t> keep(parts.count());
     for (int label = 1; label < parts.count(); ++label) {
-        const bool is_kept = tallies[static_cast<std::size_t>(label)].strong &&
-                             parts.area(label) >= options.min_part * parts.area(largest) && !stands_still(label) &&
-                             !comes_in(label);
-        keep[static_cast<std::size_t>(label)] = is_kept || label == largest ? 1 : 0;
+        const bool is_kept = tallies[label].strong && parts.area(label) >= options.min_part * parts.area(largest) &&
+                             !stands_still(label) && !comes_in(label);
+        keep[label] = is_kept || label == largest ? 1 : 0;
     }
-    for (int y = 0; y < mask.rows; ++y) {
-        for (int x = 0; x < mask.cols; ++x) {
-            mask(y, x) = keep[static_cast<std::size_t>(parts.label(x, y))] != 0 ? 255 : 0;
-        }
-    }
+    parts.for_each_pixel([&](int x, int y, int label) {
+        if (keep[label] == 0) mask(y, x) = 0;
+    });
 }
 
 // Closes the holes through which the backdrop is not really seen, and the tiny ones. A hole's rim is blurred, so its
@@ -171,32 +160,24 @@ void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstI
     cv::erode(outside, inner, cv::Mat(), {-1, -1}, kHoleRim_px);
     const ConnectedParts holes(outside, 4);
     struct Tally {
-        int area = 0, seen = 0;              // of the whole hole
+        int seen = 0;                        // of the whole hole
         int inner_area = 0, inner_seen = 0;  // without its rim
     };
-    auto tallies = holes.per_label<Tally>();
-    for (int y = 0; y < mask.rows; ++y) {
-        for (int x = 0; x < mask.cols; ++x) {
-            if (mask(y, x) != 0) continue;
-            const int seen = preference(x, y) < 0 || is_colourful(plate(x, y)) ? 1 : 0;
-            Tally& tally = tallies[static_cast<std::size_t>(holes.label(x, y))];
-            tally.area += 1;
-            tally.seen += seen;
-            tally.inner_area += inner(y, x) != 0 ? 1 : 0;
-            tally.inner_seen += inner(y, x) != 0 ? seen : 0;
-        }
-    }
-    for (int y = 0; y < mask.rows; ++y) {
-        for (int x = 0; x < mask.cols; ++x) {
-            const int label = holes.label(x, y);
-            if (label == 0 || holes.touches_border(label)) continue;
-            const Tally& tally = tallies[static_cast<std::size_t>(label)];
-            const bool shines_through = tally.inner_area > 0 ? tally.inner_seen >= options.hole_share * tally.inner_area
-                                                             : 2 * tally.seen >= tally.area;
-            const bool tiny = tally.area < std::max(kTinyHole_px, options.min_hole * static_cast<double>(mask.total()));
-            if (!shines_through || tiny) mask(y, x) = 255;
-        }
-    }
+    const auto tallies = holes.tallied<Tally>([&](int x, int y, Tally& tally) {
+        const int seen = preference(x, y) < 0 || is_colourful(plate(x, y)) ? 1 : 0;
+        tally.seen += seen;
+        tally.inner_area += inner(y, x) != 0 ? 1 : 0;
+        tally.inner_seen += inner(y, x) != 0 ? seen : 0;
+    });
+    holes.for_each_pixel([&](int x, int y, int label) {
+        if (holes.touches_border(label)) return;
+        const Tally& tally = tallies[label];
+        const int area = holes.area(label);
+        const bool shines_through =
+            tally.inner_area > 0 ? tally.inner_seen >= options.hole_share * tally.inner_area : 2 * tally.seen >= area;
+        const bool tiny = area < std::max(kTinyHole_px, options.min_hole * static_cast<double>(mask.total()));
+        if (!shines_through || tiny) mask(y, x) = 255;
+    });
 }
 
 // 255 where `part` is at most `width_px` wide along a row, a column or a diagonal; it is taken to go on beyond the

@@ -3,6 +3,7 @@
 // `sample_side_px`.
 
 #include "capture/photos/background/backdrop.hpp"
+#include "capture/photos/intake/reduction.hpp"
 #include "capture/photos/intake/survey.hpp"
 #include "rayspace/image/image.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The connected parts of a mask, by OpenCV, and what is asked of them when a mask is tidied up.
+// The connected parts of a mask, by OpenCV, and what is asked of them. Only for .cpp files, as opencv_image.hpp is.
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -9,13 +9,28 @@
 
 namespace rs::capture {
 
+// A value for each part of a mask, T{} at first; one more, of label 0, for what is outside all parts.
+template <class T>
+class PerPart {
+public:
+    explicit PerPart(int count) : values_(static_cast<std::size_t>(count)) {}
+    [[nodiscard]] T& operator[](int label) { return values_[static_cast<std::size_t>(label)]; }
+    [[nodiscard]] const T& operator[](int label) const { return values_[static_cast<std::size_t>(label)]; }
+    // Of the parts alone, by label.
+    [[nodiscard]] auto begin() const { return values_.begin() + 1; }
+    [[nodiscard]] auto end() const { return values_.end(); }
+
+private:
+    std::vector<T> values_;
+};
+
 // Connected parts of a binary picture; label 0 is what is outside all parts.
 class ConnectedParts {
 public:
     ConnectedParts(const cv::Mat1b& picture, int connectivity) {
         count_ = cv::connectedComponentsWithStats(picture, labels_, stats_, centroids_, connectivity);
     }
-    [[nodiscard]] int count() const { return count_; }
+    [[nodiscard]] int count() const { return count_; }  // labels, 0 among them
     [[nodiscard]] int label(int x, int y) const { return labels_(y, x); }
     [[nodiscard]] int area(int label) const { return stats_.at<int>(label, cv::CC_STAT_AREA); }
     // Of the picture that a part comes so near to, a bit each.
@@ -38,10 +53,22 @@ public:
     [[nodiscard]] int rows_above(int a, int b) const {
         return stats_.at<int>(b, cv::CC_STAT_TOP) - stats_.at<int>(a, cv::CC_STAT_TOP) - height(a);
     }
-    // One value per label, 0 at first.
-    template <class T>
-    [[nodiscard]] std::vector<T> per_label() const {
-        return std::vector<T>(static_cast<std::size_t>(count_));
+
+    // Calls `visit(x, y, label)` of every pixel of a part, row by row.
+    template <class Visit>
+    void for_each_pixel(Visit visit) const {
+        for (int y = 0; y < labels_.rows; ++y) {
+            for (int x = 0; x < labels_.cols; ++x) {
+                if (labels_(y, x) != 0) visit(x, y, labels_(y, x));
+            }
+        }
+    }
+    // What `count(x, y, of_part)` adds up of all pixels of each part.
+    template <class T, class Count>
+    [[nodiscard]] PerPart<T> tallied(Count count) const {
+        PerPart<T> tallies(count_);
+        for_each_pixel([&](int x, int y, int label) { count(x, y, tallies[label]); });
+        return tallies;
     }
 
 private:
