@@ -5,17 +5,23 @@
 #include <utility>
 
 namespace rs::capture {
+namespace {
+
+void note_aside(const std::vector<std::string>& names, const std::string& why, std::vector<std::string>& notes) {
+    if (names.empty()) return;
+    notes.push_back("left aside, " + why + ": " + names.front() +
+                    (names.size() > 1 ? " and " + std::to_string(names.size() - 1) + " more" : ""));
+}
+
+}  // namespace
 
 Result<Intake> take_in(PhotoFolder folder, Progress* progress) {
     Result<Survey> survey = survey_photos(folder, progress);
     if (!survey) return survey.error();
     Intake taken{std::move(folder), std::move(*survey), {}, {}};
-    const std::vector<std::string>& ignored = taken.folder.ignored;
-    if (!ignored.empty()) {
-        taken.notes.push_back("left aside, not a picture: " + ignored.front() +
-                              (ignored.size() > 1 ? " and " + std::to_string(ignored.size() - 1) + " more" : ""));
-    }
     const PhotoFolder& of = taken.folder;
+    note_aside(of.ignored, "not a picture", taken.notes);
+    note_aside(of.in_other_formats, "there in another format, too", taken.notes);
     if (of.otherwise_turned > 0) {
         taken.notes.push_back("the camera states " + std::to_string(of.otherwise_turned) + " of " +
                               std::to_string(of.photos.size()) +

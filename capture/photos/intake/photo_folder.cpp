@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <system_error>
 
@@ -17,6 +18,38 @@ constexpr bool is_digit(char c) {
 }
 constexpr char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+// JPEG first: where as many pictures of another format have the same names they may be masks or cut-outs.
+constexpr std::array<std::string_view, 14> kExtensions = {".jpg",  ".jpeg", ".png", ".tif", ".tiff", ".webp", ".heic",
+                                                          ".heif", ".avif", ".bmp", ".exr", ".hdr",  ".tga",  ".ppm"};
+
+// Which of kExtensions the name has; their number where it has none.
+std::size_t extension_of(const std::filesystem::path& name) {
+    std::string extension = name.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), lower);
+    return static_cast<std::size_t>(std::ranges::find(kExtensions, extension) - kExtensions.begin());
+}
+
+// Of files that differ in their extension alone keeps the one in the format that most pictures have: a phone's HEIC
+// and the JPEG made of it are one photograph.
+void take_one_format(PhotoFolder& found) {
+    std::array<int, kExtensions.size()> having{};  // [extension]: how many pictures
+    std::map<std::string, std::filesystem::path> by_stem;
+    for (const std::filesystem::path& photo : found.photos) ++having[extension_of(photo)];
+    const auto is_better = [&](const std::filesystem::path& a, const std::filesystem::path& b) {
+        const std::size_t of_a = extension_of(a), of_b = extension_of(b);
+        return having[of_a] != having[of_b] ? having[of_a] > having[of_b] : of_a < of_b;
+    };
+    for (const std::filesystem::path& photo : found.photos) {
+        std::filesystem::path& kept = by_stem[photo.stem().string()];
+        if (kept.empty() || is_better(photo, kept)) kept = photo;
+    }
+    std::erase_if(found.photos, [&](const std::filesystem::path& photo) {
+        if (by_stem[photo.stem().string()] == photo) return false;
+        found.in_other_formats.push_back(photo.filename().string());
+        return true;
+    });
 }
 
 // The run of digits that starts at `at`, its leading zeros left out; moves `at` behind it.
@@ -88,12 +121,7 @@ bool natural_less(std::string_view a, std::string_view b) {
 }
 
 bool is_picture_name(const std::filesystem::path& name) {
-    static constexpr std::array<std::string_view, 14> kExtensions = {".png",  ".jpg",  ".jpeg", ".tif",  ".tiff",
-                                                                     ".webp", ".heic", ".heif", ".avif", ".bmp",
-                                                                     ".exr",  ".hdr",  ".tga",  ".ppm"};
-    std::string extension = name.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), lower);
-    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+    return extension_of(name) < kExtensions.size();
 }
 
 std::string size_text(int width, int height) {
@@ -142,14 +170,14 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int m
                      ": holds no pictures; give a folder of PNG, JPEG, TIFF, WebP or HEIC "
                      "files (a camera's raw files must be developed first)"};
     }
+    std::sort(found.photos.begin(), found.photos.end(),
+              [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
+    take_one_format(found);
     if (found.photos.size() > static_cast<std::size_t>(kMaxViews)) {
         return Error{folder.string() + ": holds " + std::to_string(found.photos.size()) + " pictures; at most " +
                      std::to_string(kMaxViews) + " can be imported"};
     }
     std::sort(found.ignored.begin(), found.ignored.end());
-    std::sort(found.photos.begin(), found.photos.end(),
-              [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
-
     if (Status status = read_headers(found); !status) return status.error();
     set_reduction(found, max_side_px);
     return found;

@@ -26,6 +26,9 @@ bool is_picture_name(const std::filesystem::path& name);
 struct PhotoFolder {
     std::vector<std::filesystem::path> photos;  // full paths, in natural order of their file names
     std::vector<std::string> ignored;           // names of other entries (folders too), hidden ones left out
+    // Of pictures that lie in the folder in another format, too, under the same name: that which most pictures have is
+    // taken, JPEG where as many have it, and these are left aside.
+    std::vector<std::string> in_other_formats;
     // EXIF: how the files' pixels are turned to be shown (PictureInfo::orientation), one for all, as the camera stands
     // still. Where files differ it is what most of them state: a camera that looks down does not know its own.
     int orientation = 1;

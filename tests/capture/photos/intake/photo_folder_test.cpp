@@ -71,6 +71,25 @@ TEST(PhotoFolder, ListsPicturesOnlyInOrder) {
     EXPECT_EQ(found->height, 3);
 }
 
+TEST(PhotoFolder, TakesAPictureOnceThatIsThereInTwoFormats) {
+    const test::TemporaryFolder folder;
+    const auto opened = [&] {
+        const Result<PhotoFolder> found = open_photo_folder(folder.path());
+        EXPECT_TRUE(found.ok()) << found.error().message;
+        return *found;
+    };
+    const Image<Rgba8> grey(4, 3, Rgba8{9, 9, 9, 255});
+    for (const char* name : {"1.jpg", "2.jpg", "3.jpg"}) ASSERT_TRUE(write_jpeg(folder / name, grey, 90).ok());
+    for (const char* name : {"1.png", "2.png"}) write_picture(folder / name, 8, 6);
+    EXPECT_THAT(file_names(opened()), ElementsAre("1.jpg", "2.jpg", "3.jpg")) << "the format that most have";
+    EXPECT_THAT(opened().in_other_formats, ElementsAre("1.png", "2.png"));
+    write_picture(folder / "3.png", 8, 6);
+    EXPECT_THAT(file_names(opened()), ElementsAre("1.jpg", "2.jpg", "3.jpg")) << "as many: the PNGs may be masks";
+    write_picture(folder / "4.png", 8, 6);
+    EXPECT_THAT(file_names(opened()), ElementsAre("1.png", "2.png", "3.png", "4.png"));
+    EXPECT_THAT(opened().in_other_formats, ElementsAre("1.jpg", "2.jpg", "3.jpg"));
+}
+
 TEST(PhotoFolder, RefusesWhatHoldsNoPictures) {
     const test::TemporaryFolder folder;
     const Result<PhotoFolder> empty = open_photo_folder(folder.path());
