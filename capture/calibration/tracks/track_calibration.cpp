@@ -98,8 +98,8 @@ BundleOptions rough(BundleOptions options) {
     return options;
 }
 
-// From a start that is roughly right to a good bundle of features as they were detected and matched; leaves in
-// `options` the loss that fits them.
+// From a start that is roughly right to a good bundle of features as they were detected and matched, which is enough
+// to judge it by; leaves in `options` the loss that fits them.
 bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k1_is_free, BundleOptions& options) {
     constexpr int kMostRounds = 5;
     constexpr double kSameLoss = 0.02;
@@ -108,16 +108,15 @@ bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k
         options.free.k1 = round > 0 && k1_is_free;
         if (!adjust(bundle, rough(options))) return false;
         const double limit = outlier_limit(bundle, reduction);
+        // Observations lost to a poor start get another chance.
+        if (round + 1 < kMostRounds) {
+            bundle = make_agreeing_bundle(bundle.model, tracks, limit);
+        } else {
+            drop_outliers(bundle, limit);
+        }
         const double before_px = options.loss_px;
         options.loss_px = std::max(0.3 * reduction, 2 * robust_deviation_px(bundle));
-        const bool is_last =
-            round + 1 == kMostRounds || (round > 1 && std::abs(options.loss_px / before_px - 1) < kSameLoss);
-        if (is_last) {
-            drop_outliers(bundle, limit);
-            break;
-        }
-        // Observations lost to a poor start get another chance.
-        bundle = make_agreeing_bundle(bundle.model, tracks, limit);
+        if (round > 1 && std::abs(options.loss_px / before_px - 1) < kSameLoss) break;
     }
     return adjust(bundle, rough(options)).has_value();
 }

@@ -12,9 +12,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace rs::capture {
 namespace {

@@ -139,15 +139,28 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
     if (flat_grey_) flat_plate_ = flat_plate(plate_, untouched_, linear_rgb(*flat_grey_));
 }
 
-CleanPlateView ObjectCutter::exposed_as(ConstImageView<Rgba8> photo, CleanPlateView plate) const {
-    if (untouched_.empty()) return plate;
-    const LinearRgb gain = exposure_gain(photo, plate.light, untouched_);
-    if (gain.r == 1 && gain.g == 1 && gain.b == 1) return plate;
-    for (LinearRgb& p : plate.light.pixels()) {
+std::optional<CleanPlateView> ObjectCutter::exposed_as(ConstImageView<Rgba8> photo) const {
+    if (untouched_.empty()) return std::nullopt;
+    const LinearRgb gain = exposure_gain(photo, plate_.light, untouched_);
+    if (gain.r == 1 && gain.g == 1 && gain.b == 1) return std::nullopt;
+    CleanPlateView exposed = plate_;
+    for (LinearRgb& p : exposed.light.pixels()) {
         p = {std::min(1.0F, p.r * gain.r), std::min(1.0F, p.g * gain.g), std::min(1.0F, p.b * gain.b)};
     }
-    plate.looks = lab_picture(plate.light);
-    return plate;
+    exposed.looks = lab_picture(exposed.light);
+    return exposed;
+}
+
+Image<std::uint8_t> ObjectCutter::mask_of(ConstImageView<Rgba8> photo) const {
+    const bool flat = flat_grey_ && within_codes(border_of(photo).median, *flat_grey_, kFlat_codes);
+    const SeenPhoto seen(photo);
+    const std::optional<CleanPlateView> exposed = exposed_as(photo);
+    const CleanPlateView& plate = exposed ? *exposed : plate_;
+    Image<std::uint8_t> mask;
+    if (!flat && is_even_) mask = find_object_by_edges(seen, plate, options_);
+    if (mask.empty()) mask = find_object(seen, plate, options_);
+    if (flat) add_grey_parts(mask, seen, flat_plate_);
+    return mask;
 }
 
 Image<Rgba8> ObjectCutter::cut(ConstImageView<Rgba8> photo) const {
@@ -156,14 +169,7 @@ Image<Rgba8> ObjectCutter::cut(ConstImageView<Rgba8> photo) const {
         cut = Image<Rgba8>(photo.width(), photo.height());
         for (int y = 0; y < photo.height(); ++y) std::copy_n(photo.row(y), photo.width(), cut.row(y));
     } else {
-        Image<std::uint8_t> mask;
-        const bool flat = flat_grey_ && within_codes(border_of(photo).median, *flat_grey_, kFlat_codes);
-        const CleanPlateView plate = exposed_as(photo, plate_);
-        const SeenPhoto seen(photo);
-        if (!flat && is_even_) mask = find_object_by_edges(seen, plate, options_);
-        if (mask.empty()) mask = find_object(seen, plate, options_);
-        if (flat) add_grey_parts(mask, seen, flat_plate_);
-        cut = unmix(photo, soften_edge(photo, mask, band_px_));
+        cut = unmix(photo, soften_edge(photo, mask_of(photo), band_px_));
     }
     bleed_colours(cut);
     return cut;

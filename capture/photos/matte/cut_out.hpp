@@ -35,8 +35,10 @@ public:
     [[nodiscard]] Image<Rgba8> cut(ConstImageView<Rgba8> photo) const;
 
 private:
-    // A plate as bright as it is in this photograph.
-    [[nodiscard]] CleanPlateView exposed_as(ConstImageView<Rgba8> photo, CleanPlateView plate) const;
+    // 255 where the object is.
+    [[nodiscard]] Image<std::uint8_t> mask_of(ConstImageView<Rgba8> photo) const;
+    // The plate as bright as it is in this photograph; nothing where that is as it is.
+    [[nodiscard]] std::optional<CleanPlateView> exposed_as(ConstImageView<Rgba8> photo) const;
 
     BackdropKind kind_;
     MaskOptions options_;

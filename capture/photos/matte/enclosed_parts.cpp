@@ -10,8 +10,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
-#include <cstddef>
-#include <vector>
 
 namespace rs::capture {
 namespace {

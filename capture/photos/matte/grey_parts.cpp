@@ -4,7 +4,6 @@
 #include "rayspace/base/check.hpp"
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -62,6 +61,7 @@ CleanPlateView flat_plate(const CleanPlateView& plate, ConstImageView<std::uint8
 void add_grey_parts(Image<std::uint8_t>& mask, const SeenPhoto& photo, const CleanPlateView& flat) {
     constexpr double kHardlyAny = 0.2;  // of what differs: the rest cannot all be shadow
     constexpr double kDust = 0.002;     // of the picture
+    RS_CHECK(flat.looks.width() == photo.width() && flat.looks.height() == photo.height());
     if (mask.empty()) return;
     MaskOptions options = mask_options_for_flat_grey();
     add_if_large(mask, find_object(photo, flat, options));

@@ -13,9 +13,9 @@ namespace rs::capture {
 // (`untouched`, of its size, is not 0) and it clearly differs, as a shop's mark.
 CleanPlateView flat_plate(const CleanPlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& grey);
 
-// Adds what find_object() before `flat` shows to `mask` (255 = object) where that lacks a large part of it. Where that
-// leaves hardly any of what differs from `flat`, as nothing of the object is clearly no shadow, its shadow comes along:
-// better than no object.
+// Adds what find_object() before `flat`, as flat_plate() gives it, shows to `mask` (255 = object) where that lacks a
+// large part of it. Where that leaves hardly any of what differs from `flat`, as nothing of the object is clearly no
+// shadow, its shadow comes along: better than no object.
 void add_grey_parts(Image<std::uint8_t>& mask, const SeenPhoto& photo, const CleanPlateView& flat);
 
 }  // namespace rs::capture

@@ -51,11 +51,13 @@ struct MaskOptions {
 };
 
 // A photograph, and how it looks, which is worked out once for all that is asked of it. The picture must outlive it.
+// Converts, so that a photograph can be given where it is asked for once.
 struct SeenPhoto {
     ConstImageView<Rgba8> picture;
     Image<Lab> looks;
     SeenPhoto(ConstImageView<Rgba8> photo) : picture(photo), looks(lab_picture(photo)) {}
     SeenPhoto(const Image<Rgba8>& photo) : SeenPhoto(ConstImageView<Rgba8>(photo)) {}
+    SeenPhoto(Image<Rgba8>&&) = delete;
     [[nodiscard]] int width() const { return picture.width(); }
     [[nodiscard]] int height() const { return picture.height(); }
 };

@@ -287,7 +287,20 @@ TEST(CutOutInAStudio, AMarkIsNoObject) {
 }
 
 TEST(CutOutInAStudio, NothingHasNoObject) {
-    EXPECT_TRUE(find_object_by_edges(Image<Rgba8>{}, CleanPlateView{}, MaskOptions{}).empty());
+    const Image<Rgba8> nothing;
+    EXPECT_TRUE(find_object_by_edges(nothing, CleanPlateView{}, MaskOptions{}).empty());
+}
+
+TEST(ObjectMask, LooksThatThePlateBringsAreThoseOfItsLight) {
+    const ShadedBox box(3);
+    const Image<Rgba8> photo = photo_of(box, 3, 0.9, 0.45);
+    CleanPlateView plate = studio_plate();
+    const Image<std::uint8_t> mask = find_object(photo, plate, MaskOptions{});
+    ASSERT_GT(std::ranges::count(mask.pixels(), 255), 500);
+    plate.looks = lab_picture(plate.light);
+    EXPECT_TRUE(find_object(photo, plate, MaskOptions{}) == mask);
+    plate.looks = lab_picture(photo);
+    EXPECT_FALSE(find_object(photo, plate, MaskOptions{}) == mask) << "they are read";
 }
 
 // What is known to be seen is no object, whatever its colour.
