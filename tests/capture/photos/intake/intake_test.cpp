@@ -25,9 +25,8 @@ TEST(Intake, SaysWhatIsLeftAside) {
     ASSERT_TRUE(found.ok()) << found.error().message;
     const Result<Intake> taken = take_in(std::move(*found), nullptr);
     ASSERT_TRUE(taken.ok()) << taken.error().message;
-    EXPECT_THAT(taken->notes,
-                testing::ElementsAre("left aside, not a picture: 1.cr2",
-                                     "left aside, there in another format, too: 1.png and 2 more"));
+    EXPECT_THAT(taken->notes, testing::ElementsAre("left aside, not a picture: 1.cr2",
+                                                   "left aside, there in another format, too: 1.png and 2 more"));
 }
 
 }  // namespace
