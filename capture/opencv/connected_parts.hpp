@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -61,6 +62,18 @@ public:
             for (int x = 0; x < labels_.cols; ++x) {
                 if (labels_(y, x) != 0) visit(x, y, labels_(y, x));
             }
+        }
+    }
+    // The same of those at the picture's border, each once.
+    template <class Visit>
+    void for_each_pixel_at_border(Visit visit) const {
+        const int right = labels_.cols - 1, below = labels_.rows - 1;
+        const auto look_at = [&](int x, int y) {
+            if (labels_(y, x) != 0) visit(x, y, labels_(y, x));
+        };
+        for (int y = 0; y <= below; ++y) {
+            const int step = y == 0 || y == below ? 1 : std::max(1, right);
+            for (int x = 0; x <= right; x += step) look_at(x, y);
         }
     }
     // What `count(x, y, of_part)` adds up of all pixels of each part.

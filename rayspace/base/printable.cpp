@@ -1,5 +1,6 @@
 #include "rayspace/base/printable.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace rs {
@@ -31,6 +32,12 @@ std::string with_digits(double value, int digits) {
     char text[512];  // the largest double has 309 before the point
     std::snprintf(text, sizeof text, "%.*f", digits, value);
     return text;
+}
+
+std::string listed(std::span<const std::string> names, std::size_t most) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i > 0 ? ", " : "") + names[i];
+    return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
 }
 
 }  // namespace rs

@@ -1,6 +1,8 @@
 #pragma once
 // Text for people: with names of files and what stands in them, and with numbers.
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,5 +14,8 @@ std::string printable(std::string_view text);
 
 // So many digits behind the point.
 std::string with_digits(double value, int digits);
+
+// "a, b and 3 more": the first `most`, and how many there are beside.
+std::string listed(std::span<const std::string> names, std::size_t most);
 
 }  // namespace rs

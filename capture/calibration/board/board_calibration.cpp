@@ -3,6 +3,7 @@
 #include "capture/calibration/board/board_bundle.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/base/printable.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +35,9 @@ std::string name_of(std::span<const std::string> names, std::size_t view) {
 
 std::string list_of(std::span<const std::string> names, const std::vector<std::size_t>& views) {
     constexpr std::size_t kMost = 8;
-    std::string list;
-    for (std::size_t i = 0; i < std::min(kMost, views.size()); ++i)
-        list += (i > 0 ? ", " : "") + name_of(names, views[i]);
-    return views.size() > kMost ? list + " and " + std::to_string(views.size() - kMost) + " more" : list;
+    std::vector<std::string> of_views;
+    for (const std::size_t view : views) of_views.push_back(name_of(names, view));
+    return listed(of_views, kMost);
 }
 
 std::vector<std::size_t> views_without_board(const Task& task) {

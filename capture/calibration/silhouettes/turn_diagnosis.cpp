@@ -48,11 +48,10 @@ std::vector<std::size_t> views_apart(const Bundle& bundle, std::span<const int> 
     return apart;
 }
 
-std::string listed(const std::vector<std::size_t>& views, std::span<const std::string> names) {
-    std::string text;
-    for (std::size_t i = 0; i < views.size() && i < 3; ++i) text += (i > 0 ? ", " : "") + names[views[i]];
-    if (views.size() > 3) text += " and " + std::to_string(views.size() - 3) + " more";
-    return text;
+std::string list_of(const std::vector<std::size_t>& views, std::span<const std::string> names) {
+    std::vector<std::string> of_views;
+    for (const std::size_t view : views) of_views.push_back(names[view]);
+    return listed(of_views, 3);
 }
 
 // The first view after something changed at one moment: the shares before it and after it are two different levels that
@@ -107,7 +106,7 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     if (share < kFewestAgreeing || static_cast<double>(apart.size()) > kMostViewsApart * views) {
         std::string text = "the pictures do not show one turn before a still camera: " + with_digits(100 * share, 0) +
                            " % of the observations agree with the best one";
-        if (!apart.empty()) text += ", and not those of " + listed(apart, names);
+        if (!apart.empty()) text += ", and not those of " + list_of(apart, names);
         if (const auto moment = moment_of_change(agreeing_shares(bundle, candidates))) {
             text += "; was the camera or the tripod moved at about " + names[*moment] + "? Take the turn again";
         } else {

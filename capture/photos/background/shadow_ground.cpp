@@ -25,10 +25,9 @@ constexpr std::size_t kOneIn = 4;      // samples that show it: an outline that 
 constexpr double kAbove = 0.02;        // of the picture's height: where a shadow fades out
 
 // The label of the part that has most of the picture's border; 0 where none has any.
-int part_around(const ConnectedParts& parts, cv::Size size) {
-    const auto at_border = parts.tallied<int>([&](int x, int y, int& count) {
-        count += (x == 0 || x == size.width - 1 ? 1 : 0) + (y == 0 || y == size.height - 1 ? 1 : 0);
-    });
+int part_around(const ConnectedParts& parts) {
+    PerPart<int> at_border(parts.count());
+    parts.for_each_pixel_at_border([&](int, int, int label) { ++at_border[label]; });
     const auto most = std::ranges::max_element(at_border);
     return most == at_border.end() || *most == 0 ? 0 : static_cast<int>(most - at_border.begin()) + 1;
 }
@@ -40,7 +39,7 @@ std::vector<bool> rows_with_shadow(const cv::Mat3f& photo, const cv::Mat3f& plat
     cv::dilate(walls, walls, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kWall_px + 1, 2 * kWall_px + 1}));
     cv::bitwise_not(walls, open);
     const ConnectedParts parts(open, 4);
-    const int around = part_around(parts, open.size());
+    const int around = part_around(parts);
     std::vector<bool> rows(static_cast<std::size_t>(share.rows));
     if (around == 0) return rows;
     for (int y = 0; y < share.rows; ++y) {

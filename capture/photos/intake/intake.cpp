@@ -1,6 +1,7 @@
 #include "capture/photos/intake/intake.hpp"
 
 #include "capture/photos/intake/repeat.hpp"
+#include "rayspace/base/printable.hpp"
 
 #include <utility>
 
@@ -9,8 +10,7 @@ namespace {
 
 void note_aside(const std::vector<std::string>& names, const std::string& why, std::vector<std::string>& notes) {
     if (names.empty()) return;
-    notes.push_back("left aside, " + why + ": " + names.front() +
-                    (names.size() > 1 ? " and " + std::to_string(names.size() - 1) + " more" : ""));
+    notes.push_back("left aside, " + why + ": " + listed(names, 1));
 }
 
 }  // namespace

@@ -121,14 +121,11 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
     cv::Mat3f plate;
     cv::resize(is_even_ ? light_mat(backdrop.even) : linear_mat(backdrop.plate), plate, {width, height}, 0, 0,
                cv::INTER_LINEAR);
-    plate_.light = Image<LinearRgb>(width, height);
+    Image<LinearRgb> light(width, height);
     for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const cv::Vec3f& p = plate(y, x);
-            plate_.light(x, y) = {std::min(1.0F, p[0]), std::min(1.0F, p[1]), std::min(1.0F, p[2])};
-        }
+        for (int x = 0; x < width; ++x) light(x, y) = {plate(y, x)[0], plate(y, x)[1], plate(y, x)[2]};
     }
-    plate_.looks = lab_picture(plate_.light);
+    plate_.behind = SeenLight(std::move(light));
     for (const Rgba8& colour : backdrop.screen) plate_.screen.push_back(linear_rgb(colour));
     plate_.noise_delta_e = scaled(backdrop.noise_delta_e, width, height);
     plate_.ground = scaled(backdrop.ground, width, height);
@@ -141,13 +138,12 @@ ObjectCutter::ObjectCutter(const Backdrop& backdrop, int width, int height)
 
 std::optional<CleanPlateView> ObjectCutter::exposed_as(ConstImageView<Rgba8> photo) const {
     if (untouched_.empty()) return std::nullopt;
-    const LinearRgb gain = exposure_gain(photo, plate_.light, untouched_);
+    const LinearRgb gain = exposure_gain(photo, plate_.behind.light, untouched_);
     if (gain.r == 1 && gain.g == 1 && gain.b == 1) return std::nullopt;
+    Image<LinearRgb> light = plate_.behind.light;
+    for (LinearRgb& p : light.pixels()) p = {p.r * gain.r, p.g * gain.g, p.b * gain.b};
     CleanPlateView exposed = plate_;
-    for (LinearRgb& p : exposed.light.pixels()) {
-        p = {std::min(1.0F, p.r * gain.r), std::min(1.0F, p.g * gain.g), std::min(1.0F, p.b * gain.b)};
-    }
-    exposed.looks = lab_picture(exposed.light);
+    exposed.behind = SeenLight(std::move(light));
     return exposed;
 }
 

@@ -53,12 +53,10 @@ OpenParts parts_of(const cv::Mat1b& open, const cv::Mat1b& differs, double spot_
     struct Tally {
         int differs = 0, at_border = 0, differs_there = 0;  // px
     };
-    const auto tallies = all.tallied<Tally>([&](int x, int y, Tally& tally) {
-        const bool at_border = x == 0 || y == 0 || x == open.cols - 1 || y == open.rows - 1;
-        const bool is_other = differs(y, x) != 0;
-        tally.differs += is_other ? 1 : 0;
-        tally.at_border += at_border ? 1 : 0;
-        tally.differs_there += at_border && is_other ? 1 : 0;
+    auto tallies = all.tallied<Tally>([&](int x, int y, Tally& tally) { tally.differs += differs(y, x) != 0 ? 1 : 0; });
+    all.for_each_pixel_at_border([&](int x, int y, int label) {
+        ++tallies[label].at_border;
+        tallies[label].differs_there += differs(y, x) != 0 ? 1 : 0;
     });
     const cv::Mat1b nothing(open.size(), std::uint8_t{0});
     OpenParts parts{nothing.clone(), nothing.clone(), nothing.clone(), nothing.clone()};
@@ -93,11 +91,12 @@ Image<std::uint8_t> in_size_of(ConstImageView<Rgba8> photo, const cv::Mat1b& mas
 
 Image<std::uint8_t> find_object_by_edges(const SeenPhoto& photo, const CleanPlateView& plate,
                                          const MaskOptions& options) {
-    RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
+    RS_CHECK(photo.width() == plate.behind.width() && photo.height() == plate.behind.height());
     if (photo.width() == 0 || photo.height() == 0) return {};
     const double scale = std::min(1.0, static_cast<double>(kSide_px) / std::max(photo.width(), photo.height()));
     const cv::Size size(std::max(1, cvRound(photo.width() * scale)), std::max(1, cvRound(photo.height() * scale)));
-    const cv::Mat3f light = smoothed(linear_mat(photo.picture), size), behind = smoothed(light_mat(plate.light), size);
+    const cv::Mat3f light = smoothed(linear_mat(photo.picture), size),
+                    behind = smoothed(light_mat(plate.behind.light), size);
     cv::Mat1b object = [&] {
         const Image<float> preference = object_preference(photo, plate, options);
         cv::Mat1b strong(photo.height(), photo.width());

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -32,7 +33,7 @@ std::ptrdiff_t differing(const SeenPhoto& photo, const CleanPlateView& plate) {
     std::ptrdiff_t count = 0;
     for (int y = 0; y < photo.height(); ++y) {
         for (int x = 0; x < photo.width(); ++x) {
-            count += delta_e(photo.looks(x, y), plate.looks(x, y)) > kVisible_delta_e ? 1 : 0;
+            count += delta_e(photo.looks(x, y), plate.behind.looks(x, y)) > kVisible_delta_e ? 1 : 0;
         }
     }
     return count;
@@ -41,27 +42,27 @@ std::ptrdiff_t differing(const SeenPhoto& photo, const CleanPlateView& plate) {
 }  // namespace
 
 CleanPlateView flat_plate(const CleanPlateView& plate, ConstImageView<std::uint8_t> untouched, const LinearRgb& grey) {
-    RS_CHECK(plate.light.width() == untouched.width() && plate.light.height() == untouched.height());
-    const int width = plate.light.width(), height = plate.light.height();
+    RS_CHECK(plate.behind.width() == untouched.width() && plate.behind.height() == untouched.height());
+    const int width = plate.behind.width(), height = plate.behind.height();
+    Image<LinearRgb> light(width, height, grey);
     CleanPlateView flat;
-    flat.light = Image<LinearRgb>(width, height, grey);
     flat.noise_delta_e = Image<float>(width, height);
     const Lab look = lab_from_linear(grey);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            if (untouched(x, y) == 0 || delta_e(lab_from_linear(plate.light(x, y)), look) <= kVisible_delta_e) continue;
-            flat.light(x, y) = plate.light(x, y);
+            if (untouched(x, y) == 0 || delta_e(plate.behind.looks(x, y), look) <= kVisible_delta_e) continue;
+            light(x, y) = plate.behind.light(x, y);
             if (!plate.noise_delta_e.empty()) flat.noise_delta_e(x, y) = plate.noise_delta_e(x, y);
         }
     }
-    flat.looks = lab_picture(flat.light);
+    flat.behind = SeenLight(std::move(light));
     return flat;
 }
 
 void add_grey_parts(Image<std::uint8_t>& mask, const SeenPhoto& photo, const CleanPlateView& flat) {
     constexpr double kHardlyAny = 0.2;  // of what differs: the rest cannot all be shadow
     constexpr double kDust = 0.002;     // of the picture
-    RS_CHECK(flat.looks.width() == photo.width() && flat.looks.height() == photo.height());
+    RS_CHECK(flat.behind.width() == photo.width() && flat.behind.height() == photo.height());
     if (mask.empty()) return;
     MaskOptions options = mask_options_for_flat_grey();
     add_if_large(mask, find_object(photo, flat, options));

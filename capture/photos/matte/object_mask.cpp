@@ -211,8 +211,7 @@ cv::Mat1b thin_parts(const cv::Mat1b& part, int width_px) {
 // Shadows are broad: a narrow part that differs clearly from a plate of which noise and exposure are known is the
 // object's, wires and stripes of rods, even if a shadow of that depth would look the same. Not before a colour that
 // tells shadows from grey parts.
-void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const CleanPlateView& plate,
-                                  ConstImageView<Lab> plate_looks, const MaskOptions& options,
+void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const CleanPlateView& plate, const MaskOptions& options,
                                   Image<float>& preference) {
     constexpr int kThinShare = 45;  // of the picture's longer side: narrower than that is thin
     constexpr float kThinRather = 2;
@@ -232,7 +231,7 @@ void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const CleanPlateV
             if (asked(y, x) == 0) continue;
             const cv::Vec3f& p = smooth(y, x);
             const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
-            const float delta = delta_e(lab_from_linear({p[0], p[1], p[2]}), plate_looks(x, y));
+            const float delta = delta_e(lab_from_linear({p[0], p[1], p[2]}), plate.behind.looks(x, y));
             beyond_noise(y, x) = delta - noise;
             differs(y, x) = delta > std::max(options.plain_delta_e, 1.2F * noise) ? 255 : 0;
         }
@@ -243,7 +242,7 @@ void lean_to_object_in_thin_parts(ConstImageView<Rgba8> photo, const CleanPlateV
             float& own = preference(x, y);
             if (std::abs(own) >= kDecided || thin(y, x) == 0 || beyond_noise(y, x) < options.thin_delta_e) continue;
             if (beyond_noise(y, x) < options.thin_on_ground_delta_e && on_ground(plate, x, y)) continue;
-            if (!is_colourful(plate_looks(x, y))) own = std::max(own, kThinRather);
+            if (!is_colourful(plate.behind.looks(x, y))) own = std::max(own, kThinRather);
         }
     }
 }
@@ -293,30 +292,15 @@ MaskOptions mask_options_for_flat_grey() {
     return options;
 }
 
-namespace {
+SeenLight::SeenLight(Image<LinearRgb> of) : light(std::move(of)) {
+    for (LinearRgb& p : light.pixels()) p = {std::min(1.0F, p.r), std::min(1.0F, p.g), std::min(1.0F, p.b)};
+    looks = lab_picture(light);
+}
 
-// Of what is behind the object; computed where the plate lacks them.
-class PlateLooks {
-public:
-    explicit PlateLooks(const CleanPlateView& plate)
-        : own_(plate.looks.empty() ? lab_picture(plate.light) : Image<Lab>{}),
-          looks_(plate.looks.empty() ? own_ : plate.looks) {
-        RS_CHECK(looks_.width() == plate.light.width() && looks_.height() == plate.light.height());
-    }
-    PlateLooks(const PlateLooks&) = delete;
-    PlateLooks& operator=(const PlateLooks&) = delete;
-    operator ConstImageView<Lab>() const { return looks_; }
-
-private:
-    Image<Lab> own_;
-    ConstImageView<Lab> looks_;
-};
-
-Image<float> preference_by(const SeenPhoto& photo, const CleanPlateView& plate, ConstImageView<Lab> plate_looks,
-                           const MaskOptions& anywhere) {
-    RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
-    const MaskOptions ground = options_on_ground(anywhere);
-    const MaskOptions above = options_above_ground(anywhere);
+Image<float> object_preference(const SeenPhoto& photo, const CleanPlateView& plate, const MaskOptions& options) {
+    RS_CHECK(photo.width() == plate.behind.width() && photo.height() == plate.behind.height());
+    const MaskOptions ground = options_on_ground(options);
+    const MaskOptions above = options_above_ground(options);
     std::vector<KnownColour> screen;
     for (const LinearRgb& colour : plate.screen) screen.emplace_back(colour);
     Image<float> preference(photo.width(), photo.height());
@@ -326,12 +310,11 @@ Image<float> preference_by(const SeenPhoto& photo, const CleanPlateView& plate, 
                 preference(x, y) = -kDecided;
                 continue;
             }
-            const MaskOptions& options =
-                above_ground(plate, x, y) ? above : (on_ground(plate, x, y) ? ground : anywhere);
+            const MaskOptions& here = above_ground(plate, x, y) ? above : (on_ground(plate, x, y) ? ground : options);
             const KnownColour pixel(linear_rgb(photo.picture(x, y)), photo.looks(x, y));
             const float noise = plate.noise_delta_e.empty() ? 0 : plate.noise_delta_e(x, y);
-            const KnownColour behind(plate.light(x, y), plate_looks(x, y));
-            float best = preference_against(pixel, behind, noise, options);
+            const KnownColour behind(plate.behind.light(x, y), plate.behind.looks(x, y));
+            float best = preference_against(pixel, behind, noise, here);
             if (!plate.hidden.empty() && plate.hidden(x, y) != 0) {
                 preference(x, y) = std::max(best, kHidden);
                 continue;
@@ -341,14 +324,14 @@ Image<float> preference_by(const SeenPhoto& photo, const CleanPlateView& plate, 
                      {std::pair{-kShake_px, 0}, {kShake_px, 0}, {0, -kShake_px}, {0, kShake_px}}) {
                     const int u = std::clamp(x + dx, 0, photo.width() - 1);
                     const int v = std::clamp(y + dy, 0, photo.height() - 1);
-                    const KnownColour beside(plate.light(u, v), plate_looks(u, v));
-                    if (delta_e(beside.look, behind.look) < options.plain_delta_e) continue;
-                    best = std::min(best, preference_against(pixel, beside, noise, options));
+                    const KnownColour beside(plate.behind.light(u, v), plate.behind.looks(u, v));
+                    if (delta_e(beside.look, behind.look) < here.plain_delta_e) continue;
+                    best = std::min(best, preference_against(pixel, beside, noise, here));
                 }
             }
             for (const KnownColour& colour : screen) {
                 if (best <= 0) break;
-                best = std::min(best, preference_against(pixel, colour, noise, options));
+                best = std::min(best, preference_against(pixel, colour, noise, here));
             }
             preference(x, y) = best;
         }
@@ -356,24 +339,17 @@ Image<float> preference_by(const SeenPhoto& photo, const CleanPlateView& plate, 
     return preference;
 }
 
-}  // namespace
-
-Image<float> object_preference(const SeenPhoto& photo, const CleanPlateView& plate, const MaskOptions& options) {
-    return preference_by(photo, plate, PlateLooks(plate), options);
-}
-
 Image<std::uint8_t> find_object(const SeenPhoto& photo, const CleanPlateView& plate, const MaskOptions& options) {
-    RS_CHECK(photo.width() == plate.light.width() && photo.height() == plate.light.height());
+    RS_CHECK(photo.width() == plate.behind.width() && photo.height() == plate.behind.height());
     Image<std::uint8_t> result(photo.width(), photo.height());
     if (result.empty()) return result;
-    const PlateLooks plate_looks(plate);
-    Image<float> preference = preference_by(photo, plate, plate_looks, options);
-    if (options.thin_delta_e > 0) lean_to_object_in_thin_parts(photo.picture, plate, plate_looks, options, preference);
-    doubt_small_islands(preference, plate_looks, options.max_island);
+    Image<float> preference = object_preference(photo, plate, options);
+    if (options.thin_delta_e > 0) lean_to_object_in_thin_parts(photo.picture, plate, options, preference);
+    doubt_small_islands(preference, plate.behind.looks, options.max_island);
     result = cut_coarse_first(photo.looks, preference, options.cut);
     cv::Mat1b mask(result.height(), result.width(), result.data());
     keep_solid_parts(mask, preference, plate, options);
-    close_false_holes(mask, preference, plate_looks, options);
+    close_false_holes(mask, preference, plate.behind.looks, options);
     return result;
 }
 

@@ -62,10 +62,19 @@ struct SeenPhoto {
     [[nodiscard]] int height() const { return picture.height(); }
 };
 
+// The light that fills a picture, at most white, and how it looks.
+struct SeenLight {
+    Image<LinearRgb> light;
+    Image<Lab> looks;
+    SeenLight() = default;
+    explicit SeenLight(Image<LinearRgb> of);  // what is brighter than white becomes 1
+    [[nodiscard]] int width() const { return light.width(); }
+    [[nodiscard]] int height() const { return light.height(); }
+};
+
 // What is behind the object in one photograph, in its size.
 struct CleanPlateView {
-    Image<LinearRgb> light;         // exposed like the photograph
-    Image<Lab> looks;               // of `light`; empty: they are computed from it
+    SeenLight behind;               // exposed like the photograph
     Image<std::uint8_t> hidden;     // 255 where the object always is before it; empty: nobody can tell
     Image<std::uint8_t> still;      // 255 where no picture shows anything else; empty: nobody can tell
     Image<std::uint8_t> seen;       // 255 where it is seen, in a shadow or not; empty: nobody can tell

@@ -2,6 +2,7 @@
 
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
 
 #include <cmath>
 #include <utility>
@@ -57,11 +58,9 @@ void leave_out_repeats(FoundRig& rig, const PhotoFolder& folder) {
         rig.left_out.push_back(names[static_cast<std::size_t>(view)]);
     }
     if (rig.left_out.empty()) return;
-    rig.notes.push_back(rig.left_out.front() +
-                        (rig.left_out.size() > 1
-                             ? " and " + std::to_string(rig.left_out.size() - 1) + " more repeat other pictures"
-                             : " repeats another picture") +
-                        " and " + (rig.left_out.size() > 1 ? "are" : "is") + " left out of the set");
+    rig.notes.push_back(listed(rig.left_out, 1) + (rig.left_out.size() > 1
+                                                       ? " repeat other pictures and are left out of the set"
+                                                       : " repeats another picture and is left out of the set"));
 }
 
 void take_nominal(FoundRig& rig, const KnownInputs& given) {

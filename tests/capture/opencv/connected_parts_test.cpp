@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <numeric>
+#include <vector>
 
 namespace rs::capture {
 namespace {
@@ -49,6 +50,20 @@ TEST(ConnectedParts, TalliesCountWhatIsOfEachPart) {
     EXPECT_EQ(even_columns[0], 0) << "what is in no part is not visited";
     EXPECT_EQ(std::accumulate(even_columns.begin(), even_columns.end(), 0), 14);
     EXPECT_EQ(std::distance(even_columns.begin(), even_columns.end()), 4) << "label 0 is no part";
+}
+
+TEST(ConnectedParts, EveryPixelAtTheBorderIsVisitedOnce) {
+    const auto at_border = [](const cv::Mat1b& mask) {
+        const ConnectedParts parts(mask, 4);
+        PerPart<int> count(parts.count());
+        parts.for_each_pixel_at_border([&](int, int, int label) { ++count[label]; });
+        return std::vector<int>(count.begin(), count.end());
+    };
+    EXPECT_EQ(at_border(four_parts()), (std::vector<int>{8, 0, 1, 0})) << "the bar, the square, two pixels";
+    EXPECT_EQ(at_border(cv::Mat1b(5, 4, std::uint8_t{255})), std::vector<int>{14});
+    EXPECT_EQ(at_border(cv::Mat1b(3, 2, std::uint8_t{255})), std::vector<int>{6});
+    EXPECT_EQ(at_border(cv::Mat1b(4, 1, std::uint8_t{255})), std::vector<int>{4});
+    EXPECT_EQ(at_border(cv::Mat1b(1, 7, std::uint8_t{255})), std::vector<int>{7});
 }
 
 TEST(ConnectedParts, AnEmptyMaskHasNone) {

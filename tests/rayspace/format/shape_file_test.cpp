@@ -46,7 +46,7 @@ Chunks::iterator shape_in(Chunks& chunks) {
     return std::find_if(chunks.begin(), chunks.end(), [](const Chunk& c) { return c.name == object_chunks::kShape; });
 }
 
-std::string error_after(const std::function<void(Chunks&)>& change, const ReadObjectOptions& options = {}) {
+std::string shape_error_after(const std::function<void(Chunks&)>& change, const ReadObjectOptions& options = {}) {
     Chunks chunks = chunks_of(small_object_with_shape());
     change(chunks);
     const auto object = object_of(chunks, options);
@@ -98,18 +98,19 @@ TEST(ShapeFile, TheSameObjectGivesTheSameBytes) {
 }
 
 TEST(ShapeFile, ItsPlaceIsChecked) {
-    EXPECT_EQ(error_after([](Chunks&) {}), "read without error");
+    EXPECT_EQ(shape_error_after([](Chunks&) {}), "read without error");
     // Another ancillary chunk in between is skipped.
-    EXPECT_EQ(error_after([](Chunks& chunks) {
+    EXPECT_EQ(shape_error_after([](Chunks& chunks) {
                   chunks.insert(shape_in(chunks), {{'n', 'o', 't', 'e'}, 0, {}});
               }),
               "read without error");
-    EXPECT_THAT(error_after([](Chunks& chunks) { std::rotate(shape_in(chunks), shape_in(chunks) + 1, chunks.end()); }),
-                HasSubstr("out of place, where chunk shap 0 should stand"));
     EXPECT_THAT(
-        error_after([](Chunks& chunks) { std::rotate(chunks.begin(), shape_in(chunks), shape_in(chunks) + 1); }),
+        shape_error_after([](Chunks& chunks) { std::rotate(shape_in(chunks), shape_in(chunks) + 1, chunks.end()); }),
+        HasSubstr("out of place, where chunk shap 0 should stand"));
+    EXPECT_THAT(
+        shape_error_after([](Chunks& chunks) { std::rotate(chunks.begin(), shape_in(chunks), shape_in(chunks) + 1); }),
         HasSubstr("out of place"));
-    EXPECT_THAT(error_after([](Chunks& chunks) { shape_in(chunks)->index = 1; }),
+    EXPECT_THAT(shape_error_after([](Chunks& chunks) { shape_in(chunks)->index = 1; }),
                 HasSubstr("chunk shap 1 is unknown or out of place"));
     Chunks chunks = chunks_of(three_rings_two_shapes());
     shape_in(chunks)->index = 1;
@@ -120,13 +121,14 @@ TEST(ShapeFile, APresentChunkMustBeRight) {
     const auto with_number = [](std::size_t offset, unsigned value) {
         ReadObjectOptions coarse;
         coarse.max_level = 0;
-        return error_after([&](Chunks& c) { shape_in(c)->payload.at(offset) = static_cast<std::byte>(value); }, coarse);
+        return shape_error_after([&](Chunks& c) { shape_in(c)->payload.at(offset) = static_cast<std::byte>(value); },
+                                 coarse);
     };
     EXPECT_THAT(with_number(0, 9), HasSubstr("chunk shap 0: has shape coding 9"));
     EXPECT_THAT(with_number(1, 0), HasSubstr("ring 0: its shape map: its jump"));
     EXPECT_THAT(with_number(3, 1), HasSubstr("chunk shap 0: has reserved bytes"));
     EXPECT_THAT(with_number(39, 1), HasSubstr("ring 0: its shape map: its depth step"));
-    EXPECT_THAT(error_after([](Chunks& chunks) { shape_in(chunks)->payload.clear(); }),
+    EXPECT_THAT(shape_error_after([](Chunks& chunks) { shape_in(chunks)->payload.clear(); }),
                 HasSubstr("chunk shap 0: is empty"));
 }
 
@@ -154,9 +156,9 @@ TEST(ShapeFile, MemoryIsCapped) {
     const auto without_rig = [](Chunks& chunks) { chunks[1].payload.clear(); };
     ReadObjectOptions options;
     options.memory_cap_bytes = 2048 + 8 * 300 + 2 * cells;
-    EXPECT_EQ(error_after(without_rig, options), "read without error");
+    EXPECT_EQ(shape_error_after(without_rig, options), "read without error");
     options.memory_cap_bytes -= 1;
-    EXPECT_THAT(error_after(without_rig, options), HasSubstr("of memory, more than"));
+    EXPECT_THAT(shape_error_after(without_rig, options), HasSubstr("of memory, more than"));
 }
 
 // Millions of cells in a payload of a few hundred bytes are refused before they are expanded.

@@ -141,7 +141,7 @@ TEST(ObjectMask, WhatReachesIntoARoomIsNoObject) {
     paint(86, 70, 96, 90);    // ... in two parts
     paint(108, 20, 120, 40);  // a hand
     CleanPlateView plate;
-    plate.light = Image<LinearRgb>(120, 90, linear_rgb({90, 110, 160, 255}));
+    plate.behind = SeenLight(Image<LinearRgb>(120, 90, linear_rgb({90, 110, 160, 255})));
     MaskOptions options;
     EXPECT_EQ(find_object(photo, plate, options)(114, 30), 255);
     options.is_room = true;
@@ -160,7 +160,7 @@ TEST(ObjectMask, WhatRestsWhereverTheObjectStandsIsNoPartOfIt) {
         for (int x = 80; x < 95; ++x) photo(x, y) = {40, 160, 60, 255};
     }
     CleanPlateView plate;
-    plate.light = Image<LinearRgb>(120, 90, linear_rgb({90, 110, 160, 255}));
+    plate.behind = SeenLight(Image<LinearRgb>(120, 90, linear_rgb({90, 110, 160, 255})));
     EXPECT_EQ(find_object(photo, plate, {})(88, 45), 255);
     plate.still = Image<std::uint8_t>(120, 90);
     for (int y = 30; y < 60; ++y) {
@@ -176,7 +176,7 @@ TEST(ObjectMask, WhatRestsWhereverTheObjectStandsIsNoPartOfIt) {
 TEST(ObjectMask, ALipIsRightAboveTheRest) {
     Image<Rgba8> photo(120, 90, Rgba8{90, 110, 160, 255});
     CleanPlateView plate;
-    plate.light = Image<LinearRgb>(120, 90, linear_rgb({90, 110, 160, 255}));
+    plate.behind = SeenLight(Image<LinearRgb>(120, 90, linear_rgb({90, 110, 160, 255})));
     plate.still = plate.hidden = Image<std::uint8_t>(120, 90);
     const auto paint = [&](int top, int bottom, bool rests) {
         for (int y = top; y < bottom; ++y) {

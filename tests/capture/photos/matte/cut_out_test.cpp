@@ -236,7 +236,7 @@ TEST(ObjectMask, ANarrowPartIsNoShadow) {
         }
     }
     CleanPlateView plate;
-    plate.light = Image<LinearRgb>(kWidth, kHeight, linear_rgb(behind));
+    plate.behind = SeenLight(Image<LinearRgb>(kWidth, kHeight, linear_rgb(behind)));
     Backdrop of_a_turn;
     of_a_turn.kind = BackdropKind::kColour;
     of_a_turn.untouched = Image<std::uint8_t>(kWidth, kHeight, 255);
@@ -268,7 +268,7 @@ TEST(ObjectMask, BetweenFeetTheGroundIsDark) {
         }
     }
     CleanPlateView plate;
-    plate.light = Image<LinearRgb>(kWidth, kHeight, linear_rgb(behind));
+    plate.behind = SeenLight(Image<LinearRgb>(kWidth, kHeight, linear_rgb(behind)));
     plate.ground = Image<std::uint8_t>(kWidth, kHeight, 255);
     Backdrop of_a_turn;
     of_a_turn.kind = BackdropKind::kColour;
