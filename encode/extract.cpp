@@ -17,7 +17,7 @@ Status extract_pictures(const RaySpaceObject& object, const std::filesystem::pat
         return Error{object.name + ": its rig has " + std::to_string(rig->views.size()) + " views for " +
                      std::to_string(object.pictures.size()) + " pictures; the object is damaged, encode it again"};
     }
-    Result<StagedFolder> staged = StagedFolder::create(folder);
+    Result<StagedFolder> staged = StagedFolder::create(folder, "pictures out of an object");
     if (!staged) return staged.error();
 
     const int count = static_cast<int>(object.pictures.size());

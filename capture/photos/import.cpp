@@ -75,14 +75,27 @@ ImportReport report_of(const ImportOptions& options, const Intake& intake, const
     return report;
 }
 
+// So few show no turn that could be told from the pictures.
+Status check_count(const PhotoFolder& folder, const ImportOptions& options) {
+    constexpr std::size_t kFewest = 3;
+    const std::size_t count = folder.photos.size();
+    const bool is_told = options.calibration == CalibrationChoice::kNominal ||
+                         (options.known.known.pose && options.known.known.angles_rad);
+    if (count >= kFewest || is_told) return {};
+    return Error{options.photos.string() + ": holds " + std::to_string(count) +
+                 (count == 1 ? " picture" : " pictures") +
+                 "; a turn has 5 and more, better 36. With --calibration nominal what is there is taken for one"};
+}
+
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
     Result<PhotoFolder> folder = open_photo_folder(options.photos, options.max_side_px);
     if (!folder) return folder.error();
     if (!options.masks.empty() && folder->turns_unnoticed()) {
         return turned_beside(*folder, "--masks " + options.masks.string());
     }
+    if (Status status = check_count(*folder, options); !status) return status.error();
     if (Status status = check_places(options); !status) return status.error();
-    Result<StagedFolder> staged = StagedFolder::create(options.output);
+    Result<StagedFolder> staged = StagedFolder::create(options.output, "imported photographs");
     if (!staged) return staged.error();
     const fs::path set = staged->temporary_path();
     const fs::path cut = set / "cut";

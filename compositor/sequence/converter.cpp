@@ -85,7 +85,7 @@ Result<std::vector<std::string>> converter_words(const std::string& command, con
 Result<Converted> convert_scene(const std::string& command, const std::filesystem::path& in) {
     const std::filesystem::path place =
         std::filesystem::temp_directory_path() / ("rayspace-converted-" + std::to_string(getpid()));
-    Result<StagedFolder> folder = StagedFolder::create(place);
+    Result<StagedFolder> folder = StagedFolder::create(place, "converted files");
     if (!folder) return folder.error();
     std::filesystem::path out = folder->temporary_path() / "scene";
     const auto words = converter_words(command, in, out);

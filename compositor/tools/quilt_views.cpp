@@ -80,7 +80,7 @@ Status write_quilts(const QuiltViews& views, const ViewArguments& arguments, con
         if (!quilt) return quilt.error();
         return write_png(quilt_path(arguments.output, views.layout), *quilt);
     }
-    Result<StagedFolder> staged = StagedFolder::create(arguments.output);
+    Result<StagedFolder> staged = StagedFolder::create(arguments.output, "quilts");
     if (!staged) return staged.error();
     for (std::size_t frame = 0; frame < views.frames.size(); ++frame) {
         const Result<Image<Rgba8>> quilt = drawn_quilt(views.layout, views.frames[frame], render, progress);

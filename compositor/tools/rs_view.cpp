@@ -38,7 +38,7 @@ namespace {
 // The frames with the cameras that saw them, as a set of pictures that other tools can open.
 Status write_folder(const std::function<Result<Image<Rgba8>>(const Camera&)>& compose,
                     const std::vector<Camera>& cameras, const ViewArguments& arguments, Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(arguments.output);
+    Result<StagedFolder> staged = StagedFolder::create(arguments.output, "composited views");
     if (!staged) return staged.error();
     const Rig rig = rig_of_views(cameras);
     for (const RigView& view : rig.views) {

@@ -128,7 +128,7 @@ Status write_video(const ViewArguments& arguments, Playing& playing, const std::
 }
 
 Status write_pictures(Playing& playing, const std::string& output, Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(output);
+    Result<StagedFolder> staged = StagedFolder::create(output, "frames of a sequence");
     if (!staged) return staged.error();
     const Rig rig = rig_of_views(cameras_of(playing));
     progress.start("compositing", static_cast<std::int64_t>(rig.views.size()));
@@ -185,7 +185,7 @@ Status render_into(const ViewArguments& arguments, const std::string& folder, st
     std::string name = playing->sequence->name.empty() ? "sequence" : playing->sequence->name;
     for (int i = 2; names.contains(name); ++i) name = playing->sequence->name + "-" + std::to_string(i);
     names.insert(name);
-    Result<StagedFolder> staged = StagedFolder::create(fs::path(arguments.output) / name);
+    Result<StagedFolder> staged = StagedFolder::create(fs::path(arguments.output) / name, "videos of a sequence");
     if (!staged) return staged.error();
     if (Status status = start_player(arguments, *playing); !status) return status;
     ProgressBar progress(arguments.quiet);

@@ -144,7 +144,7 @@ Result<WallViews> requested_walls(const ViewArguments& arguments, const Scene& s
 
 Status write_walls(const WallViews& views, const ViewArguments& arguments, const RenderView& render,
                    Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(arguments.output);
+    Result<StagedFolder> staged = StagedFolder::create(arguments.output, "pictures of walls");
     if (!staged) return staged.error();
     const auto cameras = wall_cameras(views);
     if (!cameras) return cameras.error();

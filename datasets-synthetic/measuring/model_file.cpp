@@ -127,7 +127,7 @@ OrderedJson gltf_of(const Model& model, const std::string& name, Buffer& buffer)
 }  // namespace
 
 Status write_model(const Model& model, const std::filesystem::path& output, const std::string& name) {
-    Result<StagedFolder> staged = StagedFolder::create(output);
+    Result<StagedFolder> staged = StagedFolder::create(output, "parts of a model");
     if (!staged) return staged.error();
     const std::filesystem::path& folder = staged->temporary_path();
     Buffer buffer;

@@ -183,7 +183,7 @@ std::string walk_text(const World& world) {
 
 Status write_world(const World& world, const std::filesystem::path& output, const std::string& name,
                    const std::string& objects) {
-    Result<StagedFolder> staged = StagedFolder::create(output);
+    Result<StagedFolder> staged = StagedFolder::create(output, "rooms of a showroom");
     if (!staged) return staged.error();
     const auto write_text = [&](const std::string& file, const std::string& text) -> Status {
         return write_file(staged->temporary_path() / file, text);

@@ -301,7 +301,7 @@ std::size_t triangles_of(const World& world, const std::string& object) {
 }  // namespace
 
 Result<StreetFigures> write_street(const StreetOptions& options, const fs::path& output) {
-    Result<StagedFolder> staged = StagedFolder::create(output);
+    Result<StagedFolder> staged = StagedFolder::create(output, "files of a street");
     if (!staged) return staged.error();
     const fs::path map = staged->temporary_path() / "maps" / options.name / "anim";
     const fs::path models = staged->temporary_path() / "models";

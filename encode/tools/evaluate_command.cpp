@@ -37,7 +37,7 @@ struct EvaluateArguments {
 class AnswerFolder {
 public:
     static Result<AnswerFolder> create(const std::string& path, const std::vector<Method>& methods) {
-        Result<StagedFolder> folder = StagedFolder::create(path);
+        Result<StagedFolder> folder = StagedFolder::create(path, "answers of methods");
         if (!folder) return folder.error();
         AnswerFolder made(std::move(*folder), methods.front());
         std::vector<std::string> names{"truth"};
@@ -204,8 +204,10 @@ void add_evaluate_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("--planes", arguments->planes, "reference planes about the axis, 3..64")->capture_default_str();
     command->add_option("-o,--output", arguments->output,
                         "folder for the true pictures of the views held out, the answers and their errors, as PNG");
-    command->add_option("--report", arguments->report,
-                        "also write a page of it, PAGE.html: scores, some answers beside the truth, the cameras");
+    command
+        ->add_option("--report", arguments->report,
+                     "also write a page of it, PAGE.html: scores, some answers beside the truth, the cameras")
+        ->check(ends_in({".html", ".htm"}));
     command->add_flag("--views", arguments->views, "every view's PSNR too");
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
     command->add_flag("--json", arguments->json, "everything as JSON");

@@ -14,6 +14,8 @@
 #include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -58,11 +60,30 @@ Result<Renderer> open_renderer(const std::string& path, int level) {
     return Renderer::create(std::move(*object));
 }
 
-Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camera) {
+// Counts views that show nothing of the object; from several threads.
+class EmptyViews {
+public:
+    void look_at(const Image<Rgba8>& picture) {
+        if (std::ranges::all_of(picture.pixels(), [](const Rgba8& p) { return p.a == 0; })) ++count_;
+    }
+    void warn() const {
+        if (count_ == 0) return;
+        std::fprintf(stderr,
+                     "rs-engine: warning: %d of the views show nothing of the object; is the eye inside it, straight "
+                     "above it, or does it look past it?\n",
+                     count_.load());
+    }
+
+private:
+    std::atomic<int> count_{0};
+};
+
+Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camera, EmptyViews& empty) {
     const Result<ViewRegisters> registers = prepare_view(renderer.object(), camera);
     if (!registers) return registers.error();
     Image<Rgba8> picture(camera.width, camera.height);
     renderer.render(*registers, picture);
+    empty.look_at(picture);
     return picture;
 }
 
@@ -72,19 +93,21 @@ std::filesystem::path depth_name(std::filesystem::path picture) {
 }
 
 // The view as PNG and, beside it, its depth.
-Status write_view_with_depth(const Renderer& renderer, const Camera& camera, const std::filesystem::path& path) {
+Status write_view_with_depth(const Renderer& renderer, const Camera& camera, const std::filesystem::path& path,
+                             EmptyViews& empty) {
     const Result<ViewRegisters> registers = prepare_view(renderer.object(), camera);
     if (!registers) return registers.error();
     Image<Rgba8> picture(camera.width, camera.height);
     Image<std::int32_t> lambda_q20(camera.width, camera.height);
     renderer.render(*registers, picture, lambda_q20);
+    empty.look_at(picture);
     if (Status status = write_png(path, picture); !status) return status;
     return write_exr_channel(depth_name(path), depth_picture(renderer.object(), camera, lambda_q20));
 }
 
 Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
-                    Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(arguments.output);
+                    EmptyViews& empty, Progress& progress) {
+    Result<StagedFolder> staged = StagedFolder::create(arguments.output, "rendered views");
     if (!staged) return staged.error();
     Rig rig = rig_of_views(cameras);
     rig.object_radius = renderer.object().units_per_radius;
@@ -95,8 +118,8 @@ Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras
     Status written = for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
         const std::filesystem::path path = staged->temporary_path() / rig.views[n].file_path;
-        if (arguments.depth) return write_view_with_depth(renderer, cameras[n], path);
-        const Result<Image<Rgba8>> picture = render_camera(renderer, cameras[n]);
+        if (arguments.depth) return write_view_with_depth(renderer, cameras[n], path, empty);
+        const Result<Image<Rgba8>> picture = render_camera(renderer, cameras[n], empty);
         if (!picture) return picture.error();
         return write_png(path, *picture);
     });
@@ -143,18 +166,35 @@ Status check_one_picture(const std::vector<Camera>& cameras, const RenderArgumen
     return {};
 }
 
-Status write_picture(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments) {
+Status write_picture(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
+                     EmptyViews& empty) {
     if (Status status = check_one_picture(cameras, arguments); !status) return status;
-    if (arguments.depth) return write_view_with_depth(renderer, cameras.front(), arguments.output);
+    if (arguments.depth) return write_view_with_depth(renderer, cameras.front(), arguments.output, empty);
     std::vector<Image<Rgba8>> pictures;
     for (const Camera& camera : cameras) {
-        Result<Image<Rgba8>> picture = render_camera(renderer, camera);
+        Result<Image<Rgba8>> picture = render_camera(renderer, camera, empty);
         if (!picture) return picture.error();
         pictures.push_back(std::move(*picture));
     }
     if (arguments.sheet_columns == 0) return write_png(arguments.output, pictures.front());
     constexpr Rgba8 kBackdrop{96, 98, 102, 255};
     return write_png(arguments.output, contact_sheet(pictures, arguments.sheet_columns, kBackdrop));
+}
+
+Status write_views(OutputKind kind, const Renderer& renderer, const std::vector<Camera>& cameras,
+                   const RenderArguments& arguments, EmptyViews& empty, Progress& progress) {
+    switch (kind) {
+        case OutputKind::picture:
+            return write_picture(renderer, cameras, arguments, empty);
+        case OutputKind::video:
+            progress.start("rendering", static_cast<std::int64_t>(cameras.size()));
+            return write_view_video(
+                arguments.output, arguments.frames_per_second, cameras,
+                [&](const Camera& camera) { return render_camera(renderer, camera, empty); }, progress);
+        case OutputKind::folder:
+            break;
+    }
+    return write_folder(renderer, cameras, arguments, empty, progress);
 }
 
 Status run_render(const RenderArguments& arguments) {
@@ -177,18 +217,11 @@ Status run_render(const RenderArguments& arguments) {
     }
 
     ProgressBar progress(arguments.quiet);
-    switch (*kind) {
-        case OutputKind::picture:
-            return write_picture(*renderer, *cameras, arguments);
-        case OutputKind::video:
-            progress.start("rendering", static_cast<std::int64_t>(cameras->size()));
-            return write_view_video(
-                arguments.output, arguments.frames_per_second, *cameras,
-                [&](const Camera& camera) { return render_camera(*renderer, camera); }, progress);
-        case OutputKind::folder:
-            break;
-    }
-    return write_folder(*renderer, *cameras, arguments, progress);
+    EmptyViews empty;
+    const Status status = write_views(*kind, *renderer, *cameras, arguments, empty, progress);
+    progress.finish();
+    if (status) empty.warn();
+    return status;
 }
 
 }  // namespace

@@ -179,7 +179,7 @@ Status use_pictures(const model::BoardRun& run, const std::vector<Drawing>& draw
     Rig rig = rig_of_views(cameras);
     std::optional<StagedFolder> folder;
     if (!output.empty()) {
-        Result<StagedFolder> staged = StagedFolder::create(output);
+        Result<StagedFolder> staged = StagedFolder::create(output, "rendered views");
         if (!staged) return staged.error();
         folder.emplace(std::move(*staged));
     }
@@ -284,7 +284,8 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
     command->add_flag("--diagram", arguments->diagram, "print blocks, ports and FIFOs as in model/DIAGRAM.md, and end");
     command->add_flag("--print-config", arguments->print_config, "print all settings of CONFIG as JSON, and end");
     command->footer(
-        "Examples:\n  rs-engine simulate prototype-2000 vase.rso --orbit 15 --size 256x256 -o drawn --stats vase.json\n"
+        "Examples (prototype-2000 draws objects that rs-encode built with --profile raw --raymap plane):\n"
+        "  rs-engine simulate prototype-2000 vase-raw.rso --orbit 15 --size 256x256 -o drawn --stats vase.json\n"
         "  rs-engine simulate prototype-2000 a.rso b.rso c.rso --orbit 12 --per-cycle 3 --chart cycles.svg\n"
         "  rs-engine simulate compressed-2000 vase-board.rso --orbit 15 --size 256x256 --stats vase.json\n"
         "  rs-engine simulate parallel vase-shape.rso --orbit 4 --size 512x512 --upright\n"

@@ -39,13 +39,14 @@ private:
     std::uint64_t size_bytes_ = 0;
 };
 
-// A folder that appears under `path` only when commit() succeeds. It carries a list of its files (.rayspace-files).
-// What stands at `path` already is replaced as a whole only where it is empty, or a folder of ours in which nobody has
-// added or changed a file; create() refuses anything else at once, naming a file that would be lost. Dropped before
+// A folder that appears under `path` only when commit() succeeds. It carries a list of its files (.rayspace-files),
+// which says what it holds, too: `contents`, in the plural, as "imported photographs". What stands at `path` already is
+// replaced as a whole only where it is empty, or a folder of ours that holds the same kind of thing and in which nobody
+// has added or changed a file; create() refuses anything else at once, naming what would be lost. Dropped before
 // commit(), the temporary folder is removed with all it holds.
 class StagedFolder {
 public:
-    static Result<StagedFolder> create(const std::filesystem::path& path);
+    static Result<StagedFolder> create(const std::filesystem::path& path, std::string contents);
     StagedFolder(StagedFolder&& other) noexcept;
     StagedFolder& operator=(StagedFolder&& other) noexcept;
     ~StagedFolder();
@@ -57,6 +58,7 @@ public:
 private:
     StagedFolder() = default;
     std::filesystem::path path_;
+    std::string contents_;
     std::filesystem::path temporary_;
 };
 

@@ -1,4 +1,6 @@
+#include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/file/folder_list.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/file/staging.hpp"
 
@@ -28,8 +30,9 @@ void remove_quietly(const fs::path& path) {
     fs::remove_all(path, ignored);
 }
 
-// Lists the files of a folder that we made, "XXH64 NAME" to a line, so that a later commit() can see what it may
-// replace: a file that was added or changed since is somebody's work.
+// Says what a folder that we made holds, "# CONTENTS" on its first line (not before 0.38), and lists its files,
+// "XXH64 NAME" to a line, so that a later commit() can see what it may replace: a file that was added or changed since
+// is somebody's work, and what another tool made is no older version of this.
 constexpr const char* kManifest = ".rayspace-files";
 constexpr std::uint64_t kManifestCap_bytes = 64 << 20;
 constexpr std::uint64_t kLargestFile_bytes = std::uint64_t{4} << 30;
@@ -55,10 +58,12 @@ Result<std::string> manifest_line(const fs::path& folder, const std::string& fil
     return sum + file + '\n';
 }
 
-Status write_manifest(const fs::path& folder) {
+constexpr const char* kContents = "# ";
+
+Status write_manifest(const fs::path& folder, const std::string& contents) {
     const Result<std::set<std::string>> files = files_below(folder);
     if (!files) return files.error();
-    std::string text;
+    std::string text = kContents + contents + '\n';
     for (const std::string& file : *files) {
         const Result<std::string> line = manifest_line(folder, file);
         if (!line) return line.error();
@@ -70,8 +75,29 @@ Status write_manifest(const fs::path& folder) {
     return manifest->commit();
 }
 
-// What commit() may replace: nothing, an empty folder, or one of ours to which nobody has added anything.
-Status check_replaceable(const fs::path& path) {
+struct Manifest {
+    std::string contents;         // empty: it does not say
+    std::set<std::string> files;  // lines as of manifest_line()
+};
+
+Result<Manifest> read_manifest(const fs::path& folder) {
+    const auto bytes = read_old_file(folder / kManifest, kManifestCap_bytes);
+    if (!bytes) return bytes.error();
+    Manifest manifest;
+    std::istringstream lines(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with(kContents)) {
+            manifest.contents = line.substr(std::char_traits<char>::length(kContents));
+        } else {
+            manifest.files.insert(line + '\n');
+        }
+    }
+    return manifest;
+}
+
+// What commit() may replace: nothing, an empty folder, or one of ours, with the same contents if they are known, to
+// which nobody has added anything.
+Status check_replaceable(const fs::path& path, const std::string& contents) {
     std::error_code error;
     const fs::file_status status = fs::symlink_status(path, error);
     if (status.type() == fs::file_type::not_found) return {};
@@ -81,16 +107,19 @@ Status check_replaceable(const fs::path& path) {
     }
     Result<std::set<std::string>> files = files_below(path);
     if (!files) return files.error();
-    std::set<std::string> ours;
+    Manifest ours;
     if (files->erase(kManifest) != 0) {
-        const auto manifest = read_old_file(path / kManifest, kManifestCap_bytes);
+        Result<Manifest> manifest = read_manifest(path);
         if (!manifest) return manifest.error();
-        std::istringstream lines(std::string(reinterpret_cast<const char*>(manifest->data()), manifest->size()));
-        for (std::string line; std::getline(lines, line);) ours.insert(line + '\n');
+        ours = std::move(*manifest);
+    }
+    if (!contents.empty() && !ours.contents.empty() && ours.contents != contents) {
+        return Error{path.string() + ": holds " + printable(ours.contents) + ", which " + contents +
+                     " do not replace; choose another name, or remove it first"};
     }
     for (auto file = files->begin(); file != files->end();) {
         const Result<std::string> line = manifest_line(path, *file);
-        file = line && ours.contains(*line) ? files->erase(file) : std::next(file);
+        file = line && ours.files.contains(*line) ? files->erase(file) : std::next(file);
     }
     if (files->empty()) return {};
     return Error{path.string() + ": holds files that were added or changed by hand, such as " + *files->begin() +
@@ -99,14 +128,15 @@ Status check_replaceable(const fs::path& path) {
 
 }  // namespace
 
-Result<StagedFolder> StagedFolder::create(const fs::path& given) {
+Result<StagedFolder> StagedFolder::create(const fs::path& given, std::string contents) {
     const fs::path path = without_trailing_slash(given);
     if (const Status parent = check_parent(path); !parent) return parent.error();
-    if (Status replaceable = check_replaceable(path); !replaceable) return replaceable.error();
+    if (Status replaceable = check_replaceable(path, contents); !replaceable) return replaceable.error();
     if (Status kept = check_keeps_inputs(path); !kept) return kept.error();
     remove_left_behind(path);
     StagedFolder folder;
     folder.path_ = path;
+    folder.contents_ = std::move(contents);
     folder.temporary_ = temporary_name(path);
     std::error_code error;
     if (!fs::create_directory(folder.temporary_, error)) {
@@ -118,12 +148,13 @@ Result<StagedFolder> StagedFolder::create(const fs::path& given) {
 }
 
 StagedFolder::StagedFolder(StagedFolder&& other) noexcept
-    : path_(std::move(other.path_)), temporary_(std::move(other.temporary_)) {
+    : path_(std::move(other.path_)), contents_(std::move(other.contents_)), temporary_(std::move(other.temporary_)) {
     other.temporary_.clear();
 }
 
 StagedFolder& StagedFolder::operator=(StagedFolder&& other) noexcept {
     std::swap(path_, other.path_);
+    std::swap(contents_, other.contents_);
     std::swap(temporary_, other.temporary_);
     return *this;
 }
@@ -134,12 +165,30 @@ StagedFolder::~StagedFolder() {
     forget(temporary_);
 }
 
+fs::path list_of_files(const fs::path& folder) {
+    return folder / kManifest;
+}
+
+Result<std::vector<std::string>> listed_files(const fs::path& folder) {
+    const Result<Manifest> manifest = read_manifest(folder);
+    if (!manifest) return manifest.error();
+    std::vector<std::string> names;
+    for (const std::string& line : manifest->files) {
+        const std::size_t name = line.find(' ') + 1;  // the line ends in '\n'
+        names.push_back(line.substr(name, line.size() - 1 - name));
+    }
+    return names;
+}
+
 Status move_into_place(const fs::path& from, const fs::path& to) {
     if (Status parent = check_parent(to); !parent) return parent;
     std::error_code ignored;
     const bool folder = fs::is_directory(from, ignored);
     if (folder) {
-        if (Status replaceable = check_replaceable(to); !replaceable) return replaceable;
+        const Result<Manifest> ours =
+            fs::exists(from / kManifest, ignored) ? read_manifest(from) : Result<Manifest>(Manifest{});
+        if (!ours) return ours.error();
+        if (Status replaceable = check_replaceable(to, ours->contents); !replaceable) return replaceable;
     } else if (fs::exists(to, ignored) && !fs::is_regular_file(to, ignored)) {
         return Error{to.string() + ": is there already and is no file; remove it or choose another name"};
     }
@@ -156,10 +205,10 @@ Status move_into_place(const fs::path& from, const fs::path& to) {
 Status StagedFolder::commit() {
     RS_CHECK(!temporary_.empty());
     // Somebody may have filled the folder since create().
-    if (Status replaceable = check_replaceable(path_); !replaceable) return replaceable;
+    if (Status replaceable = check_replaceable(path_, contents_); !replaceable) return replaceable;
     if (Status kept = check_keeps_inputs(path_); !kept) return kept;
 
-    if (Status listed = write_manifest(temporary_); !listed) return listed;
+    if (Status listed = write_manifest(temporary_, contents_); !listed) return listed;
 
     // What stands there with files in it cannot be renamed over; the two change places, so that at every moment one
     // whole folder bears the name.

@@ -7,6 +7,7 @@
 #include "rayspace/file/input_list.hpp"
 #include "rayspace/tool/interruption.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <csignal>
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <new>
 #include <system_error>
+#include <utility>
 
 namespace rs {
 namespace {
@@ -75,6 +77,7 @@ Status list_inputs() {
 }  // namespace
 
 int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run) {
+    app.set_version_flag("--version", "rayspace " RAYSPACE_VERSION, "Print the version and exit");
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& wanted) {  // --help, --version
@@ -110,6 +113,13 @@ int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run
         return fail(app, "standard output cannot be written; is the disk full?");
     }
     return kExitOk;
+}
+
+std::function<std::string(const std::string&)> ends_in(std::vector<std::string> endings) {
+    return [endings = std::move(endings)](const std::string& name) {
+        if (std::ranges::find(endings, lower_case_extension(name)) != endings.end()) return std::string();
+        return name + ": a name that ends in " + endings.front() + " is asked for";
+    };
 }
 
 Result<PixelSize> parse_size(const std::string& text) {

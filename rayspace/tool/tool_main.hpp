@@ -10,6 +10,8 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace rs {
 
@@ -19,6 +21,10 @@ inline constexpr int kExitUsage = 2;
 
 // `app` has its subcommands set up; each subcommand's callback stores what to run in `run`.
 int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run);
+
+// For CLI::Option::check() of a file to be written: its name must end in one of `endings`, as ".rso", in any case, so
+// that a slip does not cost a picture or a page that is there.
+std::function<std::string(const std::string&)> ends_in(std::vector<std::string> endings);
 
 // "640x480" -> {640, 480}; both 1..kMaxPictureSide_px.
 struct PixelSize {

@@ -35,7 +35,7 @@ bool touches_edge(ConstImageView<RgbaF> picture) {
 Result<CaptureSetSummary> write_capture_set(const Tracer& tracer, Rig rig, const CaptureSetOptions& options,
                                             const std::filesystem::path& folder, Progress* progress) {
     using Clock = std::chrono::steady_clock;
-    Result<StagedFolder> staged = StagedFolder::create(folder);
+    Result<StagedFolder> staged = StagedFolder::create(folder, "traced pictures");
     if (!staged) return staged.error();
     if (progress != nullptr) {
         std::int64_t steps = 0;

@@ -241,7 +241,7 @@ bool is_made_backdrop(const std::string& name) {
 Result<CaptureSetSummary> write_photo_session(const Scene& object, double object_radius, const PhotoOptions& options,
                                               const fs::path& folder, Progress* progress) {
     using Clock = std::chrono::steady_clock;
-    Result<StagedFolder> staged = StagedFolder::create(folder);
+    Result<StagedFolder> staged = StagedFolder::create(folder, "traced photographs");
     if (!staged) return staged.error();
 
     Turntable turntable = fit_turntable(object, object_radius, options.disc, options.session.seed);

@@ -1,20 +1,19 @@
 #include "compositor/farm/work/result_sums.hpp"
 
 #include "compositor/farm/work/tool_job.hpp"
+#include "rayspace/file/folder_list.hpp"
 #include "rayspace/file/input_list.hpp"
 
 #include <xxhash.h>
 
 #include <cstdio>
-#include <fstream>
 #include <set>
+#include <vector>
 
 namespace rs::farm {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kFolderList = ".rayspace-files";  // rayspace/file/staged_folder.cpp
 
 std::string hexadecimal(std::uint64_t sum) {
     char text[24];
@@ -31,16 +30,14 @@ std::string sum_text(std::string_view bytes) {
 Result<std::string> sum_of_result(const fs::path& path) {
     std::error_code error;
     const bool folder = fs::is_directory(path, error);
-    const fs::path summed = folder ? path / kFolderList : path;
-    const Result<std::uint64_t> sum = sum_of_file(summed);
+    const Result<std::uint64_t> sum = sum_of_file(folder ? list_of_files(path) : path);
     if (!sum) return sum.error();
     if (folder) {
-        std::ifstream list(summed);
-        for (std::string line; std::getline(list, line);) {
-            const std::size_t name = line.find(' ');
-            if (name == std::string::npos || !fs::exists(path / line.substr(name + 1), error)) {
-                return Error{path.string() + ": lacks " + line.substr(name == std::string::npos ? 0 : name + 1) +
-                             "; make it again"};
+        const Result<std::vector<std::string>> files = listed_files(path);
+        if (!files) return files.error();
+        for (const std::string& file : *files) {
+            if (!fs::exists(path / file, error)) {
+                return Error{path.string() + ": lacks " + file + "; make it again"};
             }
         }
     }

@@ -1,4 +1,5 @@
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/file/folder_list.hpp"
 #include "tests/support/small_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -138,7 +139,7 @@ TEST(StagedFile, AFullDiskIsAnErrorAndLeavesNothing) {
 }
 
 StagedFolder open_folder(const fs::path& path) {
-    auto folder = StagedFolder::create(path);
+    auto folder = StagedFolder::create(path, "pictures");
     EXPECT_TRUE(folder.ok()) << folder.error().message;
     return std::move(folder).value();
 }
@@ -187,13 +188,50 @@ TEST(StagedFolder, KeepsWhatSomebodyAddedToAFolderOfOurs) {
         put_text(folder.temporary_path() / "picture", "ours");
         ASSERT_TRUE(folder.commit().ok());
     }
-    EXPECT_TRUE(StagedFolder::create(root / "set").ok());
+    EXPECT_TRUE(StagedFolder::create(root / "set", "pictures").ok());
     put_text(root.path() / "set" / "picture", "retouched");
-    EXPECT_THAT(StagedFolder::create(root / "set").error().message, HasSubstr("picture"));
+    EXPECT_THAT(StagedFolder::create(root / "set", "pictures").error().message, HasSubstr("picture"));
     put_text(root.path() / "set" / "picture", "ours");
     put_text(root.path() / "set" / "notes.txt", "mine");
-    EXPECT_THAT(StagedFolder::create(root / "set").error().message, HasSubstr("notes.txt"));
+    EXPECT_THAT(StagedFolder::create(root / "set", "pictures").error().message, HasSubstr("notes.txt"));
     EXPECT_EQ(contents(root.path() / "set" / "notes.txt"), "mine");
+}
+
+TEST(StagedFolder, ReplacesOnlyItsOwnKind) {
+    const TemporaryFolder root;
+    {
+        StagedFolder folder = open_folder(root / "set");
+        put_text(folder.temporary_path() / "picture", "ours");
+        ASSERT_TRUE(folder.commit().ok());
+    }
+    const auto other = StagedFolder::create(root / "set", "rendered views");
+    ASSERT_FALSE(other.ok());
+    EXPECT_THAT(other.error().message, HasSubstr("holds pictures, which rendered views do not replace"));
+    {
+        auto beside = StagedFolder::create(root / "views", "rendered views");
+        ASSERT_TRUE(beside.ok());
+        ASSERT_TRUE(beside->commit().ok());
+    }
+    EXPECT_THAT(move_into_place(root / "views", root / "set").error().message, HasSubstr("holds pictures"));
+    // Those of earlier versions do not say what they hold.
+    const std::string list = contents(root.path() / "set" / ".rayspace-files");
+    put_text(root.path() / "set" / ".rayspace-files", list.substr(list.find('\n') + 1));
+    EXPECT_TRUE(StagedFolder::create(root / "set", "rendered views").ok());
+}
+
+TEST(StagedFolder, ListsItsFiles) {
+    const TemporaryFolder root;
+    StagedFolder folder = open_folder(root / "set");
+    fs::create_directory(folder.temporary_path() / "images");
+    put_text(folder.temporary_path() / "images" / "a picture", "1");
+    put_text(folder.temporary_path() / "rig", "2");
+    ASSERT_TRUE(folder.commit().ok());
+    auto files = listed_files(root / "set");
+    ASSERT_TRUE(files.ok()) << files.error().message;
+    std::sort(files->begin(), files->end());
+    EXPECT_EQ(*files, (std::vector<std::string>{"images/a picture", "rig"}));
+    EXPECT_TRUE(fs::exists(list_of_files(root / "set")));
+    EXPECT_FALSE(listed_files(root.path()).ok());
 }
 
 TEST(StagedFolder, ReplacesAnEmptyFolder) {
@@ -209,12 +247,13 @@ TEST(StagedFolder, LeavesOtherPeoplesFoldersAlone) {
     const TemporaryFolder root;
     fs::create_directory(root / "home");
     put_text(root.path() / "home" / "thesis.tex", "years of work");
-    const auto folder = StagedFolder::create(root / "home");
+    const auto folder = StagedFolder::create(root / "home", "pictures");
     ASSERT_FALSE(folder.ok());
     EXPECT_THAT(folder.error().message, HasSubstr("thesis.tex"));
     put_text(root / "file", "x");
-    EXPECT_THAT(StagedFolder::create(root / "file").error().message, HasSubstr("is not a folder"));
-    EXPECT_THAT(StagedFolder::create(root.path() / "none" / "set").error().message, HasSubstr("create it first"));
+    EXPECT_THAT(StagedFolder::create(root / "file", "pictures").error().message, HasSubstr("is not a folder"));
+    EXPECT_THAT(StagedFolder::create(root.path() / "none" / "set", "pictures").error().message,
+                HasSubstr("create it first"));
     EXPECT_EQ(names_in(root.path()), (std::vector<std::string>{"file", "home"}));
 }
 
@@ -230,7 +269,7 @@ TEST(StagedFolder, LooksAgainBeforeItReplaces) {
 TEST(StagedFolder, IsThereWholeWheneverItsWriterIsKilled) {
     const TemporaryFolder root;
     const auto replace = [&](const std::string& text) {
-        Result<StagedFolder> folder = StagedFolder::create(root / "set");
+        Result<StagedFolder> folder = StagedFolder::create(root / "set", "pictures");
         if (!folder) return false;
         for (const char* const name : {"a", "b", "c"}) put_text(folder->temporary_path() / name, text);
         return folder->commit().ok();

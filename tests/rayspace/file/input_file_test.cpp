@@ -97,16 +97,18 @@ TEST(InputFile, AFileThatIsReadAfterItWasStagedIsKeptToo) {
 TEST(InputFile, AFolderThatHoldsAnInputIsNotReplaced) {
     const TemporaryFolder folder;
     {
-        Result<StagedFolder> set = StagedFolder::create(folder / "set");
+        Result<StagedFolder> set = StagedFolder::create(folder / "set", "pictures");
         ASSERT_TRUE(set.ok());
         ASSERT_TRUE(write_file(set->temporary_path() / "a", std::string("a")).ok());
         ASSERT_TRUE(set->commit().ok());
     }
-    EXPECT_EQ(in_own_process(
-                  [&] { return check_input(folder / "set" / "a").ok() && !StagedFolder::create(folder / "set").ok(); }),
+    EXPECT_EQ(in_own_process([&] {
+                  return check_input(folder / "set" / "a").ok() &&
+                         !StagedFolder::create(folder / "set", "pictures").ok();
+              }),
               0);
     EXPECT_EQ(in_own_process([&] {  // replaced as a whole, though it was looked at to see whether it may be
-                  Result<StagedFolder> set = StagedFolder::create(folder / "set");
+                  Result<StagedFolder> set = StagedFolder::create(folder / "set", "pictures");
                   return set.ok() && set->commit().ok();
               }),
               0);

@@ -25,7 +25,6 @@ struct Outcome {
 Outcome run_tool(
     std::vector<std::string> arguments, const std::function<Status()>& work = [] { return Status{}; }) {
     CLI::App app{"A tool for this test.", "rs-test"};
-    app.set_version_flag("--version", "rs-test 1.2.3");
     app.require_subcommand(1);
     std::function<Status()> run;
     std::string input;
@@ -58,7 +57,7 @@ TEST(ToolMain, HelpAndVersionGoToStdout) {
     EXPECT_EQ(help.err, "");
     const Outcome version = run_tool({"--version"});
     EXPECT_EQ(version.exit_code, kExitOk);
-    EXPECT_EQ(version.out, "rs-test 1.2.3\n");
+    EXPECT_THAT(version.out, testing::MatchesRegex("rayspace [0-9]+[.][0-9]+[.][0-9]+\n"));
     EXPECT_THAT(run_tool({"render", "--help"}).out, HasSubstr("INPUT"));
 }
 
@@ -98,7 +97,7 @@ TEST(ToolMain, InterruptionLeavesNoPartialOutput) {
         if (child == 0) {
             run_tool({"render", "x"}, [&]() -> Status {
                 const auto file = StagedFile::create(folder / "a.png");
-                const auto set = StagedFolder::create(folder / "set");
+                const auto set = StagedFolder::create(folder / "set", "pictures");
                 if (!file || !set) _exit(7);
                 ::kill(::getpid(), signal);
                 std::this_thread::sleep_for(std::chrono::seconds(20));
@@ -137,6 +136,14 @@ TEST(ParseTriple, TakesThreeNumbers) {
     EXPECT_EQ(triple->z, -20);
     for (const char* bad : {"", "1,2", "1,2,3,4", "1,2,", "1;2;3", "nan,0,0", "1,inf,2", "1,2,3x", "1e999,0,0"}) {
         EXPECT_THAT(parse_triple(bad, "--eye").error().message, HasSubstr("--eye")) << bad;
+    }
+}
+
+TEST(ToolMain, NamesOfFilesToWriteEndAsTheyShould) {
+    const auto page = ends_in({".html", ".htm"});
+    EXPECT_EQ(page("a.html") + page("b/c.HTM") + page(".d.html"), "");
+    for (const char* wrong : {"shoe.jpg", "noext", "html", "a.html/", ""}) {
+        EXPECT_THAT(page(wrong), HasSubstr(std::string(wrong) + ": a name that ends in .html")) << wrong;
     }
 }
 
