@@ -22,7 +22,10 @@ Result<Intake> take_in(PhotoFolder folder, Progress* progress) {
     const PhotoFolder& of = taken.folder;
     note_aside(of.ignored, "not a picture", taken.notes);
     note_aside(of.in_other_formats, "there in another format, too", taken.notes);
-    if (of.otherwise_turned > 0) {
+    if (!of.own_orientations.empty()) {
+        taken.notes.emplace_back(
+            "some pictures are stored on their side and some upright; each is turned as it states");
+    } else if (of.otherwise_turned > 0) {
         taken.notes.push_back("the camera states " + std::to_string(of.otherwise_turned) + " of " +
                               std::to_string(of.photos.size()) +
                               " pictures turned otherwise than the rest; all are taken as most of them are, EXIF "

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 #include <system_error>
+#include <tuple>
+#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -60,31 +61,58 @@ std::string_view take_number(std::string_view text, std::size_t& at) {
     return text.substr(begin, at - begin);
 }
 
-Status read_headers(PhotoFolder& found) {
+bool on_its_side(int orientation) {
+    return orientation >= 5;
+}
+
+// Of what is shown, turned as EXIF states.
+std::pair<int, int> shown_size(const PictureInfo& info) {
+    return on_its_side(info.orientation) ? std::pair(info.height, info.width) : std::pair(info.width, info.height);
+}
+
+// Of files that are stored in one size all are turned as most are: the camera stood still. Where some lie on their side
+// and some were turned upright since, each is turned as it states itself.
+Status choose_orientations(PhotoFolder& found, const std::vector<PictureInfo>& infos) {
     std::array<int, 9> turned{};  // [orientation]: how many photographs
-    std::optional<PictureInfo> first;
-    found.has_alpha = true;
-    for (const std::filesystem::path& photo : found.photos) {
-        const Result<PictureInfo> info = read_picture_info(photo, kMaxPhotographSide_px);
-        if (!info) return info.error();
-        if (!first) first = *info;
-        if (info->width != first->width || info->height != first->height) {
-            return Error{photo.string() + ": is " + size_text(info->width, info->height) + " but " +
-                         found.photos.front().filename().string() + " is " + size_text(first->width, first->height) +
-                         "; all pictures of a turn must have one size"};
-        }
-        ++turned[static_cast<std::size_t>(info->orientation)];
-        found.has_alpha = found.has_alpha && info->has_alpha;
-        if (info->focal_35mm != first->focal_35mm) first->focal_35mm = 0;
-    }
+    for (const PictureInfo& info : infos) ++turned[static_cast<std::size_t>(info.orientation)];
     const auto most = std::max_element(turned.begin(), turned.end());
     found.orientation = static_cast<int>(most - turned.begin());
     found.otherwise_turned = static_cast<int>(found.photos.size()) - *most;
-    found.focal_35mm = first->focal_35mm;
-    const bool on_its_side = found.orientation >= 5;
-    found.shown_width = on_its_side ? first->height : first->width;
-    found.shown_height = on_its_side ? first->width : first->height;
+    const PictureInfo& first = infos.front();
+    const bool is_one_size = std::ranges::all_of(
+        infos, [&](const PictureInfo& info) { return info.width == first.width && info.height == first.height; });
+    if (is_one_size) {
+        found.shown_width = on_its_side(found.orientation) ? first.height : first.width;
+        found.shown_height = on_its_side(found.orientation) ? first.width : first.height;
+        return {};
+    }
+    std::tie(found.shown_width, found.shown_height) = shown_size(first);
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+        const auto [width, height] = shown_size(infos[i]);
+        if (width != found.shown_width || height != found.shown_height) {
+            return Error{found.photos[i].string() + ": is " + size_text(width, height) + " but " +
+                         found.photos.front().filename().string() + " is " +
+                         size_text(found.shown_width, found.shown_height) +
+                         (found.orientation != 1 || found.otherwise_turned > 0 ? ", turned as EXIF states" : "") +
+                         "; all pictures of a turn must have one size"};
+        }
+        found.own_orientations.push_back(infos[i].orientation);
+    }
     return {};
+}
+
+Status read_headers(PhotoFolder& found) {
+    std::vector<PictureInfo> infos;
+    for (const std::filesystem::path& photo : found.photos) {
+        const Result<PictureInfo> info = read_picture_info(photo, kMaxPhotographSide_px);
+        if (!info) return info.error();
+        infos.push_back(*info);
+    }
+    const auto all = [&](const auto& holds) { return std::ranges::all_of(infos, holds); };
+    const int focal_35mm = infos.front().focal_35mm;
+    found.has_alpha = all([](const PictureInfo& info) { return info.has_alpha; });
+    found.focal_35mm = all([&](const PictureInfo& info) { return info.focal_35mm == focal_35mm; }) ? focal_35mm : 0;
+    return choose_orientations(found, infos);
 }
 
 void set_reduction(PhotoFolder& found, int max_side_px) {

@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -33,7 +34,10 @@ struct PhotoFolder {
     // still. Where files differ it is what most of them state: a camera that looks down does not know its own.
     int orientation = 1;
     int otherwise_turned = 0;  // files that state another one
-    int shown_width = 0;       // px, of every photograph as it is shown
+    // [photograph]: the orientation each states, where they are stored in sizes that are one only when each is turned
+    // by its own, as some were turned upright since; empty: `orientation` holds for all.
+    std::vector<int> own_orientations;
+    int shown_width = 0;  // px, of every photograph as it is shown
     int shown_height = 0;
     double reduction = 1;  // shown pixels per pixel of the pictures that read_photograph() gives, of ...
     int width = 0;         // ... so many pixels, the middle of what is shown
@@ -41,6 +45,9 @@ struct PhotoFolder {
     bool has_alpha = false;  // of every picture
     int focal_35mm = 0;      // EXIF, mm; 0 where it is not one for all, or unknown
 
+    [[nodiscard]] int orientation_of(std::size_t photograph) const {
+        return own_orientations.empty() ? orientation : own_orientations[photograph];
+    }
     // Where a point of a photograph as it is shown, in px, lies in its picture.
     [[nodiscard]] glm::dvec2 in_picture(const glm::dvec2& shown_px) const {
         const glm::dvec2 shown(shown_width, shown_height), picture(width, height);
@@ -67,8 +74,8 @@ inline constexpr int kMinSide_px = 64;
 // Lists the folder and reads the pictures' headers. Large photographs are to be read with max_side_px
 // (kMinSide_px .. kMaxPictureSide_px) for the longer side (photograph_reduction()). Fails where there are no pictures
 // or more than kMaxViews, where a header cannot be read, where a side is longer than kMaxPhotographSide_px, and where
-// two sizes differ (naming both files and sizes). What is left of a thin photograph that is made smaller is a pixel at
-// least. Pixels are not looked at.
+// two sizes differ, turned as EXIF states (naming both files and sizes). What is left of a thin photograph that is made
+// smaller is a pixel at least. Pixels are not looked at.
 Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px = kMaxPictureSide_px);
 
 }  // namespace rs::capture

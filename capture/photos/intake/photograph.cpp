@@ -38,7 +38,7 @@ Image<Rgba8> in_working_size(Image<Rgba8> shown, const PhotoFolder& folder) {
 Result<Image<Rgba8>> read_photograph(const PhotoFolder& folder, std::size_t i) {
     Result<Image<Rgba8>> stored = read_picture(folder.photos[i], kMaxPhotographSide_px);
     if (!stored) return stored;
-    Image<Rgba8> shown = shown_upright(std::move(*stored), folder.orientation);
+    Image<Rgba8> shown = shown_upright(std::move(*stored), folder.orientation_of(i));
     if (shown.width() != folder.shown_width || shown.height() != folder.shown_height) {
         return Error{folder.photos[i].string() + ": changed while it was imported; import again"};
     }

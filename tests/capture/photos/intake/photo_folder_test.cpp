@@ -1,5 +1,6 @@
 #include "capture/photos/intake/photo_folder.hpp"
 
+#include "capture/photos/intake/photograph.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/camera_jpeg.hpp"
@@ -120,6 +121,31 @@ TEST(PhotoFolder, TurnsAllAsMostWantToBeShown) {
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->orientation, 6);
     EXPECT_EQ(found->otherwise_turned, 1);
+}
+
+// An editor saved one of pictures that are stored on their side upright, with its pixels turned.
+TEST(PhotoFolder, TurnsEachAsItStatesWhereOnlySomeLieOnTheirSide) {
+    const test::TemporaryFolder folder;
+    const Image<Rgba8> lying(48, 32, Rgba8{9, 9, 9, 255}), upright(32, 48, Rgba8{200, 9, 9, 255});
+    for (const char* name : {"1.jpg", "3.jpg"}) {
+        ASSERT_TRUE(write_jpeg(folder / name, lying, 90).ok());
+        test::add_exif(folder / name, 6);
+    }
+    ASSERT_TRUE(write_jpeg(folder / "2.jpg", upright, 90).ok());
+    const Result<PhotoFolder> found = open_photo_folder(folder.path());
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    EXPECT_EQ(found->own_orientations, (std::vector<int>{6, 1, 6}));
+    EXPECT_TRUE(found->turns_unnoticed());
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Result<Image<Rgba8>> shown = read_photograph(*found, i);
+        ASSERT_TRUE(shown.ok()) << shown.error().message;
+        EXPECT_EQ(shown->width(), 32);
+        EXPECT_EQ(shown->height(), 48);
+    }
+    test::add_exif(folder / "2.jpg", 8);
+    const Result<PhotoFolder> turned = open_photo_folder(folder.path());
+    ASSERT_FALSE(turned.ok());
+    for (const char* part : {"2.jpg", "48x32", "32x48", "EXIF"}) EXPECT_THAT(turned.error().message, HasSubstr(part));
 }
 
 TEST(PhotoFolder, SaysWhatPhotographsShowWhenTheyAreTurned) {
