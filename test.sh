@@ -13,6 +13,10 @@ cd "$(dirname "$0")"
 
 SANITIZE=readers
 case "${1:-}" in
+  -h | --help)
+    sed -n '2,10s/^# \{0,1\}//p' test.sh
+    exit 0
+    ;;
   --no-sanitizers) SANITIZE=none; shift ;;
   --sanitize-all) SANITIZE=all; shift ;;
 esac

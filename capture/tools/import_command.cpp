@@ -7,6 +7,7 @@
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -25,6 +26,7 @@ struct ImportCommandLine {
     ImportOptions import;
     std::string backdrop = "auto";
     std::string board;
+    std::string calibration = "auto";
     bool clockwise = false;
     bool counter_clockwise = false;
     std::string report;
@@ -34,6 +36,12 @@ struct ImportCommandLine {
     bool json = false;
     bool quiet = false;
 };
+
+const std::map<std::string, CalibrationChoice> kCalibrations{{"auto", CalibrationChoice::kAuto},
+                                                             {"board", CalibrationChoice::kBoard},
+                                                             {"tracks", CalibrationChoice::kTracks},
+                                                             {"silhouettes", CalibrationChoice::kSilhouettes},
+                                                             {"nominal", CalibrationChoice::kNominal}};
 
 std::string backdrop_text(const ImportReport& report) {
     if (report.backdrop != BackdropKind::kColour) return to_string(report.backdrop);
@@ -56,7 +64,8 @@ nlohmann::json calibration_json(const Calibration& calibration) {
     json["points"] = calibration.points;
     json["observations"] = calibration.observations;
     json["rms_px"] = calibration.rms_px;
-    json["held_out_rms_px"] = calibration.held_out_rms_px;
+    // Outlines have no points, and none of them is held out.
+    json["held_out_rms_px"] = calibration.points > 0 ? nlohmann::json(calibration.held_out_rms_px) : nlohmann::json();
     json["f_px"] = estimate(lens.f_px, off.f_px);
     json["cx"] = estimate(lens.cx, off.cx);
     json["cy"] = estimate(lens.cy, off.cy);
@@ -127,8 +136,14 @@ void print_summary(const std::string& output, const ImportReport& report) {
         return;
     }
     const Calibration& found = *report.calibration.calibration;
-    std::printf("calibration: %s, %d points in %d observations, %.2f px RMS (%.2f px held out)\n",
-                to_string(found.method).c_str(), found.points, found.observations, found.rms_px, found.held_out_rms_px);
+    if (found.points > 0) {
+        std::printf("calibration: %s, %d points in %d observations, %.2f px RMS (%.2f px held out)\n",
+                    to_string(found.method).c_str(), found.points, found.observations, found.rms_px,
+                    found.held_out_rms_px);
+    } else {
+        std::printf("calibration: %s, %d observations, %.2f px RMS\n", to_string(found.method).c_str(),
+                    found.observations, found.rms_px);
+    }
     std::printf(
         "  focal length %.1f +- %.1f px, camera %.2f +- %.2f degrees above, axis direction +- %.3f degrees, "
         "position +- %.2f px\n",
@@ -142,6 +157,7 @@ Status run_import(const ImportCommandLine& given) {
     const Result<BackdropRequest> backdrop = parse_backdrop(given.backdrop);
     if (!backdrop) return backdrop.error();
     options.backdrop = *backdrop;
+    options.calibration = kCalibrations.at(given.calibration);
     if (given.clockwise) options.turning = Turning::kClockwise;
     if (given.counter_clockwise) options.turning = Turning::kCounterClockwise;
     std::optional<StagedFile> page;  // made before the work, so that a bad place for it is reported at once
@@ -222,16 +238,15 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
         ->check(CLI::ExistingDirectory);
     command
         ->add_option(
-            "--calibration", given->import.calibration,
+            "--calibration", given->calibration,
             "auto (the surest that works), board, tracks, silhouettes or nominal (equal steps, a level camera)")
-        ->transform(CLI::CheckedTransformer(
-                        std::map<std::string, CalibrationChoice>{{"auto", CalibrationChoice::kAuto},
-                                                                 {"board", CalibrationChoice::kBoard},
-                                                                 {"tracks", CalibrationChoice::kTracks},
-                                                                 {"silhouettes", CalibrationChoice::kSilhouettes},
-                                                                 {"nominal", CalibrationChoice::kNominal}})
-                        .description(""))
-        ->default_str("auto");
+        ->check([](const std::string& text) {
+            return kCalibrations.contains(text)
+                       ? std::string()
+                       : "'" + text + "' is none of auto, board, tracks, silhouettes, nominal" +
+                             (text == "given" ? "; what is known is given by --known" : "");
+        })
+        ->capture_default_str();
     command->add_option(
         "--board", given->board,
         "The board that lies on the turntable: default, or how it differs from what rs-capture board prints, "
@@ -266,8 +281,10 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
         ->add_flag("--counter-clockwise", given->counter_clockwise,
                    "The object turns the other way: its front goes to the right")
         ->excludes(clockwise);
-    command->add_option("--report", given->report,
-                        "Also write this page (HTML): estimates, residuals, the axis on the photographs, the mattes");
+    command
+        ->add_option("--report", given->report,
+                     "Also write PAGE.html: estimates, residuals, the axis on the photographs, the mattes")
+        ->check(ends_in({".html", ".htm"}));
     command->add_flag("--json", given->json, "Print the summary as JSON");
     command->add_flag("-q,--quiet", given->quiet, "No progress bar, no notes");
     command->footer("Example: rs-capture import photos/ -o shoe.set --report shoe.html");

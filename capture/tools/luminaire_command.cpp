@@ -122,9 +122,7 @@ void add_luminaire_command(CLI::App& app, std::function<Status()>& run) {
         app.add_subcommand("luminaire", "Tells how much light a measured luminaire gives, and where to");
     command->add_option("FILE", given->file, "IES (LM-63, all editions) or EULUMDAT (.ldt) file")->required();
     command->add_flag("--json", given->json, "Print what was found as JSON");
-    command->add_option("-o,--output", given->plot, "Polar plot to write (.svg)")->check([](const std::string& name) {
-        return lower_case_extension(name) == ".svg" ? std::string() : "the plot is written as .svg";
-    });
+    command->add_option("-o,--output", given->plot, "Polar plot to write (.svg)")->check(ends_in({".svg"}));
     command->footer("Example: rs-capture luminaire downlight.ies -o downlight.svg");
     command->callback([given, &run] { run = [given] { return run_luminaire(*given); }; });
 }

@@ -177,7 +177,7 @@ private:
     // has objects.
     Result<Named> find(const fs::path& path, const InstanceLine& line, const Model* own) {
         const auto wrong = [&](const std::string& what) {
-            return Error{printable(path.string()) + ":" + std::to_string(line.line) + ": " + what};
+            return Error{printable(path.lexically_normal().string()) + ":" + std::to_string(line.line) + ": " + what};
         };
         if (is_object_file(line.id)) return find_object_file(path, line);
         std::vector<const Model*> places;
@@ -219,7 +219,7 @@ private:
 
     static Result<Named> find_object_file(const fs::path& path, const InstanceLine& line) {
         const auto wrong = [&](const std::string& what) {
-            return Error{printable(path.string()) + ":" + std::to_string(line.line) + ": " + what};
+            return Error{printable(path.lexically_normal().string()) + ":" + std::to_string(line.line) + ": " + what};
         };
         const glm::dvec3& scale = line.pose.scale;
         if (scale.x != scale.y || scale.y != scale.z || scale.x < 0) {
@@ -229,7 +229,8 @@ private:
         named.file = path.parent_path() / line.id;
         std::error_code error;
         if (!fs::is_regular_file(named.file, error)) {
-            return wrong("there is no file '" + printable(line.id) + "' beside this one; mend the name");
+            return wrong("there is no object " + printable(named.file.lexically_normal().string()) +
+                         "; make it with rs-encode build, or mend the name");
         }
         return named;
     }

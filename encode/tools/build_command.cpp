@@ -194,7 +194,9 @@ void add_build_command(CLI::App& app, std::function<Status()>& run) {
     CLI::App* command = app.add_subcommand("build", "Build a ray-space object from a capture set");
     command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its pictures")
         ->required();
-    command->add_option("-o,--output", arguments->output, "the object to write, OBJECT.rso")->required();
+    command->add_option("-o,--output", arguments->output, "the object to write, OBJECT.rso")
+        ->required()
+        ->check(ends_in({".rso"}));
     command
         ->add_option(
             "--raymap", arguments->raymap,
@@ -205,9 +207,11 @@ void add_build_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("--planes", arguments->planes, "reference planes about the axis, 3..64")->capture_default_str();
     add_profile_options(*command, arguments->profile);
     command->add_option("--name", arguments->name, "name of the object; the set's folder where not given");
-    command->add_option("--report", arguments->report,
-                        "also write a page about the build, PAGE.html; takes as long again, for it scores objects "
-                        "that are built without every other view");
+    command
+        ->add_option("--report", arguments->report,
+                     "also write a page about the build, PAGE.html; takes as long again, for it scores objects "
+                     "that are built without every other view")
+        ->check(ends_in({".html", ".htm"}));
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
     command->add_flag("--json", arguments->json, "the summary as JSON");
     command->footer(

@@ -61,9 +61,12 @@ void add_view_options(CLI::App& command, RequestedViews& views, bool required) {
     CLI::Option_group* what = command.add_option_group("views", "What to render");
     what->add_option("--orbit", views.orbit, "N views once around, as captured")->check(CLI::Range(1, 100000));
     CLI::Option* poses = what->add_option("--poses", views.poses, "the cameras of a transforms.json");
-    what->add_option("--eye", views.eye, "one view from X,Y,Z, in object radii; Y is the turntable's axis");
+    CLI::Option* eye =
+        what->add_option("--eye", views.eye, "one view from X,Y,Z, in object radii; Y is the turntable's axis");
     what->require_option(required ? 1 : 0, 1);
-    command.add_option("--at", views.at, "with --eye: the point looked at, in object radii")->capture_default_str();
+    command.add_option("--at", views.at, "with --eye: the point looked at, in object radii")
+        ->capture_default_str()
+        ->needs(eye);
     command.add_option("--size", views.size, "size of the views, WxH; as captured where not given");
     command.add_option("--fov", views.fov_deg, "horizontal field of view in degrees; as captured where not given")
         ->check(CLI::Range(0.01, 159.0))

@@ -199,9 +199,19 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
         std::string tool;
         std::vector<std::string> arguments;
         std::string mention = "is an input";
+        int exit_code = 1;
     };
     const std::vector<Case> cases = {
-        {"set/transforms.json", "rs-encode", {"build", in("set"), "-o", in("set/transforms.json"), "-q"}},
+        {"set/transforms.json",
+         "rs-encode",
+         {"build", in("set"), "-o", in("set/transforms.json"), "-q"},
+         "ends in .rso",
+         2},
+        {"texture.png",
+         "rs-encode",
+         {"build", in("set"), "-o", in("o.rso"), "--report", in("texture.png")},
+         "ends in .html",
+         2},
         {"set/transforms.json",
          "rs-engine",
          {"render", in("object.rso"), "--poses", in("set/transforms.json"), "-o", in("set/transforms.json"), "-q"},
@@ -212,22 +222,24 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
          "rs-capture",
          {"import", in("photos"), "--known", in("imported/transforms.json"), "-o", in("again"), "--report",
           in("imported/transforms.json"), "-q"},
-         ""},
+         "ends in .html",
+         2},
     };
     for (const Case& wrong : cases) {
         SCOPED_TRACE(wrong.tool + " " + wrong.arguments.front());
         const std::string before = bytes_of(wrong.kept);
         ASSERT_FALSE(before.empty());
         const test::ToolRun run = test::run_tool(scratch_.path(), wrong.tool, wrong.arguments);
-        EXPECT_EQ(run.exit_code, 1) << run.err;
+        EXPECT_EQ(run.exit_code, wrong.exit_code) << run.err;
         EXPECT_NE(run.err.find(wrong.mention), std::string::npos) << run.err;
         EXPECT_TRUE(bytes_of(wrong.kept) == before) << run.err;
     }
-    const test::ToolRun run = test::run_tool(
-        scratch_.path(), "rs-encode", {"build", in("set"), "-o", in("new.rso"), "--report", in("new.rso"), "-q"});
+    const test::ToolRun run =
+        test::run_tool(scratch_.path(), "rs-view",
+                       {in("scene.wrl"), "--size", "64x48", "-o", in("new.png"), "--stats", in("new.png")});
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_NE(run.err.find("was just written"), std::string::npos) << run.err;
-    EXPECT_EQ(test::run_tool(scratch_.path(), "rs-encode", {"verify", in("new.rso")}).exit_code, 0);
+    EXPECT_TRUE(read_picture(in("new.png")).ok());
 }
 
 TEST_F(BadInput, LimitsOfTheProcessAreOnePlainLine) {
