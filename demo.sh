@@ -133,6 +133,9 @@ show_street() {
 }
 
 if [ -n "$PHOTOS" ]; then
+  # By themselves: they may be called like what is traced.
+  OUT=$OUT/photographs
+  mkdir -p "$OUT"
   NAME=$(basename "$(realpath "$PHOTOS")")
   step "$NAME: import photographs" "$OUT/$NAME-set" "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/$NAME-set" "$@"
   from_set "$NAME"

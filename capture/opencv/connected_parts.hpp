@@ -64,7 +64,7 @@ public:
             }
         }
     }
-    // The same of those at the picture's border, each once.
+    // Calls `visit(x, y, label)` of every pixel of a part at the picture's border, once.
     template <class Visit>
     void for_each_pixel_at_border(Visit visit) const {
         const int right = labels_.cols - 1, below = labels_.rows - 1;

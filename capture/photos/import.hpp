@@ -31,7 +31,8 @@ struct ImportOptions : RigRequest {
 };
 
 // Nothing is left at `output` when it fails. Besides the errors of its stages (and photo_folder.hpp's): options out of
-// range; an output folder that is or contains the folder of photographs.
+// range; an output folder that is or contains the folder of photographs; one or two photographs, unless a nominal rig
+// or a known one is asked for.
 //
 // Works on all cores as long as the photographs in work together stay below kWorkingMemory_bytes, 4 GiB
 // (bounded_work.hpp): at 4000x3000 pixels that are not made smaller, kCutBytesPerPixel = 170 bytes each, on two of

@@ -18,6 +18,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace rs::capture {
 namespace {
@@ -64,8 +65,8 @@ nlohmann::json calibration_json(const Calibration& calibration) {
     json["points"] = calibration.points;
     json["observations"] = calibration.observations;
     json["rms_px"] = calibration.rms_px;
-    // Outlines have no points, and none of them is held out.
-    json["held_out_rms_px"] = calibration.points > 0 ? nlohmann::json(calibration.held_out_rms_px) : nlohmann::json();
+    const std::optional<double>& held_out_px = calibration.held_out_rms_px;
+    json["held_out_rms_px"] = held_out_px ? nlohmann::json(*held_out_px) : nlohmann::json();
     json["f_px"] = estimate(lens.f_px, off.f_px);
     json["cx"] = estimate(lens.cx, off.cx);
     json["cy"] = estimate(lens.cy, off.cy);
@@ -92,7 +93,8 @@ void print_json(const std::string& output, const ImportReport& report) {
     json["width"] = report.folder.width;
     json["height"] = report.folder.height;
     json["reduction"] = report.folder.reduction;
-    json["orientation"] = report.folder.orientation;
+    const bool is_one = report.folder.own_orientations.empty();
+    json["orientation"] = is_one ? nlohmann::json(report.folder.orientation) : nlohmann::json();
     json["photograph_width"] = report.folder.shown_width;
     json["photograph_height"] = report.folder.shown_height;
     json["backdrop"] = report.masks_given ? "masks" : backdrop_text(report);
@@ -120,6 +122,15 @@ void print_json(const std::string& output, const ImportReport& report) {
     std::printf("%s\n", text.c_str());
 }
 
+std::string observations_text(const Calibration& found) {
+    if (found.observations == 0) return {};
+    std::string text = ", ";
+    if (found.points > 0) text += std::to_string(found.points) + " points in ";
+    text += std::to_string(found.observations) + " observations, " + with_digits(found.rms_px, 2) + " px RMS";
+    if (found.held_out_rms_px) text += " (" + with_digits(*found.held_out_rms_px, 2) + " px held out)";
+    return text;
+}
+
 void print_summary(const std::string& output, const ImportReport& report) {
     std::printf("%s: %d views of %s, backdrop %s (%s), %.4g degrees per view %s, coverage %.1f..%.1f %%\n",
                 output.c_str(), report.views, sizes_text(report.folder).c_str(),
@@ -136,14 +147,7 @@ void print_summary(const std::string& output, const ImportReport& report) {
         return;
     }
     const Calibration& found = *report.calibration.calibration;
-    if (found.points > 0) {
-        std::printf("calibration: %s, %d points in %d observations, %.2f px RMS (%.2f px held out)\n",
-                    to_string(found.method).c_str(), found.points, found.observations, found.rms_px,
-                    found.held_out_rms_px);
-    } else {
-        std::printf("calibration: %s, %d observations, %.2f px RMS\n", to_string(found.method).c_str(),
-                    found.observations, found.rms_px);
-    }
+    std::printf("calibration: %s%s\n", to_string(found.method).c_str(), observations_text(found).c_str());
     std::printf(
         "  focal length %.1f +- %.1f px, camera %.2f +- %.2f degrees above, axis direction +- %.3f degrees, "
         "position +- %.2f px\n",
@@ -174,7 +178,7 @@ Status run_import(const ImportCommandLine& given) {
     if (!given.known.empty()) {
         const Result<PhotoFolder> folder = open_photo_folder(options.photos);
         if (!folder) return folder.error();
-        if (folder->orientation != 1 || folder->otherwise_turned > 0) {
+        if (folder->orientation != 1 || folder->otherwise_turned > 0 || !folder->own_orientations.empty()) {
             return turned_beside(*folder, "--known " + given.known);
         }
         Result<KnownFile> known = read_known_file(given.known, {folder->shown_width, folder->shown_height});
@@ -241,10 +245,11 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
             "--calibration", given->calibration,
             "auto (the surest that works), board, tracks, silhouettes or nominal (equal steps, a level camera)")
         ->check([](const std::string& text) {
-            return kCalibrations.contains(text)
-                       ? std::string()
-                       : "'" + text + "' is none of auto, board, tracks, silhouettes, nominal" +
-                             (text == "given" ? "; what is known is given by --known" : "");
+            if (kCalibrations.contains(text)) return std::string();
+            std::vector<std::string> names;
+            for (const auto& [name, choice] : kCalibrations) names.push_back(name);
+            return "'" + text + "' is none of " + listed(names, names.size()) +
+                   (text == "given" ? "; what is known is given by --known" : "");
         })
         ->capture_default_str();
     command->add_option(

@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
     CLI::App app("Makes capture sets (pictures and transforms.json) of objects on a turntable", "rs-capture");
     app.require_subcommand(1);
     app.footer(
-        "Examples:\n  rs-capture synth recipes/vase.json -o vase-set\n  rs-capture import photographs -o shoe-set");
+        "Examples:\n  rs-capture synth datasets-synthetic/recipes/vase.json -o vase-set\n  rs-capture import "
+        "photographs -o shoe-set");
     std::function<rs::Status()> run;
     rs::capture::add_synth_command(app, run);
     rs::capture::add_import_command(app, run);

@@ -2,6 +2,7 @@
 
 #include "compositor/displays/stereo_picture.hpp"
 #include "engine/executors/executor_table.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 namespace rs::compositor {
 namespace {
@@ -204,6 +205,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         ->check(CLI::Range(1, 16))
         ->capture_default_str();
     app.add_option("--stats", arguments.stats, "with -o: also write the frames' times, by part, as JSON")
+        ->check(ends_in({".json"}))
         ->type_name("FILE.json");
     app.add_option("--executor", arguments.executor,
                    "who draws the objects, with the core for what that one cannot draw: " + engine::executor_names() +

@@ -325,8 +325,13 @@ Result<StreetFigures> write_street(const StreetOptions& options, const fs::path&
     }
     for (const WorldObject& object : street.world.objects) {
         if (options.objects.empty()) break;
-        still += line_of("instance", (fs::path("..") / options.objects / (object.name + ".rso")).generic_string(),
-                         object.foot, object.turn_deg, object.size, "-");
+        const fs::path file = fs::path(options.objects) / (object.name + ".rso");
+        still += line_of("instance", (fs::path("..") / file).generic_string(), object.foot, object.turn_deg,
+                         object.size, "-");
+        std::error_code ignored;  // the folder itself may not be there yet
+        if (!fs::exists((fs::absolute(output) / file).lexically_normal(), ignored)) {
+            figures.missing.insert(file.filename().string());
+        }
     }
     still += "camera -44 1.9 5.6 -10 2 -1 65\n";
     if (Status status = write_model(street.world, street.unlit, models, "street", still); !status)

@@ -12,6 +12,7 @@
 #include "rayspace/base/result.hpp"
 
 #include <filesystem>
+#include <set>
 #include <string>
 
 namespace rs::synthetic {
@@ -27,6 +28,7 @@ struct StreetFigures {
     std::size_t static_triangles = 0;  // as they are shown: instances count
     std::size_t vehicles = 0;          // that are ever seen
     std::size_t frames = 0;
+    std::set<std::string> missing;  // ray-space objects of its shop windows that are not where it looks for them
 };
 
 Result<StreetFigures> write_street(const StreetOptions& options, const std::filesystem::path& output);

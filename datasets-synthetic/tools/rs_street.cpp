@@ -1,7 +1,7 @@
 // rs-street: writes a street with traffic as the files of a sequence.
 
 #include "datasets-synthetic/street/street.hpp"
-#include "rayspace/file/file_output.hpp"
+#include "rayspace/base/printable.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <CLI/CLI.hpp>
@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -40,6 +41,13 @@ rs::Status run_street(const Options& options) {
     std::printf("%s: %zu frames, up to %zu vehicles, %zu static triangles\n",
                 (options.output / "maps" / options.name).string().c_str(), figures->frames, figures->vehicles,
                 figures->static_triangles);
+    if (!figures->missing.empty()) {
+        std::fprintf(stderr,
+                     "rs-street: its shops show %s, which are not in %s as seen from there; make them with rs-encode "
+                     "build, or leave --objects out\n",
+                     rs::listed(std::vector(figures->missing.begin(), figures->missing.end()), 3).c_str(),
+                     options.objects.c_str());
+    }
     return {};
 }
 

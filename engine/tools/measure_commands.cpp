@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -75,12 +76,14 @@ Status run_board(const std::vector<std::string>& paths) {
     if (Status status = layout.fit_together(objects, limits); !status) return status;
     std::printf("all fit on the published board (%llu bytes)\n", static_cast<unsigned long long>(limits.memory_bytes));
     for (std::size_t i = 0; i < objects.size(); ++i) {
-        if (objects[i].coded == nullptr) continue;
+        const bool has_shape =
+            std::ranges::any_of(objects[i].rings, [](const Ring& ring) { return !ring.shape.empty(); });
+        if (objects[i].coded == nullptr && !has_shape) continue;
         std::fprintf(
             stderr,
-            "rs-engine: %s is of profile %s: the board draws it, and it takes so much, once it is encoded with "
-            "--profile raw --raymap plane\n",
-            printable(paths[i]).c_str(), codec::name_of(objects[i].coded->profile));
+            "rs-engine: %s: the board draws raw pictures on planes alone; encode it with --profile raw --raymap "
+            "plane, and it takes what is stated here\n",
+            printable(paths[i]).c_str());
     }
     return {};
 }

@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace rs::engine {
@@ -64,18 +65,23 @@ Result<Renderer> open_renderer(const std::string& path, int level) {
 class EmptyViews {
 public:
     void look_at(const Image<Rgba8>& picture) {
-        if (std::ranges::all_of(picture.pixels(), [](const Rgba8& p) { return p.a == 0; })) ++count_;
+        ++views_;
+        if (std::ranges::all_of(picture.pixels(), [](const Rgba8& p) { return p.a == 0; })) ++empty_;
     }
     void warn() const {
-        if (count_ == 0) return;
-        std::fprintf(stderr,
-                     "rs-engine: warning: %d of the views show nothing of the object; is the eye inside it, straight "
-                     "above it, or does it look past it?\n",
-                     count_.load());
+        if (empty_ == 0) return;
+        const std::string which =
+            views_ == 1 ? "the view shows" : std::to_string(empty_) + " of " + std::to_string(views_) + " views show";
+        std::fprintf(
+            stderr,
+            "rs-engine: warning: %s nothing of the object; is the eye inside it, straight above it, or does it "
+            "look past it?\n",
+            which.c_str());
     }
 
 private:
-    std::atomic<int> count_{0};
+    std::atomic<int> views_{0};
+    std::atomic<int> empty_{0};
 };
 
 Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camera, EmptyViews& empty) {

@@ -12,6 +12,7 @@
 #include "rayspace/geometry/ray_space.hpp"
 #include "rayspace/output/view_output.hpp"
 #include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <chrono>
 #include <cstdio>
@@ -277,9 +278,10 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
         ->check(CLI::Range(1, 15));
     command->add_flag("--load", arguments->load, "have the board load the objects from its disk first");
     command->add_option("-o,--output", arguments->output, "a folder for the pictures");
-    command->add_option("--stats", arguments->stats, "a JSON file for the cycles of every block");
-    command->add_option("--chart", arguments->chart, "an SVG file: where the cycles went");
-    command->add_option("--trace", arguments->trace, "a VCD file, for GTKWave");
+    command->add_option("--stats", arguments->stats, "a JSON file for the cycles of every block")
+        ->check(ends_in({".json"}));
+    command->add_option("--chart", arguments->chart, "an SVG file: where the cycles went")->check(ends_in({".svg"}));
+    command->add_option("--trace", arguments->trace, "a VCD file, for GTKWave")->check(ends_in({".vcd"}));
     command->add_option("--trace-cycles", arguments->trace_cycles, "board cycles in it")->capture_default_str();
     command->add_flag("--diagram", arguments->diagram, "print blocks, ports and FIFOs as in model/DIAGRAM.md, and end");
     command->add_flag("--print-config", arguments->print_config, "print all settings of CONFIG as JSON, and end");

@@ -41,9 +41,10 @@ private:
 
 // A folder that appears under `path` only when commit() succeeds. It carries a list of its files (.rayspace-files),
 // which says what it holds, too: `contents`, in the plural, as "imported photographs". What stands at `path` already is
-// replaced as a whole only where it is empty, or a folder of ours that holds the same kind of thing and in which nobody
-// has added or changed a file; create() refuses anything else at once, naming what would be lost. Dropped before
-// commit(), the temporary folder is removed with all it holds.
+// replaced as a whole only where it is empty, or a folder of ours in which nobody has added or changed a file and that
+// holds the same kind of thing, or does not say what it holds, as those of versions before 0.38; create() refuses
+// anything else at once, naming what would be lost. Dropped before commit(), the temporary folder is removed with all
+// it holds.
 class StagedFolder {
 public:
     static Result<StagedFolder> create(const std::filesystem::path& path, std::string contents);

@@ -113,15 +113,15 @@ Status check_replaceable(const fs::path& path, const std::string& contents) {
         if (!manifest) return manifest.error();
         ours = std::move(*manifest);
     }
-    if (!contents.empty() && !ours.contents.empty() && ours.contents != contents) {
-        return Error{path.string() + ": holds " + printable(ours.contents) + ", which " + contents +
-                     " do not replace; choose another name, or remove it first"};
-    }
     for (auto file = files->begin(); file != files->end();) {
         const Result<std::string> line = manifest_line(path, *file);
         file = line && ours.files.contains(*line) ? files->erase(file) : std::next(file);
     }
-    if (files->empty()) return {};
+    if (files->empty()) {
+        if (contents.empty() || ours.contents.empty() || ours.contents == contents) return {};
+        return Error{path.string() + ": holds " + printable(ours.contents) + ", which " + contents +
+                     " do not replace; choose another name, or remove it first"};
+    }
     return Error{path.string() + ": holds files that were added or changed by hand, such as " + *files->begin() +
                  ", and is left alone; choose another name or move them away"};
 }
@@ -129,6 +129,7 @@ Status check_replaceable(const fs::path& path, const std::string& contents) {
 }  // namespace
 
 Result<StagedFolder> StagedFolder::create(const fs::path& given, std::string contents) {
+    RS_CHECK(!contents.empty());
     const fs::path path = without_trailing_slash(given);
     if (const Status parent = check_parent(path); !parent) return parent.error();
     if (Status replaceable = check_replaceable(path, contents); !replaceable) return replaceable.error();

@@ -234,9 +234,9 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
         EXPECT_NE(run.err.find(wrong.mention), std::string::npos) << run.err;
         EXPECT_TRUE(bytes_of(wrong.kept) == before) << run.err;
     }
-    const test::ToolRun run =
-        test::run_tool(scratch_.path(), "rs-view",
-                       {in("scene.wrl"), "--size", "64x48", "-o", in("new.png"), "--stats", in("new.png")});
+    const test::ToolRun run = test::run_tool(scratch_.path(), "rs-view",
+                                             {in("scene.wrl"), "--size", "64x48", "-o", in("new.png"), "--save-lights",
+                                              in("l.json"), "--stats", in("l.json")});
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_NE(run.err.find("was just written"), std::string::npos) << run.err;
     EXPECT_TRUE(read_picture(in("new.png")).ok());

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -47,6 +48,24 @@ TEST(Street, IsTheSameEveryTime) {
     options.scenario.night = true;
     ASSERT_TRUE(write_street(options, folder / "night"));
     EXPECT_THAT(files_of(folder / "night").at("maps/street/anim/out/lights.json"), HasSubstr("street lamp"));
+}
+
+TEST(Street, NamesObjectsThatAreNotThere) {
+    const test::TemporaryFolder folder;
+    StreetOptions options;
+    options.scenario = usual_scenario();
+    options.scenario.seconds = 0.04;
+    options.texture_scale = 0.1F;
+    options.objects = "..";
+    std::ofstream(folder / "vase.rso") << "an object";
+    const auto figures = write_street(options, folder / "town");
+    ASSERT_TRUE(figures.ok()) << figures.error().message;
+    EXPECT_EQ(figures->missing.count("lamp.rso"), 1U);
+    EXPECT_EQ(figures->missing.count("vase.rso"), 0U);
+    options.objects.clear();
+    const auto empty = write_street(options, folder / "empty");
+    ASSERT_TRUE(empty.ok()) << empty.error().message;
+    EXPECT_TRUE(empty->missing.empty()) << "no windows have objects";
 }
 
 TEST(Street, VehiclesStandOnTheirWheels) {

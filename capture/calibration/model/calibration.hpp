@@ -52,11 +52,11 @@ struct Calibration {
     ModelDeviations deviations;
     int points = 0;
     int observations = 0;
-    double rms_px = 0;           // root mean square of the residual vectors' lengths
-    double held_out_rms_px = 0;  // the same of tracks that took no part, but for outliers; 0 where there are none
-    std::vector<ViewFit> views;  // [view]
-    double step_rad = 0;         // median from view to view, signed
-    std::vector<std::string> warnings;  // one line each, that a photographer can act on
+    double rms_px = 0;                      // root mean square of the residual vectors' lengths
+    std::optional<double> held_out_rms_px;  // the same of tracks that took no part, but for outliers
+    std::vector<ViewFit> views;             // [view]
+    double step_rad = 0;                    // median from view to view, signed
+    std::vector<std::string> warnings;      // one line each, that a photographer can act on
 };
 
 // What is known beforehand and held: every number that is set is not estimated.

@@ -209,8 +209,9 @@ std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const 
     const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
     for (const std::size_t view : views_apart(bundle, candidates)) {
         if (candidates[view] < kFewestObservations) {
-            lines.push_back(names[view] + " shows only " + std::to_string(candidates[view]) +
-                            " points that other pictures show, too; its angle is less sure");
+            lines.push_back(
+                names[view] + " shows only " + std::to_string(candidates[view]) +
+                " points that other pictures show, too, and its angle may be wrong; larger pictures have more of them");
             continue;
         }
         lines.push_back(names[view] + " does not fit the turn (" + std::to_string(kept[view]) + " of " +

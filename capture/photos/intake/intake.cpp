@@ -22,15 +22,14 @@ Result<Intake> take_in(PhotoFolder folder, Progress* progress) {
     const PhotoFolder& of = taken.folder;
     note_aside(of.ignored, "not a picture", taken.notes);
     note_aside(of.in_other_formats, "there in another format, too", taken.notes);
-    if (!of.own_orientations.empty()) {
-        taken.notes.emplace_back(
-            "some pictures are stored on their side and some upright; each is turned as it states");
-    } else if (of.otherwise_turned > 0) {
+    const bool is_mixed = !of.own_orientations.empty();
+    if (is_mixed)
+        taken.notes.emplace_back("some pictures are stored on their side and some upright; all are shown upright");
+    if (of.otherwise_turned > 0) {
         taken.notes.push_back("the camera states " + std::to_string(of.otherwise_turned) + " of " +
                               std::to_string(of.photos.size()) +
-                              " pictures turned otherwise than the rest; all are taken as most of them are, EXIF "
-                              "orientation " +
-                              std::to_string(of.orientation));
+                              " pictures turned otherwise than the rest; all are taken as most of them are" +
+                              (is_mixed ? "" : ", EXIF orientation " + std::to_string(of.orientation)));
     }
     if (of.reduction > 1) {
         taken.notes.push_back("the photographs of " + size_text(of.shown_width, of.shown_height) + " are taken as " +

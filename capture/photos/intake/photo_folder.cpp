@@ -8,7 +8,6 @@
 #include <array>
 #include <map>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 namespace rs::capture {
@@ -65,38 +64,44 @@ bool on_its_side(int orientation) {
     return orientation >= 5;
 }
 
-// Of what is shown, turned as EXIF states.
-std::pair<int, int> shown_size(const PictureInfo& info) {
-    return on_its_side(info.orientation) ? std::pair(info.height, info.width) : std::pair(info.width, info.height);
+// Of what is shown of such a file where it is turned so.
+std::pair<int, int> shown_size(const PictureInfo& info, int orientation) {
+    return on_its_side(orientation) ? std::pair(info.height, info.width) : std::pair(info.width, info.height);
 }
 
-// Of files that are stored in one size all are turned as most are: the camera stood still. Where some lie on their side
-// and some were turned upright since, each is turned as it states itself.
+// [orientation]: how many files state it.
+using Statements = std::array<int, 9>;
+
+int what_most_state(const Statements& stated) {
+    return static_cast<int>(std::ranges::max_element(stated) - stated.begin());
+}
+
+// Files that are stored in one size are all turned as most of them are: the camera stood still. Where some lie on their
+// side and some were turned upright since, that holds of each kind.
 Status choose_orientations(PhotoFolder& found, const std::vector<PictureInfo>& infos) {
-    std::array<int, 9> turned{};  // [orientation]: how many photographs
-    for (const PictureInfo& info : infos) ++turned[static_cast<std::size_t>(info.orientation)];
-    const auto most = std::max_element(turned.begin(), turned.end());
-    found.orientation = static_cast<int>(most - turned.begin());
-    found.otherwise_turned = static_cast<int>(found.photos.size()) - *most;
-    const PictureInfo& first = infos.front();
-    const bool is_one_size = std::ranges::all_of(
-        infos, [&](const PictureInfo& info) { return info.width == first.width && info.height == first.height; });
-    if (is_one_size) {
-        found.shown_width = on_its_side(found.orientation) ? first.height : first.width;
-        found.shown_height = on_its_side(found.orientation) ? first.width : first.height;
-        return {};
+    Statements of_all{};
+    std::map<std::pair<int, int>, Statements> of_size;  // as stored
+    for (const PictureInfo& info : infos) {
+        ++of_all[static_cast<std::size_t>(info.orientation)];
+        ++of_size[{info.width, info.height}][static_cast<std::size_t>(info.orientation)];
     }
-    std::tie(found.shown_width, found.shown_height) = shown_size(first);
+    found.orientation = what_most_state(of_all);
     for (std::size_t i = 0; i < infos.size(); ++i) {
-        const auto [width, height] = shown_size(infos[i]);
+        const int orientation = what_most_state(of_size[{infos[i].width, infos[i].height}]);
+        const auto [width, height] = shown_size(infos[i], orientation);
+        if (i == 0) {
+            found.shown_width = width;
+            found.shown_height = height;
+        }
         if (width != found.shown_width || height != found.shown_height) {
+            const bool is_turned = std::ranges::any_of(infos, [](const PictureInfo& o) { return o.orientation != 1; });
             return Error{found.photos[i].string() + ": is " + size_text(width, height) + " but " +
                          found.photos.front().filename().string() + " is " +
                          size_text(found.shown_width, found.shown_height) +
-                         (found.orientation != 1 || found.otherwise_turned > 0 ? ", turned as EXIF states" : "") +
-                         "; all pictures of a turn must have one size"};
+                         (is_turned ? ", turned as EXIF states" : "") + "; all pictures of a turn must have one size"};
         }
-        found.own_orientations.push_back(infos[i].orientation);
+        found.otherwise_turned += infos[i].orientation != orientation ? 1 : 0;
+        if (of_size.size() > 1) found.own_orientations.push_back(orientation);
     }
     return {};
 }
@@ -157,7 +162,7 @@ std::string size_text(int width, int height) {
 }
 
 Error turned_beside(const PhotoFolder& folder, const std::string& other) {
-    const std::string states = folder.otherwise_turned > 0
+    const std::string states = folder.otherwise_turned > 0 || !folder.own_orientations.empty()
                                    ? "the photographs state several EXIF orientations"
                                    : "the photographs' EXIF orientation is " + std::to_string(folder.orientation);
     return Error{

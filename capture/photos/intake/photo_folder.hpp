@@ -34,8 +34,8 @@ struct PhotoFolder {
     // still. Where files differ it is what most of them state: a camera that looks down does not know its own.
     int orientation = 1;
     int otherwise_turned = 0;  // files that state another one
-    // [photograph]: the orientation each states, where they are stored in sizes that are one only when each is turned
-    // by its own, as some were turned upright since; empty: `orientation` holds for all.
+    // [photograph]: where some are stored on their side and some upright, as an editor saves them: what most of those
+    // stored like it state, and the above counts those that state another. Empty: `orientation` holds for all.
     std::vector<int> own_orientations;
     int shown_width = 0;  // px, of every photograph as it is shown
     int shown_height = 0;
@@ -55,7 +55,8 @@ struct PhotoFolder {
     }
     // Whether nobody can tell by its size if a mask or a camera is of the files' pixels or of what is shown.
     [[nodiscard]] bool turns_unnoticed() const {
-        return otherwise_turned > 0 || (orientation != 1 && (orientation < 5 || shown_width == shown_height));
+        return otherwise_turned > 0 || !own_orientations.empty() ||
+               (orientation != 1 && (orientation < 5 || shown_width == shown_height));
     }
 };
 

@@ -30,7 +30,8 @@ double coverage(const Image<Rgba8>& cut) {
 Status check_coverage(double covered, BackdropKind kind, const std::string& photo) {
     if (covered == 0) {
         return Error{photo + ": shows no object before the " + to_string(kind) +
-                     " backdrop; give another --backdrop, or take the picture out"};
+                     " backdrop; give another --backdrop, or take the picture out (what is the same in all pictures "
+                     "counts as backdrop: did the object turn?)"};
     }
     if (covered >= kFullCoverage && kind != BackdropKind::kAlpha) {
         return Error{photo + ": the object fills the whole picture; nothing is left of the " + to_string(kind) +

@@ -162,9 +162,13 @@ void add_estimates(HtmlPage& page, const Calibration& found) {
     }
     rows.push_back({"median step, degrees", number(degrees(found.step_rad), 3), ""});
     page.table({"", "value", "standard deviation"}, rows);
-    page.paragraph(std::to_string(found.points) + " points in " + std::to_string(found.observations) +
-                   " observations; residuals " + number(found.rms_px, 3) + " px RMS, " +
-                   number(found.held_out_rms_px, 3) + " px where they took no part in the fit.");
+    if (found.observations == 0) return;
+    const std::string points = found.points > 0 ? std::to_string(found.points) + " points in " : "";
+    const std::string held_out =
+        found.held_out_rms_px ? ", " + number(*found.held_out_rms_px, 3) + " px where they took no part in the fit"
+                              : "";
+    page.paragraph(points + std::to_string(found.observations) + " observations; residuals " + number(found.rms_px, 3) +
+                   " px RMS" + held_out + ".");
 }
 
 void add_plots(HtmlPage& page, const Calibration& found) {

@@ -93,7 +93,7 @@ Rig calibrated_import_rig(const ImportReport& report, const TurnOutline::Box& vi
     nlohmann::json& made = rig.extras["photo_import"];
     describe(report, made);
     made["rms_px"] = calibration.rms_px;
-    made["held_out_rms_px"] = calibration.held_out_rms_px;
+    if (calibration.held_out_rms_px) made["held_out_rms_px"] = *calibration.held_out_rms_px;
     // The photographs' own camera, in the convention of capture/calibration/model/turntable_model.hpp.
     const ModelDeviations& off = calibration.deviations;
     nlohmann::json& camera = made["photograph_camera"];

@@ -5,6 +5,7 @@
 #include "rayspace/base/printable.hpp"
 
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace rs::capture {
@@ -23,14 +24,15 @@ RigRequest in_picture_px(RigRequest given, const PhotoFolder& folder) {
     return given;
 }
 
-Result<KnownInputs> known_inputs(const RigRequest& request, const NominalTurn& nominal, const PhotoFolder& folder) {
+Result<KnownInputs> known_inputs(const RigRequest& request, const std::function<const NominalTurn&()>& nominal,
+                                 const PhotoFolder& folder) {
     Result<KnownInputs> known = known_of_photographs(request.known, file_names(folder));
     if (!known) return known;
     if (request.fov_deg) {
         known->f_px = 0.5 * folder.shown_width / folder.reduction / std::tan(0.5 * radians(*request.fov_deg));
     }
     if (request.turning) known->counter_clockwise = *request.turning == Turning::kCounterClockwise;
-    if (request.degrees_per_view) known->step_rad = sense(nominal) * radians(*request.degrees_per_view);
+    if (request.degrees_per_view) known->step_rad = sense(nominal()) * radians(*request.degrees_per_view);
     return known;
 }
 
@@ -91,17 +93,24 @@ Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, co
     const RigRequest request = in_picture_px(given, folder);
     FoundRig rig;
     rig.nominal = find_nominal_turn(request, folder, turn);
-    Result<KnownInputs> known = known_inputs(request, rig.nominal, folder);
+    // Points of the object and boards tell the sense of turning themselves.
+    const auto nominal = [&]() -> const NominalTurn& {
+        if (rig.nominal.turning_from.empty()) find_sense(request, folder, turn, rig.nominal);
+        return rig.nominal;
+    };
+    const Result<KnownInputs> known = known_inputs(request, nominal, folder);
     if (!known) return known.error();
-    const TurntableModel model = nominal_model(*known, rig.nominal, folder);
-    Result<PhotoCalibration> calibration =
-        calibrate_photos(folder, cuts, {request.calibration, std::move(*known), request.board, model}, progress);
+    Result<PhotoCalibration> calibration = calibrate_photos(
+        folder, cuts,
+        {request.calibration, *known, request.board, [&] { return nominal_model(*known, nominal(), folder); }},
+        progress);
     if (!calibration) return calibration.error();
     rig.calibration = std::move(*calibration);
     add_notes(rig, rig.calibration.notes);
     if (rig.calibration.calibration) {
         take_calibrated(rig, folder);
     } else {
+        nominal();
         take_nominal(rig, request.known.known);
     }
     return rig;

@@ -70,27 +70,10 @@ void find_axis(const NominalTurnRequest& request, const PhotoFolder& folder, con
     }
 }
 
-void find_turning_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn, bool closed,
-                        NominalTurn& found) {
-    found.turning_from = "assumed";
-    if (request.turning) {
-        found.turning = *request.turning;
-        found.turning_from = "given";
-        return;
-    }
-    const double scale = static_cast<double>(turn.small.front().width()) / folder.width;
-    const TurnOutline::Box box = turn.outline.visible();
-    const double extent_px = std::max(found.axis_x_px - box.left, box.right - found.axis_x_px);
-    const TurningEvidence evidence =
-        find_turning(turn.small, found.axis_x_px * scale, extent_px * scale, radians(found.step_deg), closed);
-    if (evidence.turning) {
-        found.turning = *evidence.turning;
-        found.turning_from = "pictures";
-    } else {
-        found.notes.push_back(
-            "which way the object turns is not clear from the pictures; clockwise as seen from above is "
-            "assumed, --counter-clockwise says otherwise");
-    }
+// Whether the last picture stands a step before the first.
+bool is_closed(const NominalTurn& found, const PhotoFolder& folder) {
+    const auto views = static_cast<double>(folder.photos.size());
+    return std::abs(found.step_deg * views - 360) < 1.5 * found.step_deg && views >= 4;
 }
 
 // The lens as the camera states it, where that is 1..120 degrees; horizontal. A photograph that was cropped shows less
@@ -113,10 +96,30 @@ NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFold
     found.fov_deg = request.fov_deg.value_or(stated.value_or(kNominalFieldOfView_deg));
     found.fov_from = request.fov_deg ? "given" : stated ? "camera" : "assumed";
     found.step_deg = request.degrees_per_view.value_or(360.0 / views);
-    const bool closed = std::abs(found.step_deg * views - 360) < 1.5 * found.step_deg && views >= 4;
-    find_axis(request, folder, turn, closed, found);
-    find_turning_sense(request, folder, turn, closed, found);
+    find_axis(request, folder, turn, is_closed(found, folder), found);
     return found;
+}
+
+void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn, NominalTurn& found) {
+    found.turning_from = "assumed";
+    if (request.turning) {
+        found.turning = *request.turning;
+        found.turning_from = "given";
+        return;
+    }
+    const double scale = static_cast<double>(turn.small.front().width()) / folder.width;
+    const TurnOutline::Box box = turn.outline.visible();
+    const double extent_px = std::max(found.axis_x_px - box.left, box.right - found.axis_x_px);
+    const TurningEvidence evidence = find_turning(turn.small, found.axis_x_px * scale, extent_px * scale,
+                                                  radians(found.step_deg), is_closed(found, folder));
+    if (evidence.turning) {
+        found.turning = *evidence.turning;
+        found.turning_from = "pictures";
+    } else {
+        found.notes.push_back(
+            "which way the object turns is not clear from the pictures; clockwise as seen from above is "
+            "assumed, --counter-clockwise says otherwise");
+    }
 }
 
 }  // namespace rs::capture

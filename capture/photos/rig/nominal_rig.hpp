@@ -59,7 +59,7 @@ struct NominalTurn {
     double axis_spread_px = 0;
     std::string axis_from;  // "silhouettes", "given", "picture middle"
     Turning turning = Turning::kClockwise;
-    std::string turning_from;        // "pictures", "given", "assumed"
+    std::string turning_from;        // "pictures", "given", "assumed"; empty: nobody asked for it yet
     std::vector<std::string> notes;  // of what is doubtful, one line each
 };
 
@@ -71,6 +71,10 @@ struct NominalTurnRequest {
     std::optional<double> axis_x_px;
 };
 
+// All but the sense of turning and where that is from.
 NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn);
+
+// The sense of turning: `found` is of the same. What is given costs nothing; otherwise pictures are compared.
+void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn, NominalTurn& found);
 
 }  // namespace rs::capture

@@ -103,7 +103,7 @@ std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
 Result<Calibration> from_silhouettes(const TurnPictures& turn, const CalibrationRequest& request) {
     const Silhouettes outlines = silhouettes(turn);
     // The part of the photographs that the outlines show, for their sides must be the outlines' times a whole number.
-    TurntableModel start = request.nominal;
+    TurntableModel start = request.nominal();
     start.lens.width = outlines.reduction * outlines.masks.front().width();
     start.lens.height = outlines.reduction * outlines.masks.front().height();
     const KnownInputs& known = request.known;
@@ -137,7 +137,7 @@ std::optional<Calibration> given(const CalibrationRequest& request, std::size_t 
     if (!known.f_px || !known.pose || !(known.angles_rad || known.step_rad)) return std::nullopt;
     Calibration calibration;
     calibration.method = CalibrationMethod::kGiven;
-    calibration.model = with_known(request.nominal, known);
+    calibration.model = with_known(request.nominal(), known);
     calibration.step_rad = median_step(calibration.model.angles_rad);
     calibration.views.resize(views);
     ModelDeviations& held = calibration.deviations;

@@ -12,6 +12,7 @@
 #include "rayspace/base/result.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,7 +36,9 @@ struct CalibrationRequest {
     CalibrationChoice choice = CalibrationChoice::kAuto;
     KnownInputs known;
     std::optional<BoardDesign> board;
-    TurntableModel nominal;  // what is assumed where nothing is found: the start for silhouettes
+    // What is assumed where nothing is found: the start for silhouettes. Called where that is needed, for to find the
+    // sense of turning takes its time.
+    std::function<TurntableModel()> nominal;
 };
 
 // `cuts` are cut_turn()'s pictures of `folder`. Fails where a picture cannot be read, and where the choice was

@@ -117,7 +117,7 @@ TEST_F(SequenceFiles, FaultsNameFileAndLine) {
         {"instance 7 0 0 0 0 0 0 1 1 1 -\n", "f0.obj:1: there is no object '7' (there are 4"},
         {"instance Car 0 0 0 0 0 0 1 1 1 Blue\n", "f0.obj:1: there is no material 'Blue'"},
         {"instance Car 0 0 0 0 0 0 1 1 1 2\n", "f0.obj:1: there is no material '2' (there are 2"},
-        {"instance vase.rso 0 0 0 0 0 0 1 1 1 -\n", "vase.rso; make it"},
+        {"instance vase.rso 0 0 0 0 0 0 1 1 1 -\n", "f0.obj:1: there is no object "},
         {"instance vase.rso 0 0 0 0 0 0 1 2 1 -\n", "f0.obj:1: a ray-space object keeps its shape"},
         {"o A\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "f0.obj:2: the material library 'none.mtl'"},
     };

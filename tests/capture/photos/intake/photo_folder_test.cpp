@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <string_view>
 
 namespace rs::capture {
 namespace {
@@ -126,21 +127,32 @@ TEST(PhotoFolder, TurnsAllAsMostWantToBeShown) {
 // An editor saved one of pictures that are stored on their side upright, with its pixels turned.
 TEST(PhotoFolder, TurnsEachAsItStatesWhereOnlySomeLieOnTheirSide) {
     const test::TemporaryFolder folder;
-    const Image<Rgba8> lying(48, 32, Rgba8{9, 9, 9, 255}), upright(32, 48, Rgba8{200, 9, 9, 255});
-    for (const char* name : {"1.jpg", "3.jpg"}) {
+    // White at the top: stored at the left, as the row of a file of orientation 6 is a column of what it shows.
+    Image<Rgba8> lying(48, 32, Rgba8{9, 9, 9, 255}), upright(32, 48, Rgba8{9, 9, 9, 255});
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 16; ++x) lying(x, y) = {255, 255, 255, 255};
+    }
+    for (int y = 0; y < 16; ++y) {
+        for (int x = 0; x < 32; ++x) upright(x, y) = {255, 255, 255, 255};
+    }
+    for (const char* name : {"1.jpg", "3.jpg", "4.jpg"}) {
         ASSERT_TRUE(write_jpeg(folder / name, lying, 90).ok());
-        test::add_exif(folder / name, 6);
+        // The last is of a camera that looks down and does not know where up is.
+        test::add_exif(folder / name, std::string_view(name) == "4.jpg" ? 8 : 6);
     }
     ASSERT_TRUE(write_jpeg(folder / "2.jpg", upright, 90).ok());
     const Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_TRUE(found.ok()) << found.error().message;
-    EXPECT_EQ(found->own_orientations, (std::vector<int>{6, 1, 6}));
+    EXPECT_EQ(found->own_orientations, (std::vector<int>{6, 1, 6, 6}));
+    EXPECT_EQ(found->otherwise_turned, 1);
     EXPECT_TRUE(found->turns_unnoticed());
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
         const Result<Image<Rgba8>> shown = read_photograph(*found, i);
         ASSERT_TRUE(shown.ok()) << shown.error().message;
         EXPECT_EQ(shown->width(), 32);
         EXPECT_EQ(shown->height(), 48);
+        EXPECT_GT((*shown)(16, 4).r, 200) << i;
+        EXPECT_LT((*shown)(16, 44).r, 50) << i;
     }
     test::add_exif(folder / "2.jpg", 8);
     const Result<PhotoFolder> turned = open_photo_folder(folder.path());
