@@ -224,7 +224,7 @@ Status run_render(const RenderArguments& arguments) {
 
     ProgressBar progress(arguments.quiet);
     EmptyViews empty;
-    const Status status = write_views(*kind, *renderer, *cameras, arguments, empty, progress);
+    Status status = write_views(*kind, *renderer, *cameras, arguments, empty, progress);
     progress.finish();
     if (status) empty.warn();
     return status;
