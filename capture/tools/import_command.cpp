@@ -178,7 +178,7 @@ Status run_import(const ImportCommandLine& given) {
     if (!given.known.empty()) {
         const Result<PhotoFolder> folder = open_photo_folder(options.photos);
         if (!folder) return folder.error();
-        if (folder->orientation != 1 || folder->otherwise_turned > 0 || !folder->own_orientations.empty()) {
+        if (folder->orientation != 1 || folder->states_several()) {
             return turned_beside(*folder, "--known " + given.known);
         }
         Result<KnownFile> known = read_known_file(given.known, {folder->shown_width, folder->shown_height});

@@ -162,7 +162,7 @@ std::string size_text(int width, int height) {
 }
 
 Error turned_beside(const PhotoFolder& folder, const std::string& other) {
-    const std::string states = folder.otherwise_turned > 0 || !folder.own_orientations.empty()
+    const std::string states = folder.states_several()
                                    ? "the photographs state several EXIF orientations"
                                    : "the photographs' EXIF orientation is " + std::to_string(folder.orientation);
     return Error{

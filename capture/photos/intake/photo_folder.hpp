@@ -53,10 +53,10 @@ struct PhotoFolder {
         const glm::dvec2 shown(shown_width, shown_height), picture(width, height);
         return 0.5 * picture + (shown_px - 0.5 * shown) / reduction;
     }
+    [[nodiscard]] bool states_several() const { return otherwise_turned > 0 || !own_orientations.empty(); }
     // Whether nobody can tell by its size if a mask or a camera is of the files' pixels or of what is shown.
     [[nodiscard]] bool turns_unnoticed() const {
-        return otherwise_turned > 0 || !own_orientations.empty() ||
-               (orientation != 1 && (orientation < 5 || shown_width == shown_height));
+        return states_several() || (orientation != 1 && (orientation < 5 || shown_width == shown_height));
     }
 };
 
