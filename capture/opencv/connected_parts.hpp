@@ -1,6 +1,8 @@
 #pragma once
 // The connected parts of a mask, by OpenCV, and what is asked of them. Only for .cpp files, as opencv_image.hpp is.
 
+#include "capture/opencv/opencv_image.hpp"
+
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -28,18 +30,26 @@ private:
 // Connected parts of a binary picture; label 0 is what is outside all parts.
 class ConnectedParts {
 public:
-    ConnectedParts(const cv::Mat1b& picture, int connectivity) {
-        count_ = cv::connectedComponentsWithStats(picture, labels_, stats_, centroids_, connectivity);
+    ConnectedParts(const cv::Mat1b& picture, int connectivity) : picture_(picture.size()), box_(box_of(picture)) {
+        if (box_.empty()) return;
+        // OpenCV numbers parts by squares of 2 x 2 pixels: so they have the numbers that they have in the whole
+        // picture.
+        box_ += cv::Size(box_.x % 2, box_.y % 2);
+        box_ -= cv::Point(box_.x % 2, box_.y % 2);
+        cv::Mat centroids;
+        count_ = cv::connectedComponentsWithStats(picture(box_), labels_, stats_, centroids, connectivity);
     }
     [[nodiscard]] int count() const { return count_; }  // labels, 0 among them
-    [[nodiscard]] int label(int x, int y) const { return labels_(y, x); }
+    // Of a pixel of the picture.
+    [[nodiscard]] int label(int x, int y) const { return box_.contains({x, y}) ? labels_(y - box_.y, x - box_.x) : 0; }
+    // What follows is asked of parts, of labels from 1 on.
     [[nodiscard]] int area(int label) const { return stats_.at<int>(label, cv::CC_STAT_AREA); }
     // Of the picture that a part comes so near to, a bit each.
     [[nodiscard]] unsigned sides(int label, int near_px) const {
-        const int x = stats_.at<int>(label, cv::CC_STAT_LEFT);
-        const int y = stats_.at<int>(label, cv::CC_STAT_TOP);
-        const int right = labels_.cols - x - stats_.at<int>(label, cv::CC_STAT_WIDTH);
-        const int below = labels_.rows - y - stats_.at<int>(label, cv::CC_STAT_HEIGHT);
+        const int x = box_.x + stats_.at<int>(label, cv::CC_STAT_LEFT);
+        const int y = box_.y + stats_.at<int>(label, cv::CC_STAT_TOP);
+        const int right = picture_.width - x - stats_.at<int>(label, cv::CC_STAT_WIDTH);
+        const int below = picture_.height - y - stats_.at<int>(label, cv::CC_STAT_HEIGHT);
         return (x <= near_px ? 1U : 0U) | (y <= near_px ? 2U : 0U) | (right <= near_px ? 4U : 0U) |
                (below <= near_px ? 8U : 0U);
     }
@@ -60,16 +70,16 @@ public:
     void for_each_pixel(Visit visit) const {
         for (int y = 0; y < labels_.rows; ++y) {
             for (int x = 0; x < labels_.cols; ++x) {
-                if (labels_(y, x) != 0) visit(x, y, labels_(y, x));
+                if (labels_(y, x) != 0) visit(box_.x + x, box_.y + y, labels_(y, x));
             }
         }
     }
     // Calls `visit(x, y, label)` of every pixel of a part at the picture's border, once.
     template <class Visit>
     void for_each_pixel_at_border(Visit visit) const {
-        const int right = labels_.cols - 1, below = labels_.rows - 1;
+        const int right = picture_.width - 1, below = picture_.height - 1;
         const auto look_at = [&](int x, int y) {
-            if (labels_(y, x) != 0) visit(x, y, labels_(y, x));
+            if (const int of_part = label(x, y)) visit(x, y, of_part);
         };
         for (int y = 0; y <= below; ++y) {
             const int step = y == 0 || y == below ? 1 : std::max(1, right);
@@ -85,10 +95,11 @@ public:
     }
 
 private:
-    int count_ = 0;
-    cv::Mat1i labels_;
-    cv::Mat stats_;
-    cv::Mat centroids_;
+    cv::Size picture_;
+    cv::Rect box_;  // of all parts, in the picture: outside of it nothing is looked at
+    int count_ = 1;
+    cv::Mat1i labels_;  // of the box
+    cv::Mat stats_;     // by label; places count from the box' corner
 };
 
 }  // namespace rs::capture

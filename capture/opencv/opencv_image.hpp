@@ -32,9 +32,20 @@ inline cv::Mat1b mat_over(ConstImageView<std::uint8_t> mask) {
             static_cast<std::size_t>(mask.stride())};
 }
 
-// Where a mask is set, and so far beside that, as far as the mask reaches; empty where it is set nowhere.
+// Where a mask is set; empty where it is set nowhere.
+inline cv::Rect box_of(const cv::Mat1b& mask) {
+    cv::Rect box = cv::boundingRect(mask);
+    if (box.empty()) return box;
+    // Of rows that begin at no multiple of four bytes it may overlook the columns 1 and 2 (OpenCV's issue 24217).
+    for (int x = box.br().x; x < std::min(3, mask.cols); ++x) {
+        if (cv::countNonZero(mask.col(x)) > 0) box.width = x + 1 - box.x;
+    }
+    return box;
+}
+
+// The same, and so far beside that, as far as the mask reaches.
 inline cv::Rect box_around(const cv::Mat1b& mask, int beside_px) {
-    const cv::Rect box = cv::boundingRect(mask);
+    const cv::Rect box = box_of(mask);
     if (box.empty()) return box;
     return cv::Rect(box.x - beside_px, box.y - beside_px, box.width + 2 * beside_px, box.height + 2 * beside_px) &
            cv::Rect({0, 0}, mask.size());

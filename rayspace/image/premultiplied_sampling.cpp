@@ -55,14 +55,17 @@ Rgba8 sample_premultiplied(ConstImageView<Rgba8> picture, double x, double y) {
 
 PremultipliedPicture::PremultipliedPicture(ConstImageView<Rgba8> picture) {
     int left = picture.width(), right = 0, top = picture.height(), bottom = 0;
+    std::vector<Columns> covered;
     for (int y = 0; y < picture.height(); ++y) {
         const std::span<const Rgba8> row = picture.row_span(y);
-        const auto covered = [](const Rgba8& p) { return p.a != 0; };
-        const auto first = std::find_if(row.begin(), row.end(), covered);
+        const auto is_covered = [](const Rgba8& p) { return p.a != 0; };
+        const auto first = std::find_if(row.begin(), row.end(), is_covered);
+        covered.emplace_back();
         if (first == row.end()) continue;
-        const auto last = std::find_if(row.rbegin(), row.rend(), covered);
-        left = std::min(left, static_cast<int>(first - row.begin()));
-        right = std::max(right, static_cast<int>(row.rend() - last));
+        const auto last = std::find_if(row.rbegin(), row.rend(), is_covered);
+        covered.back() = {static_cast<int>(first - row.begin()), static_cast<int>(row.rend() - last)};
+        left = std::min(left, covered.back().begin);
+        right = std::max(right, covered.back().end);
         top = std::min(top, y);
         bottom = y + 1;
     }
@@ -71,8 +74,10 @@ PremultipliedPicture::PremultipliedPicture(ConstImageView<Rgba8> picture) {
     top_ = top;
     pixels_ = Image<RgbaF>(right - left, bottom - top);
     for (int y = top; y < bottom; ++y) {
-        for (int x = left; x < right; ++x) pixels_(x - left, y - top) = premultiplied(picture(x, y));
+        const Columns& columns = covered_.emplace_back(covered[static_cast<std::size_t>(y)]);
+        for (int x = columns.begin; x < columns.end; ++x) pixels_(x - left, y - top) = premultiplied(picture(x, y));
     }
+    for (Columns& columns : covered_) columns = {columns.begin - left, columns.end - left};
 }
 
 Rgba8 PremultipliedPicture::sample(double x, double y) const {
@@ -80,11 +85,19 @@ Rgba8 PremultipliedPicture::sample(double x, double y) const {
     const double top = std::floor(y - 0.5);
     const int column = static_cast<int>(left) - 1 - left_, row = static_cast<int>(top) - 1 - top_;
     if (column <= -4 || row <= -4 || column >= pixels_.width() || row >= pixels_.height()) return {};
+    int first_row = std::max(0, -row), behind_row = std::min(4, pixels_.height() - row);
+    const auto is_bare = [&](int dy) {
+        const Columns& columns = covered_[static_cast<std::size_t>(row + dy)];
+        return column + 4 <= columns.begin || column >= columns.end;
+    };
+    while (first_row < behind_row && is_bare(first_row)) ++first_row;
+    while (first_row < behind_row && is_bare(behind_row - 1)) --behind_row;
+    if (first_row == behind_row) return {};
     const auto weight_x = catmull_rom(static_cast<float>(x - 0.5 - left));
     const auto weight_y = catmull_rom(static_cast<float>(y - 0.5 - top));
     const int first = std::max(0, -column), behind = std::min(4, pixels_.width() - column);
     RgbaF sum;
-    for (int dy = std::max(0, -row); dy < std::min(4, pixels_.height() - row); ++dy) {
+    for (int dy = first_row; dy < behind_row; ++dy) {
         const RgbaF* const from = pixels_.row(row + dy);
         for (int dx = first; dx < behind; ++dx) {
             const RgbaF& p = from[column + dx];

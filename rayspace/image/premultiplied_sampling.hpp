@@ -5,6 +5,8 @@
 
 #include "rayspace/image/image.hpp"
 
+#include <vector>
+
 namespace rs {
 
 // The colour at continuous pixel position (x, y), pixel centres at +0.5; transparent outside of the picture, and all
@@ -22,6 +24,11 @@ public:
 private:
     int left_ = 0, top_ = 0;  // of pixels_ in the picture
     Image<RgbaF> pixels_;     // linear light times alpha, and alpha
+    struct Columns {
+        int begin = 0, end = 0;
+    };
+    std::vector<Columns>
+        covered_;  // [row of pixels_]: from the first covered one to behind the last; none: begin == end
 };
 
 }  // namespace rs

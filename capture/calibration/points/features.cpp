@@ -25,8 +25,8 @@ constexpr int kBeside_px = 32;
 constexpr int kLattice_px = 16;
 
 // The part of a picture that is looked at for features inside of `inside`.
-cv::Rect part_around(const cv::Mat& inside) {
-    const cv::Rect box = cv::boundingRect(inside);
+cv::Rect part_around(const cv::Mat1b& inside) {
+    const cv::Rect box = box_of(inside);
     const cv::Point corner(std::max(0, box.x - kBeside_px) / kLattice_px * kLattice_px,
                            std::max(0, box.y - kBeside_px) / kLattice_px * kLattice_px);
     const cv::Point end(std::min(inside.cols, box.br().x + kBeside_px), std::min(inside.rows, box.br().y + kBeside_px));

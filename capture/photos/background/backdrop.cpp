@@ -273,8 +273,8 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     }
 
     if (turn) {
-        samples.even_out(still.colour, mask_of(still, [](float agreement) { return agreement >= kNeverHidden; }));
-        still = agree_over_time(samples);
+        const Image<std::uint8_t> untouched = mask_of(still, [](float agreement) { return agreement >= kNeverHidden; });
+        if (samples.even_out(still.colour, untouched)) still = agree_over_time(samples);
         found.untouched = mask_of(still, [](float agreement) { return agreement >= kNeverHidden; });
     }
     Image<std::uint8_t> known;

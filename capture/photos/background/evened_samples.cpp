@@ -24,18 +24,29 @@ std::array<std::uint8_t, 256> divided_by(float gain) {
 
 }  // namespace
 
-EvenedSamples::EvenedSamples(std::span<const Image<Rgba8>> samples)
-    : samples_(samples), smooth_(samples.size()), codes_(samples.size()) {
+EvenedSamples::EvenedSamples(std::span<const Image<Rgba8>> samples) : samples_(samples), codes_(samples.size()) {
     RS_CHECK(!samples.empty());
     for (Codes& codes : codes_) codes.fill(divided_by(1));
-    for_each_index(samples.size(), [&](std::size_t i) {
-        smooth_[i] = Image<Rgba8>(samples[i].width(), samples[i].height());
-        cv::Mat smooth = writable_mat_over(smooth_[i]);
-        cv::GaussianBlur(mat_over(samples[i]), smooth, {3, 3}, 0, 0, cv::BORDER_REPLICATE);
+    smooth_.resize(place(0, height()));
+    constexpr int kBand_px = 32;
+    for_each_index((height() + kBand_px - 1) / kBand_px, [&](int band) {
+        const int top = kBand_px * band, bottom = std::min(height(), top + kBand_px);
+        const int from = std::max(0, top - 1), behind = std::min(height(), bottom + 1);  // with what is smoothed over
+        cv::Mat4b smooth;
+        for (std::size_t i = 0; i < samples_.size(); ++i) {
+            cv::GaussianBlur(mat_over(samples_[i]).rowRange(from, behind), smooth, {3, 3}, 0, 0,
+                             cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+            for (int y = top; y < bottom; ++y) {
+                for (int x = 0; x < width(); ++x) {
+                    const cv::Vec4b& p = smooth(y - from, x);
+                    smooth_[place(x, y) + i] = {p[0], p[1], p[2], p[3]};
+                }
+            }
+        }
     });
 }
 
-void EvenedSamples::even_out(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> untouched, float least_change) {
+bool EvenedSamples::even_out(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> untouched, float least_change) {
     Image<LinearRgb> plate(still.width(), still.height());
     for (int y = 0; y < still.height(); ++y) {
         for (int x = 0; x < still.width(); ++x) plate(x, y) = linear_rgb(still(x, y));
@@ -46,10 +57,12 @@ void EvenedSamples::even_out(ConstImageView<Rgba8> still, ConstImageView<std::ui
         const auto [least, most] = std::ranges::minmax(gains, {}, channel);
         return most.*channel / least.*channel;
     };
-    if (std::max({change(&LinearRgb::r), change(&LinearRgb::g), change(&LinearRgb::b)}) < least_change) return;
+    if (std::max({change(&LinearRgb::r), change(&LinearRgb::g), change(&LinearRgb::b)}) < least_change) return false;
+    const std::vector<Codes> before = codes_;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
         codes_[i] = {divided_by(gains[i].r), divided_by(gains[i].g), divided_by(gains[i].b)};
     }
+    return codes_ != before;
 }
 
 }  // namespace rs::capture

@@ -18,8 +18,8 @@ public:
     explicit EvenedSamples(std::span<const Image<Rgba8>> samples);
 
     // Divides sample i by exposure_gain() from `still`, over the pixels where `untouched` is not 0; but none unless two
-    // gains differ by the factor `least_change` at least in a channel.
-    void even_out(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> untouched, float least_change = 1);
+    // gains differ by the factor `least_change` at least in a channel. Whether any sample looks different now.
+    bool even_out(ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> untouched, float least_change = 1);
 
     [[nodiscard]] std::size_t count() const { return samples_.size(); }
     [[nodiscard]] int width() const { return samples_[0].width(); }
@@ -29,7 +29,7 @@ public:
     }
     // The weighted mean of 3 x 3 pixels (1 2 1 either way).
     [[nodiscard]] Rgba8 smooth(std::size_t sample, int x, int y) const {
-        return evened(codes_[sample], smooth_[sample](x, y));
+        return evened(codes_[sample], smooth_[place(x, y) + sample]);
     }
 
 private:
@@ -39,9 +39,15 @@ private:
         return {codes[0][p.r], codes[1][p.g], codes[2][p.b], 255};
     }
 
+    // Of the first sample in smooth_.
+    [[nodiscard]] std::size_t place(int x, int y) const {
+        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x)) *
+               count();
+    }
+
     std::span<const Image<Rgba8>> samples_;
-    std::vector<Image<Rgba8>> smooth_;
-    std::vector<Codes> codes_;  // [sample]
+    std::vector<Rgba8> smooth_;  // [y][x][sample]: most who ask for one at a place ask for all
+    std::vector<Codes> codes_;   // [sample]
 };
 
 }  // namespace rs::capture

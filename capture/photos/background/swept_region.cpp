@@ -1,6 +1,7 @@
 #include "capture/photos/background/swept_region.hpp"
 
 #include "capture/opencv/connected_parts.hpp"
+#include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
 #include "rayspace/base/median.hpp"
 
@@ -73,7 +74,7 @@ float cost_between(const Cell& a, const Cell& b) {
 // Column of the turntable's axis: what turns sweeps as much to its left as to its right. Only the upper half is
 // compared, for shadows fall to one side.
 std::optional<double> axis_of(const cv::Mat1b& swept) {
-    const cv::Rect box = cv::boundingRect(swept);
+    const cv::Rect box = box_of(swept);
     std::vector<double> middles;
     for (int v = box.y; v < box.y + std::max(1, box.height / 2); ++v) {
         int left = -1;
@@ -109,7 +110,7 @@ cv::Mat1b edges_of(const Image<Cell>& cells) {
 // the axis, within an edge: the lip of a vase above all that moves, and the rim of its belly. So does the disc, but
 // that is much wider than what stands on it.
 void add_parts_of_revolution(const Image<Cell>& cells, double axis, cv::Mat1b& swept) {
-    const cv::Rect moving = cv::boundingRect(swept);
+    const cv::Rect moving = box_of(swept);
     cv::Mat1b surfaces;
     cv::bitwise_not(edges_of(cells) | swept, surfaces);
     const ConnectedParts parts(surfaces, 4);

@@ -261,7 +261,7 @@ std::optional<TurntableDisc> find_turntable_disc(ConstImageView<Rgba8> plate, Co
     constexpr double kLeastKnown = 0.4;
     constexpr int kLeastOctants = 4;
     constexpr double kLeastEven = 0.86;  // measured: discs from 0.94 on, a white foot before blue without a disc 0.78
-    const cv::Rect box = cv::boundingRect(mat_over(object));
+    const cv::Rect box = box_of(mat_over(object));
     if (box.area() == 0) return std::nullopt;
     const RimSearch search(plate, known);
     const double f_px = kNominalFocal_widths * plate.width();

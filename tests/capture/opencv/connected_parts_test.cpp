@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <numeric>
+#include <random>
 #include <vector>
 
 namespace rs::capture {
@@ -41,6 +42,75 @@ TEST(ConnectedParts, PlaceAndSize) {
     EXPECT_FALSE(parts.share_columns(bar, spot));
 }
 
+TEST(ConnectedParts, PlacesAreThePicturesWhereverThePartsStand) {
+    cv::Mat1b mask(12, 16, std::uint8_t{0});
+    mask(cv::Rect(4, 5, 3, 2)) = 255;
+    mask(8, 9) = 255;
+    const ConnectedParts parts(mask, 8);
+    cv::Mat1b visited(mask.size(), std::uint8_t{0});
+    parts.for_each_pixel([&](int x, int y, int label) {
+        EXPECT_EQ(parts.label(x, y), label);
+        visited(y, x) = 255;
+    });
+    EXPECT_EQ(cv::countNonZero(visited != mask), 0);
+    const int square = parts.label(6, 6), spot = parts.label(9, 8);
+    EXPECT_NE(square, spot);
+    EXPECT_EQ(parts.sides(square, 4), 1U) << "left of it four columns are free, five rows above and below";
+    EXPECT_EQ(parts.sides(spot, 3), 8U);
+    EXPECT_EQ(parts.sides(spot, 6), 4U | 8U);
+    EXPECT_EQ(parts.rows_above(square, spot), 1);
+    for (const cv::Point& beside : {cv::Point(0, 0), {3, 5}, {15, 11}, {4, 4}}) {
+        EXPECT_EQ(parts.label(beside.x, beside.y), 0);
+    }
+}
+
+// Only the box around the parts is looked at; what is found there is what is found in the whole picture.
+TEST(ConnectedParts, AreThoseOfTheWholePicture) {
+    std::minstd_rand random(5);
+    const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+    for (int trial = 0; trial < 3000; ++trial) {
+        cv::Mat1b mask(1 + below(20), 1 + below(20), std::uint8_t{0});
+        for (int pixels = below(trial % 3 == 0 ? 5 : 80); pixels > 0; --pixels) {
+            mask(below(mask.rows), below(mask.cols)) = 255;
+        }
+        const int connectivity = trial % 2 == 0 ? 4 : 8;
+        const ConnectedParts parts(mask, connectivity);
+        cv::Mat1i labels, found(mask.size(), 0);
+        cv::Mat stats, centroids;
+        ASSERT_EQ(parts.count(), cv::connectedComponentsWithStats(mask, labels, stats, centroids, connectivity));
+        parts.for_each_pixel([&](int x, int y, int label) { found(y, x) = label; });
+        ASSERT_EQ(cv::countNonZero(found != labels), 0) << mask;
+        for (int y = 0; y < mask.rows; ++y) {
+            for (int x = 0; x < mask.cols; ++x) ASSERT_EQ(parts.label(x, y), labels(y, x)) << mask;
+        }
+        parts.for_each_pixel_at_border([&](int x, int y, int label) { ASSERT_EQ(label, labels(y, x)) << mask; });
+        for (int label = 1; label < parts.count(); ++label) {
+            const int left = stats.at<int>(label, cv::CC_STAT_LEFT), top = stats.at<int>(label, cv::CC_STAT_TOP);
+            const bool right = left + stats.at<int>(label, cv::CC_STAT_WIDTH) == mask.cols;
+            const bool bottom = top + stats.at<int>(label, cv::CC_STAT_HEIGHT) == mask.rows;
+            ASSERT_EQ(parts.area(label), stats.at<int>(label, cv::CC_STAT_AREA));
+            ASSERT_EQ(parts.sides(label, 0),
+                      (left == 0 ? 1U : 0U) | (top == 0 ? 2U : 0U) | (right ? 4U : 0U) | (bottom ? 8U : 0U));
+        }
+    }
+}
+
+TEST(BoxOf, IsTheOneAroundAllThatIsSet) {
+    std::minstd_rand random(7);
+    const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+    for (int trial = 0; trial < 20'000; ++trial) {
+        cv::Mat1b mask(1 + below(4), 1 + below(20), std::uint8_t{0});
+        for (int pixels = below(4); pixels > 0; --pixels) mask(below(mask.rows), below(mask.cols)) = 255;
+        cv::Rect around;
+        for (int y = 0; y < mask.rows; ++y) {
+            for (int x = 0; x < mask.cols; ++x) {
+                if (mask(y, x) != 0) around |= cv::Rect(x, y, 1, 1);
+            }
+        }
+        ASSERT_EQ(box_of(mask), around) << mask;
+    }
+}
+
 TEST(ConnectedParts, TalliesCountWhatIsOfEachPart) {
     const ConnectedParts parts(four_parts(), 4);
     const auto even_columns = parts.tallied<int>([](int x, int, int& count) { count += x % 2 == 0 ? 1 : 0; });
@@ -71,6 +141,10 @@ TEST(ConnectedParts, AnEmptyMaskHasNone) {
     EXPECT_EQ(parts.count(), 1);
     const PerPart<int> none(parts.count());
     EXPECT_EQ(none.begin(), none.end());
+    const ConnectedParts nowhere(cv::Mat1b(), 8);
+    EXPECT_EQ(nowhere.count(), 1);
+    nowhere.for_each_pixel([](int, int, int) { ADD_FAILURE(); });
+    nowhere.for_each_pixel_at_border([](int, int, int) { ADD_FAILURE(); });
 }
 
 }  // namespace

@@ -11,13 +11,16 @@ TEST(PremultipliedPicture, SamplesAreThoseOfThePlainFunction) {
     std::minstd_rand random(11);
     std::uniform_int_distribution<int> code(0, 255);
     const auto any = [&] { return static_cast<std::uint8_t>(code(random)); };
-    for (const bool with_rim : {false, true}) {
+    // Covered everywhere; but for a rim; between two slopes, with bare rows below.
+    for (const int bare : {0, 1, 2}) {
         Image<Rgba8> picture(23, 17);
         for (int y = 0; y < picture.height(); ++y) {
             for (int x = 0; x < picture.width(); ++x) {
-                const bool rim = x < 5 || y < 3 || x > 18 || y > 12;
+                const bool is_rim = x < 5 || y < 3 || x > 18 || y > 12;
+                const bool is_bare =
+                    bare == 1 ? is_rim : bare == 2 && (x > 2 * y - 4 || x < 18 - 2 * y || (y > 9 && y < 15));
                 const std::uint8_t alpha = any() < 100 ? 255 : any();
-                picture(x, y) = {any(), any(), any(), with_rim && rim ? std::uint8_t{0} : alpha};
+                picture(x, y) = {any(), any(), any(), is_bare ? std::uint8_t{0} : alpha};
             }
         }
         const PremultipliedPicture ready(picture);

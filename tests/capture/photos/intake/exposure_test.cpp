@@ -4,9 +4,14 @@
 #include "rayspace/image/linear_light.hpp"
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <random>
+#include <utility>
+#include <vector>
 
 namespace rs::capture {
 namespace {
@@ -65,7 +70,10 @@ TEST(EvenedSamples, LookExposedAlikeAndKeepClippedValues) {
     for (const float gain : {0.85F, 1.0F, 1.15F}) photos.push_back(photo_of({gain, gain, gain}, 255));
     EvenedSamples samples(photos);
     EXPECT_GT(std::abs(samples(0, 60, 30).g - samples(2, 60, 30).g), 10);
-    samples.even_out(photo_of({1, 1, 1}, 255), still_part());
+    EXPECT_FALSE(samples.even_out(photo_of({1, 1, 1}, 255), still_part(), 2)) << "they hardly differ";
+    EXPECT_EQ(samples(0, 60, 30), photos[0](60, 30));
+    EXPECT_TRUE(samples.even_out(photo_of({1, 1, 1}, 255), still_part()));
+    EXPECT_FALSE(samples.even_out(photo_of({1, 1, 1}, 255), still_part())) << "they are even already";
     for (int x = kObject_px; x < kExposedWidth; ++x) {
         for (std::size_t i = 0; i < samples.count(); ++i) {
             ASSERT_NEAR(samples(i, x, 30).g, photos[1](x, 30).g, 2) << i << " at " << x;
@@ -82,6 +90,38 @@ TEST(EvenedSamples, SmoothAveragesThreeByThreePixels) {
     EXPECT_EQ(samples.smooth(0, 5, 5), (Rgba8{104, 100, 100, 255}));
     EXPECT_EQ(samples.smooth(0, 6, 4), (Rgba8{100, 100, 100, 255}));
     EXPECT_EQ(samples(0, 4, 4), photos[0](4, 4));
+}
+
+// As its definition has it, at the picture's border and wherever rows are smoothed together.
+TEST(EvenedSamples, SmoothIsTheSameMeanEverywhere) {
+    std::minstd_rand random(3);
+    std::uniform_int_distribution<int> code(0, 255);
+    std::vector<Image<Rgba8>> photos;
+    for (const auto& [width, height] : {std::pair(7, 75), {5, 33}, {1, 64}, {9, 1}}) {
+        photos.assign(3, Image<Rgba8>(width, height));
+        for (Image<Rgba8>& photo : photos) {
+            const auto any = [&] { return static_cast<std::uint8_t>(code(random)); };
+            for (Rgba8& p : photo.pixels()) p = {any(), any(), any(), 255};
+        }
+        const EvenedSamples samples(photos);
+        for (std::size_t i = 0; i < photos.size(); ++i) {
+            for (int y = 0; y < height; ++y) {
+                for (int x = 0; x < width; ++x) {
+                    cv::Vec3i sum = cv::Vec3i::all(8);  // half of the weights
+                    for (int dy = -1; dy <= 1; ++dy) {
+                        for (int dx = -1; dx <= 1; ++dx) {
+                            const Rgba8& p =
+                                photos[i](std::clamp(x + dx, 0, width - 1), std::clamp(y + dy, 0, height - 1));
+                            sum += (2 - std::abs(dx)) * (2 - std::abs(dy)) * cv::Vec3i(p.r, p.g, p.b);
+                        }
+                    }
+                    const Rgba8 smooth = samples.smooth(i, x, y);
+                    ASSERT_EQ(cv::Vec3i(smooth.r, smooth.g, smooth.b), cv::Vec3i(sum[0] / 16, sum[1] / 16, sum[2] / 16))
+                        << i << ": " << x << ", " << y;
+                }
+            }
+        }
+    }
 }
 
 }  // namespace
