@@ -273,9 +273,12 @@ Result<Backdrop> find_backdrop(const Survey& survey, const BackdropRequest& requ
     }
 
     if (turn) {
-        const Image<std::uint8_t> untouched = mask_of(still, [](float agreement) { return agreement >= kNeverHidden; });
-        if (samples.even_out(still.colour, untouched)) still = agree_over_time(samples);
-        found.untouched = mask_of(still, [](float agreement) { return agreement >= kNeverHidden; });
+        const auto is_untouched = [](float agreement) { return agreement >= kNeverHidden; };
+        found.untouched = mask_of(still, is_untouched);
+        if (samples.even_out(still.colour, found.untouched)) {
+            still = agree_over_time(samples);
+            found.untouched = mask_of(still, is_untouched);
+        }
     }
     Image<std::uint8_t> known;
     std::optional<TurntableDisc> disc;
