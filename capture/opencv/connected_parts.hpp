@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace rs::capture {
@@ -30,14 +31,15 @@ private:
 // Connected parts of a binary picture; label 0 is what is outside all parts.
 class ConnectedParts {
 public:
-    ConnectedParts(const cv::Mat1b& picture, int connectivity) : picture_(picture.size()), box_(box_of(picture)) {
-        if (box_.empty()) return;
-        // OpenCV numbers parts by squares of 2 x 2 pixels: so they have the numbers that they have in the whole
-        // picture.
-        box_ += cv::Size(box_.x % 2, box_.y % 2);
-        box_ -= cv::Point(box_.x % 2, box_.y % 2);
-        cv::Mat centroids;
-        count_ = cv::connectedComponentsWithStats(picture(box_), labels_, stats_, centroids, connectivity);
+    ConnectedParts(const cv::Mat1b& picture, int connectivity)
+        : ConnectedParts(picture, connectivity, cv::Rect({0, 0}, picture.size())) {}
+    // The parts of what `mask` leaves bare, by 4 neighbours, in the box around it and a pixel beside: what reaches the
+    // box' border reaches the picture's, for beyond all is bare, and that border is the one asked about below.
+    static ConnectedParts left_bare(const cv::Mat1b& mask) {
+        const cv::Rect within = box_around(mask, 1);
+        cv::Mat1b bare(mask.size(), std::uint8_t{0});
+        if (!within.empty()) cv::bitwise_not(mask(within), bare(within));
+        return {bare, 4, within};
     }
     [[nodiscard]] int count() const { return count_; }  // labels, 0 among them
     // Of a pixel of the picture.
@@ -46,10 +48,10 @@ public:
     [[nodiscard]] int area(int label) const { return stats_.at<int>(label, cv::CC_STAT_AREA); }
     // Of the picture that a part comes so near to, a bit each.
     [[nodiscard]] unsigned sides(int label, int near_px) const {
-        const int x = box_.x + stats_.at<int>(label, cv::CC_STAT_LEFT);
-        const int y = box_.y + stats_.at<int>(label, cv::CC_STAT_TOP);
-        const int right = picture_.width - x - stats_.at<int>(label, cv::CC_STAT_WIDTH);
-        const int below = picture_.height - y - stats_.at<int>(label, cv::CC_STAT_HEIGHT);
+        const int x = box_.x - within_.x + stats_.at<int>(label, cv::CC_STAT_LEFT);
+        const int y = box_.y - within_.y + stats_.at<int>(label, cv::CC_STAT_TOP);
+        const int right = within_.width - x - stats_.at<int>(label, cv::CC_STAT_WIDTH);
+        const int below = within_.height - y - stats_.at<int>(label, cv::CC_STAT_HEIGHT);
         return (x <= near_px ? 1U : 0U) | (y <= near_px ? 2U : 0U) | (right <= near_px ? 4U : 0U) |
                (below <= near_px ? 8U : 0U);
     }
@@ -77,8 +79,9 @@ public:
     // Calls `visit(x, y, label)` of every pixel of a part at the picture's border, once.
     template <class Visit>
     void for_each_pixel_at_border(Visit visit) const {
-        const int right = picture_.width - 1, below = picture_.height - 1;
-        const auto look_at = [&](int x, int y) {
+        const int right = within_.width - 1, below = within_.height - 1;
+        const auto look_at = [&](int in_x, int in_y) {
+            const int x = within_.x + in_x, y = within_.y + in_y;
             if (const int of_part = label(x, y)) visit(x, y, of_part);
         };
         for (int y = 0; y <= below; ++y) {
@@ -95,8 +98,19 @@ public:
     }
 
 private:
-    cv::Size picture_;
-    cv::Rect box_;  // of all parts, in the picture: outside of it nothing is looked at
+    ConnectedParts(const cv::Mat1b& picture, int connectivity, const cv::Rect& within)
+        : within_(within), box_(box_of(picture)) {
+        if (box_.empty()) return;
+        // OpenCV numbers parts by squares of 2 x 2 pixels: so they have the numbers that they have in the whole
+        // picture.
+        box_ += cv::Size(box_.x % 2, box_.y % 2);
+        box_ -= cv::Point(box_.x % 2, box_.y % 2);
+        cv::Mat centroids;
+        count_ = cv::connectedComponentsWithStats(picture(box_), labels_, stats_, centroids, connectivity);
+    }
+
+    cv::Rect within_;  // whose border counts
+    cv::Rect box_;     // of all parts, in the picture: outside of it nothing is looked at
     int count_ = 1;
     cv::Mat1i labels_;  // of the box
     cv::Mat stats_;     // by label; places count from the box' corner

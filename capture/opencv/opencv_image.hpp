@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -36,7 +37,7 @@ inline cv::Mat1b mat_over(ConstImageView<std::uint8_t> mask) {
 inline cv::Rect box_of(const cv::Mat1b& mask) {
     cv::Rect box = cv::boundingRect(mask);
     if (box.empty()) return box;
-    // Of rows that begin at no multiple of four bytes it may overlook the columns 1 and 2 (OpenCV's issue 24217).
+    // Of rows that begin at no multiple of four bytes it may overlook the columns 1 and 2 (OpenCV bug 24217).
     for (int x = box.br().x; x < std::min(3, mask.cols); ++x) {
         if (cv::countNonZero(mask.col(x)) > 0) box.width = x + 1 - box.x;
     }

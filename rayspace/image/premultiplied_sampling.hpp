@@ -24,11 +24,11 @@ public:
 private:
     int left_ = 0, top_ = 0;  // of pixels_ in the picture
     Image<RgbaF> pixels_;     // linear light times alpha, and alpha
+    // From the first that is covered to behind the last; begin == end where none is.
     struct Columns {
         int begin = 0, end = 0;
     };
-    std::vector<Columns>
-        covered_;  // [row of pixels_]: from the first covered one to behind the last; none: begin == end
+    std::vector<Columns> covered_;  // [row of pixels_]
 };
 
 }  // namespace rs

@@ -90,21 +90,14 @@ constexpr double kTinyHole_px = 8;  // closed in pictures of any size
 // off from the border of the picture, is no longer certain: it becomes a slight preference, and the contrast around it
 // decides.
 void doubt_small_islands(Image<float>& preference, ConstImageView<Lab> plate, double max_island) {
-    cv::Mat1b plain(preference.height(), preference.width()), other(plain.size());
-    for (int y = 0; y < plain.rows; ++y) {
-        for (int x = 0; x < plain.cols; ++x) {
-            plain(y, x) = preference(x, y) <= -kDecided ? 255 : 0;
-            other(y, x) = plain(y, x) != 0 ? 0 : 255;
-        }
+    cv::Mat1b other(preference.height(), preference.width());
+    for (int y = 0; y < other.rows; ++y) {
+        for (int x = 0; x < other.cols; ++x) other(y, x) = preference(x, y) <= -kDecided ? 0 : 255;
     }
-    // All is plain beside the rest, so what reaches the box around that reaches the picture's border.
-    const cv::Rect box = box_around(other, 1);
-    if (box.empty()) return;
-    const ConnectedParts parts(plain(box), 4);
-    parts.for_each_pixel([&](int box_x, int box_y, int label) {
-        if (parts.touches_border(label)) return;
-        const int x = box.x + box_x, y = box.y + box_y;
-        const bool small = parts.area(label) < max_island * static_cast<double>(plain.total());
+    const ConnectedParts plain = ConnectedParts::left_bare(other);
+    plain.for_each_pixel([&](int x, int y, int label) {
+        if (plain.touches_border(label)) return;
+        const bool small = plain.area(label) < max_island * static_cast<double>(other.total());
         if (small && !is_colourful(plate(x, y))) preference(x, y) = kIsland;
     });
 }
@@ -161,34 +154,30 @@ void keep_solid_parts(cv::Mat1b& mask, ConstImageView<float> preference, const C
 // object is plain only here and there. A shadow counts as the backdrop where the backdrop has a colour to know it by.
 void close_false_holes(cv::Mat1b& mask, ConstImageView<float> preference, ConstImageView<Lab> plate,
                        const MaskOptions& options) {
-    // What reaches the box around the mask reaches the picture's border.
-    const cv::Rect box = box_around(mask, 1);
-    if (box.empty()) return;
     cv::Mat1b outside;
-    cv::bitwise_not(mask(box), outside);
+    cv::bitwise_not(mask, outside);
     cv::Mat1b inner;
     cv::erode(outside, inner, cv::Mat(), {-1, -1}, kHoleRim_px);
-    const ConnectedParts holes(outside, 4);
+    const ConnectedParts holes = ConnectedParts::left_bare(mask);
     struct Tally {
         int seen = 0;                        // of the whole hole
         int inner_area = 0, inner_seen = 0;  // without its rim
     };
-    const auto tallies = holes.tallied<Tally>([&](int box_x, int box_y, Tally& tally) {
-        const int x = box.x + box_x, y = box.y + box_y;
+    const auto tallies = holes.tallied<Tally>([&](int x, int y, Tally& tally) {
         const int seen = preference(x, y) < 0 || is_colourful(plate(x, y)) ? 1 : 0;
-        const bool is_inner = inner(box_y, box_x) != 0;
+        const bool is_inner = inner(y, x) != 0;
         tally.seen += seen;
         tally.inner_area += is_inner ? 1 : 0;
         tally.inner_seen += is_inner ? seen : 0;
     });
-    holes.for_each_pixel([&](int box_x, int box_y, int label) {
+    holes.for_each_pixel([&](int x, int y, int label) {
         if (holes.touches_border(label)) return;
         const Tally& tally = tallies[label];
         const int area = holes.area(label);
         const bool shines_through =
             tally.inner_area > 0 ? tally.inner_seen >= options.hole_share * tally.inner_area : 2 * tally.seen >= area;
         const bool tiny = area < std::max(kTinyHole_px, options.min_hole * static_cast<double>(mask.total()));
-        if (!shines_through || tiny) mask(box.y + box_y, box.x + box_x) = 255;
+        if (!shines_through || tiny) mask(y, x) = 255;
     });
 }
 

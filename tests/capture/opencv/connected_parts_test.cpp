@@ -95,6 +95,31 @@ TEST(ConnectedParts, AreThoseOfTheWholePicture) {
     }
 }
 
+// Those that the mask encloses are the whole picture's; the others touch the border there, too.
+TEST(ConnectedParts, LeftBareAreThoseOfTheOtherMask) {
+    std::minstd_rand random(9);
+    const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+    int enclosed = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        cv::Mat1b mask(1 + below(20), 1 + below(20), std::uint8_t{0});
+        for (int pixels = below(120); pixels > 0; --pixels) mask(below(mask.rows), below(mask.cols)) = 255;
+        cv::Mat1b other;
+        cv::bitwise_not(mask, other);
+        const ConnectedParts bare = ConnectedParts::left_bare(mask), whole(other, 4);
+        for (int y = 0; y < mask.rows; ++y) {
+            for (int x = 0; x < mask.cols; ++x) {
+                const int label = bare.label(x, y), of_whole = whole.label(x, y);
+                const bool is_enclosed = of_whole != 0 && !whole.touches_border(of_whole);
+                ASSERT_EQ(label != 0 && !bare.touches_border(label), is_enclosed) << mask;
+                if (!is_enclosed) continue;
+                ASSERT_EQ(bare.area(label), whole.area(of_whole)) << mask;
+                ++enclosed;
+            }
+        }
+    }
+    EXPECT_GT(enclosed, 1000);
+}
+
 TEST(BoxOf, IsTheOneAroundAllThatIsSet) {
     std::minstd_rand random(7);
     const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
