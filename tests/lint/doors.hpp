@@ -44,6 +44,7 @@ inline const std::map<std::string, std::vector<std::string>> kDoors = {
     {"capture/photos/intake", {"rayspace/*"}},
     {"capture/photos/background", {"rayspace/*", "capture/opencv", "capture/photos/intake"}},
     {"capture/photos/matte", {"rayspace/*", "capture/opencv", "capture/photos/intake", "capture/photos/background"}},
+    {"capture/photos/segmentation", {"rayspace/*", "capture/opencv", "capture/photos/intake"}},
     {"capture/photos/rig",
      {"rayspace/*", "capture/opencv", "capture/photos/intake", "capture/photos/matte", "capture/calibration/*"}},
     {"capture/photos/report",

@@ -1,0 +1,67 @@
+#pragma once
+// Separates a photo's foreground from its background with a neural network: any ONNX model of the U2-Net, IS-Net (DIS)
+// and BiRefNet families in single precision that OpenCV's dnn module loads. Which models, and where from:
+// docs/segmentation.md.
+//
+//     photo --resize--> 1 x 3 x H x W, (code - mean) * scale --network--> 1 x 1 x h x w --resize--> probability
+//
+// The aspect ratio is not kept by the first resize, as in the training of these networks.
+//
+// A model file is foreign data that OpenCV parses. Lengths of messages and tensors are checked before
+// (onnx_summary.hpp) and exceptions are caught; what else a hostile file can do to OpenCV's importer is not known. Use
+// files of sources that you trust.
+
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace rs::capture {
+
+/// Largest model file that is read. A protocol buffer cannot be larger.
+inline constexpr std::uint64_t kMaxModel_bytes = (std::uint64_t{1} << 31) - 1;
+
+class SegmentationNetwork {
+public:
+    /// Loads a model and its settings file (network_settings.hpp), and checks the shapes of input and output. No photo
+    /// is processed yet.
+    ///
+    /// \param model         the .onnx file.
+    /// \param max_instances how many calls of foreground_probability() may run at a time, at least 1. cv::dnn::Net is
+    ///                      not thread-safe, so each needs a network of its own; the second and later ones are loaded
+    ///                      when they are first needed. An IS-Net of 1024x1024 takes 0.6 GB for the first instance and
+    ///                      0.35 GB for each further one.
+    /// \return one line where the file is missing, larger than kMaxModel_bytes, not ONNX, half precision, quantized,
+    ///         has its weights in another file, more than one input, an input other than 1 x 3 x H x W with sides of
+    ///         kMinNetworkSide_px..kMaxNetworkSide_px, or an output other than one channel; where OpenCV cannot load
+    ///         it; and for a faulty settings file.
+    static Result<SegmentationNetwork> load(const std::filesystem::path& model, int max_instances = 1);
+
+    SegmentationNetwork(SegmentationNetwork&&) noexcept;
+    SegmentationNetwork& operator=(SegmentationNetwork&&) noexcept;
+    ~SegmentationNetwork();
+
+    /// The probability that a pixel is foreground, 0..1, in the photo's size. Alpha is ignored.
+    ///
+    /// Thread-safe: a call waits while max_instances others are running. Each runs with the threads that
+    /// cv::setNumThreads() allows. With 1, and max_instances = number of cores, all cores are used as long as there are
+    /// photos; OpenCV's own threads would not help, because Debian's OpenCV takes them from the same TBB pool whose
+    /// threads wait here.
+    ///
+    /// \param photo not empty.
+    /// \return an error where the network fails, and where its output is not finite or not what the settings state.
+    [[nodiscard]] Result<Image<float>> foreground_probability(ConstImageView<Rgba8> photo) const;
+
+    /// For logs: "isnet.onnx, 1024x1024 px, preprocessing of IS-Net (no settings file)".
+    [[nodiscard]] const std::string& description() const;
+
+private:
+    struct Pool;
+    explicit SegmentationNetwork(std::unique_ptr<Pool> pool);
+    std::unique_ptr<Pool> pool_;
+};
+
+}  // namespace rs::capture
