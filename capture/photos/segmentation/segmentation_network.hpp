@@ -32,8 +32,7 @@ public:
     /// \param model         the .onnx file.
     /// \param max_instances how many calls of foreground_probability() may run at a time, at least 1. cv::dnn::Net is
     ///                      not thread-safe, so each needs a network of its own; the second and later ones are loaded
-    ///                      when they are first needed. An IS-Net of 1024x1024 takes 0.6 GB for the first instance and
-    ///                      0.35 GB for each further one.
+    ///                      when they are first needed. An IS-Net of 1024x1024 takes 0.75 GB for each.
     /// \return one line where the file is missing, larger than kMaxModel_bytes, not ONNX, half precision, quantized,
     ///         has its weights in another file, more than one input, an input other than 1 x 3 x H x W with sides of
     ///         kMinNetworkSide_px..kMaxNetworkSide_px, or an output other than one channel; where OpenCV cannot load
@@ -47,9 +46,11 @@ public:
     /// The probability that a pixel is foreground, 0..1, in the photo's size. Alpha is ignored.
     ///
     /// Thread-safe: a call waits while max_instances others are running. Each runs with the threads that
-    /// cv::setNumThreads() allows. With 1, and max_instances = number of cores, all cores are used as long as there are
-    /// photos; OpenCV's own threads would not help, because Debian's OpenCV takes them from the same TBB pool whose
-    /// threads wait here.
+    /// cv::setNumThreads() allows, on which the result does not depend. All cores are used in two ways:
+    ///
+    ///   - one instance, one photo after the other, cv::setNumThreads(cores): least memory. Nothing else may run beside
+    ///     it, because Debian's OpenCV takes its threads from TBB, whose workers would wait here.
+    ///   - cv::setNumThreads(1), one instance per core, photos in parallel: as fast, memory for each instance.
     ///
     /// \param photo not empty.
     /// \return an error where the network fails, and where its output is not finite or not what the settings state.

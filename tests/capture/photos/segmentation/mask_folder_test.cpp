@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <functional>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -210,8 +209,10 @@ TEST_F(Masks, OfTheSameAspectRatioAreResized) {
     const Result<MaskFolder> half = open();
     ASSERT_TRUE(half.ok()) << half.error().message;
     EXPECT_THAT(half->notes(), ElementsAre(HasSubstr("are 40x30; resized to 80x60")));
-    EXPECT_LT(differing(*half, 0), 30) << "of a circumference of 94 pixels";
-    for (const std::uint8_t code : half->read(0)->pixels()) EXPECT_TRUE(code == 0 || code == 255);
+    EXPECT_LT(differing(*half, 0), 60) << "half a pixel along a circumference of 94 pixels";
+    const Result<Image<std::uint8_t>> mask = half->read(0);
+    ASSERT_TRUE(mask.ok()) << mask.error().message;
+    for (const std::uint8_t code : mask->pixels()) EXPECT_TRUE(code == 0 || code == 255);
 }
 
 // 80x60 at a third is 26.7x20.
@@ -244,8 +245,7 @@ TEST_F(Masks, ThatAreMissingAreCounted) {
 
 TEST_F(Masks, ThatCannotBeReadAreNamed) {
     write_all(black_and_white);
-    const std::string text = "no picture";
-    ASSERT_TRUE(write_file(folder_ / "c.png", std::as_bytes(std::span(text))).ok());
+    ASSERT_TRUE(write_file(folder_ / "c.png", "no picture").ok());
     EXPECT_THAT(open_error(), HasSubstr("c.png"));
     const Result<MaskFolder> nowhere = MaskFolder::open(folder_ / "none", photos(), MaskKind::kBinary);
     ASSERT_FALSE(nowhere.ok());

@@ -19,7 +19,7 @@ using testing::IsEmpty;
 class NamesOfMasks : public testing::Test {
 protected:
     void touch(const std::vector<std::string>& names) {
-        for (const std::string& name : names) ASSERT_TRUE(write_file(folder_ / name, {}).ok());
+        for (const std::string& name : names) ASSERT_TRUE(write_file(folder_ / name, "x").ok());
     }
     std::vector<std::string> masks_of(const std::filesystem::path& photo) {
         const Result<MaskNames> names = MaskNames::list(folder_.path());

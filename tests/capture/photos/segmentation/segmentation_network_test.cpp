@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -57,7 +56,7 @@ protected:
     fs::path model(const std::string& name, const std::string& json) {
         const fs::path file = folder_ / (name + ".onnx");
         fs::copy_file(tiny_model(name), file, fs::copy_options::overwrite_existing);
-        EXPECT_TRUE(write_file(folder_ / (name + ".json"), std::as_bytes(std::span(json))).ok());
+        EXPECT_TRUE(write_file(folder_ / (name + ".json"), json).ok());
         return file;
     }
     Result<Image<float>> probability(const std::string& name, const std::string& json) {
@@ -206,8 +205,7 @@ TEST_F(SettingsBesideModel, AreRefusedInOneLine) {
 TEST_F(SettingsBesideModel, WithTheLongerNameArePreferred) {
     const fs::path file = model("logits", R"({"output": "minmax"})");
     EXPECT_EQ(network_settings_file(file), folder_ / "logits.json");
-    const std::string json = R"({"output": "logits"})";
-    ASSERT_TRUE(write_file(folder_ / "logits.onnx.json", std::as_bytes(std::span(json))).ok());
+    ASSERT_TRUE(write_file(folder_ / "logits.onnx.json", R"({"output": "logits"})").ok());
     EXPECT_EQ(network_settings_file(file), folder_ / "logits.onnx.json");
     const Result<NetworkSettings> settings = read_network_settings(file);
     ASSERT_TRUE(settings.ok()) << settings.error().message;
