@@ -55,4 +55,8 @@ int fuzz_head(const std::uint8_t* data, std::size_t size);
 // The bytes as a list of lights; what is read is written and read again.
 int fuzz_lights(const std::uint8_t* data, std::size_t size);
 
+// The bytes as the settings file of a segmentation network, and as its ONNX model. OpenCV's importer is not called.
+int fuzz_network_settings(const std::uint8_t* data, std::size_t size);
+int fuzz_onnx(const std::uint8_t* data, std::size_t size);
+
 }  // namespace rs::fuzz

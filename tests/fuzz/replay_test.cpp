@@ -109,6 +109,15 @@ TEST(FuzzReplay, Head) {
 TEST(FuzzReplay, Lights) {
     replay("lights", fuzz::fuzz_lights);
 }
+
+TEST(FuzzReplay, NetworkSettings) {
+    replay("network_settings", fuzz::fuzz_network_settings);
+}
+
+TEST(FuzzReplay, Onnx) {
+    replay("onnx", fuzz::fuzz_onnx);
+}
+
 TEST(FuzzReplay, Gltf) {
     replay("gltf", fuzz::fuzz_gltf);
 }
