@@ -11,6 +11,7 @@ too, and compared in the views that have a mask. Means over the views of a set, 
   iou      intersection over union of alpha > 0.5 and true alpha > 0.5
   mae      mean absolute error of alpha over the image, x 1000
   band     mean absolute error of alpha within 2.5 px of the true contour (a mask by eye is accurate to 1.5 px only)
+  signed   the same with its sign: below 0 where the object is cut too thin, above 0 where too fat
   missing  pixels of the object with alpha <= 0.5, % of the object's area
   added    pixels outside the object with alpha > 0.5, % of the object's area
   floor    the same more than 2 px from the object and below its middle row: floor that is left
@@ -36,7 +37,7 @@ import numpy as np
 import eye_masks
 
 BAND_PX = 2.5
-FIELDS = ["iou", "mae", "band", "missing", "added", "floor"]
+FIELDS = ["iou", "mae", "band", "signed", "missing", "added", "floor"]
 IMAGES = {".jpg", ".jpeg", ".png"}
 
 
@@ -58,7 +59,7 @@ def compare(alpha, truth):
     object_found, object_true = alpha > 0.5, truth > 0.5
     area = max(1, np.count_nonzero(object_true))
     union = np.count_nonzero(object_found | object_true)
-    error = np.abs(alpha - truth)
+    error = alpha - truth
     band = contour_distance(object_true) <= BAND_PX
     far_outside = cv2.dilate(object_true.astype(np.uint8), cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (5, 5))) == 0
     rows = np.flatnonzero(object_true.any(axis=1))
@@ -66,12 +67,24 @@ def compare(alpha, truth):
     below = np.arange(truth.shape[0])[:, None] > middle
     return {
         "iou": np.count_nonzero(object_found & object_true) / max(1, union),
-        "mae": 1000 * float(error.mean()),
-        "band": float(error[band].mean()) if band.any() else 0.0,
+        "mae": 1000 * float(np.abs(error).mean()),
+        "band": float(np.abs(error[band]).mean()) if band.any() else 0.0,
+        "signed": float(error[band].mean()) if band.any() else 0.0,
         "missing": 100 * np.count_nonzero(object_true & ~object_found) / area,
         "added": 100 * np.count_nonzero(object_found & ~object_true) / area,
         "floor": 100 * np.count_nonzero(object_found & far_outside & below) / area,
     }
+
+
+def draw_error(image, truth):
+    """The image over magenta, and beside it the error: red where alpha is too small, blue where it is too large."""
+    alpha = image[:, :, 3:] / 255.0
+    over = image[:, :, :3] * alpha + (1 - alpha) * np.array([255, 0, 255])
+    error = alpha[:, :, 0] - truth
+    grey = 255 - image[:, :, :3].mean(axis=2) / 4
+    faded = grey * (1 - np.abs(error))
+    errors = np.dstack([np.where(error > 0, grey, faded), faded, np.where(error < 0, grey, faded)])
+    return np.hstack([over, errors]).astype(np.uint8)
 
 
 def import_photos(args, photos, folder):
@@ -92,12 +105,12 @@ def import_photos(args, photos, folder):
     return files, None
 
 
-def read_alpha(file, shape):
-    """Alpha of an imported image, 0..1; None where it is missing or has another size."""
+def read_bgra(file, shape):
+    """Imported image; None where it is missing or has another size."""
     image = cv2.imread(str(file), cv2.IMREAD_UNCHANGED)
     if image is None or image.ndim != 3 or image.shape[2] != 4 or image.shape[:2] != shape:
         return None
-    return image[:, :, 3].astype(np.float32) / 255
+    return image
 
 
 def measure(args, name, photos, truths):
@@ -107,11 +120,14 @@ def measure(args, name, photos, truths):
         files, error = import_photos(args, photos, folder)
         views = []
         for position, truth in truths.items():
-            alpha = read_alpha(files[position], truth.shape) if position < len(files) else None
-            if alpha is None:
+            image = read_bgra(files[position], truth.shape) if position < len(files) else None
+            if image is None:
                 error = error or f"view {position} has no image of {truth.shape[1]}x{truth.shape[0]} with alpha"
-                alpha = np.zeros_like(truth)
-            views.append(compare(alpha, truth))
+                image = np.zeros((*truth.shape, 4), np.uint8)
+            views.append(compare(image[:, :, 3].astype(np.float32) / 255, truth))
+            if args.pictures:
+                args.pictures.mkdir(parents=True, exist_ok=True)
+                cv2.imwrite(str(args.pictures / f"{name}-{position:03d}.png"), draw_error(image, truth))
     row = {"set": name, "views": len(views)}
     row.update({field: float(np.mean([view[field] for view in views])) for field in FIELDS})
     row["worst"] = min(view["iou"] for view in views)
@@ -148,9 +164,10 @@ def measure_all(args):
 
 def table_line(row):
     if row is None:
-        return f"{'set':<14}{'views':>6}{'iou':>8}{'worst':>8}{'mae':>8}{'band':>8}{'missing':>9}{'added':>8}{'floor':>8}"
+        return (f"{'set':<14}{'views':>6}{'iou':>8}{'worst':>8}{'mae':>8}{'band':>8}"
+                f"{'signed':>8}{'missing':>9}{'added':>8}{'floor':>8}")
     line = (f"{row['set']:<14}{row['views']:>6}{row['iou']:>8.4f}{row['worst']:>8.4f}{row['mae']:>8.2f}{row['band']:>8.3f}"
-            f"{row['missing']:>9.2f}{row['added']:>8.2f}{row['floor']:>8.2f}")
+            f"{row['signed']:>8.3f}{row['missing']:>9.2f}{row['added']:>8.2f}{row['floor']:>8.2f}")
     return line + (f"  {row['error']}" if "error" in row else "")
 
 
@@ -161,6 +178,8 @@ def main():
     parser.add_argument("--args", default="", help="more options for rs-capture import, in one string")
     parser.add_argument("--eye-photos", type=Path, metavar="DIR", help="folder of the real sets in eye_masks.json")
     parser.add_argument("--keep", metavar="DIR", help="folder for the imported sets (default: deleted)")
+    parser.add_argument("--pictures", type=Path, metavar="DIR",
+                        help="write each view over magenta beside its error (red: too little alpha, blue: too much)")
     parser.add_argument("--timeout", type=float, default=1800, metavar="S", help="limit per import (default: %(default)s)")
     parser.add_argument("--json", action="store_true", help="rows as JSON on stdout, in place of the table")
     args = parser.parse_args()
