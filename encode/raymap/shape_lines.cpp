@@ -2,9 +2,9 @@
 
 #include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/floating_cells.hpp"
-#include "encode/raymap/hidden_cells.hpp"
 #include "encode/raymap/line_grid.hpp"
 #include "encode/raymap/semi_global.hpp"
+#include "encode/raymap/visibility.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel_loop.hpp"
@@ -22,14 +22,14 @@
 namespace rs::encode {
 namespace {
 
-// The surfaces of one picture seen from a line's viewpoint: nearest depths on the fine raster.
+// Depth buffer of one photo's surface points, splatted from a line's viewpoint onto the fine raster.
 class LineRaster {
 public:
     explicit LineRaster(const LineGrid& grid)
-        : grid_(grid), depth_(grid.bands * grid.fine, grid.p_cells * grid.fine, kNothing) {}
+        : grid_(grid), depth_(grid.bands * grid.fine, grid.p_cells * grid.fine, kEmpty) {}
 
-    void draw(const DepthView& source, const glm::dvec2& viewpoint) {
-        std::fill(depth_.pixels().begin(), depth_.pixels().end(), kNothing);
+    void splat(const DepthView& source, const glm::dvec2& viewpoint) {
+        std::fill(depth_.pixels().begin(), depth_.pixels().end(), kEmpty);
         for (int column = 0; column < source.view.width; ++column) {
             const HorizontalRay ray = source.view.ray_of(column + 0.5);
             for (int row = 0; row < source.view.height; ++row) {
@@ -40,18 +40,18 @@ public:
             }
         }
     }
-    // Appends the depths within a cell.
-    void find(int p, int h, std::vector<float>& found) const {
+    // Appends the depths within a cell to `found`.
+    void append_depths(int p, int h, std::vector<float>& found) const {
         for (int x = p * grid_.fine; x < (p + 1) * grid_.fine; ++x) {
             const float* const depths = &depth_(h * grid_.fine, x);
             for (int y = 0; y < grid_.fine; ++y) {
-                if (depths[y] < kNothing) found.push_back(depths[y]);
+                if (depths[y] < kEmpty) found.push_back(depths[y]);
             }
         }
     }
 
 private:
-    static constexpr float kNothing = std::numeric_limits<float>::infinity();
+    static constexpr float kEmpty = std::numeric_limits<float>::infinity();
 
     void put(const LinePoint& point) {
         const auto p = static_cast<int>(std::floor((point.p - grid_.p_low) * grid_.cells_per_unit * grid_.fine - 0.5));
@@ -68,7 +68,7 @@ private:
     Image<float> depth_;  // (h, p)
 };
 
-// One surface: the median of the depths that the pictures found.
+// A cell with one surface, at the median of the depths; an empty cell where there are none. Reorders `found`.
 ShapeCell make_cell(std::vector<float>& found) {
     ShapeCell cell;
     if (found.empty()) return cell;
@@ -78,32 +78,32 @@ ShapeCell make_cell(std::vector<float>& found) {
     return cell;
 }
 
-// Which bands of a column of cells lie in the hull at each depth; found for a depth when that is first of interest,
-// since a column's surfaces have few.
+// Tests which cells of a column lie in the hull at which depth. Each depth is computed when it is first asked for,
+// since the surfaces of a column have few.
 class HullColumns {
 public:
     HullColumns(const LineGrid& grid, const SampledHull& hull)
         : grid_(grid), hull_(hull), inside_(static_cast<std::size_t>(grid.bands * kDepths)) {}
 
-    // The column of this ray, until the next call.
+    // Starts the column of this ray, which must outlive its use.
     void begin(const CellRay& ray) {
         ray_ = &ray;
         known_.fill(false);
-        // Heights come from far away in memory: all are on their way before the first is read.
+        // Heights are scattered in memory: all are prefetched before the first is read.
         for (int d = 0; d < kDepths; ++d) {
             const std::span<const Interval> heights = hull_.heights_above(ray.place(d));
             heights_[static_cast<std::size_t>(d)] = heights;
             __builtin_prefetch(heights.data());
         }
     }
-    [[nodiscard]] bool holds(int h, int d) {
+    [[nodiscard]] bool contains(int h, int d) {
         std::uint8_t* const bands = inside_.data() + d * grid_.bands;
-        if (!known_[static_cast<std::size_t>(d)]) find(d, bands);
+        if (!known_[static_cast<std::size_t>(d)]) fill(d, bands);
         return bands[h] != 0;
     }
 
 private:
-    void find(int d, std::uint8_t* bands) {
+    void fill(int d, std::uint8_t* bands) {
         known_[static_cast<std::size_t>(d)] = true;
         std::fill(bands, bands + grid_.bands, std::uint8_t{0});
         for (const Interval& i : heights_[static_cast<std::size_t>(d)]) {
@@ -121,22 +121,22 @@ private:
     std::vector<std::uint8_t> inside_;  // [d * bands + h]
 };
 
-// Moves surfaces that lie outside of the hull to the nearest place in it. Says of each cell with a surface whether its
-// ray meets the hull at all.
-void heed_hull(const LineGrid& grid, const CellRay& ray, HullColumns& hull, ShapeCell* cells,
-               std::uint8_t* meets_hull) {
+// Moves surfaces outside of the hull to the nearest depth inside, along the line's ray. Sets meets_hull[h] to 1 for
+// each surface whose ray meets the hull at all; surfaces whose ray misses it stay where they are.
+void clamp_to_hull(const LineGrid& grid, const CellRay& ray, HullColumns& hull, ShapeCell* cells,
+                   std::uint8_t* meets_hull) {
     if (std::all_of(cells, cells + grid.bands, [](const ShapeCell& cell) { return !cell.has_surface(); })) return;
     hull.begin(ray);
     for (int h = 0; h < grid.bands; ++h) {
         ShapeCell& cell = cells[h];
         if (!cell.has_surface()) continue;
-        const std::optional<std::uint8_t> depth = nearest_depth(cell.depth, [&](int d) { return hull.holds(h, d); });
+        const std::optional<std::uint8_t> depth = nearest_depth(cell.depth, [&](int d) { return hull.contains(h, d); });
         meets_hull[h] = depth ? 1 : 0;
         cell.depth = depth.value_or(cell.depth);
     }
 }
 
-// What a line sees of a layer's two pictures beside it.
+// Computes the cells of one line from the depth maps of the photos on either side of it.
 class LineSurfaces {
 public:
     explicit LineSurfaces(const LineGrid& grid)
@@ -145,13 +145,13 @@ public:
           from_second_(grid),
           cells_(static_cast<std::size_t>(grid.p_cells) * static_cast<std::size_t>(grid.bands)) {}
 
-    // Cells of the line of `viewpoint`, until the next call.
-    const std::vector<ShapeCell>& see(const SurfaceLayer& layer, const LinePictures& pictures, double floating_share) {
-        from_first_.draw(pictures.first, pictures.viewpoint);
-        from_second_.draw(pictures.second, pictures.viewpoint);
+    // The cells of one layer, [p * bands + h]; valid until the next call.
+    const std::vector<ShapeCell>& compute(const SurfaceLayer& layer, const ViewPair& photos, double floating_share) {
+        from_first_.splat(photos.first, photos.viewpoint);
+        from_second_.splat(photos.second, photos.viewpoint);
         for (int p = 0; p < grid_.p_cells; ++p) {
             for (int h = 0; h < grid_.bands; ++h) {
-                find(p, h);
+                find_depths(p, h);
                 cells_[static_cast<std::size_t>(p * grid_.bands + h)] = make_cell(found_);
             }
         }
@@ -159,25 +159,26 @@ public:
         HullColumns hull(grid_, layer.hull);
         for (int p = 0; p < grid_.p_cells; ++p) {
             const auto column = static_cast<std::size_t>(p * grid_.bands);
-            heed_hull(grid_, CellRay(grid_, pictures.viewpoint, p), hull, cells_.data() + column,
-                      meets_hull.data() + column);
+            clamp_to_hull(grid_, CellRay(grid_, photos.viewpoint, p), hull, cells_.data() + column,
+                          meets_hull.data() + column);
         }
         if (layer.silhouettes_agree) drop_beside_hull(grid_, meets_hull, cells_.data());
         if (layer.in_front) drop_islands(grid_, floating_share, cells_.data());
         for (int p = 0; p < grid_.p_cells; ++p) {
             ShapeCell* const column = cells_.data() + p * grid_.bands;
-            if (!layer.in_front) avoid_hidden(grid_, pictures, p, column);
-            say_who_shows(grid_, pictures, layer.silhouettes_agree, p, column);
+            if (!layer.in_front) avoid_foreground(grid_, photos, p, column);
+            // Depths found within silhouettes that contradict one another are not reliable.
+            if (layer.silhouettes_agree) classify_visibility(grid_, photos, p, column);
         }
         return cells_;
     }
 
 private:
-    // The depths that both pictures have within a cell.
-    void find(int p, int h) {
+    // The depths that the photos have within a cell.
+    void find_depths(int p, int h) {
         found_.clear();
-        from_first_.find(p, h, found_);
-        from_second_.find(p, h, found_);
+        from_first_.append_depths(p, h, found_);
+        from_second_.append_depths(p, h, found_);
     }
 
     const LineGrid& grid_;
@@ -190,6 +191,7 @@ struct HeightRange {
     double low = 1e30, high = -1e30;
 };
 
+// The heights of all surface points at the reference distance, projected from the reference viewpoint.
 HeightRange height_range(const std::vector<SurfaceLayer>& layers, double distance, double height) {
     HeightRange range;
     std::vector<const DepthView*> sources;
@@ -214,7 +216,8 @@ HeightRange height_range(const std::vector<SurfaceLayer>& layers, double distanc
     return range;
 }
 
-// By how many depth steps a surface seen from the middle of the widest gap that has lines may be off.
+// The number of depth steps by which a surface may be moved to save bits, so that a point seen from the middle of the
+// widest gap with lines moves by options.settled_px at most.
 int settled_steps(const std::vector<DepthView>& ring, const ShapeMap& map, double px_per_radius,
                   const ShapeLinesOptions& options) {
     double widest = 0;
@@ -277,7 +280,7 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
     const std::size_t line_cells = static_cast<std::size_t>(map.p_cells) * static_cast<std::size_t>(map.bands);
     map.cells.resize(lines * line_cells);
 
-    // Of the first layer, what is in front; others are in pieces by their nature.
+    // From the first layer only; the soft layer consists of many pieces by its nature.
     std::vector<double> floating(ring.size());
     for_each_index(ring.size(), [&](std::size_t n) { floating[n] = floating_share(ring[n].depth); });
 
@@ -290,8 +293,8 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
             const glm::dvec2 viewpoint = glm::mix(ring[n].view.centre, ring[next].view.centre, part);
             ShapeCell* const cells = map.cells.data() + (gap.first_line + static_cast<std::size_t>(s)) * line_cells;
             for (const SurfaceLayer& layer : layers) {
-                const std::vector<ShapeCell>& found = surfaces.see(layer, {layer.ring[n], layer.ring[next], viewpoint},
-                                                                   std::min(floating[n], floating[next]));
+                const std::vector<ShapeCell>& found = surfaces.compute(
+                    layer, {layer.ring[n], layer.ring[next], viewpoint}, std::min(floating[n], floating[next]));
                 for (std::size_t i = 0; i < line_cells; ++i) {
                     if (!cells[i].has_surface()) cells[i] = found[i];
                 }

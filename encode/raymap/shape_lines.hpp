@@ -1,6 +1,6 @@
 #pragma once
-// From depths of captured pictures to the cells of a shape map (rayspace/object/shape_map.hpp): every line of every gap
-// sees the surfaces of the two pictures beside it, moved to its own viewpoint.
+// Computes the cells of a shape map (rayspace/object/shape_map.hpp) from the photos' depth maps: the depth maps on
+// either side of each line of rays are reprojected to the line's viewpoint and merged.
 
 #include "encode/raymap/silhouettes/visual_hull.hpp"
 #include "encode/raymap/silhouettes/work_view.hpp"
@@ -12,31 +12,31 @@
 namespace rs::encode {
 
 struct ShapeLinesOptions {
-    double cell_px = 2.0;   // side of a cell in pixels of the working pictures
-    int raster_points = 3;  // on it, of the raster on which pictures' depths meet: fewer fatten what stands in front
-    double line_deg = 2;    // a gap of n times that has n - 1 lines, rounded up, and one at least
-    int jump = 24;          // depth steps between neighbouring cells that are still one surface, 1..255
+    double cell_px = 2.0;   // side of a cell in pixels of the working views
+    int raster_points = 3;  // of the depth buffer along a cell's side; fewer dilate surfaces in front
+    double line_deg = 2;    // a gap of n times this angle has n - 1 lines, rounded up, and at least one
+    int jump = 24;          // largest step between neighbouring cells of one surface, depth steps, 1..255
     int thickness = 8;      // of the object behind its surfaces, depth steps, 0..255
-    // A depth may be off by what moves a point by so many pixels of the working pictures between a line and the
-    // pictures beside it, and by this many steps at most: then most are what the file's prediction says.
+    // Depths are moved towards the file's prediction to save bits: by at most this many steps, and so that a point
+    // moves by at most this many pixels of a working view between a line and the photos beside it.
     double settled_px = 0.15;
     int most_settled = 3;
-    double widest_gap_deg = 45.01;  // wider ones stay without lines
+    double widest_gap_deg = 45.01;  // wider gaps have no lines
 };
 
-// Surfaces and the hull that encloses them.
+/// The depth maps of one layer of surfaces, and the hull that encloses them.
 struct SurfaceLayer {
-    const std::vector<DepthView>& ring;  // in turning order
+    const std::vector<DepthView>& ring;  // in turning order, each with depth and occluders
     const SampledHull& hull;
-    bool silhouettes_agree = true;  // else the hull moves surfaces, but removes none
-    bool in_front = true;           // of what the pictures show beside it; else pictures' other pixels may hide it
+    bool silhouettes_agree = true;  // false: the hull moves surfaces but removes none, and all are shown by both photos
+    bool in_front = true;           // false: the photos' other pixels may cover this layer
 };
 
-// From view n of a ring to the next one in turning order, above 0 and at most 2 pi.
+/// The angle from view n of a ring to the next one in turning order, radians, above 0 and at most 2 pi.
 double gap_width(const std::vector<DepthView>& ring, std::size_t n);
 
-// Layers of the same pictures, one at least; a cell is of the first that has a surface there. All but normal_lines is
-// filled in.
+/// Computes everything of a ring's shape map but normal_lines.
+/// \param layers  at least one, of the same photos; a cell belongs to the first layer that has a surface there.
 ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLinesOptions& options);
 
 }  // namespace rs::encode

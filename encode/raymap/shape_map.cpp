@@ -1,6 +1,6 @@
 #include "encode/raymap/shape_map.hpp"
 
-#include "encode/raymap/ring_search.hpp"
+#include "encode/raymap/ring_depth_estimator.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/object/yuv.hpp"
 
@@ -28,53 +28,54 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
     const auto keep = [&](int v, const Image<Rgba8>& picture) {
         if (keep_pictures) object.pictures[static_cast<std::size_t>(v)] = planar_from_rgba(picture);
     };
-    std::vector<RingSearch> searches;
-    searches.reserve(rings.size());
+    std::vector<RingDepthEstimator> estimators;
+    estimators.reserve(rings.size());
     for (const ViewRing& ring : rings) {
-        searches.emplace_back(set, rig, ring, options);
-        if (const Status status = searches.back().read(progress, keep); !status) return status.error();
+        estimators.emplace_back(set, rig, ring, options);
+        if (const Status status = estimators.back().read_photos(progress, keep); !status) return status.error();
     }
     const auto choose_hulls = [&] {
         for (std::size_t r = 0; r < rings.size(); ++r) {
-            std::vector<const RingSearch*> beside;
-            if (r > 0) beside.push_back(&searches[r - 1]);
-            if (r + 1 < rings.size()) beside.push_back(&searches[r + 1]);
-            searches[r].choose_hull(beside);
+            std::vector<const RingDepthEstimator*> beside;
+            if (r > 0) beside.push_back(&estimators[r - 1]);
+            if (r + 1 < rings.size()) beside.push_back(&estimators[r + 1]);
+            estimators[r].choose_hull(beside);
         }
     };
     choose_hulls();
-    CaptureSet whole = set;  // with what cut-outs lack given back
+    CaptureSet whole = set;  // with completed masks
     const auto keep_completed = [&](int v, const Image<Rgba8>& picture) {
         keep(v, picture);
         whole.completed.insert_or_assign(v, picture);
     };
-    for (RingSearch& search : searches) {
-        if (const Status status = search.complete_cut_outs(progress, keep_completed); !status) return status.error();
+    for (RingDepthEstimator& estimator : estimators) {
+        if (const Status status = estimator.complete_masks(progress, keep_completed); !status) return status.error();
     }
     if (!whole.completed.empty()) {
         found.warnings.push_back(lost_parts_text(whole.completed, rig));
         choose_hulls();
     }
-    for (RingSearch& search : searches) search.mend_silhouettes();
-    for (RingSearch& search : searches) {
-        if (const Status status = search.match(progress); !status) return status.error();
+    for (RingDepthEstimator& estimator : estimators) estimator.repair_silhouettes();
+    for (RingDepthEstimator& estimator : estimators) {
+        if (const Status status = estimator.match_colors(progress); !status) return status.error();
     }
     for (std::size_t r = 0; r < rings.size(); ++r) {
-        if (const Status status = searches[r].agree(progress, found.samples); !status) return status.error();
+        if (const Status status = estimators[r].enforce_consistency(progress, found.samples); !status)
+            return status.error();
         Ring& ring = object.rings[r];
-        std::vector<SurfaceLayer> layers = {searches[r].surfaces()};
-        RingSearch soft(whole, rig, rings[r], options, Layer::kSoft);
-        if (searches[r].shows_soft()) {
+        std::vector<SurfaceLayer> layers = {estimators[r].surfaces()};
+        RingDepthEstimator soft(whole, rig, rings[r], options, Layer::kSoft);
+        if (estimators[r].has_soft_pixels()) {
             std::vector<FoundDepth> unused;
-            if (const Status status = soft.read(progress, [](int, const Image<Rgba8>&) {}); !status)
+            if (const Status status = soft.read_photos(progress, [](int, const Image<Rgba8>&) {}); !status)
                 return status.error();
             soft.choose_hull({});
-            if (const Status status = soft.match(progress); !status) return status.error();
-            if (const Status status = soft.agree(progress, unused); !status) return status.error();
+            if (const Status status = soft.match_colors(progress); !status) return status.error();
+            if (const Status status = soft.enforce_consistency(progress, unused); !status) return status.error();
             layers.push_back(soft.surfaces());
         }
-        ring.shape = searches[r].lines(layers, ring.planes);
-        searches[r].warn(ring.shape, found.warnings);
+        ring.shape = estimators[r].make_shape(layers, ring.planes);
+        estimators[r].append_warnings(ring.shape, found.warnings);
     }
     found.completed = std::move(whole.completed);
     return found;

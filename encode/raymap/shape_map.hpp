@@ -1,13 +1,13 @@
 #pragma once
-// Finds the shape maps of an object (rayspace/object/shape_map.hpp) from its pictures.
+// Computes the shape maps of an object (rayspace/object/shape_map.hpp) from its photos.
 //
-// For every picture of a ring: the visual hull of all silhouettes, those of the rings next below and above among them,
-// bounds the depths, with what single cut-outs lack given back to them (silhouette_repair.hpp, lost_parts.hpp); the
-// colours of the pictures to either side and below and above show which depth agrees (cost_volume.hpp); smoothness
-// decides where colour does not (semi_global.hpp). Then all is searched again with what the neighbours were found to
-// show, so that pictures agree about surfaces. A ring whose silhouettes contradict this one's, because only each for
-// itself is calibrated, is left out. Then every line between two pictures takes over what both have found
-// (shape_lines.hpp).
+// For each photo of a ring: the visual hull of all silhouettes, including those of the rings next below and above,
+// bounds the depths, after parts that single masks lack are restored (silhouette_repair.hpp, lost_parts.hpp); matching
+// costs compare colours with the photos on either side, below and above (cost_volume.hpp); semi-global matching chooses
+// the depths (semi_global.hpp). Depths are estimated a second time with the neighbors' depths, so that photos agree
+// about surfaces (ring_depth_estimator.hpp). A ring whose silhouettes contradict this one's, because the rings were
+// calibrated separately, is left out. Each line between two photos merges both depth maps (shape_lines.hpp), and each
+// of its cells is shown by the photos in which it is not occluded (visibility.hpp).
 
 #include "encode/raymap/rings.hpp"
 #include "encode/raymap/semi_global.hpp"
@@ -23,34 +23,39 @@
 namespace rs::encode {
 
 struct ShapeOptions {
-    int working_size_px = 768;       // pictures whose longer side is longer are searched at a whole fraction of it
-    int widest_hull_margin_px = 16;  // of the working pictures; the narrowest that fits is taken
-    // Levels of depth are so far apart that a point moves by so many pixels of a working picture from one to the next,
-    // in the neighbour where it moves most.
+    int working_size_px = 768;       // photos whose longer side is longer are reduced by a whole factor
+    int widest_hull_margin_px = 16;  // of the working views; the narrowest margin that fits is used
+    // Distance of depth levels: how far a point moves from one level to the next, in pixels of the working view of the
+    // neighbor where it moves most.
     double level_px = 0.3;
     int fewest_levels = 32, most_levels = 256;
     SmoothnessOptions smoothness;
     ShapeLinesOptions lines;
 };
 
-// What was found for one picture, for people to look at: distances from the foot in object radii, NaN where there is
-// none, at the working size.
+/// Depth maps of one photo for display: distances from the foot of the pixel's ray in object radii, NaN where unknown,
+/// at the working size.
 struct FoundDepth {
     int view = 0;
     Image<float> hull;   // where the ray enters the visual hull
-    Image<float> depth;  // where the surface is
+    Image<float> depth;  // of the surface
 };
 
 struct FoundShapes {
-    std::vector<FoundDepth> samples;  // of a few views
-    CompletedPictures completed;
+    std::vector<FoundDepth> samples;    // of a few views
+    CompletedPictures completed;        // photos whose masks were completed
     std::vector<std::string> warnings;  // one line each
 };
 
-// `object` has its views and rings but their shapes; rig is set.upright in object radii, rings as find_rings() gave
-// them. Pictures are read from the set, and stored in the object where `keep_pictures`; so are those of `completed`.
-// `set` has no completed pictures yet. Memory: at the working size 8 bytes a pixel and picture, 4 bytes for each whole
-// pixel of `completed`, and for each thread about 3 bytes per object pixel and depth level. Deterministic.
+/// Adds the shape map of each ring to an object. Deterministic.
+/// \param set            read photo by photo; has no completed photos yet.
+/// \param rig            set.upright, in object radii.
+/// \param rings          from find_rings().
+/// \param keep_pictures  whether to store the photos, with completed masks, in the object.
+/// \param object         has its views and rings, but not their shapes.
+/// \return warnings and depth maps for display; errors of reading.
+/// Memory: at the working size 10 bytes per pixel and photo, 4 bytes per full-size pixel of `completed`, and for each
+/// thread about 3 bytes per object pixel and depth level.
 Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
                                    const ShapeOptions& options, bool keep_pictures, RaySpaceObject& object,
                                    Progress* progress = nullptr);

@@ -9,6 +9,7 @@
 namespace rs::encode {
 namespace {
 
+// Mean colour weighted by alpha, and mean alpha.
 Rgba8 block_mean(ConstImageView<Rgba8> picture, int x0, int y0, int side) {
     int r = 0, g = 0, b = 0, a = 0;
     for (int y = y0; y < y0 + side; ++y) {
@@ -93,14 +94,58 @@ void cover_soft(WorkView& view, const Image<std::uint8_t>& soft) {
     }
 }
 
+Image<std::uint8_t> measure_texture(const WorkView& view) {
+    constexpr int kRadius_px = 4;
+    const int width = view.columns.width();
+    const int height = view.columns.height();
+    // Summed-area tables over the object's pixels. They may wrap around, but sums over 9x9 pixels fit.
+    struct Sums {
+        std::uint32_t luma = 0, squares = 0, count = 0;
+    };
+    Image<Sums> sums(width + 1, height + 1, Sums{});
+    for (int y = 0; y < height; ++y) {
+        Sums row;
+        for (int x = 0; x < width; ++x) {
+            const Rgba8 c = view.columns(x, y);
+            if (c.a >= kInside) {
+                const std::uint32_t luma = (77U * c.r + 150U * c.g + 29U * c.b + 128U) >> 8U;
+                row.luma += luma;
+                row.squares += luma * luma;
+                ++row.count;
+            }
+            const Sums& above = sums(x + 1, y);
+            sums(x + 1, y + 1) = {above.luma + row.luma, above.squares + row.squares, above.count + row.count};
+        }
+    }
+    Image<std::uint8_t> texture(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (view.columns(x, y).a < kInside) continue;
+            const int left = std::max(x - kRadius_px, 0);
+            const int top = std::max(y - kRadius_px, 0);
+            const int right = std::min(x + kRadius_px + 1, width);
+            const int bottom = std::min(y + kRadius_px + 1, height);
+            const auto around = [&](std::uint32_t Sums::*sum) {
+                return static_cast<float>(sums(right, bottom).*sum - sums(left, bottom).*sum - sums(right, top).*sum +
+                                          sums(left, top).*sum);
+            };
+            const float count = around(&Sums::count);
+            const float mean = around(&Sums::luma) / count;
+            const float variance = around(&Sums::squares) / count - mean * mean;
+            texture(x, y) = static_cast<std::uint8_t>(std::sqrt(std::max(variance, 0.0F)));
+        }
+    }
+    return texture;
+}
+
 void weaken_shading(WorkView& view) {
     constexpr int kRadius_px = 4;
     constexpr int kGrey = 128;
-    constexpr int kKept = 4;  // one part in so many of the mean's distance from grey
+    constexpr int kReduction = 4;  // of the mean's distance from grey
     const int width = view.columns.width();
     const int height = view.columns.height();
-    // Sums over all pixels above and to the left: of red, green and blue times alpha, and of alpha. They may wrap
-    // around: the sums over 9x9 pixels that they are for fit.
+    // Summed-area tables of red, green and blue times alpha, and of alpha. They may wrap around, but sums over 9x9
+    // pixels fit.
     using Sums = std::array<std::uint32_t, 4>;
     Image<Sums> sums(width + 1, height + 1, Sums{});
     for (int y = 0; y < height; ++y) {
@@ -126,10 +171,10 @@ void weaken_shading(WorkView& view) {
                 return static_cast<int>(sums(right, bottom)[k] - sums(left, bottom)[k] - sums(right, top)[k] +
                                         sums(left, top)[k]);
             };
-            const int weight = around(3);  // at least this pixel's alpha
+            const int weight = around(3);  // > 0, since it includes this pixel's alpha
             const auto weakened = [&](std::uint8_t value, std::size_t k) {
                 const int mean = (around(k) + weight / 2) / weight;
-                const int result = value - mean + kGrey + (mean - kGrey) / kKept;
+                const int result = value - mean + kGrey + (mean - kGrey) / kReduction;
                 return static_cast<std::uint8_t>(std::clamp(result, 0, 255));
             };
             pixel = {weakened(pixel.r, 0), weakened(pixel.g, 1), weakened(pixel.b, 2), pixel.a};

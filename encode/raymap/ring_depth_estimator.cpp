@@ -1,7 +1,8 @@
-#include "encode/raymap/ring_search.hpp"
+#include "encode/raymap/ring_depth_estimator.hpp"
 
 #include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/silhouettes/lost_parts.hpp"
+#include "encode/raymap/visibility.hpp"
 #include "encode/set/soft_coverage.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
@@ -16,24 +17,23 @@ namespace rs::encode {
 namespace {
 
 constexpr int kSampleViews = 4;
-constexpr double kMostContradicted = 0.01;
-constexpr double kExactSilhouettes = 1e-4;  // contradicted less, they lack nothing: 1e-5 traced, .0005 and more cut out
-constexpr double kHullSpacing_px = 0.5;     // of the working pictures
-constexpr double kRepairSpacing_px = 1;     // of those of half the size
+constexpr double kMaxContradicted = 0.01;   // share of the object, at which silhouettes agree
+constexpr double kExactSilhouettes = 1e-4;  // share at which they are exact: traced 1e-5, segmented 5e-4 and more
+constexpr double kHullSpacing_px = 0.5;     // of the working views
+constexpr double kRepairSpacing_px = 1;     // of the half-sized views
 constexpr int kHullLevels = 128;            // of depth, where silhouettes are tested for agreement
-constexpr std::size_t kKeptCosts = 256U << 20;  // bytes, of all pictures of the set
-constexpr int kOverruledMargin_px = 4;
-constexpr double kOverruledShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
-constexpr int kRepairMargin_px = 4;  // of pictures of half the working size: rims are looked for so far away
-constexpr int kWidestMended_px = 4;  // margin of a hull whose rims are worth mending
-constexpr double kTolerated = 0.1;   // of the silhouettes, where large parts are looked for
-constexpr double kLargePart = 0.1;   // of what there is of the object
-constexpr double kMostLacking =
-    0.2;  // of the pictures, five at least for one; else cameras do not stand where the rig has them
-constexpr double kWidestBetweenRings_deg = 20;
-constexpr int kNearSoft_px = 8;  // what is soft is found from what is around it, too
+constexpr std::size_t kMaxKeptCosts = 256U << 20;  // bytes, for all photos of the set
+constexpr int kTolerantMargin_px = 4;
+constexpr double kToleratedShares[] = {0.05, 0.1, 0.2, 0.3, 0.4};  // of the silhouettes, where no margin is enough
+constexpr int kRepairMargin_px = 4;       // of the half-sized views: how far from a silhouette missing rims are found
+constexpr int kMaxRepairMargin_px = 4;    // widest margin of a hull whose silhouettes are repaired
+constexpr double kRepairTolerated = 0.1;  // share of the silhouettes, where large missing parts are searched
+constexpr double kLargePart = 0.1;        // area of a missing part relative to the object
+constexpr double kMaxLackingShare = 0.2;  // of the photos; where more lack a large part, the rig is wrong
+constexpr double kMaxRingDistance_deg = 20;
+constexpr int kNearSoft_px = 8;  // soft surfaces are estimated together with their surroundings
 
-// Seen from the middle of the object, in radians.
+// The angle between two cameras seen from the origin, radians.
 double angle_between(const WorkView& a, const WorkView& b) {
     return std::acos(std::clamp(glm::dot(glm::normalize(a.place()), glm::normalize(b.place())), -1.0, 1.0));
 }
@@ -59,57 +59,59 @@ double contradicted_by(const VisualHull& hull, const std::vector<const WorkView*
 }
 
 bool agree_with(const std::vector<const WorkView*>& views, const VisualHull& hull) {
-    return contradicted_by(hull, views) <= kMostContradicted;
+    return contradicted_by(hull, views) <= kMaxContradicted;
 }
 
 }  // namespace
 
-RingSearch::RingSearch(const CaptureSet& set, const Rig& rig, const ViewRing& ring, const ShapeOptions& options,
-                       Layer layer)
+RingDepthEstimator::RingDepthEstimator(const CaptureSet& set, const Rig& rig, const ViewRing& ring,
+                                       const ShapeOptions& options, Layer layer)
     : set_(set),
       rig_(rig),
       ring_(ring),
       options_(options),
       layer_(layer),
       views_(ring.views.size()),
-      mended_(ring.views.size()),
+      texture_(ring.views.size()),
+      repaired_(ring.views.size()),
       soft_(ring.views.size()),
       kept_costs_(ring.views.size()) {
     const int longest = std::max(set.width, set.height);
     reduction_ = (longest + options.working_size_px - 1) / options.working_size_px;
 }
 
-void RingSearch::take(std::size_t n, const Image<Rgba8>& picture) {
+void RingDepthEstimator::set_photo(std::size_t n, const Image<Rgba8>& picture) {
     const Camera& camera = rig_.views[static_cast<std::size_t>(ring_.views[n])].camera;
     WorkView& view = views_[n].view;
     view = make_work_view(camera, picture, reduction_);
     soft_[n] = soft_pixels(view);
     if (layer_ == Layer::kSoft) cover_soft(view, soft_[n]);
     weaken_shading(view);
+    texture_[n] = measure_texture(view);
 }
 
-Status RingSearch::read(Progress* progress, const Keep& keep) {
-    return for_each_in_parallel(count(), "pictures for depth", progress, [&](int n) -> Status {
+Status RingDepthEstimator::read_photos(Progress* progress, const PhotoSink& sink) {
+    return for_each_in_parallel(count(), "photos for depth", progress, [&](int n) -> Status {
         const int v = ring_.views[static_cast<std::size_t>(n)];
         const Result<Image<Rgba8>> picture = read_upright_picture(set_, v);
         if (!picture) return picture.error();
-        keep(v, *picture);
-        take(static_cast<std::size_t>(n), *picture);
+        sink(v, *picture);
+        set_photo(static_cast<std::size_t>(n), *picture);
         return {};
     });
 }
 
-void RingSearch::choose_hull(const std::vector<const RingSearch*>& rings) {
-    find_margin({});
-    beside_ = agreeing(rings);
-    if (!beside_.empty()) find_margin(beside_);
+void RingDepthEstimator::choose_hull(const std::vector<const RingDepthEstimator*>& rings) {
+    choose_margin({});
+    adjacent_ = consistent_rings(rings);
+    if (!adjacent_.empty()) choose_margin(adjacent_);
 }
 
-Status RingSearch::complete_cut_outs(Progress* progress, const Keep& keep) {
-    // A part that a cut-out lacks is ruled out in other pictures, too.
+Status RingDepthEstimator::complete_masks(Progress* progress, const PhotoSink& sink) {
+    // Places in a part that a mask lacks are ruled out in all other photos, too.
     const bool exact = margin_px_ == 1 && contradicted_ <= kExactSilhouettes;
     if (count() < 3 || exact) return {};
-    RingSearch half(set_, rig_, ring_, options_);
+    RingDepthEstimator half(set_, rig_, ring_, options_);
     half.reduction_ = 2 * reduction_;
     for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
     Result<std::vector<Image<float>>> missing = half.find_missing(*this, progress);
@@ -122,34 +124,35 @@ Status RingSearch::complete_cut_outs(Progress* progress, const Keep& keep) {
     for (std::size_t n = 0; n < views_.size(); ++n) {
         if (share_of(parts[n], half.views_[n].view) >= kLargePart) lacking.push_back(n);
     }
-    if (static_cast<double>(lacking.size()) > kMostLacking * static_cast<double>(views_.size())) return {};
+    if (static_cast<double>(lacking.size()) > kMaxLackingShare * static_cast<double>(views_.size())) return {};
     for (const std::size_t n : lacking) {
-        const Result<std::optional<Image<Rgba8>>> picture = completed(n, half, parts[n]);
+        const Result<std::optional<Image<Rgba8>>> picture = paint_part(n, half, parts[n]);
         if (!picture) return picture.error();
         if (!*picture) continue;
-        keep(ring_.views[n], **picture);
-        take(n, **picture);
+        sink(ring_.views[n], **picture);
+        set_photo(n, **picture);
     }
     return {};
 }
 
-void RingSearch::mend_silhouettes() {
-    if (!silhouettes_agree_ || margin_px_ > kWidestMended_px) return;
+void RingDepthEstimator::repair_silhouettes() {
+    if (!silhouettes_agree_ || margin_px_ > kMaxRepairMargin_px) return;
     for (std::size_t n = 0; n < missing_.size(); ++n) {
         if (count_depths(missing_[n]) == 0) continue;
-        mended_[n] = views_[n].view;
-        fill_missing(*mended_[n], missing_[n]);
+        repaired_[n] = views_[n].view;
+        fill_missing(*repaired_[n], missing_[n]);
     }
 }
 
-Result<std::vector<Image<float>>> RingSearch::find_missing(const RingSearch& whole, Progress* progress) {
-    const std::vector<const WorkView*> silhouettes = work_views({});
-    const auto tolerated = static_cast<int>(kTolerated * static_cast<double>(silhouettes.size()));
-    const int narrow_px = (std::min(whole.margin_px_, kWidestMended_px) + 1) / 2;
+Result<std::vector<Image<float>>> RingDepthEstimator::find_missing(const RingDepthEstimator& whole,
+                                                                   Progress* progress) {
+    const std::vector<const WorkView*> masks = silhouettes({});
+    const auto tolerated = static_cast<int>(kRepairTolerated * static_cast<double>(masks.size()));
+    const int narrow_px = (std::min(whole.margin_px_, kMaxRepairMargin_px) + 1) / 2;
     const int searched_px = whole.silhouettes_agree_ ? std::max(kRepairMargin_px, whole.margin_px_) : narrow_px;
-    sampled_hull_ = sampled(VisualHull(silhouettes, searched_px, tolerated), kRepairSpacing_px);
-    if (Status status = search("depth at half size", progress, false); !status) return status.error();
-    const auto hull = sampled(VisualHull(silhouettes, narrow_px), kHullSpacing_px);
+    sampled_hull_ = sampled(VisualHull(masks, searched_px, tolerated), kRepairSpacing_px);
+    if (Status status = estimate_depths("depth at half size", progress, false); !status) return status.error();
+    const auto hull = sampled(VisualHull(masks, narrow_px), kHullSpacing_px);
     std::vector<std::vector<RuledOutPoint>> points(views_.size());
     for_each_index(count(), [&](int n) {
         const Neighbours neighbours = neighbours_of(n);
@@ -162,10 +165,10 @@ Result<std::vector<Image<float>>> RingSearch::find_missing(const RingSearch& who
     return missing;
 }
 
-// Painted by the pictures that are nearest, of two as near by the one that shows more of it first.
-Result<std::optional<Image<Rgba8>>> RingSearch::completed(std::size_t n, const RingSearch& half,
-                                                          const Image<float>& part) const {
-    constexpr int kFarthestPainter = 3;  // pictures away
+// Paints from the nearest photos; of two as near, first from the one that shows more of the part.
+Result<std::optional<Image<Rgba8>>> RingDepthEstimator::paint_part(std::size_t n, const RingDepthEstimator& half,
+                                                                   const Image<float>& part) const {
+    constexpr int kFarthestPainter = 3;  // photos away
     Result<Image<Rgba8>> picture = read_upright_picture(set_, ring_.views[n]);
     if (!picture) return picture.error();
     LostPartPainter painter(half.views_[n].view, part, half.reduction_, std::move(*picture));
@@ -190,14 +193,14 @@ Result<std::optional<Image<Rgba8>>> RingSearch::completed(std::size_t n, const R
     return std::optional(std::move(painter).picture());
 }
 
-Status RingSearch::match(Progress* progress) {
-    sampled_hull_ =
-        sampled(silhouettes_agree_ ? VisualHull(work_views(beside_), margin_px_) : std::move(*hull_), kHullSpacing_px);
+Status RingDepthEstimator::match_colors(Progress* progress) {
+    sampled_hull_ = sampled(silhouettes_agree_ ? VisualHull(silhouettes(adjacent_), margin_px_) : std::move(*hull_),
+                            kHullSpacing_px);
     hull_.reset();
-    return search("depth", progress, true);
+    return estimate_depths("depth", progress, true);
 }
 
-Status RingSearch::agree(Progress* progress, std::vector<FoundDepth>& samples) {
+Status RingDepthEstimator::enforce_consistency(Progress* progress, std::vector<FoundDepth>& samples) {
     const int every = std::max(1, (count() + kSampleViews - 1) / kSampleViews);
     const std::size_t first_sample = samples.size();
     samples.resize(first_sample + static_cast<std::size_t>((count() + every - 1) / every));
@@ -210,7 +213,7 @@ Status RingSearch::agree(Progress* progress, std::vector<FoundDepth>& samples) {
             const Neighbours neighbours = neighbours_of(n);
             const DepthRange range = range_of(n, neighbours);
             std::optional<CostVolume> kept = std::exchange(kept_costs_[static_cast<std::size_t>(n)], {});
-            CostVolume costs = kept ? std::move(*kept) : colour_costs(n, neighbours, range);
+            CostVolume costs = kept ? std::move(*kept) : color_costs(n, neighbours, range);
             add_inconsistency(costs, view, neighbours, range);
             Image<float>& depth = agreed[static_cast<std::size_t>(n)];
             depth = depths_at(semi_global_levels(view, costs, options_.smoothness), range);
@@ -226,17 +229,20 @@ Status RingSearch::agree(Progress* progress, std::vector<FoundDepth>& samples) {
             views_[n].depth = std::move(agreed[n]);
         }
     }
-    for (std::size_t n = 0; n < views_.size(); ++n) keep_layer(views_[n].depth, soft_[n]);
+    for (std::size_t n = 0; n < views_.size(); ++n) mask_layer(views_[n].depth, soft_[n]);
+    for_each_index(views_.size(), [&](std::size_t n) {
+        views_[n].occluders = find_occluders(views_[n], texture_[n], neighbours_of(static_cast<int>(n)).beside);
+    });
     return {};
 }
 
-bool RingSearch::shows_soft() const {
+bool RingDepthEstimator::has_soft_pixels() const {
     return std::ranges::any_of(soft_, [](const Image<std::uint8_t>& soft) {
         return std::ranges::any_of(soft.pixels(), [](int pixel) { return pixel != 0; });
     });
 }
 
-ShapeMap RingSearch::lines(const std::vector<SurfaceLayer>& layers, int planes) const {
+ShapeMap RingDepthEstimator::make_shape(const std::vector<SurfaceLayer>& layers, int planes) const {
     ShapeMap shape = make_shape_lines(layers, options_.lines);
     for (const int v : ring_.views) {
         for (int k = 0; k < planes; ++k) {
@@ -247,7 +253,7 @@ ShapeMap RingSearch::lines(const std::vector<SurfaceLayer>& layers, int planes) 
     return shape;
 }
 
-void RingSearch::warn(const ShapeMap& shape, std::vector<std::string>& warnings) const {
+void RingDepthEstimator::append_warnings(const ShapeMap& shape, std::vector<std::string>& warnings) const {
     std::string missing;
     for (std::size_t n = 0; n < views_.size(); ++n) {
         const DepthView& view = views_[n];
@@ -266,7 +272,7 @@ void RingSearch::warn(const ShapeMap& shape, std::vector<std::string>& warnings)
     }
 }
 
-CostVolume RingSearch::colour_costs(int n, const Neighbours& neighbours, const DepthRange& range) const {
+CostVolume RingDepthEstimator::color_costs(int n, const Neighbours& neighbours, const DepthRange& range) const {
     const WorkView& view = views_[static_cast<std::size_t>(n)].view;
     std::optional<Image<std::uint8_t>> near_soft;
     if (layer_ == Layer::kSoft) near_soft = dilated(soft_[static_cast<std::size_t>(n)], kNearSoft_px);
@@ -275,81 +281,81 @@ CostVolume RingSearch::colour_costs(int n, const Neighbours& neighbours, const D
     return costs;
 }
 
-void RingSearch::keep_layer(Image<float>& depth, const Image<std::uint8_t>& soft) const {
+void RingDepthEstimator::mask_layer(Image<float>& depth, const Image<std::uint8_t>& soft) const {
     std::ranges::transform(depth.pixels(), soft.pixels(), depth.pixels().begin(), [&](float value, int pixel) {
         return (pixel != 0) == (layer_ == Layer::kSoft) ? value : kNoDepth;
     });
 }
 
-std::vector<const WorkView*> RingSearch::work_views(const std::vector<const RingSearch*>& others) const {
+std::vector<const WorkView*> RingDepthEstimator::silhouettes(
+    const std::vector<const RingDepthEstimator*>& others) const {
     std::vector<const WorkView*> all;
-    const auto add = [&](const RingSearch& ring) {
+    const auto add = [&](const RingDepthEstimator& ring) {
         for (std::size_t n = 0; n < ring.views_.size(); ++n) {
-            all.push_back(ring.mended_[n] ? &*ring.mended_[n] : &ring.views_[n].view);
+            all.push_back(ring.repaired_[n] ? &*ring.repaired_[n] : &ring.views_[n].view);
         }
     };
     add(*this);
-    for (const RingSearch* const ring : others) add(*ring);
+    for (const RingDepthEstimator* const ring : others) add(*ring);
     return all;
 }
 
-std::unique_ptr<SampledHull> RingSearch::sampled(VisualHull hull, double spacing_px) const {
+std::unique_ptr<SampledHull> RingDepthEstimator::sampled(VisualHull hull, double spacing_px) const {
     const double px = glm::length(views_.front().view.centre) / views_.front().view.fl_x;  // object radii
     return std::make_unique<SampledHull>(std::move(hull), spacing_px * px);
 }
 
-Status RingSearch::search(const char* label, Progress* progress, bool keep_costs) {
+Status RingDepthEstimator::estimate_depths(const char* label, Progress* progress, bool keep_costs) {
     return for_each_in_parallel(count(), label, progress, [&](int n) -> Status {
         DepthView& view = views_[static_cast<std::size_t>(n)];
         const Neighbours neighbours = neighbours_of(n);
         const DepthRange range = range_of(n, neighbours);
-        CostVolume costs = colour_costs(n, neighbours, range);
+        CostVolume costs = color_costs(n, neighbours, range);
         view.depth = depths_at(semi_global_levels(view.view, costs, options_.smoothness), range);
-        if (keep_costs && costs.costs.size() <= kKeptCosts / rig_.views.size()) {
+        if (keep_costs && costs.costs.size() <= kMaxKeptCosts / rig_.views.size()) {
             kept_costs_[static_cast<std::size_t>(n)] = std::move(costs);
         }
         return {};
     });
 }
 
-// The narrowest margin at which the silhouettes agree. Where none does, since cameras do not stand where the rig
-// has them or cut-outs lack parts, the fewest silhouettes that must be overruled to leave the object whole: a hull
-// that cuts into it puts surfaces where no picture sees them.
-void RingSearch::find_margin(const std::vector<const RingSearch*>& beside) {
-    const std::vector<const WorkView*> all = work_views(beside);
-    overruled_share_ = 0;
+// Chooses the narrowest margin at which the silhouettes agree. Where none does, because the rig is inaccurate or masks
+// lack parts, chooses the smallest share of silhouettes that must be tolerated to leave the object whole: a hull that
+// cuts into the object puts surfaces where no photo sees them.
+void RingDepthEstimator::choose_margin(const std::vector<const RingDepthEstimator*>& beside) {
+    const std::vector<const WorkView*> all = silhouettes(beside);
+    tolerated_share_ = 0;
     for (margin_px_ = 1; margin_px_ <= options_.widest_hull_margin_px; margin_px_ *= 2) {
         hull_ = std::make_unique<VisualHull>(all, margin_px_);
         contradicted_ = contradicted_by(*hull_, all);
-        silhouettes_agree_ = contradicted_ <= kMostContradicted;
+        silhouettes_agree_ = contradicted_ <= kMaxContradicted;
         if (silhouettes_agree_) return;
     }
-    margin_px_ = kOverruledMargin_px;
-    for (const double share : kOverruledShares) {
-        overruled_share_ = share;
-        hull_ = std::make_unique<VisualHull>(all, margin_px_, overruled(all));
+    margin_px_ = kTolerantMargin_px;
+    for (const double share : kToleratedShares) {
+        tolerated_share_ = share;
+        hull_ = std::make_unique<VisualHull>(all, margin_px_, tolerated(all));
         if (agree_with(all, *hull_)) return;
     }
 }
 
-// The rings whose silhouettes this one's, with the margin that these need among themselves, do not contradict:
-// rings may be calibrated each for itself only.
-std::vector<const RingSearch*> RingSearch::agreeing(const std::vector<const RingSearch*>& rings) const {
-    std::vector<const RingSearch*> found;
-    for (const RingSearch* const ring : rings) {
-        const std::vector<const WorkView*> both = work_views({ring});
-        if (agree_with(both, VisualHull(both, margin_px_, overruled(both)))) found.push_back(ring);
+// The rings whose silhouettes agree with this one's at this ring's margin. Others may have been calibrated separately.
+std::vector<const RingDepthEstimator*> RingDepthEstimator::consistent_rings(
+    const std::vector<const RingDepthEstimator*>& rings) const {
+    std::vector<const RingDepthEstimator*> found;
+    for (const RingDepthEstimator* const ring : rings) {
+        const std::vector<const WorkView*> both = silhouettes({ring});
+        if (agree_with(both, VisualHull(both, margin_px_, tolerated(both)))) found.push_back(ring);
     }
     return found;
 }
 
-double RingSearch::gap_deg(int n) const {
+double RingDepthEstimator::gap_deg(int n) const {
     return degrees(gap_width(views_, static_cast<std::size_t>(n)));
 }
 
-// The pictures to either side and the nearest one of each ring beside this one, unless they are too far away to
-// compare.
-Neighbours RingSearch::neighbours_of(int n) const {
+// The photos on either side and the nearest photo of each adjacent ring, unless they are too far away to compare.
+Neighbours RingDepthEstimator::neighbours_of(int n) const {
     const int before = (n + count() - 1) % count();
     const int after = (n + 1) % count();
     Neighbours found;
@@ -361,18 +367,18 @@ Neighbours RingSearch::neighbours_of(int n) const {
     }
     const WorkView& view = views_[static_cast<std::size_t>(n)].view;
     const auto angle_to = [&](const DepthView& other) { return angle_between(view, other.view); };
-    for (const RingSearch* const ring : beside_) {
+    for (const RingDepthEstimator* const ring : adjacent_) {
         const auto nearest =
             std::min_element(ring->views_.begin(), ring->views_.end(),
                              [&](const DepthView& a, const DepthView& b) { return angle_to(a) < angle_to(b); });
-        if (angle_to(*nearest) < radians(kWidestBetweenRings_deg)) found.across.push_back(&*nearest);
+        if (angle_to(*nearest) < radians(kMaxRingDistance_deg)) found.across.push_back(&*nearest);
     }
     return found;
 }
 
-DepthRange RingSearch::range_of(int n, const Neighbours& neighbours) const {
+DepthRange RingDepthEstimator::range_of(int n, const Neighbours& neighbours) const {
     const WorkView& view = views_[static_cast<std::size_t>(n)].view;
-    double most_moved = 0;  // by a change of depth of one, in object radii
+    double most_moved = 0;  // object radii across the neighbour's line of sight per object radius of depth
     for (const auto* const kind : {&neighbours.beside, &neighbours.across}) {
         for (const DepthView* const neighbour : *kind) {
             most_moved = std::max(most_moved, std::sin(angle_between(view, neighbour->view)));
