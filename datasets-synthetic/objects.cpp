@@ -5,6 +5,7 @@
 #include "datasets-synthetic/objects/flower.hpp"
 #include "datasets-synthetic/objects/lamp.hpp"
 #include "datasets-synthetic/objects/lattice.hpp"
+#include "datasets-synthetic/objects/phone.hpp"
 #include "datasets-synthetic/objects/vase.hpp"
 
 namespace rs::synthetic {
@@ -16,8 +17,8 @@ struct Entry {
 };
 
 constexpr Entry kObjects[] = {
-    {"vase", generate_vase}, {"flower", generate_flower},   {"doll", generate_doll},
-    {"lamp", generate_lamp}, {"lattice", generate_lattice}, {"blocks", generate_blocks},
+    {"vase", generate_vase},       {"flower", generate_flower}, {"doll", generate_doll},   {"lamp", generate_lamp},
+    {"lattice", generate_lattice}, {"blocks", generate_blocks}, {"phone", generate_phone},
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ struct ObjectShape {
     float foot_radii = 0.5F;  // radius of what touches the ground, about
 };
 
-// One for each of object_names(), with the recipes' parameters.
+// The objects that the showroom shows, with the recipes' parameters.
 const std::vector<ObjectShape>& object_shapes();
 const ObjectShape& object_shape(const std::string& name);  // the name must be one of them
 

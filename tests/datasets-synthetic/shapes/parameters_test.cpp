@@ -82,6 +82,8 @@ TEST(Parameters, ObjectsAreSoundAtTheEndsOfTheirRanges) {
         {"lattice", {{"strut", 0.06}, {"core", 0.4}, {"windings", 5}}},
         {"blocks", {{"text", "A"}, {"bevel", 0.03}, {"untidiness", 0}}},
         {"blocks", {{"text", "ABCDEFGHIJKL"}, {"bevel", 0.25}, {"untidiness", 1}}},
+        {"phone", {{"text", "A"}, {"lean", 0}, {"gloss", 0.05}}},
+        {"phone", {{"text", "ABCDEFGH"}, {"lean", 0.35}, {"gloss", 0.6}}},
     };
     for (const auto& [object, parameters] : extremes) {
         const Result<capture::Scene> scene = generate(object, parameters, 5);
