@@ -9,9 +9,9 @@ bool is_below(double value, double limit) {
     return std::abs(value) < limit;
 }
 
-constexpr double kMostPixels = 16384;   // of cx, cy, fl_y and q1
-constexpr double kMostLateral = 32767;  // of q0, px times object radii
-constexpr double kMostRadii = 256;      // of height and l0
+constexpr double kMostPixels = 16384;   // limit of cx, cy, fl_y and q1
+constexpr double kMostLateral = 32767;  // limit of q0, px times object radii
+constexpr double kMostRadii = 256;      // limit of height and l0
 
 }  // namespace
 

@@ -11,19 +11,19 @@
 #include <cstdlib>
 #include <cstring>
 
-// Plain loops without branches: the compiler makes vectors of them, as long as each target has.
+// Plain loops without branches, for auto-vectorization with each target's vector length.
 HWY_BEFORE_NAMESPACE();
 namespace rs::encode::HWY_NAMESPACE {
 
-constexpr int kRun = 64;  // rows that are worked on at once
+constexpr int kRun = 64;  // rows per block
 
 HWY_INLINE int channel(std::uint32_t pixel, int shift) {
     return static_cast<int>((pixel >> shift) & 255U);
 }
 
-// Up to kRun rows from `begin` on.
+// `count` <= kRun rows from `begin`.
 HWY_INLINE void match_run(const ColumnMatch& match, int begin, int count, std::uint8_t* costs) {
-    // Pixels as numbers, R in the lowest byte: vectors hold them in lanes of 32 bits.
+    // Pixels as 32-bit lanes, R in the lowest byte.
     std::uint32_t own[kRun];
     std::uint32_t first[kRun];
     std::uint32_t second[kRun];
@@ -38,7 +38,7 @@ HWY_INLINE void match_run(const ColumnMatch& match, int begin, int count, std::u
     const int part = match.part;
     const int height = match.height;
     for (int n = 0; n < count; ++n) {
-        // Between the two columns, in 1/32.
+        // Interpolated between the two columns, in 1/32.
         const auto between = [&](int shift) {
             const int one = channel(first[n], shift);
             return 32 * one + part * (channel(second[n], shift) - one);
@@ -58,7 +58,7 @@ void match_all(const ColumnMatch& match, std::uint8_t* costs) {
     }
 }
 
-HWY_INLINE void approach_run(const ColumnDepths& found, int begin, int count, std::uint8_t* least) {
+HWY_INLINE void compare_depth_run(const ColumnDepths& found, int begin, int count, std::uint8_t* least) {
     float there[kRun];
     std::int32_t row[kRun];
     for (int n = 0; n < count; ++n) row[n] = (found.position_q16 + (begin + n) * found.step_q16) >> 16;
@@ -74,13 +74,13 @@ HWY_INLINE void approach_run(const ColumnDepths& found, int begin, int count, st
     }
 }
 
-void approach_all(const ColumnDepths& found, std::uint8_t* least) {
+void compare_all_depths(const ColumnDepths& found, std::uint8_t* least) {
     for (int begin = 0; begin < found.rows; begin += kRun) {
-        approach_run(found, begin, std::min(kRun, found.rows - begin), least + begin);
+        compare_depth_run(found, begin, std::min(kRun, found.rows - begin), least + begin);
     }
 }
 
-// What neighbours of one kind give for a run of rows.
+// Merged costs of the neighbors of one kind for a block of rows.
 struct KindRun {
     std::uint8_t cost[kRun];
     std::uint8_t known[kRun];
@@ -138,15 +138,15 @@ HWY_AFTER_NAMESPACE();
 namespace rs::encode {
 
 HWY_EXPORT(match_all);
-HWY_EXPORT(approach_all);
+HWY_EXPORT(compare_all_depths);
 HWY_EXPORT(merge_all);
 
 void match_column(const ColumnMatch& match, std::uint8_t* costs) {
     HWY_DYNAMIC_DISPATCH(match_all)(match, costs);
 }
 
-void approach_depths(const ColumnDepths& found, std::uint8_t* least) {
-    HWY_DYNAMIC_DISPATCH(approach_all)(found, least);
+void compare_depth_column(const ColumnDepths& found, std::uint8_t* least) {
+    HWY_DYNAMIC_DISPATCH(compare_all_depths)(found, least);
 }
 
 void merge_matches(const std::uint8_t* costs, int rows, int beside, int across, std::uint8_t* merged) {

@@ -1,6 +1,6 @@
 #pragma once
-// The loops along a column that the search for depth spends its time in, compiled for every SIMD target that
-// Highway knows and chosen at run time; all give the same integers. Thread-safe.
+// Inner loops of the matching costs along a column, compiled for each SIMD target of Highway and dispatched at run
+// time. All targets give the same integers. Thread-safe.
 
 #include "rayspace/image/image.hpp"
 
@@ -12,26 +12,26 @@ namespace rs::encode {
 inline constexpr int kMostCost = 60;
 inline constexpr int kOutsideCost = 2 * kMostCost;
 
-// What one neighbour gives for a pixel at a depth: a cost 0 .. kMostCost, or one of these.
-inline constexpr std::uint8_t kUnknownMatch = 255;  // the pixel is not of the object, or the point not in the frame
-inline constexpr std::uint8_t kOutsideMatch = 254;  // the point is not of the neighbour's object
+// The cost of a pixel at a depth against one neighbor is 0 .. kMostCost, or one of these.
+inline constexpr std::uint8_t kUnknownMatch = 255;  // the pixel is transparent, or the point outside of the frame
+inline constexpr std::uint8_t kOutsideMatch = 254;  // the neighbor is transparent there
 
-// Pixels of one column and where their points lie in a neighbour.
+/// Pixels of one column and the projections of their points into a neighbor.
 struct ColumnMatch {
     const Rgba8* own = nullptr;    // `rows` pixels
-    const Rgba8* first = nullptr;  // the two columns of the neighbour that the points lie between: `height` pixels each
+    const Rgba8* first = nullptr;  // the neighbor's two columns to interpolate between, `height` pixels each
     const Rgba8* second = nullptr;
-    int part = 0;  // of the way from the first to the second, 1/32
+    int part = 0;  // interpolation weight of the second column, 1/32
     int rows = 0;
     int height = 0;
-    std::int32_t position_q16 = 0;  // row of the neighbour for the first pixel, and the step to the next one's
+    std::int32_t position_q16 = 0;  // neighbor's row of the first pixel, and step per pixel
     std::int32_t step_q16 = 0;
 };
 
-// What a neighbour was found to show along one of its columns, and a depth of the points whose rows these are.
+/// Depths along a column of a neighbor, and the projections of points at one depth.
 struct ColumnDepths {
-    const float* depths = nullptr;  // `height`, NaN where nothing was found
-    float depth = 0;                // along the neighbour's rays
+    const float* depths = nullptr;  // `height` depths, NaN where unknown
+    float depth = 0;                // of the points, along the neighbor's ray
     float cost_per_unit = 1;
     int rows = 0;
     int height = 0;
@@ -39,16 +39,17 @@ struct ColumnDepths {
     std::int32_t step_q16 = 0;
 };
 
-// The mean absolute difference of R, G and B, at most kMostCost, or one of the two above, for each row.
+/// Writes for each row the mean absolute difference of R, G and B, at most kMostCost, or kUnknownMatch or
+/// kOutsideMatch.
 void match_column(const ColumnMatch& match, std::uint8_t* costs);
 
-// least[row] becomes what the depth is away from the one found there, times cost_per_unit, rounded down, at most
-// kMostCost, where that is less than it was.
-void approach_depths(const ColumnDepths& found, std::uint8_t* least);
+/// Lowers least[row] to the distance between the depth and the neighbor's, times cost_per_unit, rounded down, at most
+/// kMostCost.
+void compare_depth_column(const ColumnDepths& found, std::uint8_t* least);
 
-// costs[n * rows + row] of `beside` neighbours of the one kind and then `across` of the other -> merged[row].
-// Of a kind the best counts three quarters and the worst, at most 20 more, a quarter; of both kinds the mean. Where a
-// neighbour finds that the point is outside: kOutsideCost.
+/// Merges the costs of several neighbors: costs[n * rows + row], first of `beside` neighbors, then of `across`, into
+/// merged[row]. Within a kind the best cost has weight 3/4 and the worst, limited to 20 above it, 1/4; the result is
+/// the mean of both kinds, and kOutsideCost where any neighbor has kOutsideMatch.
 void merge_matches(const std::uint8_t* costs, int rows, int beside, int across, std::uint8_t* merged);
 
 }  // namespace rs::encode

@@ -8,7 +8,7 @@
 namespace rs::encode {
 namespace {
 
-constexpr double kFarthestRow = 32000;  // that 32 bits hold in 1/65536
+constexpr double kFarthestRow = 32000;  // fits in 32 bits in units of 1/65536
 constexpr double kNearest = 0.05;       // axial depth, object radii
 constexpr float kCostPerLevel = 5;
 
@@ -18,7 +18,7 @@ struct Rows {
     [[nodiscard]] int count() const { return end - begin; }
 };
 
-// The rows of one column of a volume that have a level, or lie between such rows.
+// For each level, the range of rows of one column of a volume that contains all rows with this level.
 class ColumnLevels {
 public:
     ColumnLevels(CostVolume& volume, int column)
@@ -38,7 +38,7 @@ public:
     // Counted from the top of the box.
     [[nodiscard]] const Rows& rows(int level) const { return rows_[static_cast<std::size_t>(level)]; }
 
-    // change(row, cost) of each that has it and does not lie outside of the hull.
+    // Calls change(row, cost) for each row that has the level and is not outside of the hull there.
     template <class Change>
     void for_each(int level, const Change& change) {
         for (int row = rows(level).begin; row < rows(level).end; ++row) {
@@ -56,8 +56,8 @@ private:
     std::vector<Rows> rows_;
 };
 
-// For every column and level that some of its rows have: measure(column, ray, depth, rows), and then
-// change(row - rows.begin, cost) of each that may cost something.
+// For each column and each of its levels: calls measure(column, ray, depth, rows), then change(row - rows.begin, cost)
+// for each row inside the hull.
 template <class Measure, class Change>
 void for_each_level(CostVolume& volume, const WorkView& view, const DepthRange& range, const Measure& measure,
                     const Change& change) {
@@ -74,7 +74,7 @@ void for_each_level(CostVolume& volume, const WorkView& view, const DepthRange& 
     }
 }
 
-// Where the points of a column's rows at one depth lie in a neighbour: one column, rows that are linear in rows.
+// Projections of a column's points at one depth into a neighbor: one column, and rows that are linear in the row.
 struct SeenRows {
     SeenColumn column;
     std::int32_t position_q16 = 0;
@@ -95,13 +95,13 @@ std::optional<SeenRows> see_rows(const WorkView& view, const WorkView& neighbour
                     static_cast<std::int32_t>(std::lround(std::ldexp(step, 16)))};
 }
 
-// Rows from `top` on of one column at one depth against one neighbour.
+// Matching costs of `rows` rows from `top` of one column, at one depth, against one neighbor.
 void compare_column(const WorkView& view, const WorkView& neighbour, const HorizontalRay& ray, double depth, int column,
                     int top, int rows, std::uint8_t* costs) {
     std::fill(costs, costs + rows, kUnknownMatch);
     const std::optional<SeenRows> seen = see_rows(view, neighbour, ray, depth, top, rows);
     if (!seen) return;
-    // Between two columns of the neighbour, in 1/32 px.
+    // Interpolated between two columns of the neighbor, in 1/32 px.
     const double left = seen->column.column - 0.5;
     const auto c0 = static_cast<int>(std::floor(left));
     if (c0 < -1 || c0 >= neighbour.width) return;
@@ -116,7 +116,7 @@ void compare_column(const WorkView& view, const WorkView& neighbour, const Horiz
                  costs);
 }
 
-// What one neighbour was found to show, with the rays of its columns.
+// A neighbor's depth map with the rays of its columns.
 struct FoundSurface {
     explicit FoundSurface(const DepthView& found) : view(found.view), depth(found.depth) {
         for (int column = 0; column < view.width; ++column) rays.push_back(view.ray_of(column + 0.5));
@@ -133,17 +133,17 @@ void compare_depths(const WorkView& view, const FoundSurface& found, const Horiz
     if (!seen || !(seen->column.column >= 0 && seen->column.column < found.view.width)) return;
     const auto column = static_cast<int>(seen->column.column);
     const HorizontalRay& their_ray = found.rays[static_cast<std::size_t>(column)];
-    approach_depths({.depths = found.depth.row(column),
-                     .depth = static_cast<float>(glm::dot(ray.place_at(depth) - their_ray.foot, their_ray.along)),
-                     .cost_per_unit = cost_per_unit,
-                     .rows = rows,
-                     .height = found.view.height,
-                     .position_q16 = seen->position_q16,
-                     .step_q16 = seen->step_q16},
-                    least);
+    compare_depth_column({.depths = found.depth.row(column),
+                          .depth = static_cast<float>(glm::dot(ray.place_at(depth) - their_ray.foot, their_ray.along)),
+                          .cost_per_unit = cost_per_unit,
+                          .rows = rows,
+                          .height = found.view.height,
+                          .position_q16 = seen->position_q16,
+                          .step_q16 = seen->step_q16},
+                         least);
 }
 
-// Which levels of a column's pixels the hull allows.
+// The levels of a column's pixels that the hull allows.
 class AllowedColumn {
 public:
     AllowedColumn(const SampledHull& hull, const WorkView& view, const ObjectBox& box, int column,
@@ -170,7 +170,7 @@ public:
     [[nodiscard]] int first(int row) const { return first_[static_cast<std::size_t>(row)]; }
     [[nodiscard]] int count(int row) const { return last_[static_cast<std::size_t>(row)] - first(row) + 1; }
 
-    // Of the pixels that have any.
+    // Sets the costs of the allowed levels to 0.
     void clear(std::span<const PixelLevels> pixels, std::vector<std::uint8_t>& costs) const {
         for (std::size_t row = 0; row < pixels.size(); ++row) {
             const PixelLevels& pixel = pixels[row];
@@ -192,7 +192,7 @@ private:
     };
     [[nodiscard]] int allowed(int row) const { return allowed_[static_cast<std::size_t>(row)]; }
 
-    // Levels come in their order. Plain loops that the compiler makes vectors of.
+    // Called with ascending levels. Plain loops, for auto-vectorization.
     void allow(std::uint16_t level, const Rows& rows) {
         std::uint16_t* const first = first_.data();
         std::uint16_t* const last = last_.data();
@@ -204,7 +204,7 @@ private:
 
     std::vector<Run> runs_;
     std::vector<std::uint16_t> first_, last_;  // [row]
-    std::vector<std::uint16_t> allowed_;       // [row], levels from the first to the last
+    std::vector<std::uint16_t> allowed_;       // [row], number of allowed levels
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// How unlikely each depth of each pixel of a picture is: by the colours of neighbouring pictures, and by the surfaces
-// that these were found to show.
+// Matching cost volume of a photo: the cost of each depth level of each pixel, from the colours of neighboring photos
+// and from their depth maps.
 
 #include "encode/raymap/column_match.hpp"
 #include "encode/raymap/silhouettes/visual_hull.hpp"
@@ -19,20 +19,20 @@ struct ObjectBox {
     [[nodiscard]] bool empty() const { return right <= left || bottom <= top; }
 };
 
-// The smallest box of all pixels with alpha above 0.
+/// The bounding box of all pixels with alpha above 0.
 ObjectBox object_box(const WorkView& view);
 
-// The levels first .. first + count - 1 that one pixel may have; the cost of level first + n is costs[begin + n].
+/// The levels first .. first + count - 1 of one pixel; the cost of level first + n is costs[begin + n].
 struct PixelLevels {
     std::uint32_t begin = 0;
     std::uint16_t first = 0;
-    std::uint16_t count = 0;  // 0: the pixel is not of the object
+    std::uint16_t count = 0;  // 0: the pixel is not part of the object
 };
 
-// Photographed objects fill a tenth to a fifth of the depths that are searched, and half of their box.
+/// A sparse cost volume: only the levels that the hull allows are stored, a tenth to a fifth of all.
 struct CostVolume {
     ObjectBox box;
-    int levels = 0;                   // of the range
+    int levels = 0;                   // of the depth range
     std::vector<PixelLevels> pixels;  // [(column - box.left) * box.height() + row - box.top]
     std::vector<std::uint8_t> costs;
 
@@ -41,31 +41,32 @@ struct CostVolume {
     }
 };
 
-// Every pixel of the object with the levels of `range` (at most 65535) that the hull allows, from the first to the
-// last. They cost nothing yet; what lies between but outside of the hull costs kOutsideCost. A pixel whose ray misses
-// the hull has all levels, at that cost. Of `only` (as WorkView::columns; may be null), pixels that are not 0 there.
+/// Creates the volume of the object's pixels, with the levels of `range` (at most 65535) from the first to the last
+/// that the hull allows. Levels inside the hull cost 0, levels between them but outside of it kOutsideCost. A pixel
+/// whose ray misses the hull has all levels, at kOutsideCost. \param only  if not null, only its pixels that are not 0
+/// are part of the volume; transposed as WorkView::columns is.
 CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range,
                          const Image<std::uint8_t>* only = nullptr);
 
-// The depths of the first levels that the hull allows, as DepthView::depth.
+/// The depth at which each pixel's ray enters the hull, as DepthView::depth.
 Image<float> first_allowed(const WorkView& view, const CostVolume& costs, const DepthRange& range);
 
-// The pictures that one is compared with, at most two of a kind, each with what it was found to show, if anything.
+/// The photos that a photo is compared with, at most two of each kind.
 struct Neighbours {
-    std::vector<const DepthView*> beside;  // of its ring
-    std::vector<const DepthView*> across;  // of the rings below and above
+    std::vector<const DepthView*> beside;  // in the same ring
+    std::vector<const DepthView*> across;  // in the rings below and above
 };
 
-// The colours. Each neighbour gives a cost, the mean absolute difference of R, G and B, at most kMostCost; one that
-// does not have the point in its frame gives none, one that shows it transparent makes it cost kOutsideCost. Surfaces
-// are seen by the pictures to one side at least, so the better side counts for most. Where there are neighbours of both
-// kinds the mean of the two is taken: edges that lie level distinguish only those across something.
-// What costs kOutsideCost stays as it is.
+/// Sets the costs from colours. Each neighbor gives the mean absolute difference of R, G and B, at most kMostCost; none
+/// where the point is outside of its frame; kOutsideCost where it is transparent there. A surface is seen from one side
+/// at least, so that the better neighbor of a kind has most of the weight. Where there are neighbors of both kinds
+/// their mean is taken, since horizontal edges can be matched only across rings. Costs that are kOutsideCost already
+/// are kept.
 void match_colours(CostVolume& volume, const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
 
-// Adds how far a point is from the nearest of the surfaces that neighbours show where they see it: 5 for a level,
-// kMostCost at most; nothing where none shows a surface there. So what two pictures agree about outweighs
-// the colours of a few pixels.
+/// Adds the distance of a point from the nearest surface in the neighbors' depth maps at its projections: 5 per level,
+/// at most kMostCost; nothing where none has a depth there. So the depth of another photo outweighs the colours of a
+/// few pixels.
 void add_inconsistency(CostVolume& volume, const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
 
 }  // namespace rs::encode

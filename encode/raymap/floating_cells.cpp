@@ -8,19 +8,19 @@
 namespace rs::encode {
 namespace {
 
-constexpr double kSmallestPart = 0.0005;  // of an object, of its largest; below that depths are noise
+constexpr double kSmallestPart = 0.0005;  // relative to the largest component; smaller ones are noise
 
-// The islands of a grid, [across * height + down]: which of them each place belongs to, and their sizes.
-class Islands {
+// The 4-connected components of a grid, [across * height + down], and their sizes.
+class ConnectedComponents {
 public:
-    template <class IsLand>
-    Islands(int width, int height, const IsLand& is_land)
+    template <class IsForeground>
+    ConnectedComponents(int width, int height, const IsForeground& is_foreground)
         : width_(width),
           height_(height),
-          island_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kSea) {
-        for (std::size_t i = 0; i < island_.size(); ++i) island_[i] = is_land(i) ? kUnknown : kSea;
-        for (std::size_t i = 0; i < island_.size(); ++i) {
-            if (island_[i] == kUnknown) explore(i);
+          component_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kBackground) {
+        for (std::size_t i = 0; i < component_.size(); ++i) component_[i] = is_foreground(i) ? kUnknown : kBackground;
+        for (std::size_t i = 0; i < component_.size(); ++i) {
+            if (component_[i] == kUnknown) flood_fill(i);
         }
     }
 
@@ -28,7 +28,7 @@ public:
         const auto found = std::max_element(sizes_.begin(), sizes_.end());
         return found == sizes_.end() ? 0 : *found;
     }
-    // Of those that are not smaller than `least`.
+    // The size of the smallest component that is not smaller than `least`.
     [[nodiscard]] int smallest(double least) const {
         int found = largest();
         for (const int size : sizes_) {
@@ -36,46 +36,46 @@ public:
         }
         return found;
     }
-    // Of the island that a place belongs to; 0 where there is none.
+    // The size of the component at a place; 0 where there is none.
     [[nodiscard]] int size_at(std::size_t place) const {
-        return island_[place] == kSea ? 0 : sizes_[static_cast<std::size_t>(island_[place])];
+        return component_[place] == kBackground ? 0 : sizes_[static_cast<std::size_t>(component_[place])];
     }
 
 private:
-    static constexpr int kSea = -1, kUnknown = -2;
+    static constexpr int kBackground = -1, kUnknown = -2;
 
-    void explore(std::size_t begin) {
-        const auto island = static_cast<int>(sizes_.size());
+    void flood_fill(std::size_t begin) {
+        const auto component = static_cast<int>(sizes_.size());
         int size = 0;
-        const auto reach = [&](std::size_t place) {
-            if (island_[place] != kUnknown) return;
-            island_[place] = island;
+        const auto visit = [&](std::size_t place) {
+            if (component_[place] != kUnknown) return;
+            component_[place] = component;
             ++size;
-            shore_.push_back(place);
+            frontier_.push_back(place);
         };
         const auto height = static_cast<std::size_t>(height_);
-        reach(begin);
-        while (!shore_.empty()) {
-            const std::size_t place = shore_.back();
-            shore_.pop_back();
+        visit(begin);
+        while (!frontier_.empty()) {
+            const std::size_t place = frontier_.back();
+            frontier_.pop_back();
             const std::size_t across = place / height, down = place % height;
-            if (across > 0) reach(place - height);
-            if (across + 1 < static_cast<std::size_t>(width_)) reach(place + height);
-            if (down > 0) reach(place - 1);
-            if (down + 1 < height) reach(place + 1);
+            if (across > 0) visit(place - height);
+            if (across + 1 < static_cast<std::size_t>(width_)) visit(place + height);
+            if (down > 0) visit(place - 1);
+            if (down + 1 < height) visit(place + 1);
         }
         sizes_.push_back(size);
     }
 
     int width_, height_;
-    std::vector<int> island_;
+    std::vector<int> component_;
     std::vector<int> sizes_;
-    std::vector<std::size_t> shore_;
+    std::vector<std::size_t> frontier_;
 };
 
 }  // namespace
 
-void drop_beside_hull(const LineGrid& grid, const std::vector<std::uint8_t>& meets_hull, ShapeCell* cells) {
+void remove_outside_hull(const LineGrid& grid, const std::vector<std::uint8_t>& meets_hull, ShapeCell* cells) {
     const auto meets_nearby = [&](int p, int h) {
         for (int x = std::max(p - 1, 0); x <= std::min(p + 1, grid.p_cells - 1); ++x) {
             for (int y = std::max(h - 1, 0); y <= std::min(h + 1, grid.bands - 1); ++y) {
@@ -94,18 +94,20 @@ void drop_beside_hull(const LineGrid& grid, const std::vector<std::uint8_t>& mee
 
 double floating_share(const Image<float>& depth) {
     const std::span<const float> depths = depth.pixels();
-    const Islands islands(depth.height(), depth.width(), [&](std::size_t i) { return !std::isnan(depths[i]); });
-    if (islands.largest() == 0) return kLargestFloating;
-    const double largest = islands.largest();
-    return std::min(kLargestFloating, islands.smallest(kSmallestPart * largest) / (2 * largest));
+    const ConnectedComponents components(depth.height(), depth.width(),
+                                         [&](std::size_t i) { return !std::isnan(depths[i]); });
+    if (components.largest() == 0) return kMaxFloatingShare;
+    const double largest = components.largest();
+    return std::min(kMaxFloatingShare, components.smallest(kSmallestPart * largest) / (2 * largest));
 }
 
-void drop_islands(const LineGrid& grid, double share, ShapeCell* cells) {
-    const Islands islands(grid.p_cells, grid.bands, [&](std::size_t i) { return cells[i].has_surface(); });
-    const double least = share * islands.largest();
+void remove_small_components(const LineGrid& grid, double share, ShapeCell* cells) {
+    const ConnectedComponents components(grid.p_cells, grid.bands,
+                                         [&](std::size_t i) { return cells[i].has_surface(); });
+    const double least = share * components.largest();
     const std::size_t count = static_cast<std::size_t>(grid.p_cells) * static_cast<std::size_t>(grid.bands);
     for (std::size_t i = 0; i < count; ++i) {
-        if (cells[i].has_surface() && islands.size_at(i) < least) cells[i] = {};
+        if (cells[i].has_surface() && components.size_at(i) < least) cells[i] = {};
     }
 }
 

@@ -3,7 +3,7 @@
 namespace rs::encode {
 namespace {
 
-// The ray that passes the axis at distance p.
+// The ray from the viewpoint that passes the axis at signed distance p.
 HorizontalRay line_ray(const glm::dvec2& viewpoint, double p) {
     const double distance = glm::length(viewpoint);
     const glm::dvec2 inwards = -viewpoint / distance;
@@ -17,7 +17,7 @@ HorizontalRay line_ray(const glm::dvec2& viewpoint, double p) {
 
 }  // namespace
 
-LinePoint on_line(const LineGrid& grid, const glm::dvec2& viewpoint, const glm::dvec2& place, double y) {
+LinePoint project_to_line(const LineGrid& grid, const glm::dvec2& viewpoint, const glm::dvec2& place, double y) {
     const glm::dvec2 along = glm::normalize(place - viewpoint);
     LinePoint point;
     point.p = -place.x * along.y + place.y * along.x;

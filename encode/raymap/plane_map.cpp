@@ -11,26 +11,26 @@
 namespace rs::encode {
 namespace {
 
-// The map reaches a little beyond tan(pi / K), so that rays at the seam between two planes fall inside of both.
+// The map extends slightly beyond tan(pi / K), so that rays at the seam between two planes are inside of both.
 double half_width_of_u(int planes) {
     return std::tan(kPi / planes) * (1 + 1.0 / 1024);
 }
 
 // A ray at this angle to the normal that touches the unit cylinder crosses the plane at 1 / cos(pi / K). The margin
-// keeps the soft pixels of a silhouette's rim, which reach half a pixel beyond the object.
+// keeps the soft pixels of a silhouette's edge, which extend half a pixel beyond the object.
 double half_width_of_x(int planes) {
     return (1 + 1.0 / 64) / std::cos(kPi / planes);
 }
 
-// How many cells of u the border between two pictures lies beyond half-way.
+// Offset of the border between two photos from halfway, in cells of u.
 constexpr double kFavour_cells = 2;
 
 struct Candidate {
-    double angle_rad = 0;  // of the picture's ray through the plane point, to the normal
+    double angle_rad = 0;  // between the photo's ray through the plane point and the normal
     std::uint16_t view = kNoPicture;
 };
 
-// The rays of the ring's pictures through the plane point x, by angle.
+// The rays of the ring's photos through the plane point x, sorted by angle.
 std::vector<Candidate> rays_through(const Rig& upright, const ViewRing& ring, const ReferencePlane& plane, double x) {
     std::vector<Candidate> rays;
     for (const int v : ring.views) {
@@ -46,9 +46,9 @@ std::vector<Candidate> rays_through(const Rig& upright, const ViewRing& ring, co
     return rays;
 }
 
-// A viewpoint half-way between two captured ones runs along the border between their cells. Were the border exactly
-// half-way, the rounding of cells would hand its columns to one picture and the other in turn, and stripes would show
-// just where viewers most often stand. So the border lies a little beyond, and such a viewpoint sees one picture.
+// A viewpoint halfway between two captured ones follows the border between their cells. With the border exactly
+// halfway, rounding would assign its columns to both photos in turn, and stripes would be visible from such viewpoints.
+// The border is therefore slightly beyond halfway.
 bool goes_to_next(const Candidate& now, const Candidate& next, double angle_rad, double cell_rad) {
     const double apart_rad = next.angle_rad - now.angle_rad;
     const double favour_rad = std::min(kFavour_cells * cell_rad, apart_rad / 8);

@@ -1,6 +1,6 @@
 #pragma once
-// The paper's RS map: for every cell (x, u) of every reference plane, the captured picture whose ray through the plane
-// point x is nearest in angle; the object is taken to lie on the plane (section 2, "nearest neighbour").
+// The RS map of the paper (section 2, "nearest neighbour"): for each cell (x, u) of each reference plane, the captured
+// photo whose ray through the plane point x is nearest in angle. The object is assumed to lie on the plane.
 
 #include "encode/raymap/rings.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -14,14 +14,14 @@ struct PlaneMapOptions {
     int u_cells = 512;  // 1..kMaxMapSide
 };
 
-// `upright` is in object radii. A picture can answer for the plane point x when it sees it from the front of the plane
-// and within its frame. Of two pictures that are almost equally near (within two cells of u, and an eighth of their
-// distance) the one that comes first in turning order answers, so that half-way viewpoints see one picture instead of
-// stripes of both. Cells that no picture can answer hold kNoPicture. Deterministic.
+/// Computes the map of one ring. A photo is a candidate for the plane point x if it sees the point from the front of
+/// the plane and within its frame. Of two photos that are almost equally near (within two cells of u, and an eighth of
+/// their distance) the first in turning order is chosen, so that halfway viewpoints show one photo instead of stripes
+/// of both. Cells without a candidate hold kNoPicture. `upright` is in object radii. Deterministic.
 Ring make_plane_map(const Rig& upright, const ViewRing& ring, const PlaneMapOptions& options);
 
-// The narrowest run of u cells that separates two neighbouring views on any plane at x = 0: below 2, captured poses may
-// be answered by a neighbour. 0 where the ring has one view.
+/// The smallest number of u cells between two neighboring views on any plane at x = 0; 0 where the ring has one view.
+/// Below 2, captured poses may be rendered from a neighbor.
 double cells_between_views(const Rig& upright, const ViewRing& ring, const PlaneMapOptions& options);
 
 }  // namespace rs::encode

@@ -17,7 +17,7 @@ std::vector<ViewRing> find_rings(const Rig& rig) {
     const auto centre = [&](int i) { return rig.views[static_cast<std::size_t>(i)].camera.centre(); };
     const auto elevation = [&](int i) { return std::atan2(centre(i).y, std::hypot(centre(i).x, centre(i).z)); };
     const auto azimuth = [&](int i) {
-        // A hair below zero counts as zero, so that a ring whose first camera is on +Z starts with it.
+        // Angles slightly below zero count as zero, so that a ring whose first camera is on +Z starts with it.
         const double angle = std::atan2(centre(i).x, centre(i).z);
         return angle < -1e-9 ? angle + 2 * kPi : angle;
     };

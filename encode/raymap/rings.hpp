@@ -1,5 +1,5 @@
 #pragma once
-// Which views of a rig belong together as a ring about the Y axis.
+// Groups the views of a rig into rings about the Y axis.
 
 #include "rayspace/geometry/rig.hpp"
 
@@ -12,7 +12,7 @@ struct ViewRing {
     std::vector<int> views;    // in turning order, from +Z towards +X
 };
 
-// Views are sorted by the elevation of their centres; a gap of more than 5 degrees starts a new ring.
+/// Sorts views by the elevation of their centres; a gap of more than 5 degrees starts a new ring.
 std::vector<ViewRing> find_rings(const Rig& rig);
 
 }  // namespace rs::encode

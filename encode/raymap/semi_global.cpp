@@ -21,7 +21,7 @@ namespace rs::encode {
 
 using PathCost = std::int16_t;
 
-// What both sweeps over a volume share. Vectors reach `kLanes` beyond what they are of, but change nothing there.
+// State shared by both sweeps over a volume. Vectors may read up to `kLanes` beyond the end of an array.
 struct Paths {
     static constexpr int kLanes = 32;
 
@@ -38,7 +38,7 @@ struct Paths {
         }
     }
 
-    // Of a pixel's levels, readable as far as vectors reach.
+    // The costs of a pixel's levels, readable to the end of the last vector.
     [[nodiscard]] const std::uint8_t* costs(const PixelLevels& pixel) const {
         return pixel.begin < last_begin_ ? volume.costs.data() + pixel.begin
                                          : last_.data() + (pixel.begin - last_begin_);
@@ -47,12 +47,12 @@ struct Paths {
     const WorkView& view;
     const CostVolume& volume;
     PathCost small_step;
-    std::array<PathCost, 3 * 255 + 1> large_steps;  // by how much two pixels' colours differ
-    std::vector<PathCost> sums;                     // of the paths' costs at each level of the volume
+    std::array<PathCost, 3 * 255 + 1> large_steps;  // penalty P2, by the difference of two pixels' colours
+    std::vector<PathCost> sums;                     // over all paths, for each level of the volume
 
 private:
     std::size_t last_begin_;
-    std::vector<std::uint8_t> last_;  // the volume's costs from there on
+    std::vector<std::uint8_t> last_;  // the volume's costs from last_begin_, padded
 };
 
 }  // namespace rs::encode
@@ -66,9 +66,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<PathCost, Paths::kLanes>;
 constexpr PathCost kBeyond = 8000;  // beside the first and the last level
 
-// The costs of a few paths at the pixels of a column, each between two sentinels, and their minima. Levels that a pixel
-// does not have stay beyond. Where there is no pixel, above and below the column too, paths begin: nothing costs
-// anything there.
+// The costs of several paths at the pixels of a column, each between two sentinels, and their minima. Levels that a
+// pixel does not have hold kBeyond. Paths begin where there is no pixel, also above and below the column: all costs are
+// 0 there.
 class PathCosts {
 public:
     PathCosts(int paths, int pixels, int levels)
@@ -79,11 +79,11 @@ public:
           nothing_(stride_, 0),
           from_(static_cast<std::size_t>(pixels + 2), {nothing_.data() + 1, 0}),
           least_(static_cast<std::size_t>(pixels + 2) * paths_, 0) {}
-    // No copies: it points into its own numbers.
+    // Not copyable: it points into its own storage.
     PathCosts(PathCosts&&) = default;
     PathCosts& operator=(PathCosts&&) = default;
 
-    // Level 0, and the minimum; pixels from -1 to their number.
+    // Costs from level 0, and their minimum; -1 <= pixel <= number of pixels.
     [[nodiscard]] const PathCost* at(int path, int pixel) const {
         const From& from = from_[static_cast<std::size_t>(pixel + 1)];
         return from.costs + static_cast<std::size_t>(path) * from.stride;
@@ -92,12 +92,12 @@ public:
         return least_[static_cast<std::size_t>(pixel + 1) * paths_ + static_cast<std::size_t>(path)];
     }
 
-    // What was at a pixel is gone: there is none in the column that comes next, ...
+    // Marks a pixel of the next column as empty.
     void clear(int pixel) {
         from_[static_cast<std::size_t>(pixel + 1)] = {nothing_.data() + 1, 0};
         for (std::size_t path = 0; path < paths_; ++path) set_least(static_cast<int>(path), pixel, 0);
     }
-    // ... or one with these levels, which are written for every path, from to(path, pixel) + levels.first on.
+    // Starts a pixel of the next column with these levels; each path then writes from to(path, pixel) + levels.first.
     void begin(int pixel, const PixelLevels& levels) {
         PathCost* const costs = to(0, pixel);
         from_[static_cast<std::size_t>(pixel + 1)] = {costs, stride_};
@@ -132,8 +132,8 @@ private:
     std::vector<PathCost> least_;  // [(pixel + 1) * paths + path]
 };
 
-// Where a path comes from: its costs there at the first level of the pixel that it steps to, and their minimum; and
-// where it goes.
+// One step of a path: its costs at the previous pixel, from the first level of the next pixel, with their minimum; and
+// the costs at the next pixel.
 struct Step {
     const PathCost* from = nullptr;
     PathCost least_from = 0;
@@ -142,7 +142,7 @@ struct Step {
     PathCost least = kBeyond;
 };
 
-constexpr int kPaths = 4;  // that a sweep follows to each pixel
+constexpr int kPaths = 4;  // of each sweep, per pixel
 
 // 0, 1, 2 ...
 HWY_INLINE auto lane_numbers() {
@@ -152,7 +152,7 @@ HWY_INLINE auto lane_numbers() {
     return hn::Load(Lanes(), kNumbers);
 }
 
-// All paths' steps to one pixel, whose levels cost `costs`; added to `sum`.
+// Steps all paths to one pixel with matching costs `costs`, and adds their costs to `sum`.
 HWY_INLINE void step_paths(const std::uint8_t* costs, int levels, PathCost small_step, Step* steps, PathCost* sum) {
     const Lanes d;
     const hn::Rebind<std::uint8_t, Lanes> bytes;
@@ -186,7 +186,7 @@ HWY_INLINE void step_paths(const std::uint8_t* costs, int levels, PathCost small
     steps[3].least = hn::GetLane(hn::MinOfLanes(d, least3));
 }
 
-// By how much the colours of pixels differ, a plain loop that the compiler makes vectors of.
+// Sums of absolute colour differences; a plain loop, for auto-vectorization.
 void measure_edges(const Rgba8* a, const Rgba8* b, int count, std::uint16_t* edges) {
     for (int n = 0; n < count; ++n) {
         std::uint32_t one = 0, other = 0;
@@ -257,7 +257,7 @@ private:
         return paths_.large_steps[edges_[static_cast<std::size_t>(path)][static_cast<std::size_t>(r)]];
     }
 
-    // To a column from the previous one and within it; 0 where a path comes from above or below the box.
+    // Colour differences along each path into a column; 0 where a path enters from above or below the box.
     void find_edges(int column, int from_column) {
         const Rgba8* const own = &paths_.view.at(column, box_.top);
         const Rgba8* const there = &paths_.view.at(from_column, box_.top);
@@ -274,12 +274,12 @@ private:
     std::vector<std::vector<std::uint16_t>> edges_;  // [path][row - top]
 };
 
-// Paths that run with (direction 1) or against (-1) the columns, and within a column.
+// Runs the paths in (1) or against (-1) the order of the columns, and within each column.
 void sweep(Paths& paths, int direction) {
     Sweep(paths, direction).run();
 }
 
-// The first of the least of `count` sums, which may be read as far as vectors reach.
+// The index of the first minimum of `count` sums, which are readable to the end of the last vector.
 int first_least(const PathCost* sums, int count) {
     const Lanes d;
     const auto numbers = lane_numbers();
@@ -309,7 +309,7 @@ float level_of(const PixelLevels& pixel, const PathCost* sum) {
     return static_cast<float>(level + (curvature > 0 ? (before - after) / (2 * curvature) : 0));
 }
 
-// levels(row, column) of the pixels that have any.
+// Writes levels(row, column) of the pixels that have levels.
 void find_levels(const Paths& paths, Image<float>& levels) {
     const ObjectBox& box = paths.volume.box;
     for (int column = box.left; column < box.right; ++column) {

@@ -8,12 +8,12 @@
 namespace rs::encode {
 
 struct SmoothnessOptions {
-    int small_step = 2;    // penalty of a change by one level, in units of cost
-    int large_step = 250;  // of any larger change; less across an edge of the picture
+    int small_step = 2;    // penalty P1 of a change by one level, in units of cost
+    int large_step = 250;  // penalty P2 of any larger change; less across an edge of the photo
 };
 
-// Levels (with fractions) of the pixels of `view`, transposed as WorkView::columns is; kNoDepth where the volume has
-// none.
+/// Computes the depth level of each pixel of `view`, with fractions; kNoDepth where the volume has no levels.
+/// Transposed as WorkView::columns is.
 Image<float> semi_global_levels(const WorkView& view, const CostVolume& volume, const SmoothnessOptions& options);
 
 }  // namespace rs::encode

@@ -36,7 +36,7 @@ public:
                 const float depth = source.depth(row, column);
                 if (std::isnan(depth)) continue;
                 const double y = source.view.height_of(row + 0.5, ray.axial_at(static_cast<double>(depth)));
-                put(on_line(grid_, viewpoint, ray.place_at(static_cast<double>(depth)), y));
+                put(project_to_line(grid_, viewpoint, ray.place_at(static_cast<double>(depth)), y));
             }
         }
     }
@@ -162,8 +162,8 @@ public:
             clamp_to_hull(grid_, CellRay(grid_, photos.viewpoint, p), hull, cells_.data() + column,
                           meets_hull.data() + column);
         }
-        if (layer.silhouettes_agree) drop_beside_hull(grid_, meets_hull, cells_.data());
-        if (layer.in_front) drop_islands(grid_, floating_share, cells_.data());
+        if (layer.silhouettes_agree) remove_outside_hull(grid_, meets_hull, cells_.data());
+        if (layer.in_front) remove_small_components(grid_, floating_share, cells_.data());
         for (int p = 0; p < grid_.p_cells; ++p) {
             ShapeCell* const column = cells_.data() + p * grid_.bands;
             if (!layer.in_front) avoid_foreground(grid_, photos, p, column);

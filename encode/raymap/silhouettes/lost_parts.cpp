@@ -13,13 +13,13 @@
 namespace rs::encode {
 namespace {
 
-constexpr int kDense_px = 2;     // to each side, of the square in which half of what is not object must be missing
-constexpr int kClosed_px = 3;    // half of the widest gap that is closed
-constexpr int kStraight_px = 4;  // to each side, of the square that outlines are straightened by
+constexpr int kDense_px = 2;     // radius of the square in which half of the background must be missing
+constexpr int kClosed_px = 3;    // half of the widest gap to close
+constexpr int kStraight_px = 4;  // radius of the majority filter that smooths outlines
 constexpr int kStraightenings = 4;
-constexpr int kHalfSide_px = 5;  // half of the least part's side
-constexpr double kMost = 0.7;    // of what a picture has there, if it is not hidden
-constexpr int kSmooth_px = 5;    // depths are medians of squares of so much to each side
+constexpr int kHalfSide_px = 5;  // half side of the smallest part
+constexpr double kMost = 0.7;    // share of a part that must not be occluded for all of it to be painted
+constexpr int kSmooth_px = 5;    // radius of the median filter of depths
 
 bool is_object(const WorkView& view, int column, int row) {
     return view.at(column, row).a >= kInside;
@@ -36,7 +36,7 @@ void for_each_pixel(const WorkView& view, const Each& each) {
     }
 }
 
-// The median of the depths around each pixel of `mask`; kNoDepth elsewhere.
+// Median filter of the depths at the pixels of `mask`; kNoDepth elsewhere.
 Image<float> smoothed(const WorkView& view, const Image<float>& depths, const Image<std::uint8_t>& mask) {
     Image<float> smooth(depths.width(), depths.height(), kNoDepth);
     std::vector<float> near;
@@ -54,8 +54,8 @@ Image<float> smoothed(const WorkView& view, const Image<float>& depths, const Im
     return smooth;
 }
 
-// Of a mask, the connected parts with a pixel of `middles` that have half of their border at the object, or more:
-// others float.
+// The connected components of a mask that contain a pixel of `middles` and have at least half of their border at the
+// object.
 Image<std::uint8_t> beside_object(const WorkView& view, const Image<std::uint8_t>& mask,
                                   const Image<std::uint8_t>& middles) {
     Image<std::uint8_t> left = mask, kept(mask.width(), mask.height(), 0);
@@ -86,7 +86,7 @@ Image<std::uint8_t> beside_object(const WorkView& view, const Image<std::uint8_t
     return kept;
 }
 
-// With an outline without notches: a pixel goes with most of the square around it.
+// Smooths an outline with a majority filter.
 Image<std::uint8_t> straightened(const WorkView& view, Image<std::uint8_t> mask) {
     for (int round = 0; round < kStraightenings; ++round) {
         const Image<std::uint8_t> near = dilated(mask, 1);
@@ -105,12 +105,12 @@ Image<std::uint8_t> straightened(const WorkView& view, Image<std::uint8_t> mask)
     return mask;
 }
 
-// What a pixel shows of its own, and of the other beside it.
+// Blends two colours by coverage.
 std::uint8_t mixed(std::uint8_t own, double other, double share_of_own) {
     return static_cast<std::uint8_t>(std::lround(own * share_of_own + other * (1 - share_of_own)));
 }
 
-// Between the four pixels around a place of the picture; nothing where one of them is not opaque.
+// Bilinear interpolation; nullopt where one of the four pixels is not opaque.
 std::optional<glm::dvec3> colour_at(const Image<Rgba8>& picture, double x, double y) {
     const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
     if (!(left >= 0 && top >= 0 && left + 1 < picture.width() && top + 1 < picture.height())) return std::nullopt;
@@ -128,7 +128,7 @@ std::optional<glm::dvec3> colour_at(const Image<Rgba8>& picture, double x, doubl
 }  // namespace
 
 Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
-    // Half of a square, and that densely: nothing is looked for where there are fewer.
+    // A part needs at least half of a dense square of missing pixels.
     constexpr int kFewest = (2 * kHalfSide_px + 1) * (2 * kHalfSide_px + 1) / 4;
     if (count_depths(missing) < kFewest) {
         return Image<float>(missing.width(), missing.height(), kNoDepth);
@@ -146,14 +146,14 @@ Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
         });
         return !is_object(view, column, row) && 2 * gone >= beside;
     });
-    // Gaps within, and between that and the object.
+    // Close gaps inside the part and between it and the object.
     const auto wide =
         dilated(mask_of([&](int c, int r) { return dense(r, c) != 0 || is_object(view, c, r); }), kClosed_px);
     const auto outside = dilated(mask_of([&](int c, int r) { return wide(r, c) == 0; }), kClosed_px);
     const auto near = dilated(dense, kClosed_px);
     const auto lost =
         mask_of([&](int c, int r) { return !is_object(view, c, r) && outside(r, c) == 0 && near(r, c) != 0; });
-    // Of squares that are lost, at least half of them, or object.
+    // Centres of squares whose pixels are missing (at least half of them) or object.
     const auto middles = mask_of([&](int column, int row) {
         int all = 0, object = 0, gone = 0;
         for_each_around(view, column, row, kHalfSide_px, [&](int c, int r) {
@@ -181,7 +181,7 @@ LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part,
     for (int y = 0; y < picture_.height(); ++y) {
         for (int x = 0; x < picture_.width(); ++x) {
             if (picture_(x, y).a == 255) continue;
-            // Between the four pixels around it: how much of them is object or lost, and how deep what is lost is.
+            // Bilinear interpolation of the coverage by object and part, and of the part's depth.
             const double column = (x + 0.5) / scale, row = (y + 0.5) / scale;
             const int left = static_cast<int>(std::floor(column - 0.5)), top = static_cast<int>(std::floor(row - 0.5));
             double there = 0, lost = 0, depth = 0;
@@ -195,7 +195,7 @@ LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part,
                 }
                 if (is_lost(part, c, r) || is_object(view, c, r)) there += weight;
             }
-            // The border between pixels that are lost and those that are not, as a soft edge.
+            // The part's border as a soft edge.
             const double cover = std::clamp(2 * there - 0.5, 0.0, 1.0);
             if (!(lost > 0) || cover * 255 <= picture_(x, y).a) continue;
             const HorizontalRay ray = view.ray_of(column);
@@ -213,7 +213,7 @@ std::optional<glm::dvec3> LostPartPainter::seen_by(const Painter& from, const Sp
     if (!hidden) {
         const double depth = view.ray_of(at->whole_column() + 0.5).depth_of(spot.place);
         const auto shown = static_cast<double>(from.seen->depth(at->whole_row(), at->whole_column()));
-        if (!(depth - shown < kClearlyInFront)) return std::nullopt;  // or nothing is there
+        if (!(depth - shown < kClearlyInFront)) return std::nullopt;  // occluded, or no depth
     }
     return colour_at(*from.picture, at->column * scale_, at->row * scale_);
 }

@@ -1,8 +1,7 @@
 #pragma once
-// Large parts that a cut-out lacks, given back to its picture. A black back plate before black, or one that has turned
-// as white as the backdrop, is cut off in the pictures where it does and whole in those beside them: there it would
-// vanish, and come back. What pictures agree about (silhouette_repair.hpp) shows which part it is and how deep; the
-// colours are those of the nearest pictures that show it.
+// Restores large parts that single masks lack, such as a black part before a black background that neighboring photos
+// show. Points that photos agree about (silhouette_repair.hpp) give the part's outline and depth; colours come from the
+// nearest photos that show it.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/image/image.hpp"
@@ -17,42 +16,42 @@
 
 namespace rs::encode {
 
-// What of `missing` (silhouette_repair.hpp) is a part: dense, with a square of 11 x 11 pixels that is lost, at least
-// half of it, or object, and with half of its border at the object; its gaps, and those between it and the object, are
-// closed. kNoDepth elsewhere. Narrow strips along a rim are a rig that is not exact, and what floats is none of the
-// object.
+/// Selects the large part of `missing` (silhouette_repair.hpp): dense, containing a square of 11x11 pixels that are
+/// missing (at least half of them) or object, with at least half of its border at the object, and with its gaps closed.
+/// kNoDepth elsewhere. Narrow strips along an edge come from an inaccurate rig; separate components do not belong to
+/// the object.
 Image<float> lost_part(const WorkView& view, const Image<float>& missing);
 
-// How large it is beside what the view has of the object.
+/// The area of a part relative to the object's area in the view.
 double share_of(const Image<float>& part, const WorkView& view);
 
 class LostPartPainter {
 public:
-    // `view` and `part` are `scale` times as small as `picture` on each side.
+    /// `view` and `part` are `scale` times smaller than `picture` on each side.
     LostPartPainter(const WorkView& view, const Image<float>& part, int scale, Image<Rgba8> picture);
 
-    // Another picture: as large as the one that is painted, and as small as `view` with what it was found to show.
+    /// Another photo, at full size and as a working view with its depths.
     struct Painter {
         const DepthView* seen = nullptr;
         const Image<Rgba8>* picture = nullptr;
     };
-    // How many pixels of what is left it shows; of `hidden`, also where it seems to be hidden there.
+    /// The number of unpainted pixels that another photo shows; with `hidden`, including those that seem occluded.
     [[nodiscard]] std::size_t shown_by(const Painter& from, bool hidden = false) const;
-    // Paints what another picture shows of what is left. Where most of it is not hidden, all counts as shown: a few
-    // wrong depths would leave specks to other pictures.
+    /// Paints the unpainted pixels that another photo shows. Where most of them are not occluded, all count as shown,
+    /// since a few wrong depths would leave specks.
     void paint_from(const Painter& from);
 
-    // Whether all of it is painted; whether half is.
+    /// Whether all, or at least half, of the part is painted.
     [[nodiscard]] bool done() const { return left_.empty(); }
     [[nodiscard]] bool half_done() const { return 2 * left_.size() <= all_; }
-    // What no picture has shown is as it was.
+    /// The photo; unpainted pixels are unchanged.
     [[nodiscard]] Image<Rgba8> picture() && { return std::move(picture_); }
 
 private:
-    // A pixel to paint, and the point there: x and z, then y.
+    // A pixel to paint, and its surface point.
     struct Spot {
         int x = 0, y = 0;
-        double cover = 0;  // of the pixel
+        double cover = 0;  // alpha, 0..1
         glm::dvec2 place{0, 0};
         double height = 0;
     };
@@ -62,7 +61,7 @@ private:
     Image<Rgba8> picture_;
     int scale_;
     std::vector<Spot> left_;
-    std::size_t all_ = 0;  // at first
+    std::size_t all_ = 0;  // number of pixels to paint at the start
 };
 
 }  // namespace rs::encode

@@ -18,10 +18,10 @@ bool shows(const DepthView& picture, const PlaceInSpace& point, double tolerance
     if (!at) return false;
     const double depth = picture.view.ray_of(at->whole_column() + 0.5).depth_of(point.place);
     const auto there = static_cast<double>(picture.depth(at->whole_row(), at->whole_column()));
-    return std::abs(depth - there) < tolerance;  // false where there is none
+    return std::abs(depth - there) < tolerance;  // false where there is no depth
 }
 
-// Nothing where that may be: what lies outside of the frame may be object.
+// nullopt where the point may be part of the object: points outside of the frame may be.
 std::optional<glm::ivec2> pixel_beside(const WorkView& view, const PlaceInSpace& point) {
     const std::optional<SeenPoint> at = view.see(point.place, point.y);
     if (!at) return std::nullopt;

@@ -1,8 +1,7 @@
 #pragma once
-// Parts that cut-outs lack. A point of the surface that a picture and those beside it agree about lies within every
-// true silhouette, whatever hides it there; where it appears beside one, that cut-out lacks a part. A part lost in a
-// view from behind would take the surface away from views of the front. What is found so lies within the hull that was
-// searched.
+// Finds parts that masks lack. A surface point that neighboring photos agree about is inside every true silhouette,
+// even where it is occluded; where it projects outside of one, that mask lacks a part. A part missing from one mask
+// would remove the surface from the visual hull for all views. Only points within the searched hull are found.
 
 #include "encode/raymap/silhouettes/visual_hull.hpp"
 #include "encode/raymap/silhouettes/work_view.hpp"
@@ -20,23 +19,23 @@ struct PlaceInSpace {
     double y = 0;
 };
 
-// Where a picture shows a point, and as far nearer and farther as it may lie.
+/// A point of a photo's depth map, and the points one tolerance nearer and farther.
 struct RuledOutPoint {
     PlaceInSpace nearest, found, farthest;
 };
 
-// The points of a picture's depths, of opaque pixels only, that each picture of `beside` shows, too, but the hull rules
-// out: there, and `tolerance` object radii nearer and farther. `searched` is the hull that the depths were searched in:
-// what lies outside of it has no colours to speak for it.
+/// The points of a photo's opaque pixels that each photo of `beside` confirms but `hull` rules out, also `tolerance`
+/// object radii nearer and farther.
+/// \param searched  the hull in which the depths were estimated; points outside of it are ignored.
 std::vector<RuledOutPoint> ruled_out(const DepthView& picture, std::span<const DepthView* const> beside,
                                      double tolerance, const SampledHull& searched, const SampledHull& hull);
 
-// The nearest depths of points (as DepthView::depth) in pixels of the view where one appears that, in all three places,
-// appears in a pixel that is not of the object, nor next to it; kNoDepth elsewhere. `points` are of several pictures.
-// None where the view shows no object.
+/// Projects the points of several photos into a view: the nearest depth (as DepthView::depth) in each pixel with a
+/// point that in all three places projects to a pixel neither of the object nor next to it; kNoDepth elsewhere, and
+/// everywhere where the view shows no object.
 Image<float> missing_depths(const WorkView& view, std::span<const std::vector<RuledOutPoint>> points);
 
-// Makes the pixels with a depth object, and those next to them. `missing` is of a view of half the size (halved).
+/// Makes the pixels with a depth, and those next to them, part of the object. `missing` belongs to the half-sized view.
 void fill_missing(WorkView& view, const Image<float>& missing);
 
 }  // namespace rs::encode

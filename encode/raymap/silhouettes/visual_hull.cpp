@@ -9,9 +9,9 @@
 namespace rs::encode {
 namespace {
 
-const double kReach = kDeepest * std::sqrt(2.0);  // of a sampled hull
+const double kReach = kDeepest * std::sqrt(2.0);  // radius that a sampled hull covers
 
-// near_object[row]: whether the column, or one at most `margin` to either side, shows the object there.
+// Sets near_object[row] where the object is at most `margin` columns away.
 void widen_column(const WorkView& view, int column, int margin, std::vector<std::uint8_t>& near_object) {
     near_object.assign(static_cast<std::size_t>(view.height), 0);
     for (int c = std::max(0, column - margin); c <= std::min(view.width - 1, column + margin); ++c) {
@@ -23,7 +23,7 @@ void widen_column(const WorkView& view, int column, int margin, std::vector<std:
     }
 }
 
-// Appends those of a column that widen_column() gave.
+// Appends the forbidden intervals of a column from widen_column().
 void forbid_slopes(const WorkView& view, const std::vector<std::uint8_t>& near_object, int margin,
                    std::vector<Interval>& forbidden) {
     const auto slope_of = [&](double row) { return (view.cy - row) / view.fl_y; };
@@ -32,7 +32,7 @@ void forbid_slopes(const WorkView& view, const std::vector<std::uint8_t>& near_o
     for (int row = 0; row <= view.height; ++row) {
         const bool ends = row == view.height || near_object[static_cast<std::size_t>(row)] != 0;
         if (!ends) continue;
-        // The frame's own edges are no edges of the object.
+        // The edges of the frame are not edges of the object.
         const double low = begin == 0 ? 0 : begin + margin;
         const double high = row == view.height ? row : row - margin;
         if (high > low) forbidden.push_back({slope_of(high), slope_of(low)});
@@ -46,8 +46,8 @@ bool has_object(const WorkView& view) {
     return std::any_of(pixels.begin(), pixels.end(), [](const Rgba8& pixel) { return pixel.a >= kInside; });
 }
 
-// Takes [low, high] out of ascending, disjoint intervals, of which those before `first` lie below it. The first of
-// those that do not lie below high.
+// Subtracts [low, high] from ascending, disjoint intervals, of which those before `first` are below it. Returns the
+// first interval that is not below `high`.
 std::size_t remove(std::vector<Interval>& from, std::size_t first, const Interval& hole) {
     std::size_t n = first;
     while (n < from.size() && from[n].high <= hole.low) ++n;
@@ -72,7 +72,7 @@ std::size_t remove(std::vector<Interval>& from, std::size_t first, const Interva
     return n;
 }
 
-// Neighbours show nearly the same. In this order most places outside of the object are ruled out by the first few.
+// Orders views so that successive ones are far apart: most places outside of the object are ruled out by the first few.
 template <class T>
 void spread_out(std::vector<T>& in_turning_order) {
     constexpr double kGolden = 0.6180339887498949;
@@ -82,7 +82,7 @@ void spread_out(std::vector<T>& in_turning_order) {
         order.emplace_back(turns - std::floor(turns), n);
     }
     std::sort(order.begin(), order.end());
-    // The rank of each n: places far apart in turning order.
+    // Rank of each n: successive ranks are far apart in turning order.
     std::vector<T> spread(in_turning_order.size());
     for (std::size_t rank = 0; rank < order.size(); ++rank)
         spread[order[rank].second] = std::move(in_turning_order[rank]);
@@ -129,7 +129,7 @@ void VisualHull::heights_above(const glm::dvec2& place, std::vector<Interval>& h
     }
 }
 
-// Along the heights every silhouette's forbidden runs begin and end; allowed is what few enough of them cover.
+// Sweeps over the ends of all silhouettes' forbidden runs; heights covered by at most `tolerated_` runs are allowed.
 void VisualHull::tolerant_heights(const glm::dvec2& place, std::vector<Interval>& heights) const {
     struct Event {
         double height = 0;
@@ -192,7 +192,7 @@ double contradicted_share(const std::vector<const WorkView*>& views, const Visua
     for_each_index(views.size(), [&](std::size_t v) {
         const WorkView& view = *views[v];
         std::vector<Interval> heights;
-        std::vector<int> unseen;  // rows of the column's object pixels at no depth of which the hull is
+        std::vector<int> unseen;  // object rows of the column whose rays have not met the hull yet
         for (int column = static_cast<int>(v) % kEveryColumn; column < view.width; column += kEveryColumn) {
             unseen.clear();
             for (int row = 0; row < view.height; ++row) {
@@ -200,13 +200,13 @@ double contradicted_share(const std::vector<const WorkView*>& views, const Visua
             }
             pixels[v] += static_cast<std::int64_t>(unseen.size());
             const HorizontalRay ray = view.ray_of(column + 0.5);
-            // From the middle outwards: most are seen there, and the rest of the levels need not be computed.
+            // From the middle outwards: most rays meet the hull there, and the remaining levels are not needed.
             for (int n = 0; n < range.count && !unseen.empty(); ++n) {
                 const int level = range.count / 2 + (n % 2 == 0 ? n / 2 : -(n + 1) / 2);
                 const double depth = range.at(level);
                 const double axial = ray.axial_at(depth);
                 if (axial <= 0) continue;
-                // Those of other rows, with one to spare, would be found for nothing.
+                // Only heights of the unseen rows are needed, with a margin of one row.
                 const Interval within = {view.height_of(unseen.back() + 2, axial),
                                          view.height_of(unseen.front() - 1, axial)};
                 hull.heights_above(ray.place_at(depth), heights, within);

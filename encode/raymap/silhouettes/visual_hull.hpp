@@ -1,9 +1,9 @@
 #pragma once
-// The visual hull: what all silhouettes of a ring, and of its neighbours, allow. It bounds the search for depth.
+// The visual hull: the intersection of the silhouettes of a ring and of its adjacent rings. It bounds depth estimation.
 //
-// Cameras are upright, so all points above a place of the ground plan fall into one column of a picture, at rows linear
-// in height. A column of a silhouette is a few runs of rows; so the hull above a place is an intersection of runs,
-// exact and without a grid of voxels.
+// Cameras are upright, so that all points above a place of the ground plan project into one column of a photo, at rows
+// linear in height. A column of a silhouette consists of a few runs of rows; the hull above a place is an intersection
+// of such runs, exact and without voxels.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
 
@@ -17,7 +17,7 @@
 
 namespace rs::encode {
 
-// Heights (or rows) from `low` up to `high`.
+/// Heights (or rows) from `low` up to `high`.
 struct Interval {
     double low = 0;
     double high = 0;
@@ -27,22 +27,22 @@ inline constexpr Interval kAnyHeight = {-1e6, 1e6};
 
 class VisualHull {
 public:
-    // Silhouettes are widened by `margin_px` pixels of the working pictures on every side, for what calibration and
-    // soft edges leave unsure. What lies outside of a picture's frame may be object. Views without any object pixel say
-    // nothing and are left out. `views` must outlive the hull.
-    // A place is ruled out where more than `tolerated` silhouettes forbid it: cut-outs that lack a part in some
-    // pictures, or cameras that stand elsewhere than the rig states, else leave nothing.
+    /// Silhouettes are dilated by `margin_px` pixels of the working views, for errors of calibration and soft edges.
+    /// Points outside of a photo's frame may be part of the object. Views without object pixels are ignored. `views`
+    /// must outlive the hull. A point is ruled out where more than `tolerated` silhouettes forbid it, for masks that
+    /// lack parts and inaccurate rigs.
     VisualHull(const std::vector<const WorkView*>& views, int margin_px, int tolerated = 0);
 
-    // The heights above a place that the silhouettes allow, ascending and disjoint; of `within` only.
+    /// Replaces `heights` by the heights above a place that the silhouettes allow within `within`, ascending and
+    /// disjoint.
     void heights_above(const glm::dvec2& place, std::vector<Interval>& heights,
                        const Interval& within = kAnyHeight) const;
 
 private:
     struct Silhouette {
         const WorkView* view = nullptr;
-        // Heights above the camera's centre per axial depth, ascending within a column, column after column; and where
-        // each column's end. Many places are computed: they lie close together in memory.
+        // Forbidden heights above the camera's centre per unit of axial depth, ascending within a column, column after
+        // column in one array; and the end of each column.
         std::vector<Interval> forbidden;
         std::vector<std::uint32_t> ends;
         [[nodiscard]] std::span<const Interval> forbidden_slopes(int column) const {
@@ -60,14 +60,15 @@ private:
     int tolerated_ = 0;
 };
 
-// A hull above the points of a square grid, for the many places that are needed: a tenth of the time of computing every
-// silhouette for each. Thread-safe.
+/// A visual hull cached above the points of a square grid; a tenth of the time of evaluating every silhouette for each
+/// place. Thread-safe.
 class SampledHull {
 public:
-    // Of all places up to kDeepest along every ray that passes the axis within kDeepest, `spacing` radii apart.
+    /// Covers all places up to kDeepest along every ray that passes the axis within kDeepest. `spacing` in object
+    /// radii.
     SampledHull(VisualHull hull, double spacing);
 
-    // VisualHull::heights_above the point of the grid that is next to `place`.
+    /// VisualHull::heights_above the grid point nearest to `place`.
     [[nodiscard]] std::span<const Interval> heights_above(const glm::dvec2& place) const {
         const int x = point(place.x);
         const int y = point(place.y);
@@ -82,13 +83,12 @@ public:
 private:
     static constexpr int kTileSide = 32;  // points
 
-    // A square of points: what is read along a ray, and along the next one, lies close together in memory. Many
-    // are never needed: each is sampled when it is.
+    // A square of grid points, for memory locality along neighboring rays. Computed on first use.
     struct Tile {
         std::atomic<bool> sampled = false;
         std::once_flag once;
         std::vector<Interval> intervals;
-        std::vector<std::uint32_t> ends;  // of each point's intervals, along x first
+        std::vector<std::uint32_t> ends;  // end of each point's intervals, row by row
     };
     [[nodiscard]] int point(double along) const {
         return std::clamp(static_cast<int>(std::lround(along * points_per_unit_)) + side_ / 2, 0, side_ - 1);
@@ -103,8 +103,8 @@ private:
     mutable std::vector<Tile> tiles_;
 };
 
-// The share of object pixels (0..1, sampled) whose rays the hull rules out entirely: what the silhouettes contradict
-// one another by. `range` covers the object.
+/// The share of object pixels (0..1, sampled) whose rays miss the hull: a measure of the silhouettes' inconsistency.
+/// `range` covers the object.
 double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range);
 
 }  // namespace rs::encode

@@ -78,7 +78,7 @@ TEST(ColumnMatch, DepthsCostWhatTheyAreAway) {
         std::vector<std::uint8_t> before(static_cast<std::size_t>(rows));
         for (std::uint8_t& cost : before) cost = static_cast<std::uint8_t>(random() % 256);
         std::vector<std::uint8_t> after = before;
-        approach_depths(found, after.data());
+        compare_depth_column(found, after.data());
         for (int n = 0; n < rows; ++n) {
             const auto at = static_cast<std::size_t>(n);
             const int row = (found.position_q16 + n * found.step_q16) >> 16;

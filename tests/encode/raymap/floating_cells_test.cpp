@@ -51,7 +51,7 @@ TEST(FloatingCells, IslandsBelowTheShareAreDroppedAndOthersStay) {
     line.put({2, 36, 6, 2});    // 12: just above
     line.put({50, 30, 1, 1});   // touches the body's corner only
     line.put({49, 30, 1, 10});  // a thread that hangs from the body
-    drop_islands(line.grid, 0.01, line.cells.data());
+    remove_small_components(line.grid, 0.01, line.cells.data());
     EXPECT_FALSE(line.has(56, 6));
     EXPECT_TRUE(line.has(2, 36));
     EXPECT_FALSE(line.has(50, 32)) << "there was none";
@@ -64,30 +64,30 @@ TEST(FloatingCells, CornersDoNotHoldIslands) {
     Line line;
     line.put(kBody);
     line.put({50, 30, 2, 2});
-    drop_islands(line.grid, 0.01, line.cells.data());
+    remove_small_components(line.grid, 0.01, line.cells.data());
     EXPECT_FALSE(line.has(50, 30));
     EXPECT_TRUE(line.has(49, 29));
 }
 
 TEST(FloatingCells, ALineWithoutSurfacesStaysSo) {
     Line line;
-    drop_islands(line.grid, 0.01, line.cells.data());
+    remove_small_components(line.grid, 0.01, line.cells.data());
     for (const ShapeCell& cell : line.cells) EXPECT_FALSE(cell.has_surface());
 }
 
 TEST(FloatingCells, OnePieceAllowsAHundredth) {
-    EXPECT_EQ(floating_share(depths_of({kBody})), kLargestFloating);
-    EXPECT_EQ(floating_share(depths_of({})), kLargestFloating);
+    EXPECT_EQ(floating_share(depths_of({kBody})), kMaxFloatingShare);
+    EXPECT_EQ(floating_share(depths_of({})), kMaxFloatingShare);
 }
 
 TEST(FloatingCells, SmallPartsOfAnObjectAreSafe) {
     EXPECT_DOUBLE_EQ(floating_share(depths_of({{10, 5, 100, 50}, {150, 80, 5, 5}})), 25.0 / 5000 / 2);
-    EXPECT_EQ(floating_share(depths_of({{10, 5, 100, 50}, {150, 80, 40, 10}})), kLargestFloating)
+    EXPECT_EQ(floating_share(depths_of({{10, 5, 100, 50}, {150, 80, 40, 10}})), kMaxFloatingShare)
         << "a large part changes nothing";
 }
 
 TEST(FloatingCells, SinglePixelsAreNoise) {
-    EXPECT_EQ(floating_share(depths_of({{10, 5, 100, 50}, {150, 80, 1, 2}})), kLargestFloating);
+    EXPECT_EQ(floating_share(depths_of({{10, 5, 100, 50}, {150, 80, 1, 2}})), kMaxFloatingShare);
 }
 
 TEST(FloatingCells, BesideTheHullMeansAllNeighboursToo) {
@@ -97,7 +97,7 @@ TEST(FloatingCells, BesideTheHullMeansAllNeighboursToo) {
     for (int p = 20; p < 25; ++p) {
         for (int h = 10; h < 18; ++h) meets[static_cast<std::size_t>(p * line.grid.bands + h)] = 1;
     }
-    drop_beside_hull(line.grid, meets, line.cells.data());
+    remove_outside_hull(line.grid, meets, line.cells.data());
     EXPECT_TRUE(line.has(24, 12));
     EXPECT_TRUE(line.has(25, 12)) << "beside a ray that meets the hull";
     EXPECT_FALSE(line.has(26, 12));
