@@ -34,6 +34,7 @@ bool is_covered_by_foreground(const DepthView& photo, const glm::dvec2& place, d
 }
 
 bool is_occluded(const DepthView& photo, const glm::dvec2& place, double y) {
+    if (photo.occluders.empty()) return false;
     const double limit = photo.view.ray_of(photo.view.see(place).column).depth_of(place) - kClearlyInFront;
     const auto is_in_front = [&](int column, int row) {
         return photo.occluders(row, column) != 0 && static_cast<double>(photo.depth(row, column)) <= limit;

@@ -111,7 +111,7 @@ void for_each_around(const WorkView& view, int column, int row, int radius, cons
 struct DepthView {
     WorkView view;
     Image<float> depth;                  // object radii from the foot of the pixel's ray; kNoDepth where unknown
-    Image<std::uint8_t> occluders = {};  // 1 where the depth may occlude other surfaces; empty before it is known
+    Image<std::uint8_t> occluders = {};  // 1 where the depth may occlude other surfaces; empty: none does
 };
 
 /// The number of pixels with a depth.
