@@ -2,7 +2,10 @@
 
 #include "capture/photos/intake/intake.hpp"
 #include "capture/photos/report/import_set.hpp"
+#include "capture/photos/segmentation/segment_turn.hpp"
+#include "capture/photos/segmentation/segmentation_checks.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <opencv2/core/utility.hpp>
@@ -10,8 +13,10 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace rs::capture {
 namespace {
@@ -57,22 +62,55 @@ Status make_folder(const fs::path& folder, const fs::path& output) {
     return {};
 }
 
-// All that the stages found, before the set is written.
-ImportReport report_of(const ImportOptions& options, const Intake& intake, const Backdrop& backdrop, CutTurn& turn,
-                       FoundRig rig) {
+// Joins what the stages found, before the set is written.
+ImportReport report_of(const ImportOptions& options, const Intake& intake, const ChosenSegmenter& chosen,
+                       SegmentedTurn& turn, FoundRig rig) {
     ImportReport report{std::move(rig)};
-    report.notes.insert(report.notes.begin(), turn.notes.begin(), turn.notes.end());
+    report.notes.insert(report.notes.begin(), chosen.notes.begin(), chosen.notes.end());
     report.notes.insert(report.notes.begin(), intake.notes.begin(), intake.notes.end());
     report.folder = intake.folder;
-    report.backdrop = backdrop.kind;
-    report.backdrop_colour = backdrop.colour;
-    report.backdrop_given = options.backdrop.kind.has_value();
-    report.masks_given = !options.masks.empty();
+    report.segmenter = chosen.kind;
+    report.segmenter_reason = chosen.reason;
+    report.background_share = chosen.background_share;
+    report.backdrop = chosen.background;
+    report.backdrop_colour = chosen.background_colour;
+    report.backdrop_given = options.segmentation.background.kind.has_value();
     report.dropped_repeat = intake.dropped_repeat;
-    report.min_coverage = turn.min_coverage;
-    report.max_coverage = turn.max_coverage;
+    const auto [least, most] = std::ranges::minmax(turn.coverage);
+    report.min_coverage = least;
+    report.max_coverage = most;
     report.small_cut_outs = std::move(turn.small);
     return report;
+}
+
+// Deviations beyond what an orbit around the object tolerates.
+std::vector<std::string> calibration_problems(const FoundRig& rig) {
+    constexpr double kMaxResidual_px = 5;
+    constexpr double kMaxFocalDeviation = 0.5;  // of the focal length
+    std::vector<std::string> problems;
+    if (!rig.calibration.calibration) return problems;
+    const Calibration& found = *rig.calibration.calibration;
+    const std::string remedy =
+        "; give --calibration nominal, --known, or photos with a printed board (rs-capture board)";
+    if (found.rms_px > kMaxResidual_px) {
+        problems.push_back("the calibration fits the photos to " + with_digits(found.rms_px, 1) + " px only" + remedy);
+    }
+    if (found.deviations.f_px > kMaxFocalDeviation * found.model.lens.f_px) {
+        problems.push_back("the focal length is uncertain by more than half of it" + remedy);
+    }
+    return problems;
+}
+
+// Problems are an error, or with --force notes.
+Status settle(const ImportOptions& options, const std::vector<std::string>& problems, std::vector<std::string>& notes) {
+    if (problems.empty()) return {};
+    if (options.force) {
+        notes.insert(notes.end(), problems.begin(), problems.end());
+        return {};
+    }
+    std::string text;
+    for (const std::string& problem : problems) text += options.photos.string() + ": " + problem + "\n";
+    return Error{text + "nothing was written; --force writes the set all the same"};
 }
 
 // So few show no turn that could be told from the pictures.
@@ -90,8 +128,8 @@ Status check_count(const PhotoFolder& folder, const ImportOptions& options) {
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
     Result<PhotoFolder> folder = open_photo_folder(options.photos, options.max_side_px);
     if (!folder) return folder.error();
-    if (!options.masks.empty() && folder->turns_unnoticed()) {
-        return turned_beside(*folder, "--masks " + options.masks.string());
+    if (!options.segmentation.masks.empty() && folder->turns_unnoticed()) {
+        return turned_beside(*folder, "--masks " + options.segmentation.masks.string());
     }
     if (Status status = check_count(*folder, options); !status) return status.error();
     if (Status status = check_places(options); !status) return status.error();
@@ -106,20 +144,26 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
     Result<Intake> intake = take_in(std::move(*folder), progress);
     if (!intake) return intake.error();
 
-    Result<Backdrop> backdrop =
-        !options.masks.empty() ? Backdrop{} : find_backdrop(intake->survey, options.backdrop, options.photos.string());
-    if (!backdrop) return backdrop.error();
-    intake->survey = Survey{};  // not needed any more, and large
+    Result<ChosenSegmenter> chosen = choose_segmenter(options.segmentation, *intake, options.photos.string(), progress);
+    if (!chosen) return chosen.error();
+    intake->survey = Survey{};  // large, and not needed any more
 
-    const CutPictures cuts(cut, intake->folder.width, intake->folder.height);
-    Result<CutTurn> turn = cut_turn(intake->folder, {*backdrop, options.masks}, cuts, progress);
+    const CutoutCache cutouts(cut, intake->folder.width, intake->folder.height);
+    Result<SegmentedTurn> turn =
+        segment_turn(intake->folder, *chosen->segmenter, cutouts, progress, options.segmentation.parameters.foreground);
     if (!turn) return turn.error();
+    chosen->segmenter.reset();
+    SegmentationFindings findings =
+        check_segmentation(intake->folder, *turn, chosen->kind, options.segmentation.parameters.checks);
+    chosen->notes.insert(chosen->notes.end(), findings.notes.begin(), findings.notes.end());
+    if (Status status = settle(options, findings.problems, chosen->notes); !status) return status.error();
 
-    Result<FoundRig> rig = find_rig(options, intake->folder, *turn, cuts, progress);
+    Result<FoundRig> rig = find_rig(options, intake->folder, *turn, cutouts, progress);
     if (!rig) return rig.error();
+    if (Status status = settle(options, calibration_problems(*rig), rig->notes); !status) return status.error();
 
     Result<ImportReport> report = write_import_set(
-        set, intake->folder, *turn, cuts, report_of(options, *intake, *backdrop, *turn, std::move(*rig)), progress);
+        set, intake->folder, *turn, cutouts, report_of(options, *intake, *chosen, *turn, std::move(*rig)), progress);
     if (!report) return report.error();
     std::error_code failure;
     fs::remove_all(cut, failure);

@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,6 +27,9 @@ namespace {
 struct ImportCommandLine {
     ImportOptions import;
     std::string backdrop = "auto";
+    std::string segmenter = "auto";
+    std::string shadow = "remove";
+    std::string parameters;
     std::string board;
     std::string calibration = "auto";
     bool clockwise = false;
@@ -44,10 +48,23 @@ const std::map<std::string, CalibrationChoice> kCalibrations{{"auto", Calibratio
                                                              {"silhouettes", CalibrationChoice::kSilhouettes},
                                                              {"nominal", CalibrationChoice::kNominal}};
 
+const std::map<std::string, SegmenterKind> kSegmenters{{"auto", SegmenterKind::kAuto},
+                                                       {"alpha", SegmenterKind::kAlpha},
+                                                       {"masks", SegmenterKind::kMasks},
+                                                       {"chroma", SegmenterKind::kChromaKey},
+                                                       {"background", SegmenterKind::kBackground},
+                                                       {"model", SegmenterKind::kModel}};
+
 std::string backdrop_text(const ImportReport& report) {
-    if (report.backdrop != BackdropKind::kColour) return to_string(report.backdrop);
+    if (report.segmenter == SegmenterKind::kMasks) return "masks";
+    if (report.backdrop != BackgroundKind::kColour) return to_string(report.backdrop);
     const Rgba8& c = report.backdrop_colour;
     return std::to_string(c.r) + "," + std::to_string(c.g) + "," + std::to_string(c.b);
+}
+
+// " before white"; empty if no background was estimated.
+std::string background_text(const ImportReport& report) {
+    return report.backdrop == BackgroundKind::kAlpha ? std::string() : " before " + backdrop_text(report);
 }
 
 nlohmann::json finite(double value) {
@@ -97,8 +114,12 @@ void print_json(const std::string& output, const ImportReport& report) {
     json["orientation"] = is_one ? nlohmann::json(report.folder.orientation) : nlohmann::json();
     json["photograph_width"] = report.folder.shown_width;
     json["photograph_height"] = report.folder.shown_height;
-    json["backdrop"] = report.masks_given ? "masks" : backdrop_text(report);
-    json["backdrop_from"] = report.backdrop_given || report.masks_given ? "given" : "pictures";
+    json["backdrop"] = backdrop_text(report);
+    const bool is_given = report.backdrop_given || report.segmenter == SegmenterKind::kMasks;
+    json["backdrop_from"] = is_given ? "given" : "pictures";
+    json["segmenter"] = {{"name", to_string(report.segmenter)},
+                         {"reason", report.segmenter_reason},
+                         {"background_share", report.background_share}};
     json["dropped_repeat"] = report.dropped_repeat;
     json["left_out"] = report.left_out;
     json["method"] = to_string(report.method);
@@ -132,11 +153,10 @@ std::string observations_text(const Calibration& found) {
 }
 
 void print_summary(const std::string& output, const ImportReport& report) {
-    std::printf("%s: %d views of %s, backdrop %s (%s), %.4g degrees per view %s, coverage %.1f..%.1f %%\n",
-                output.c_str(), report.views, sizes_text(report.folder).c_str(),
-                report.masks_given ? "masks" : backdrop_text(report).c_str(),
-                report.backdrop_given || report.masks_given ? "given" : "from the pictures", report.step_deg,
-                to_string(report.turning).c_str(), 100 * report.min_coverage, 100 * report.max_coverage);
+    std::printf("%s: %d views of %s, segmented by %s%s, %.4g degrees per view %s, coverage %.1f..%.1f %%\n",
+                output.c_str(), report.views, sizes_text(report.folder).c_str(), to_string(report.segmenter).c_str(),
+                background_text(report).c_str(), report.step_deg, to_string(report.turning).c_str(),
+                100 * report.min_coverage, 100 * report.max_coverage);
     if (!report.calibration.calibration) {
         std::printf(
             "calibration: nominal (equal steps, a level camera, %.3g degrees of field of view, %s); "
@@ -158,9 +178,20 @@ void print_summary(const std::string& output, const ImportReport& report) {
 
 Status run_import(const ImportCommandLine& given) {
     ImportOptions options = given.import;
-    const Result<BackdropRequest> backdrop = parse_backdrop(given.backdrop);
+    const Result<BackgroundRequest> backdrop = parse_background(given.backdrop);
     if (!backdrop) return backdrop.error();
-    options.backdrop = *backdrop;
+    options.segmentation.background = *backdrop;
+    options.segmentation.kind = kSegmenters.at(given.segmenter);
+    options.segmentation.shadow = given.shadow == "keep" ? ShadowHandling::kKeep : ShadowHandling::kRemove;
+    if (!given.parameters.empty()) {
+        const Result<SegmentationParameters> parameters = read_segmentation_parameters(given.parameters);
+        if (!parameters) return parameters.error();
+        options.segmentation.parameters = *parameters;
+    }
+    if (const char* const file = std::getenv("RAYSPACE_SEGMENTATION_MODEL");
+        options.segmentation.network.empty() && file != nullptr) {
+        options.segmentation.network = file;
+    }
     options.calibration = kCalibrations.at(given.calibration);
     if (given.clockwise) options.turning = Turning::kClockwise;
     if (given.counter_clockwise) options.turning = Turning::kCounterClockwise;
@@ -226,7 +257,7 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
             "borders")
         ->capture_default_str()
         ->check([](const std::string& text) {
-            const Result<BackdropRequest> parsed = parse_backdrop(text);
+            const Result<BackgroundRequest> parsed = parse_background(text);
             return parsed ? std::string() : parsed.error().message;
         });
     command
@@ -236,10 +267,33 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
         ->capture_default_str()
         ->check(CLI::Range(kMinSide_px, kMaxPictureSide_px));
     command
-        ->add_option(
-            "--masks", given->import.masks,
-            "Folder with one mask per photograph, of its name, white where the object is; instead of cutting out")
+        ->add_option("--segmenter", given->segmenter,
+                     "What separates the object from the background: auto, alpha (the photos' own), masks, model (a "
+                     "network, fused with the background model), background (the background model), chroma (a screen "
+                     "of one colour); auto takes the first of these that is given, chroma never")
+        ->check(CLI::IsMember(kSegmenters))
+        ->capture_default_str();
+    command
+        ->add_option("--segmentation-model", given->import.segmentation.network,
+                     "FILE.onnx of the network (fp32; U2-Net, IS-Net, BiRefNet); default: RAYSPACE_SEGMENTATION_MODEL")
+        ->check(CLI::ExistingFile);
+    command
+        ->add_option("--masks", given->import.segmentation.masks,
+                     "Folder with one mask per photo, white where the object is: NAME.png, NAME.jpg.png, NAME_mask.png")
         ->check(CLI::ExistingDirectory);
+    command->add_flag("--masks-alpha", given->import.segmentation.masks_are_alpha,
+                      "The masks' grey is the final opacity (default: masks are binary, their soft edge is estimated)");
+    command
+        ->add_option("--shadow", given->shadow,
+                     "The object's shadow on the floor: remove, or keep as a soft black layer")
+        ->check(CLI::IsMember({"remove", "keep"}))
+        ->capture_default_str();
+    command
+        ->add_option("--segmentation-parameters", given->parameters,
+                     "JSON file with thresholds of segmentation that differ from the defaults, for experiments "
+                     "(docs/segmentation.md)")
+        ->check(CLI::ExistingFile);
+    command->add_flag("--force", given->import.force, "Write the set even if it is found not usable");
     command
         ->add_option(
             "--calibration", given->calibration,
@@ -292,7 +346,10 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
         ->check(ends_in({".html", ".htm"}));
     command->add_flag("--json", given->json, "Print the summary as JSON");
     command->add_flag("-q,--quiet", given->quiet, "No progress bar, no notes");
-    command->footer("Example: rs-capture import photos/ -o shoe.set --report shoe.html");
+    command->footer(R"(Examples:
+  rs-capture import photos/ -o shoe.set --report shoe.html
+  rs-capture import photos/ -o shoe.set --segmentation-model isnet.onnx
+  rs-capture import photos/ -o shoe.set --masks masks/)");
     command->callback([given, &run] { run = [given] { return run_import(*given); }; });
 }
 

@@ -204,5 +204,37 @@ TEST_F(ImportTool, BadPicturesLeaveNothing) {
     EXPECT_NE(unknown_board.err.find("squares"), std::string::npos) << unknown_board.err;
 }
 
+TEST_F(ImportTool, SegmentersAreChosenReportedAndRefused) {
+    const test::BoardPhotos photos;
+    for (std::size_t i = 0; i < photos.model.angles_rad.size(); ++i) {
+        const test::BoardPhotos::Photo photo = photos.taken(i);
+        ASSERT_TRUE(write_png(folder_ / "photos" / file_name(i), photo.picture).ok());
+        ASSERT_TRUE(write_png(folder_ / "masks" / file_name(i), photo.mask).ok());
+    }
+    const std::vector<std::string> nominal = {"--calibration", "nominal", "--masks", in("masks")};
+    const test::ToolRun masks = import(nominal);
+    ASSERT_EQ(masks.exit_code, 0) << masks.err;
+    const auto json = nlohmann::json::parse(masks.out);
+    EXPECT_EQ(json.at("segmenter").at("name"), "masks");
+    EXPECT_EQ(json.at("segmenter").at("reason"), "--masks");
+    fs::remove_all(folder_ / "set");
+
+    struct Refused {
+        std::vector<std::string> arguments;
+        std::string named;
+    };
+    for (const Refused& refused :
+         {Refused{{"--segmenter", "model"}, "--segmentation-model"}, Refused{{"--masks-alpha"}, "--masks-alpha"},
+          Refused{{"--segmenter", "masks"}, "--masks"}, Refused{{"--segmenter", "alpha"}, "no transparent pixels"},
+          Refused{{"--masks", in("masks"), "--shadow", "keep"}, "--shadow keep"},
+          Refused{{"--masks", in("masks"), "--segmenter", "chroma"}, "--masks"}}) {
+        const test::ToolRun run = import(refused.arguments);
+        expect_nothing_written(run);
+        EXPECT_NE(run.err.find(refused.named), std::string::npos) << run.err;
+    }
+    EXPECT_EQ(import({"--segmenter", "magic"}).exit_code, 2);
+    EXPECT_EQ(import({"--segmentation-model", in("gone.onnx")}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace rs

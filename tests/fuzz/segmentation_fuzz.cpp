@@ -1,5 +1,5 @@
-#include "capture/photos/segmentation/network_settings.hpp"
-#include "capture/photos/segmentation/onnx_summary.hpp"
+#include "capture/photos/masks/network_settings.hpp"
+#include "capture/photos/masks/onnx_summary.hpp"
 #include "rayspace/base/check.hpp"
 #include "tests/fuzz/entries.hpp"
 

@@ -128,7 +128,7 @@ TEST(RealPhotos, DinosaurOnABlueDisc) {
     const Imported imported = import(photos, CalibrationChoice::kTracks);
     ASSERT_EQ(imported.cuts.size(), 36U);
     EXPECT_EQ(imported.report.dropped_repeat, "viff.036.png");
-    EXPECT_EQ(imported.report.backdrop, BackdropKind::kColour);
+    EXPECT_EQ(imported.report.backdrop, BackgroundKind::kColour);
     EXPECT_GT(imported.report.backdrop_colour.b, imported.report.backdrop_colour.r + 40);
     EXPECT_EQ(imported.report.turning, Turning::kClockwise);
     EXPECT_EQ(imported.report.nominal.turning_from, "") << "points tell it";
@@ -159,7 +159,7 @@ TEST(RealPhotos, ShoeOnWhiteWithASoftShadow) {
     const Imported imported = import(photos, CalibrationChoice::kNominal);
     ASSERT_EQ(imported.cuts.size(), 36U);
     EXPECT_EQ(imported.report.dropped_repeat, "");
-    EXPECT_EQ(imported.report.backdrop, BackdropKind::kWhite);
+    EXPECT_EQ(imported.report.backdrop, BackgroundKind::kWhite);
     EXPECT_EQ(imported.report.turning, Turning::kClockwise);
     EXPECT_NEAR(imported.report.nominal.axis_x_px, 400, 8);
     EXPECT_GT(imported.report.min_coverage, 0.12);
@@ -176,7 +176,7 @@ TEST(RealPhotos, CarWithItsOwnAlpha) {
     const Imported imported = import(photos, CalibrationChoice::kNominal);
     ASSERT_EQ(imported.cuts.size(), 51U);
     EXPECT_EQ(imported.report.dropped_repeat, "52.png");
-    EXPECT_EQ(imported.report.backdrop, BackdropKind::kAlpha);
+    EXPECT_EQ(imported.report.backdrop, BackgroundKind::kAlpha);
     EXPECT_EQ(imported.report.turning, Turning::kCounterClockwise);
     EXPECT_NEAR(imported.report.nominal.axis_x_px, 500, 10);
     EXPECT_EQ(imported.rig.views[9].extras["source_file"], "10.png");

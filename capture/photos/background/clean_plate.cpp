@@ -1,11 +1,11 @@
 #include "capture/photos/background/clean_plate.hpp"
 
-#include "capture/opencv/connected_parts.hpp"
-#include "capture/photos/background/clean_plate_growth.hpp"
-#include "capture/photos/background/disc_bridging.hpp"
-#include "capture/photos/background/revolution_rows.hpp"
+#include "capture/opencv/connected_components.hpp"
+#include "capture/photos/background/disc_inpainting.hpp"
+#include "capture/photos/background/plate_propagation.hpp"
 #include "capture/photos/background/swept_region.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
+#include "rayspace/base/check.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
 #include <opencv2/core.hpp>
@@ -19,20 +19,16 @@
 namespace rs::capture {
 namespace {
 
-// What the plate may explain; its guess where the object hides it is a rough one.
-constexpr float kExplained_delta_e = 6;
-constexpr float kDeepestShadow = 0.25F;
-constexpr float kBrightest = 1;  // no shadow is brighter than the plate
-
-Image<std::uint8_t> seen_in(const GrownCleanPlate& plate) {
-    Image<std::uint8_t> seen(plate.witnesses.width(), plate.witnesses.height());
-    std::transform(plate.witnesses.pixels().begin(), plate.witnesses.pixels().end(), seen.pixels().begin(),
-                   [](std::uint64_t witnesses) { return witnesses != 0 ? std::uint8_t{255} : std::uint8_t{0}; });
-    return seen;
+Image<std::uint8_t> supported_pixels(const PropagatedPlate& plate) {
+    Image<std::uint8_t> mask(plate.support.width(), plate.support.height());
+    std::transform(plate.support.pixels().begin(), plate.support.pixels().end(), mask.pixels().begin(),
+                   [](std::uint64_t support) { return support != 0 ? std::uint8_t{255} : std::uint8_t{0}; });
+    return mask;
 }
 
+// 255 where `condition(a != 0, b != 0)`.
 template <class Condition>
-Image<std::uint8_t> where(ConstImageView<std::uint8_t> a, ConstImageView<std::uint8_t> b, Condition condition) {
+Image<std::uint8_t> combined(ConstImageView<std::uint8_t> a, ConstImageView<std::uint8_t> b, Condition condition) {
     RS_CHECK(a.width() == b.width() && a.height() == b.height());
     Image<std::uint8_t> mask(a.width(), a.height());
     for (int y = 0; y < mask.height(); ++y) {
@@ -41,23 +37,25 @@ Image<std::uint8_t> where(ConstImageView<std::uint8_t> a, ConstImageView<std::ui
     return mask;
 }
 
-// What a pixel that never changes within the swept region looks like, seen from the plate.
-struct Explained {
-    cv::Mat1b plain;   // 255 where it looks like the plate ...
-    cv::Mat1b shaded;  // ... and where only a shadow on it explains it
+// Pixels of a mask that the plate explains; 255 or 0.
+struct ExplainedPixels {
+    cv::Mat1b plain;   // by its own colour
+    cv::Mat1b shaded;  // by a shadow on it only
 };
 
-Explained explained_by(ConstImageView<Rgba8> plate, ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> hidden) {
-    Explained explained{cv::Mat1b(plate.height(), plate.width(), std::uint8_t{0}),
-                        cv::Mat1b(plate.height(), plate.width(), std::uint8_t{0})};
+ExplainedPixels explained_by_plate(ConstImageView<Rgba8> plate, ConstImageView<Rgba8> colour,
+                                   ConstImageView<std::uint8_t> mask, const BackgroundParameters::Shadow& parameters) {
+    constexpr float kMaxShade = 1;  // a shadow does not brighten
+    ExplainedPixels explained{cv::Mat1b(plate.height(), plate.width(), std::uint8_t{0}),
+                              cv::Mat1b(plate.height(), plate.width(), std::uint8_t{0})};
     for_each_index(plate.height(), [&](int y) {
         for (int x = 0; x < plate.width(); ++x) {
-            if (hidden(x, y) == 0) continue;
-            const Explanation e =
-                explain_by_backdrop(linear_rgb(still(x, y)), linear_rgb(plate(x, y)), kDeepestShadow, kBrightest);
-            if (e.plain <= kExplained_delta_e) {
+            if (mask(x, y) == 0) continue;
+            const ShadowFit e =
+                fit_shadow(linear_rgb(colour(x, y)), linear_rgb(plate(x, y)), parameters.min_shade, kMaxShade);
+            if (e.plain <= parameters.explained_delta_e) {
                 explained.plain(y, x) = 255;
-            } else if (e.shaded <= kExplained_delta_e) {
+            } else if (e.shaded <= parameters.explained_delta_e) {
                 explained.shaded(y, x) = 255;
             }
         }
@@ -65,162 +63,156 @@ Explained explained_by(ConstImageView<Rgba8> plate, ConstImageView<Rgba8> still,
     return explained;
 }
 
-// The connected parts of a mask and what they end at, a few pixels away, for borders are blurred.
-class Ends {
+// Boundary statistics of the connected parts of a mask. The surroundings are read a few pixels away, since boundaries
+// are blurred.
+class BoundaryStatistics {
 public:
-    struct Count {
-        int moving = 0;  // places beyond the part's border where something moves
-        int still = 0;   // where the backdrop stands still ...
-        int clear = 0;   // ... and of those, where it looks different
+    struct Count {                  // boundary pixels whose outside
+        int moving = 0;             // changes over time
+        int static_background = 0;  // is static background,
+        int clear_edge = 0;         // of these: and differs clearly from the part
     };
-    // `is_backdrop(x, y)` of a place that does not move.
-    template <class IsBackdrop>
-    Ends(const cv::Mat1b& mask, ConstImageView<Rgba8> still, ConstImageView<std::uint8_t> motionless,
-         IsBackdrop is_backdrop)
-        : parts_(mask, 8), counts_(parts_.tallied<Count>([&](int x, int y, Count& count) {
-              constexpr int kReach_px = 3;
-              constexpr float kClear_delta_e = 6;
+    // `is_background(x, y)` of a static pixel.
+    template <class IsBackground>
+    BoundaryStatistics(const cv::Mat1b& mask, ConstImageView<Rgba8> colour, ConstImageView<std::uint8_t> static_pixels,
+                       const BackgroundParameters::CoveredParts& parameters, IsBackground is_background)
+        : parts_(mask, 8), counts_(parts_.accumulate<Count>([&](int x, int y, Count& count) {
+              const int reach = parameters.boundary_reach_px;
               for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-                  const int u = x + kReach_px * dx;
-                  const int v = y + kReach_px * dy;
+                  const int u = x + reach * dx;
+                  const int v = y + reach * dy;
                   if (u < 0 || v < 0 || u >= mask.cols || v >= mask.rows || mask(y + dy, x + dx) != 0) continue;
-                  if (motionless(u, v) == 0) {
+                  if (static_pixels(u, v) == 0) {
                       ++count.moving;
-                  } else if (is_backdrop(u, v)) {
-                      const int in_x = std::clamp(x - kReach_px * dx, 0, mask.cols - 1);
-                      const int in_y = std::clamp(y - kReach_px * dy, 0, mask.rows - 1);
-                      const float step = delta_e(lab_from_linear(linear_rgb(still(u, v))),
-                                                 lab_from_linear(linear_rgb(still(in_x, in_y))));
-                      ++count.still;
-                      count.clear += step > kClear_delta_e ? 1 : 0;
+                  } else if (is_background(u, v)) {
+                      const int in_x = std::clamp(x - reach * dx, 0, mask.cols - 1);
+                      const int in_y = std::clamp(y - reach * dy, 0, mask.rows - 1);
+                      const float step = delta_e(lab_from_linear(linear_rgb(colour(u, v))),
+                                                 lab_from_linear(linear_rgb(colour(in_x, in_y))));
+                      ++count.static_background;
+                      count.clear_edge += step > parameters.edge_delta_e ? 1 : 0;
                   }
               }
           })) {}
-    // Of the part that (x, y) belongs to.
+    // Of the part that contains (x, y).
     [[nodiscard]] const Count& at(int x, int y) const { return counts_[parts_.label(x, y)]; }
 
 private:
-    ConnectedParts parts_;
-    PerPart<Count> counts_;
+    ConnectedComponents parts_;
+    PerComponent<Count> counts_;
 };
 
-// Where the object always hides the plate: what never changes within the region swept, less
-// - what looks like the plate: the region's border is coarse, and it spans hollows;
-// - shadows. The lamp stands still, so the core of a shadow never changes, but its outline does as the object turns;
-//   what ends at a still outline against the plain backdrop is a part of the object, of a colour like the backdrop's in
-//   a shadow, unless the backdrop has a colour to know it by;
-// - parts that go over into the backdrop without an edge.
-Image<std::uint8_t> hidden_within(ConstImageView<std::uint8_t> motionless, ConstImageView<std::uint8_t> swept,
-                                  ConstImageView<Rgba8> guess, ConstImageView<Rgba8> still) {
-    constexpr double kClearShare = 0.6;
-    Image<std::uint8_t> hidden = where(motionless, swept, [](bool rests, bool within) { return rests && within; });
-    const Explained explained = explained_by(guess, still, hidden);
-    const Ends shade_ends(explained.shaded, still, motionless,
-                          [&](int x, int y) { return hidden(x, y) == 0 || explained.plain(y, x) != 0; });
-    cv::Mat1b left(hidden.height(), hidden.width(), std::uint8_t{0});
-    for (int y = 0; y < hidden.height(); ++y) {
-        for (int x = 0; x < hidden.width(); ++x) {
-            if (hidden(x, y) == 0 || explained.plain(y, x) != 0) continue;
-            const bool shadow = explained.shaded(y, x) != 0 && (is_colourful(linear_rgb(guess(x, y))) ||
-                                                                shade_ends.at(x, y).moving > shade_ends.at(x, y).still);
-            left(y, x) = shadow ? 0 : 255;
+// Static pixels of the swept region that belong to the object: all of them except
+// - those that the plate explains: the region has a coarse contour and spans concavities;
+// - shadows. The lamp is fixed, so the core of a shadow never changes but its outline does as the object turns. A
+//   shaded part with a static outline against plain background is a part of the object, of the background's colour in
+//   shadow, unless the background is colourful, which objects seldom match;
+// - parts that fade into the background without an edge.
+Image<std::uint8_t> always_covered_pixels(ConstImageView<std::uint8_t> static_pixels,
+                                          ConstImageView<std::uint8_t> swept, ConstImageView<Rgba8> plate,
+                                          ConstImageView<Rgba8> colour, const BackgroundParameters& parameters) {
+    Image<std::uint8_t> covered =
+        combined(static_pixels, swept, [](bool is_static, bool is_swept) { return is_static && is_swept; });
+    const ExplainedPixels explained = explained_by_plate(plate, colour, covered, parameters.shadow);
+    const BoundaryStatistics shadow_boundaries(
+        explained.shaded, colour, static_pixels, parameters.covered_parts,
+        [&](int x, int y) { return covered(x, y) == 0 || explained.plain(y, x) != 0; });
+    cv::Mat1b unexplained(covered.height(), covered.width(), std::uint8_t{0});
+    for (int y = 0; y < covered.height(); ++y) {
+        for (int x = 0; x < covered.width(); ++x) {
+            if (covered(x, y) == 0 || explained.plain(y, x) != 0) continue;
+            const auto& boundary = shadow_boundaries.at(x, y);
+            const bool is_shadow = explained.shaded(y, x) != 0 && (is_colourful(linear_rgb(plate(x, y))) ||
+                                                                   boundary.moving > boundary.static_background);
+            unexplained(y, x) = is_shadow ? 0 : 255;
         }
     }
-    const Ends ends(left, still, motionless, [&](int x, int y) { return left(y, x) == 0; });
-    for (int y = 0; y < hidden.height(); ++y) {
-        for (int x = 0; x < hidden.width(); ++x) {
-            const bool stays = left(y, x) != 0 && ends.at(x, y).clear >= kClearShare * ends.at(x, y).still;
-            hidden(x, y) = stays ? 255 : 0;
+    const BoundaryStatistics boundaries(unexplained, colour, static_pixels, parameters.covered_parts,
+                                        [&](int x, int y) { return unexplained(y, x) == 0; });
+    for (int y = 0; y < covered.height(); ++y) {
+        for (int x = 0; x < covered.width(); ++x) {
+            const auto& boundary = boundaries.at(x, y);
+            const double min_clear = parameters.covered_parts.min_edge_share * boundary.static_background;
+            covered(x, y) = unexplained(y, x) != 0 && boundary.clear_edge >= min_clear ? 255 : 0;
         }
     }
-    return hidden;
+    return covered;
 }
 
-// Of what never changes within the region swept, only what may be a body of revolution is the object's in a room.
-void keep_bodies_of_revolution(const RevolutionRows& rows, ConstImageView<Rgba8> still, Image<std::uint8_t>& hidden) {
-    const cv::Mat1b mask(hidden.height(), hidden.width(), hidden.data());
-    const ConnectedParts parts(mask, 8);
-    // Pixels for it less those against.
-    const auto balance = parts.tallied<int>([&](int x, int y, int& sum) {
-        const LinearRgb own = linear_rgb(still(x, y));
-        const auto is_alike = [&](int u) { return alike_in_some_light(own, linear_rgb(still(u, y))); };
-        sum += rows.may_be_body(x, y) && rows.any_mirrored(x, is_alike) ? 1 : -1;
-    });
-    parts.for_each_pixel([&](int x, int y, int label) {
-        if (balance[label] < 0) hidden(x, y) = 0;
-    });
+// Moves a static foot on the disc from the plate, which took it for the disc, to the swept region.
+void exclude_foot(const Image<std::uint8_t>& foot, Image<std::uint8_t>& swept, Image<std::uint8_t>& known,
+                  Image<std::uint8_t>& always_visible, PropagatedPlate& plate) {
+    for (int y = 0; y < foot.height(); ++y) {
+        for (int x = 0; x < foot.width(); ++x) {
+            if (foot(x, y) == 0) continue;
+            swept(x, y) = 255;
+            known(x, y) = always_visible(x, y) = 0;
+            plate.support(x, y) = 0;
+        }
+    }
 }
 
 }  // namespace
 
-CleanPlate clean_plate_of_turn(const EvenedSamples& samples, const StillPicture& still,
-                               ConstImageView<std::uint8_t> motionless, Behind behind) {
-    const Image<std::uint8_t> moves = where(motionless, motionless, [](bool rests, bool) { return !rests; });
-    auto [swept, axis_px] = swept_region(still.colour, moves);
+CleanPlate clean_plate_of_turn(const ExposureNormalizedFrames& frames, const BackgroundEstimate& background,
+                               ConstImageView<std::uint8_t> static_pixels, const BackgroundParameters& parameters) {
+    const Image<std::uint8_t> moves =
+        combined(static_pixels, static_pixels, [](bool is_static, bool) { return !is_static; });
+    Image<std::uint8_t> swept = swept_region(background.colour, moves, parameters.swept_region);
     CleanPlate result;
-    result.untouched = where(motionless, swept, [](bool rests, bool within) { return rests && !within; });
-    result.hidden = where(motionless, swept, [](bool rests, bool within) { return rests && within; });
-    GrownCleanPlate plate;
-    grow_plate(samples, still.colour, result.untouched, result.hidden, plate);
+    result.always_visible =
+        combined(static_pixels, swept, [](bool is_static, bool is_swept) { return is_static && !is_swept; });
+    result.always_covered =
+        combined(static_pixels, swept, [](bool is_static, bool is_swept) { return is_static && is_swept; });
+    PropagatedPlate plate;
+    propagate_plate(frames, background.colour, result.always_visible, result.always_covered, plate, Growth::kFree,
+                    parameters.propagation);
     Image<Rgba8> guess = plate.colour;
-    Image<std::uint8_t> known = seen_in(plate);
-    result.disc = find_turntable_disc(guess, known, swept);
-    Image<std::uint8_t> foot(swept.width(), swept.height());
-    if (result.disc) {  // a foot that looks the same from all sides was taken for the disc
-        foot = still_foot(*result.disc, still.colour, known, swept);
-        for (int y = 0; y < foot.height(); ++y) {
-            for (int x = 0; x < foot.width(); ++x) {
-                if (foot(x, y) == 0) continue;
-                swept(x, y) = 255;
-                known(x, y) = result.untouched(x, y) = 0;
-                plate.witnesses(x, y) = 0;
-            }
-        }
+    Image<std::uint8_t> known = supported_pixels(plate);
+    result.disc = find_turntable_disc(guess, known, swept, parameters.disc);
+    if (result.disc) {
+        const Image<std::uint8_t> foot = static_foot(*result.disc, background.colour, known, swept, parameters);
+        exclude_foot(foot, swept, known, result.always_visible, plate);
     }
-    // What the row, or the circle of a disc, shows at both ends of what is hidden is a good guess; where pictures
-    // confirm it, for one through the holes of the object, the plate grows from there too.
-    Image<std::uint8_t> bridged = known;
-    bridge_gaps(result.disc, guess, bridged);
-    const Image<std::uint8_t> guessed = where(bridged, known, [](bool has, bool had) { return has && !had; });
-    fill_unknown(guess, bridged);
-    result.hidden = hidden_within(motionless, swept, guess, still.colour);
-    std::optional<RevolutionRows> rows;
-    if (behind == Behind::kAnything && axis_px) rows.emplace(still, result.untouched, *axis_px);
-    if (rows) keep_bodies_of_revolution(*rows, still.colour, result.hidden);
-    grow_plate(samples, guess, confirm_plate(samples, guess, guessed), result.hidden, plate, Growth::kNearGuess);
-    if (rows) {
-        const auto either = [](bool hides, bool stands) { return hides || stands; };
-        grow_across_edges(samples, where(result.hidden, foot, either), *rows, plate);
-    }
-    result.colour = sharp_colours(samples, plate);
-    result.known = seen_in(plate);
+    // Inpainting along the row, or along the circle of a disc, is a good guess. Where frames confirm it, such as one
+    // through a hole of the object, the plate grows from there, too.
+    Image<std::uint8_t> inpainted = known;
+    inpaint_gaps(result.disc, guess, inpainted, parameters);
+    const Image<std::uint8_t> guessed =
+        combined(inpainted, known, [](bool is_filled, bool is_known) { return is_filled && !is_known; });
+    fill_push_pull(guess, inpainted);
+    result.always_covered = always_covered_pixels(static_pixels, swept, guess, background.colour, parameters);
+    const Image<std::uint8_t> confirmed = confirm_plate(frames, guess, guessed, parameters.propagation);
+    propagate_plate(frames, guess, confirmed, result.always_covered, plate, Growth::kNearGuess, parameters.propagation);
+    result.colour = undenoised_colours(frames, plate);
+    result.known = supported_pixels(plate);
     return result;
 }
 
-Image<float> plate_noise(const EvenedSamples& samples, const Image<Rgba8>& plate, const Image<std::uint8_t>& known) {
-    constexpr int kNeighbourhood_px = 15;
-    constexpr float kMostNoise_delta_e = 4;
-    constexpr std::size_t kEnoughSamples = 12;
+Image<float> plate_noise(const ExposureNormalizedFrames& frames, const Image<Rgba8>& plate,
+                         const Image<std::uint8_t>& known, const BackgroundParameters& parameters) {
     cv::Mat1f sums(plate.height(), plate.width(), 0.0F);
     cv::Mat1f counts(plate.height(), plate.width(), 0.0F);
-    const std::size_t step = std::max<std::size_t>(1, samples.count() / kEnoughSamples);
+    const std::size_t step =
+        std::max<std::size_t>(1, frames.count() / std::max<std::size_t>(1, parameters.noise.min_frames));
     for_each_index(plate.height(), [&](int y) {
         for (int x = 0; x < plate.width(); ++x) {
             if (known(x, y) == 0) continue;
-            const Lab behind = lab_from_linear(linear_rgb(plate(x, y)));
-            for (std::size_t i = 0; i < samples.count(); i += step) {
-                if (!samples_agree(samples.smooth(i, x, y), plate(x, y))) continue;
-                sums(y, x) += delta_e(lab_from_linear(linear_rgb(samples(i, x, y))), behind);
+            const Lab background = lab_from_linear(linear_rgb(plate(x, y)));
+            for (std::size_t i = 0; i < frames.count(); i += step) {
+                if (!within_codes(frames.smooth(i, x, y), plate(x, y), parameters.estimate.tolerance_codes)) continue;
+                sums(y, x) += delta_e(lab_from_linear(linear_rgb(frames(i, x, y))), background);
                 counts(y, x) += 1;
             }
         }
     });
-    cv::boxFilter(sums, sums, -1, {kNeighbourhood_px, kNeighbourhood_px}, {-1, -1}, false);
-    cv::boxFilter(counts, counts, -1, {kNeighbourhood_px, kNeighbourhood_px}, {-1, -1}, false);
+    const cv::Size neighbourhood(parameters.noise.neighbourhood_px, parameters.noise.neighbourhood_px);
+    cv::boxFilter(sums, sums, -1, neighbourhood, {-1, -1}, false);
+    cv::boxFilter(counts, counts, -1, neighbourhood, {-1, -1}, false);
     Image<float> noise(plate.width(), plate.height());
     for (int y = 0; y < plate.height(); ++y) {
         for (int x = 0; x < plate.width(); ++x) {
-            noise(x, y) = std::min(kMostNoise_delta_e, sums(y, x) / std::max(1.0F, counts(y, x)));
+            noise(x, y) = std::min(parameters.noise.max_delta_e, sums(y, x) / std::max(1.0F, counts(y, x)));
         }
     }
     return noise;

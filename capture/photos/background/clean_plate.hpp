@@ -1,10 +1,15 @@
 #pragma once
-// The clean plate of a turn, put together: the region that the object sweeps is told from the rest (swept_region.hpp),
-// then the plate grows from the rest inwards, and from what the rows show at both ends of the region
-// (clean_plate_growth.hpp); in a room it grows across the edges of what stands there, too.
+/// \file
+/// Clean plate of a turn: the static background, also where the object covers it in some frames.
+///
+/// Stages: the region that the object sweeps (swept_region.hpp) leaves the always visible pixels; the plate grows from
+/// them inwards (plate_propagation.hpp); gaps are inpainted along rows, or along circles of a turntable disc
+/// (disc_inpainting.hpp), and where frames confirm the guess the plate grows from there, too. Static pixels of the
+/// region that the plate does not explain belong to the object.
 
-#include "capture/photos/background/evened_samples.hpp"
-#include "capture/photos/background/still_picture.hpp"
+#include "capture/photos/background/background_estimate.hpp"
+#include "capture/photos/background/background_parameters.hpp"
+#include "capture/photos/background/exposure_normalized_frames.hpp"
 #include "capture/photos/background/turntable_disc.hpp"
 #include "rayspace/image/image.hpp"
 
@@ -12,26 +17,23 @@
 
 namespace rs::capture {
 
-// All pictures have the samples' size; masks hold 255 or 0.
+/// All images have the frames' size; masks hold 255 or 0.
 struct CleanPlate {
-    Image<Rgba8> colour;            // means something where it is known
-    Image<std::uint8_t> known;      // where pictures show it
-    Image<std::uint8_t> untouched;  // where nothing ever covers it
-    // Where the object always does, although nothing moves there; not what the plate around explains, fully lit or in
-    // a shadow that hardly moves.
-    Image<std::uint8_t> hidden;
-    std::optional<TurntableDisc> disc;  // where one stands out
+    Image<Rgba8> colour;                 ///< sRGB; defined where `known`
+    Image<std::uint8_t> known;           ///< some frames show the background
+    Image<std::uint8_t> always_visible;  ///< the object never covers the background
+    Image<std::uint8_t> always_covered;  ///< static part of the object, in front of the background in all frames
+    std::optional<TurntableDisc> disc;   ///< nullopt: none was detected
 };
 
-// What may stand behind the object: a studio's even backdrop, or a room.
-enum class Behind { kStudio, kAnything };
+/// `background`: temporal_consensus() of the frames; `static_pixels`: not 0 where the frames agree, be it on the
+/// background or on the object. At most 64 frames.
+CleanPlate clean_plate_of_turn(const ExposureNormalizedFrames& frames, const BackgroundEstimate& background,
+                               ConstImageView<std::uint8_t> static_pixels, const BackgroundParameters& parameters);
 
-// `still` is the samples' own; `motionless` is not 0 where they all agree, backdrop or not. At most 64 samples.
-CleanPlate clean_plate_of_turn(const EvenedSamples& samples, const StillPicture& still,
-                               ConstImageView<std::uint8_t> motionless, Behind behind = Behind::kAnything);
-
-// Mean delta E between the samples and the plate, over those samples that show it, averaged over a neighbourhood; only
-// where `known` is not 0 the plate is compared, elsewhere what is known near by holds, or 0.
-Image<float> plate_noise(const EvenedSamples& samples, const Image<Rgba8>& plate, const Image<std::uint8_t>& known);
+/// Mean delta E between the plate and those frames that show it, averaged over a neighbourhood. Measured only where
+/// `known` is not 0; elsewhere extended from the neighbourhood, or 0.
+Image<float> plate_noise(const ExposureNormalizedFrames& frames, const Image<Rgba8>& plate,
+                         const Image<std::uint8_t>& known, const BackgroundParameters& parameters);
 
 }  // namespace rs::capture

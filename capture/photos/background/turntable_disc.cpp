@@ -1,7 +1,6 @@
 #include "capture/photos/background/turntable_disc.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
-#include "capture/photos/background/disc_plane.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
@@ -17,56 +16,58 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kNominalFocal_widths = 1.4;
+using DiscParameters = BackgroundParameters::Disc;
 
-// How well a circle stands out.
-struct Rim {
-    double contrast = 0;    // mean over what is known, 0..1
+// Visibility of a circle as an edge.
+struct RimContrast {
+    double contrast = 0;    // mean over the known part, 0..1
     double known = 0;       // share of the circle
-    int clear_octants = 0;  // eighths of the circle that stand out
+    int clear_octants = 0;  // of 8
     [[nodiscard]] double score() const { return contrast * std::min(1.0, known / 0.5); }
 };
 
-// A point of a circle in the picture, and which way is out of it.
-struct RimPlace {
+// Point of a circle in the image with the outward normal.
+struct RimPoint {
     glm::dvec2 px{};
-    glm::dvec2 normal{};  // of length 1; 0 where the circle is seen from its edge
+    glm::dvec2 normal{};  // of length 1; 0 where the circle is seen edge-on
 };
 
-// Cosines and sines of angles all around, and of what lies a little before and behind each. Tens of thousands of
-// circles are tried at the same angles.
-class AroundCircle {
+// Cosines and sines of equally spaced angles and of their neighbours for the tangents, computed once: tens of thousands
+// of circles are tried at the same angles.
+class CircleSampling {
 public:
-    explicit AroundCircle(int places) : places_(places) {
-        constexpr double kApart_rad = 0.02;
-        const auto direction = [](double angle_rad) { return glm::dvec2(std::cos(angle_rad), std::sin(angle_rad)); };
-        for (int i = 0; i < places; ++i) {
+    explicit CircleSampling(int count) : count_(count) {
+        constexpr double kTangentStep_rad = 0.02;
+        const auto direction = [](double angle) { return glm::dvec2(std::cos(angle), std::sin(angle)); };
+        for (int i = 0; i < count; ++i) {
             const double angle = angle_rad(i);
-            directions_.push_back({direction(angle), direction(angle - kApart_rad), direction(angle + kApart_rad)});
+            directions_.push_back(
+                {direction(angle), direction(angle - kTangentStep_rad), direction(angle + kTangentStep_rad)});
         }
     }
-    [[nodiscard]] int places() const { return places_; }
-    [[nodiscard]] double angle_rad(int i) const { return 2 * std::numbers::pi * i / places_; }
-    [[nodiscard]] RimPlace rim_place(const DiscPlane& plane, double radius, int i) const {
+    [[nodiscard]] int count() const { return count_; }
+    [[nodiscard]] double angle_rad(int i) const { return 2 * std::numbers::pi * i / count_; }
+    [[nodiscard]] RimPoint rim_point(const DiscPlane& plane, double radius, int i) const {
         const Directions& d = directions_[static_cast<std::size_t>(i)];
-        const glm::dvec2 tangent = plane.on_circle(radius, d.behind) - plane.on_circle(radius, d.before);
+        const glm::dvec2 tangent = plane.px_on_circle(radius, d.after) - plane.px_on_circle(radius, d.before);
         const double length = glm::length(tangent);
         const glm::dvec2 normal = length > 1e-9 ? glm::dvec2(tangent.y, -tangent.x) / length : glm::dvec2(0);
-        return {plane.on_circle(radius, d.at), normal};
+        return {plane.px_on_circle(radius, d.at), normal};
     }
 
 private:
     struct Directions {
-        glm::dvec2 at, before, behind;
+        glm::dvec2 at, before, after;
     };
-    int places_;
+    int count_;
     std::vector<Directions> directions_;
 };
 
-class RimSearch {
+// Measures rims in the known part of the plate.
+class RimDetector {
 public:
-    RimSearch(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> known)
-        : colour_(plate.height(), plate.width()), known_(mat_over(known)) {
+    RimDetector(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> known, const DiscParameters& parameters)
+        : parameters_(parameters), colour_(plate.height(), plate.width()), known_(mat_over(known)) {
         for (int y = 0; y < plate.height(); ++y) {
             for (int x = 0; x < plate.width(); ++x) {
                 const Rgba8& p = plate(x, y);
@@ -75,90 +76,92 @@ public:
         }
     }
 
-    // Of colours so far apart on either side; what differs by `clear_codes` stands out entirely.
-    [[nodiscard]] Rim rim_of(const TurntableDisc& disc, const AroundCircle& around, double apart_px,
-                             double clear_codes) const {
-        const int samples = around.places();
-        const DiscPlane plane = this->plane(disc);
-        if (!stands_before_camera(disc, plane)) return {};
+    // From colours `distance_px` inside and outside of the rim; `full_contrast_codes` apart counts as 1.
+    [[nodiscard]] RimContrast contrast_of(const TurntableDisc& disc, const CircleSampling& sampling, double distance_px,
+                                          double full_contrast_codes) const {
+        const int count = sampling.count();
+        const DiscPlane plane = plane_of(disc);
+        if (!is_in_front(disc, plane)) return {};
         double sum = 0;
         int known = 0;
         std::array<double, 8> octant_sum{};
         std::array<int, 8> octant_known{};
-        visit_known(disc, plane, around, apart_px, [&](int i, double codes) {
-            const double contrast = std::min(1.0, codes / clear_codes);
-            const auto octant = static_cast<std::size_t>(i * 8 / samples);
+        for_known(disc, plane, sampling, distance_px, [&](int i, double codes) {
+            const double contrast = std::min(1.0, codes / full_contrast_codes);
+            const auto octant = static_cast<std::size_t>(i * 8 / count);
             ++known;
             sum += contrast;
             ++octant_known[octant];
             octant_sum[octant] += contrast;
         });
         if (known == 0) return {};
-        constexpr double kClearOctant = 0.5;
         int clear_octants = 0;
         for (std::size_t i = 0; i < octant_sum.size(); ++i) {
-            const bool enough = octant_known[i] * 24 >= samples;  // a third of the eighth
-            clear_octants += enough && octant_sum[i] >= kClearOctant * octant_known[i] ? 1 : 0;
+            const bool is_known = octant_known[i] * 8 >= parameters_.min_octant_share * count;
+            const bool is_clear = octant_sum[i] >= parameters_.min_octant_contrast * octant_known[i];
+            clear_octants += is_known && is_clear ? 1 : 0;
         }
-        return {sum / known, static_cast<double>(known) / samples, clear_octants};
+        return {sum / known, static_cast<double>(known) / count, clear_octants};
     }
 
-    // Of what is known of a circle, the share that stands out by at least a third of what the median of it does. A
-    // disc has one colour against one table; a circle through the foot of the object and something else has not.
-    [[nodiscard]] double evenness(const TurntableDisc& disc, const AroundCircle& around, double apart_px) const {
-        std::vector<double> known_codes;
-        visit_known(disc, plane(disc), around, apart_px, [&](int, double codes) { known_codes.push_back(codes); });
-        if (known_codes.empty()) return 0;
-        const double third = median(known_codes) / 3;
-        const auto even = std::count_if(known_codes.begin(), known_codes.end(), [&](double c) { return c >= third; });
-        return static_cast<double>(even) / static_cast<double>(known_codes.size());
+    // Share of the known rim whose contrast is at least a third of the median. A disc has one colour before one table;
+    // a circle through the foot of the object and something else has not.
+    [[nodiscard]] double evenness_of(const TurntableDisc& disc, const CircleSampling& sampling,
+                                     double distance_px) const {
+        std::vector<double> contrasts;  // codes
+        for_known(disc, plane_of(disc), sampling, distance_px, [&](int, double codes) { contrasts.push_back(codes); });
+        if (contrasts.empty()) return 0;
+        const double third = median(contrasts) / 3;
+        const auto even = std::count_if(contrasts.begin(), contrasts.end(), [&](double c) { return c >= third; });
+        return static_cast<double>(even) / static_cast<double>(contrasts.size());
     }
 
-    // How far along its normal the strongest edge near a place is.
-    [[nodiscard]] std::optional<double> edge_beside(const RimPlace& place, double reach_px) const {
+    // Signed distance along the normal to the strongest edge within `reach_px`, in px.
+    [[nodiscard]] std::optional<double> distance_to_edge(const RimPoint& point, double reach_px) const {
         constexpr double kStep_px = 0.5;
-        constexpr double kApart_px = 1;
-        double strongest_codes = 12;
-        std::optional<double> found;
+        constexpr double kHalfEdge_px = 1;
+        double strongest_codes = parameters_.min_edge_codes;
+        std::optional<double> distance_px;
         for (double offset_px = -reach_px; offset_px <= reach_px; offset_px += kStep_px) {
             const std::optional<double> codes =
-                contrast_at(place.px + offset_px * place.normal, place.normal * kApart_px);
+                contrast_at(point.px + offset_px * point.normal, point.normal * kHalfEdge_px);
             if (!codes || *codes <= strongest_codes) continue;
             strongest_codes = *codes;
-            found = offset_px;
+            distance_px = offset_px;
         }
-        return found;
+        return distance_px;
     }
 
-    // Whether there is a picture of all of the circle.
-    [[nodiscard]] static bool stands_before_camera(const TurntableDisc& disc, const DiscPlane& plane) {
+    // Whether the camera can see the whole circle.
+    [[nodiscard]] static bool is_in_front(const TurntableDisc& disc, const DiscPlane& plane) {
         if (!(disc.radius > 0) || !std::isfinite(disc.centre_x) || !std::isfinite(disc.centre_y)) return false;
-        return plane.below_horizon({disc.centre_x, disc.centre_y}) && plane.visible(disc.radius);
+        return plane.is_below_horizon({disc.centre_x, disc.centre_y}) && plane.is_in_front(disc.radius);
     }
 
-    [[nodiscard]] DiscPlane plane(const TurntableDisc& disc) const { return {disc, colour_.cols, colour_.rows}; }
+    [[nodiscard]] DiscPlane plane_of(const TurntableDisc& disc) const { return {disc, colour_.cols, colour_.rows}; }
+    [[nodiscard]] const DiscParameters& parameters() const { return parameters_; }
 
 private:
-    // Calls visit(i, contrast in codes) for those of a circle's samples that are known.
+    // Calls visit(i, contrast in codes) for the known points of the circle.
     template <class Visit>
-    void visit_known(const TurntableDisc& disc, const DiscPlane& plane, const AroundCircle& around, double apart_px,
-                     Visit visit) const {
-        for (int i = 0; i < around.places(); ++i) {
-            const RimPlace place = around.rim_place(plane, disc.radius, i);
-            const std::optional<double> codes = contrast_at(place.px, place.normal * apart_px);
+    void for_known(const TurntableDisc& disc, const DiscPlane& plane, const CircleSampling& sampling,
+                   double distance_px, Visit visit) const {
+        for (int i = 0; i < sampling.count(); ++i) {
+            const RimPoint point = sampling.rim_point(plane, disc.radius, i);
+            const std::optional<double> codes = contrast_at(point.px, point.normal * distance_px);
             if (codes) visit(i, *codes);
         }
     }
 
-    // Of what stands on either side; nothing where either is not known.
-    [[nodiscard]] std::optional<double> contrast_at(glm::dvec2 px, glm::dvec2 apart) const {
+    // Colour distance between px - offset and px + offset; nullopt unless both are known.
+    [[nodiscard]] std::optional<double> contrast_at(glm::dvec2 px, glm::dvec2 offset) const {
         cv::Vec3f inner;
         cv::Vec3f outer;
-        if (!sample(px - apart, inner) || !sample(px + apart, outer)) return std::nullopt;
+        if (!sample_bilinear(px - offset, inner) || !sample_bilinear(px + offset, outer)) return std::nullopt;
         return cv::norm(inner - outer);
     }
 
-    bool sample(glm::dvec2 px, cv::Vec3f& colour) const {
+    bool sample_bilinear(glm::dvec2 px, cv::Vec3f& colour) const {
         const double x = px.x - 0.5;
         const double y = px.y - 0.5;
         const int u = static_cast<int>(std::floor(x));
@@ -172,72 +175,115 @@ private:
         return true;
     }
 
-    cv::Mat3f colour_;
+    const DiscParameters& parameters_;
+    cv::Mat3f colour_;  // sRGB codes
     cv::Mat1b known_;
 };
 
-// Draws the circle to the strongest edges at most `reach_px` beside it: one Gauss-Newton step with Huber's weights.
-TurntableDisc drawn_to_edges(const RimSearch& search, const TurntableDisc& start, double reach_px) {
-    const DiscPlane plane = search.plane(start);
-    if (!RimSearch::stands_before_camera(start, plane)) return start;
-    const AroundCircle around(240);
-    constexpr double kHuber_px = 1;
+// Fits the circle to the strongest edges within `reach_px` of it: one damped Gauss-Newton step with Huber weights over
+// tilt, roll, centre and radius, with numerical derivatives.
+TurntableDisc fitted_to_edges(const RimDetector& detector, const TurntableDisc& start, double reach_px) {
     constexpr double kDamping = 1e-3;
+    const DiscPlane plane = detector.plane_of(start);
+    if (!RimDetector::is_in_front(start, plane)) return start;
+    const CircleSampling sampling(240);
     const auto disc_of = [&](const std::array<double, 5>& x) {
         return TurntableDisc{start.f_px, x[0], x[1], x[2], x[3], x[4]};
     };
     const std::array<double, 5> from{start.tilt_rad, start.roll_rad, start.centre_x, start.centre_y, start.radius};
-    const std::array<double, 5> nudge{1e-4, 1e-4, 0.01, 0.01, 1e-4 * start.radius};
-    std::vector<DiscPlane> nudged;
+    const std::array<double, 5> delta{1e-4, 1e-4, 0.01, 0.01, 1e-4 * start.radius};
+    std::vector<DiscPlane> moved;  // [unknown]
     for (std::size_t k = 0; k < from.size(); ++k) {
         std::array<double, 5> x = from;
-        x[k] += nudge[k];
-        nudged.push_back(search.plane(disc_of(x)));
+        x[k] += delta[k];
+        moved.push_back(detector.plane_of(disc_of(x)));
     }
-    cv::Matx<double, 5, 5> information = cv::Matx<double, 5, 5>::zeros();
-    cv::Vec<double, 5> pull;
-    for (int i = 0; i < around.places(); ++i) {
-        const RimPlace place = around.rim_place(plane, start.radius, i);
-        const std::optional<double> offset_px = search.edge_beside(place, reach_px);
-        if (!offset_px) continue;
-        const double weight = 1 / std::max(1.0, std::abs(*offset_px) / kHuber_px);
-        cv::Vec<double, 5> slope;  // px along the normal per nudge
+    cv::Matx<double, 5, 5> normal = cv::Matx<double, 5, 5>::zeros();
+    cv::Vec<double, 5> right_side;
+    for (int i = 0; i < sampling.count(); ++i) {
+        const RimPoint point = sampling.rim_point(plane, start.radius, i);
+        const std::optional<double> distance_px = detector.distance_to_edge(point, reach_px);
+        if (!distance_px) continue;
+        const double weight = 1 / std::max(1.0, std::abs(*distance_px) / detector.parameters().huber_px);
+        cv::Vec<double, 5> derivative;  // px along the normal per delta
         for (std::size_t k = 0; k < from.size(); ++k) {
-            const double radius = k == 4 ? start.radius + nudge[k] : start.radius;
-            slope[static_cast<int>(k)] =
-                glm::dot(nudged[k].on_circle(radius, around.angle_rad(i)) - place.px, place.normal);
+            const double radius = k == 4 ? start.radius + delta[k] : start.radius;
+            derivative[static_cast<int>(k)] =
+                glm::dot(moved[k].px_on_circle(radius, sampling.angle_rad(i)) - point.px, point.normal);
         }
-        information += weight * (slope * slope.t());
-        pull += weight * *offset_px * slope;
+        normal += weight * (derivative * derivative.t());
+        right_side += weight * *distance_px * derivative;
     }
-    for (int k = 0; k < 5; ++k) information(k, k) *= 1 + kDamping;
-    cv::Vec<double, 5> nudges;
-    if (!cv::solve(information, pull, nudges, cv::DECOMP_CHOLESKY)) return start;
+    for (int k = 0; k < 5; ++k) normal(k, k) *= 1 + kDamping;
+    cv::Vec<double, 5> step;  // in deltas
+    if (!cv::solve(normal, right_side, step, cv::DECOMP_CHOLESKY)) return start;
     std::array<double, 5> x = from;
-    for (std::size_t k = 0; k < x.size(); ++k) x[k] += nudge[k] * nudges[static_cast<int>(k)];
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] += delta[k] * step[static_cast<int>(k)];
     return disc_of(x);
 }
 
-// The best circle of a finer grid around one of the coarse grid.
-TurntableDisc best_beside(const RimSearch& search, const TurntableDisc& start, double step_px) {
-    const AroundCircle around(96);
-    constexpr double kApart_px = 2;
-    constexpr double kNeverEnough_codes = 120;
+struct ScoredDisc {
+    TurntableDisc disc;
+    double score = 0;
+};
+
+// Best circle of a coarse grid over tilt, centre and radius; score 0 if there is none.
+ScoredDisc coarse_search(const RimDetector& detector, const cv::Rect& object, int width, int height, double step_px) {
+    const DiscParameters& parameters = detector.parameters();
+    const CircleSampling sampling(48);
+    const double f_px = parameters.nominal_focal_widths * width;
+    std::vector<double> rows;  // of the disc's centre; one task each
+    for (double y = object.y + 0.5 * object.height; y < object.y + 1.15 * object.height; y += 4 * step_px) {
+        rows.push_back(y);
+    }
+    std::vector<ScoredDisc> best(rows.size());
+    for_each_index(rows.size(), [&](std::size_t i) {
+        for (int column = -1; column <= 1; ++column) {
+            for (double tilt_deg = 6; tilt_deg <= 48; tilt_deg += 3) {
+                TurntableDisc disc{f_px,    tilt_deg * std::numbers::pi / 180,
+                                   0,       object.x + 0.5 * object.width + 4 * column * step_px,
+                                   rows[i], 0};
+                const DiscPlane plane(disc, width, height);
+                if (!plane.is_below_horizon({disc.centre_x, disc.centre_y})) continue;
+                const double unit = plane.unit_per_px();
+                for (double a = 0.3 * object.width; a <= 1.3 * object.width; a += 2 * step_px) {
+                    if (a * std::sin(disc.tilt_rad) < parameters.min_depth_share * width) continue;  // almost a line
+                    disc.radius = a * unit;
+                    const double score =
+                        detector
+                            .contrast_of(disc, sampling, parameters.coarse_contrast_px, parameters.full_contrast_codes)
+                            .score();
+                    if (score > best[i].score) best[i] = {disc, score};
+                }
+            }
+        }
+    });
+    return *std::max_element(best.begin(), best.end(),
+                             [](const ScoredDisc& a, const ScoredDisc& b) { return a.score < b.score; });
+}
+
+// Best circle of a finer grid around `start`.
+TurntableDisc fine_search(const RimDetector& detector, const TurntableDisc& start, double step_px) {
+    const DiscParameters& parameters = detector.parameters();
+    const CircleSampling sampling(96);
     TurntableDisc best = start;
     double best_score = 0;
-    const double start_px = start.radius / search.plane(start).unit_per_px();
+    const double start_px = start.radius / detector.plane_of(start).unit_per_px();
     TurntableDisc disc = start;
     for (int tilt = -8; tilt <= 8; ++tilt) {
         disc.tilt_rad = start.tilt_rad + tilt * std::numbers::pi / 360;
         for (int row = -4; row <= 4; ++row) {
             disc.centre_y = start.centre_y + row * step_px;
-            // As wide as it was: the nearer the horizon the farther away is what looks as large.
-            const double unit = search.plane(disc).unit_per_px();
+            // Keeps the width in px: the same width nearer to the horizon is a larger radius.
+            const double unit = detector.plane_of(disc).unit_per_px();
             for (int column = -3; column <= 3; ++column) {
                 disc.centre_x = start.centre_x + column * step_px;
                 for (int a = -4; a <= 4; ++a) {
                     disc.radius = (start_px + a * step_px) * unit;
-                    const double score = search.rim_of(disc, around, kApart_px, kNeverEnough_codes).score();
+                    const double score =
+                        detector
+                            .contrast_of(disc, sampling, parameters.contrast_px, parameters.refinement_contrast_codes)
+                            .score();
                     if (score > best_score) {
                         best_score = score;
                         best = disc;
@@ -249,60 +295,30 @@ TurntableDisc best_beside(const RimSearch& search, const TurntableDisc& start, d
     return best;
 }
 
+bool is_clear_rim(const RimDetector& detector, const TurntableDisc& disc) {
+    const DiscParameters& parameters = detector.parameters();
+    const CircleSampling sampling(360);
+    const RimContrast rim =
+        detector.contrast_of(disc, sampling, parameters.contrast_px, parameters.full_contrast_codes);
+    return rim.contrast >= parameters.min_contrast && rim.known >= parameters.min_known_share &&
+           rim.clear_octants >= parameters.min_clear_octants &&
+           detector.evenness_of(disc, sampling, parameters.contrast_px) >= parameters.min_evenness;
+}
+
 }  // namespace
 
 std::optional<TurntableDisc> find_turntable_disc(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> known,
-                                                 ConstImageView<std::uint8_t> object) {
-    const AroundCircle coarsely(48), finely(360);
-    constexpr double kCoarseApart_px = 4;  // wide, for the steps are
-    constexpr double kClear_codes = 24;
-    constexpr double kLeastDepth = 0.05;  // of the picture's width is the circle's smaller radius: no mere line
-    constexpr double kLeastContrast = 0.7;
-    constexpr double kLeastKnown = 0.4;
-    constexpr int kLeastOctants = 4;
-    constexpr double kLeastEven = 0.86;  // measured: discs from 0.94 on, a white foot before blue without a disc 0.78
-    const cv::Rect box = box_of(mat_over(object));
-    if (box.area() == 0) return std::nullopt;
-    const RimSearch search(plate, known);
-    const double f_px = kNominalFocal_widths * plate.width();
+                                                 ConstImageView<std::uint8_t> object,
+                                                 const BackgroundParameters::Disc& parameters) {
+    const cv::Rect object_box = box_of(mat_over(object));
+    if (object_box.area() == 0) return std::nullopt;
+    const RimDetector detector(plate, known, parameters);
     const double step_px = std::max(1.0, plate.width() / 360.0);
-    struct Found {
-        TurntableDisc disc;
-        double score = 0;
-    };
-    // Rows of the axis' foot; one task each.
-    std::vector<double> rows;
-    for (double y = box.y + 0.5 * box.height; y < box.y + 1.15 * box.height; y += 4 * step_px) rows.push_back(y);
-    std::vector<Found> best(rows.size());
-    for_each_index(rows.size(), [&](std::size_t i) {
-        for (int column = -1; column <= 1; ++column) {
-            for (double tilt_deg = 6; tilt_deg <= 48; tilt_deg += 3) {
-                TurntableDisc disc{f_px,    tilt_deg * std::numbers::pi / 180,
-                                   0,       box.x + 0.5 * box.width + 4 * column * step_px,
-                                   rows[i], 0};
-                const DiscPlane plane(disc, plate.width(), plate.height());
-                if (!plane.below_horizon({disc.centre_x, disc.centre_y})) continue;
-                const double unit = plane.unit_per_px();
-                for (double a = 0.3 * box.width; a <= 1.3 * box.width; a += 2 * step_px) {
-                    if (a * std::sin(disc.tilt_rad) < kLeastDepth * plate.width()) continue;
-                    disc.radius = a * unit;
-                    const double score = search.rim_of(disc, coarsely, kCoarseApart_px, kClear_codes).score();
-                    if (score > best[i].score) best[i] = {disc, score};
-                }
-            }
-        }
-    });
-    const Found start =
-        *std::max_element(best.begin(), best.end(), [](const Found& a, const Found& b) { return a.score < b.score; });
+    const ScoredDisc start = coarse_search(detector, object_box, plate.width(), plate.height(), step_px);
     if (start.score <= 0) return std::nullopt;
-
-    TurntableDisc disc = best_beside(search, start.disc, step_px);
-    for (const double reach_px : {6.0, 6.0, 4.0, 4.0, 3.0, 3.0, 3.0}) disc = drawn_to_edges(search, disc, reach_px);
-    const Rim rim = search.rim_of(disc, finely, 2, kClear_codes);
-    if (rim.contrast < kLeastContrast || rim.known < kLeastKnown || rim.clear_octants < kLeastOctants ||
-        search.evenness(disc, finely, 2) < kLeastEven) {
-        return std::nullopt;
-    }
+    TurntableDisc disc = fine_search(detector, start.disc, step_px);
+    for (const double reach_px : {6.0, 6.0, 4.0, 4.0, 3.0, 3.0, 3.0}) disc = fitted_to_edges(detector, disc, reach_px);
+    if (!is_clear_rim(detector, disc)) return std::nullopt;
     return disc;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Work on the photographs of a turn side by side: on all cores as long as the memory for that is there, on fewer of
-// them where the photographs are large.
+/// \file
+/// Parallel loop over the photos of a turn with bounded memory: fewer threads for large photos.
 
 #include "capture/photos/intake/photo_folder.hpp"
 #include "rayspace/base/progress.hpp"
@@ -12,19 +12,20 @@
 
 namespace rs::capture {
 
-// What all photographs in work may take together.
+/// Memory limit of all photos in progress.
 inline constexpr std::int64_t kWorkingMemory_bytes = std::int64_t{4} << 30;
 
-// What reading a picture takes at most, per pixel: its file's samples as floats and the picture.
+/// Peak memory of reading a photo, bytes per pixel: the file's samples as floats, and the image.
 inline constexpr int kReadBytesPerPixel = 24;
 
-// How many of the folder's photographs are worked on at a time where each takes `bytes_per_px` of the size it is worked
-// on in, or kReadBytesPerPixel of the size it is read in: as many as kWorkingMemory_bytes holds, at least one, at most
-// `threads`.
-int photos_at_a_time(const PhotoFolder& folder, int bytes_per_px, int threads);
+/// Number of photos that may be in progress at a time, 1..threads: as many as kWorkingMemory_bytes allows, where each
+/// takes `bytes_per_px` in its working size or kReadBytesPerPixel in its full size, whichever is more.
+int max_photos_in_parallel(const PhotoFolder& folder, int bytes_per_px, int threads);
 
-// for_each_in_parallel() (rayspace/base/parallel.hpp) over the folder's photographs, photos_at_a_time() of them, with
-// no more threads than the calling tbb arena has. Work that waits for tasks of its own begins no other photograph.
+/// for_each_in_parallel() (rayspace/base/parallel.hpp) over the indices of folder.photos, max_photos_in_parallel() at a
+/// time, with at most the threads of the calling TBB arena. A thread that waits for nested tasks does not start another
+/// photo.
+/// \param label shown by `progress`. Errors: the first error of `work`.
 Status for_each_photo(const PhotoFolder& folder, int bytes_per_px, const std::string& label, Progress* progress,
                       const std::function<Status(std::size_t)>& work);
 

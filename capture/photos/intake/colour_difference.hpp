@@ -1,5 +1,9 @@
 #pragma once
-// How different two colours look, and whether a colour can be the backdrop with a shadow on it.
+/// \file
+/// Colour differences in CIELAB, and the shadow model of background subtraction.
+///
+/// Colours are sRGB codes (Rgba8), linear light with sRGB primaries (LinearRgb), or CIE 1976 L*a*b* with white D65
+/// (Lab). Shadow model: a shadow multiplies the background's linear light by one factor common to all channels.
 
 #include "rayspace/image/image.hpp"
 
@@ -7,54 +11,58 @@
 
 namespace rs::capture {
 
-// Whether no channel's sRGB codes differ by more than `codes`.
+/// True if no channel's sRGB codes differ by more than `codes`. Alpha is ignored.
 inline bool within_codes(const Rgba8& a, const Rgba8& b, int codes) {
     return std::abs(a.r - b.r) <= codes && std::abs(a.g - b.g) <= codes && std::abs(a.b - b.b) <= codes;
 }
 
+/// Linear light, sRGB primaries, 1 = white.
 struct LinearRgb {
-    float r = 0, g = 0, b = 0;  // linear light, sRGB primaries
+    float r = 0, g = 0, b = 0;
 };
 
-LinearRgb linear_rgb(const Rgba8& srgb);  // alpha is left aside
+/// Alpha is ignored.
+LinearRgb linear_rgb(const Rgba8& srgb);
 
+/// CIE 1976 L*a*b*, white D65; l is 0..100.
 struct Lab {
-    float l = 0, a = 0, b = 0;  // CIE 1976 L*a*b*, white D65; l is 0..100
+    float l = 0, a = 0, b = 0;
 };
 Lab lab_from_linear(const LinearRgb& colour);
 
-// Of every pixel.
-Image<Lab> lab_picture(ConstImageView<Rgba8> picture);
-Image<Lab> lab_picture(ConstImageView<LinearRgb> picture);
+/// Converts every pixel.
+Image<Lab> lab_image(ConstImageView<Rgba8> image);
+Image<Lab> lab_image(ConstImageView<LinearRgb> image);
 
-// CIE 1976 colour difference; 2.3 is just noticeable.
+/// CIE 1976 colour difference; 2.3 is just noticeable.
 float delta_e(const Lab& x, const Lab& y);
 
-// Whether a backdrop has so much colour that the shaded grey parts of an object do not look like it in a shadow.
+/// True if the chroma exceeds 15: shaded grey parts of an object are then distinguishable from shadows on a background
+/// of this colour.
 bool is_colourful(const LinearRgb& colour);
 bool is_colourful(const Lab& colour);
 
-// A colour both as light and as it looks.
-struct KnownColour {
+/// A colour in linear light with its CIELAB value, converted once.
+struct ColourSample {
     LinearRgb light;
-    Lab look;
-    KnownColour(const LinearRgb& of_light, const Lab& of_look) : light(of_light), look(of_look) {}
-    explicit KnownColour(const LinearRgb& of_light) : light(of_light), look(lab_from_linear(of_light)) {}
+    Lab lab;
+    ColourSample(const LinearRgb& linear, const Lab& its_lab) : light(linear), lab(its_lab) {}
+    explicit ColourSample(const LinearRgb& linear) : light(linear), lab(lab_from_linear(linear)) {}
 };
 
-// How well `backdrop` explains `pixel`. A shadow multiplies the backdrop's linear light by one factor for all channels,
-// so `shaded` is the difference to the multiple of the backdrop that fits best.
-struct Explanation {
-    float plain = 0;   // delta E to the backdrop as it is
-    float shaded = 0;  // delta E to shade * backdrop
-    float shade = 1;   // the factor, within the range given
+/// Residuals of a pixel against the background, lit and in shadow.
+struct ShadowFit {
+    float plain = 0;   ///< delta E to the background as it is
+    float shaded = 0;  ///< delta E to shade * background; at most `plain`
+    float shade = 1;   ///< least-squares factor in linear light, clamped to the given range
 };
-Explanation explain_by_backdrop(const LinearRgb& pixel, const LinearRgb& backdrop, float min_shade, float max_shade);
-// The same; `shaded` is not looked for and stays `plain` where plain is at most `enough_delta_e`.
-Explanation explain_by_backdrop(const KnownColour& pixel, const KnownColour& backdrop, float min_shade, float max_shade,
-                                float enough_delta_e);
 
-// Whether both may be one surface, each in a light of its own: from a quarter to four times as bright.
-bool alike_in_some_light(const LinearRgb& a, const LinearRgb& b);
+/// Fits the shadow model to one pixel.
+/// \param min_shade, max_shade range of the factor
+ShadowFit fit_shadow(const LinearRgb& pixel, const LinearRgb& background, float min_shade, float max_shade);
+/// The same with known CIELAB values. Where `plain` is at most `skip_delta_e`, `shaded` is not computed and equals
+/// `plain`.
+ShadowFit fit_shadow(const ColourSample& pixel, const ColourSample& background, float min_shade, float max_shade,
+                     float skip_delta_e);
 
 }  // namespace rs::capture

@@ -35,7 +35,7 @@ Result<Intake> take_in(PhotoFolder folder, Progress* progress) {
         taken.notes.push_back("the photographs of " + size_text(of.shown_width, of.shown_height) + " are taken as " +
                               size_text(of.width, of.height) + "; --max-side PX keeps more of them, and takes longer");
     }
-    if (test_repeat(taken.survey.thumbnails).last_repeats_first) {
+    if (detect_repeat(taken.survey.thumbnails).last_repeats_first) {
         std::vector<std::filesystem::path>& photos = taken.folder.photos;
         taken.dropped_repeat = photos.back().filename().string();
         taken.notes.push_back(taken.dropped_repeat + " repeats " + photos.front().filename().string() +

@@ -1,6 +1,7 @@
 #pragma once
-// The first stage of an import: the photographs that belong to the turn. Survey and repeat are behind it, the backdrop
-// is found next.
+/// \file
+/// First stage of an import: surveys the photos of a folder and drops a repeat of the first one. Next:
+/// choose_segmenter().
 
 #include "capture/photos/intake/photo_folder.hpp"
 #include "capture/photos/intake/survey.hpp"
@@ -13,13 +14,13 @@
 namespace rs::capture {
 
 struct Intake {
-    PhotoFolder folder;          // without the repeat
-    Survey survey;               // with it
-    std::string dropped_repeat;  // name of the last photograph where it repeated the first; empty otherwise
-    std::vector<std::string> notes;
+    PhotoFolder folder;              ///< without the repeat
+    Survey survey;                   ///< with it
+    std::string dropped_repeat;      ///< name of the last photo if it repeats the first; else empty
+    std::vector<std::string> notes;  ///< messages for the user
 };
 
-// `folder` as open_photo_folder() gave it. Errors: those of survey_photos().
+/// `folder`: as open_photo_folder() returns it. Errors: those of survey_photos().
 Result<Intake> take_in(PhotoFolder folder, Progress* progress);
 
 }  // namespace rs::capture

@@ -1,5 +1,6 @@
 #pragma once
-// One photograph of a folder as the import works with it: upright, and not larger than was asked for.
+/// \file
+/// Reads a photo of a folder in the working size of the import: upright, downscaled to the requested size.
 
 #include "capture/photos/intake/photo_folder.hpp"
 #include "rayspace/base/result.hpp"
@@ -9,16 +10,15 @@
 
 namespace rs::capture {
 
-// What is to be shown of stored pixels: turned and mirrored as EXIF's orientation 1..8 states.
-Image<Rgba8> shown_upright(Image<Rgba8> stored, int orientation);
+/// Rotates and mirrors stored pixels by the EXIF orientation, 1..8.
+Image<Rgba8> apply_orientation(Image<Rgba8> stored, int orientation);
 
-// folder.width x folder.height pixels of what is shown of a photograph, or of a mask of it: folder.shown_width x
-// folder.shown_height.
-Image<Rgba8> in_working_size(Image<Rgba8> shown, const PhotoFolder& folder);
+/// Downscales an upright photo, or a mask of it, from folder.shown_width x folder.shown_height px to folder.width x
+/// folder.height px.
+Image<Rgba8> to_working_size(Image<Rgba8> upright, const PhotoFolder& folder);
 
-// Photograph i of the folder, folder.width x folder.height pixels. While they are turned or averaged the
-// file's pixels are in memory twice, 4 bytes each. Errors: those of read_picture(), and a photograph that is of another
-// size by now.
+/// Photo i of the folder, folder.width x folder.height px. Peak memory: twice the file's pixels at 4 bytes each.
+/// Thread-safe. Errors: those of read_picture(), and a file whose size has changed since the folder was opened.
 Result<Image<Rgba8>> read_photograph(const PhotoFolder& folder, std::size_t i);
 
 }  // namespace rs::capture

@@ -1,17 +1,18 @@
 #pragma once
-// Pictures made smaller by averaging. Besides the result it takes the memory of a few rows.
+/// \file
+/// Downscaling by area averaging. Memory besides the result: a few rows.
 
 #include "rayspace/image/image.hpp"
 
 namespace rs::capture {
 
-// No side is longer than `side_px`; a copy where the picture is small enough. sRGB codes are averaged, with alpha as
-// their weight: for looking at.
-Image<Rgba8> reduced(ConstImageView<Rgba8> picture, int side_px);
+/// Downscales to a longer side of `max_side_px`; returns a copy of smaller images. Averages sRGB codes, weighted by
+/// alpha: for thumbnails and statistics.
+Image<Rgba8> reduced(ConstImageView<Rgba8> image, int max_side_px);
 
-// width x height pixels that show step x step of the picture's each, from its middle: what is left over at its sides,
-// less than a pixel of the result, is cut off alike. Light is averaged, as a sensor of larger pixels would, with alpha
-// as its weight; alpha itself as it is. step >= 1, and the result must fit into the picture.
-Image<Rgba8> averaged_light(ConstImageView<Rgba8> picture, int width, int height, double step);
+/// Downscales by the factor `step` >= 1 in linear light, weighted by alpha, like a sensor of larger pixels. The result
+/// of width x height px covers the centre of the image; a remainder of less than one result pixel is cropped
+/// symmetrically. width * step and height * step must not exceed the image.
+Image<Rgba8> reduced_in_linear_light(ConstImageView<Rgba8> image, int width, int height, double step);
 
 }  // namespace rs::capture

@@ -7,7 +7,7 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kRepeatRatio = 0.4;
+constexpr double kMaxRatio = 0.4;
 
 int on_black(std::uint8_t code, std::uint8_t alpha) {
     return code * alpha / 255;
@@ -31,14 +31,14 @@ double mean_difference(ConstImageView<Rgba8> a, ConstImageView<Rgba8> b) {
     return static_cast<double>(sum) / (4.0 * a.width() * a.height());
 }
 
-RepeatTest test_repeat(std::span<const Image<Rgba8>> turn) {
-    RepeatTest test;
-    if (turn.size() < 4) return test;
+RepeatDetection detect_repeat(std::span<const Image<Rgba8>> turn) {
+    RepeatDetection result;
+    if (turn.size() < 4) return result;
     const std::size_t last = turn.size() - 1;
-    test.first_to_last = mean_difference(turn[0], turn[last]);
-    test.neighbours = std::min(mean_difference(turn[0], turn[1]), mean_difference(turn[last - 1], turn[last]));
-    test.last_repeats_first = test.first_to_last < kRepeatRatio * test.neighbours;
-    return test;
+    result.first_to_last = mean_difference(turn[0], turn[last]);
+    result.neighbours = std::min(mean_difference(turn[0], turn[1]), mean_difference(turn[last - 1], turn[last]));
+    result.last_repeats_first = result.first_to_last < kMaxRatio * result.neighbours;
+    return result;
 }
 
 }  // namespace rs::capture

@@ -14,7 +14,7 @@
 namespace rs::capture {
 namespace {
 
-std::size_t sample_count(std::size_t photos) {
+std::size_t count_samples(std::size_t photos) {
     return std::min<std::size_t>(photos, kMaxSamples);
 }
 
@@ -29,16 +29,16 @@ Rgba8 median_colour(std::span<const Rgba8> colours) {
     return {median_of_channel(&Rgba8::r), median_of_channel(&Rgba8::g), median_of_channel(&Rgba8::b), 255};
 }
 
-Border border_of(ConstImageView<Rgba8> picture) {
-    constexpr int kDark_code = 3;
+Border measure_border(ConstImageView<Rgba8> photo) {
+    constexpr int kMaxDark_code = 3;
     constexpr int kNear_codes = 10;
-    constexpr double kNearShare = 0.85;  // of all ...
-    constexpr double kFlatShare = 0.97;  // ... and of these
+    constexpr double kMinNear = 0.85;  // share of all pixels
+    constexpr double kMinFlat = 0.97;  // share of the near pixels
     std::vector<Rgba8> pixels;
-    for (int y = 0; y < picture.height(); ++y) {
-        const bool whole_row = y == 0 || y == picture.height() - 1;
-        for (int x = 0; x < picture.width(); x += whole_row ? 1 : std::max(1, picture.width() - 1)) {
-            pixels.push_back(picture(x, y));
+    for (int y = 0; y < photo.height(); ++y) {
+        const bool whole_row = y == 0 || y == photo.height() - 1;
+        for (int x = 0; x < photo.width(); x += whole_row ? 1 : std::max(1, photo.width() - 1)) {
+            pixels.push_back(photo(x, y));
         }
     }
     if (pixels.empty()) return {};
@@ -46,15 +46,15 @@ Border border_of(ConstImageView<Rgba8> picture) {
     std::int64_t near = 0, flat = 0, dark = 0, black = 0;
     for (const Rgba8& pixel : pixels) {
         const int brightest = std::max({pixel.r, pixel.g, pixel.b});
-        dark += brightest <= kDark_code ? 1 : 0;
+        dark += brightest <= kMaxDark_code ? 1 : 0;
         black += brightest == 0 ? 1 : 0;
         near += within_codes(pixel, border.median, kNear_codes) ? 1 : 0;
         flat += within_codes(pixel, border.median, kFlat_codes) ? 1 : 0;
     }
     const bool flat_black = 2 * dark > std::ssize(pixels) && black == dark;
-    const bool dark_median = std::max({border.median.r, border.median.g, border.median.b}) <= kDark_code;
-    const bool flat_other = static_cast<double>(near) >= kNearShare * static_cast<double>(pixels.size()) &&
-                            static_cast<double>(flat) >= kFlatShare * static_cast<double>(near);
+    const bool dark_median = std::max({border.median.r, border.median.g, border.median.b}) <= kMaxDark_code;
+    const bool flat_other = static_cast<double>(near) >= kMinNear * static_cast<double>(pixels.size()) &&
+                            static_cast<double>(flat) >= kMinFlat * static_cast<double>(near);
     border.flat = dark_median ? flat_black : flat_other;
     return border;
 }
@@ -63,25 +63,25 @@ Result<Survey> survey_photos(const PhotoFolder& folder, Progress* progress) {
     const std::size_t count = folder.photos.size();
     Survey survey;
     survey.thumbnails.resize(count);
-    survey.samples.resize(sample_count(count));
+    survey.samples.resize(count_samples(count));
     survey.borders.resize(survey.samples.size());
     std::vector<std::optional<std::size_t>> sample_of(count);
     for (std::size_t s = 0; s < survey.samples.size(); ++s) {
         survey.sample_photos.push_back(s * count / survey.samples.size());
         sample_of[survey.sample_photos.back()] = s;
     }
-    const auto look_at = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> picture = read_photograph(folder, i);
-        if (!picture) return picture.error();
-        Image<Rgba8> sample = reduced(*picture, kSampleSide_px);
+    const auto survey_photo = [&](std::size_t i) -> Status {
+        const Result<Image<Rgba8>> photo = read_photograph(folder, i);
+        if (!photo) return photo.error();
+        Image<Rgba8> sample = reduced(*photo, kSampleSide_px);
         survey.thumbnails[i] = reduced(sample, kThumbnailSide_px);
         if (sample_of[i]) {
             survey.samples[*sample_of[i]] = std::move(sample);
-            survey.borders[*sample_of[i]] = border_of(*picture);
+            survey.borders[*sample_of[i]] = measure_border(*photo);
         }
         return {};
     };
-    if (Status status = for_each_photo(folder, kReadBytesPerPixel, "looking at the pictures", progress, look_at);
+    if (Status status = for_each_photo(folder, kReadBytesPerPixel, "surveying photos", progress, survey_photo);
         !status) {
         return status.error();
     }

@@ -1,9 +1,9 @@
 #pragma once
 // What an import found and wrote, for messages, the page and the rig's own record.
 
-#include "capture/photos/background/backdrop.hpp"
 #include "capture/photos/rig/found_rig.hpp"
 #include "capture/photos/rig/rectification.hpp"
+#include "capture/photos/segmentation/segmenter_choice.hpp"
 #include "rayspace/image/image.hpp"
 
 #include <algorithm>
@@ -15,10 +15,12 @@ namespace rs::capture {
 // With the notes of all stages.
 struct ImportReport : FoundRig {
     PhotoFolder folder{};  // the photographs that took part in calibration
-    BackdropKind backdrop = BackdropKind::kAlpha;
+    SegmenterKind segmenter = SegmenterKind::kAlpha;
+    std::string segmenter_reason{};
+    double background_share = 0;  // share of the image in which the background model decided
+    BackgroundKind backdrop = BackgroundKind::kAlpha;
     Rgba8 backdrop_colour{};
     bool backdrop_given = false;
-    bool masks_given = false;
     std::string dropped_repeat{};  // name of the last photograph where it repeated the first; empty otherwise
     double min_coverage = 0;       // share of a photograph's pixels with alpha of 128 and more: smallest of all, ...
     double max_coverage = 0;       // ... largest

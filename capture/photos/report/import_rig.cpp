@@ -19,10 +19,12 @@ nlohmann::json finite(double value) {
 
 void describe(const ImportReport& report, nlohmann::json& made) {
     made["calibration"] = to_string(report.method);
-    made["backdrop"] = report.masks_given ? "masks" : to_string(report.backdrop);
-    made["backdrop_from"] = report.backdrop_given || report.masks_given ? "given" : "pictures";
+    made["segmenter"] = to_string(report.segmenter);
+    const bool is_masks = report.segmenter == SegmenterKind::kMasks;
+    made["backdrop"] = is_masks ? "masks" : to_string(report.backdrop);
+    made["backdrop_from"] = report.backdrop_given || is_masks ? "given" : "pictures";
     const Rgba8& colour = report.backdrop_colour;
-    if (report.backdrop != BackdropKind::kAlpha) made["backdrop_srgb"] = {colour.r, colour.g, colour.b};
+    if (report.backdrop != BackgroundKind::kAlpha) made["backdrop_srgb"] = {colour.r, colour.g, colour.b};
     made["turning"] = to_string(report.turning);
     made["degrees_per_view"] = report.step_deg;
     if (!report.dropped_repeat.empty()) made["dropped_repeat"] = utf8(report.dropped_repeat);
@@ -35,7 +37,7 @@ void name_views(const ImportReport& report, Rig& rig) {
     std::size_t view = 0;
     for (std::size_t i = 0; i < report.folder.photos.size(); ++i) {
         if (is_left_out(report, i)) continue;
-        rig.views[view].file_path = cut_picture_name(view);
+        rig.views[view].file_path = set_image_name(view);
         rig.views[view].extras["source_file"] = utf8(source_name(report, i));
         ++view;
     }
@@ -56,7 +58,7 @@ std::string sizes_text(const PhotoFolder& folder) {
     return text;
 }
 
-Rig nominal_import_rig(const ImportReport& report, const TurnOutline::Box& visible) {
+Rig nominal_import_rig(const ImportReport& report, const TurnSilhouette::Box& visible) {
     NominalRigOptions nominal;
     nominal.width = report.folder.width;
     nominal.height = report.folder.height;
@@ -79,7 +81,7 @@ Rig nominal_import_rig(const ImportReport& report, const TurnOutline::Box& visib
     return rig;
 }
 
-Rig calibrated_import_rig(const ImportReport& report, const TurnOutline::Box& visible) {
+Rig calibrated_import_rig(const ImportReport& report, const TurnSilhouette::Box& visible) {
     const Calibration& calibration = *report.calibration.calibration;
     const TurntableModel& model = calibration.model;
     Rig rig = make_rig(model, report.frame, visible, ground_height(report.calibration));

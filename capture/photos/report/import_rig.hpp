@@ -7,9 +7,9 @@
 namespace rs::capture {
 
 // Equal steps, a level camera: the pictures stay as they are. `visible` is in px of the photographs.
-Rig nominal_import_rig(const ImportReport& report, const TurnOutline::Box& visible);
+Rig nominal_import_rig(const ImportReport& report, const TurnSilhouette::Box& visible);
 
 // As calibrated; `visible` is in px of the rectified pictures. Views whose photographs are left out are not there.
-Rig calibrated_import_rig(const ImportReport& report, const TurnOutline::Box& visible);
+Rig calibrated_import_rig(const ImportReport& report, const TurnSilhouette::Box& visible);
 
 }  // namespace rs::capture

@@ -13,11 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 
 // `boxes` of the photographs, as the still camera would have seen them.
-std::vector<TurnOutline::Box> boxes_put_back(std::vector<TurnOutline::Box> boxes, const Calibration& calibration) {
+std::vector<TurnSilhouette::Box> boxes_put_back(std::vector<TurnSilhouette::Box> boxes,
+                                                const Calibration& calibration) {
     const Lens& lens = calibration.model.lens;
     const glm::dvec2 middle(lens.width / 2.0, lens.height / 2.0);
     for (std::size_t i = 0; i < calibration.places.size(); ++i) {
-        TurnOutline::Box& box = boxes[i];
+        TurnSilhouette::Box& box = boxes[i];
         if (box.empty()) continue;
         const glm::dvec2 low = glm::floor(calibration.places[i].undone({box.left, box.top}, middle));
         const glm::dvec2 high = glm::ceil(calibration.places[i].undone({box.right, box.bottom}, middle));
@@ -27,12 +28,12 @@ std::vector<TurnOutline::Box> boxes_put_back(std::vector<TurnOutline::Box> boxes
 }
 
 // Writes the upright pictures of all views that are not left out; what they cover together.
-Result<TurnOutline::Box> write_rectified(const fs::path& set, const PhotoFolder& folder, const CutPictures& cuts,
-                                         const ImportReport& report, Progress* progress) {
+Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFolder& folder, const CutoutCache& cuts,
+                                            const ImportReport& report, Progress* progress) {
     std::vector<std::size_t> number(folder.photos.size(), 0);  // in the set
     for (std::size_t i = 0, next = 0; i < folder.photos.size(); ++i) number[i] = is_left_out(report, i) ? 0 : next++;
     const Calibration& calibration = *report.calibration.calibration;
-    TurnOutline outline(report.frame.lens.width, report.frame.lens.height);
+    TurnSilhouette outline(report.frame.lens.width, report.frame.lens.height);
     std::mutex mutex;
     const auto work = [&](std::size_t i) -> Status {
         if (is_left_out(report, i)) return {};
@@ -40,8 +41,8 @@ Result<TurnOutline::Box> write_rectified(const fs::path& set, const PhotoFolder&
         if (!picture) return picture.error();
         const Image<Rgba8> upright = rectified(calibration.model, report.frame, *picture,
                                                calibration.places.empty() ? PicturePlace{} : calibration.places[i]);
-        if (Status status = write_png(set / cut_picture_name(number[i]), upright); !status) return status;
-        TurnOutline own(upright.width(), upright.height());
+        if (Status status = write_png(set / set_image_name(number[i]), upright); !status) return status;
+        TurnSilhouette own(upright.width(), upright.height());
         own.add(upright);
         const std::lock_guard lock(mutex);
         outline.merge(own);
@@ -54,18 +55,18 @@ Result<TurnOutline::Box> write_rectified(const fs::path& set, const PhotoFolder&
     return outline.visible();
 }
 
-Status write_as_they_are(const fs::path& set, const PhotoFolder& folder, const CutPictures& cuts, Progress* progress) {
+Status write_as_they_are(const fs::path& set, const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {
     const auto write = [&](std::size_t i) -> Status {
         const Result<Image<Rgba8>> picture = cuts.get(i);
-        return picture ? write_png(set / cut_picture_name(i), *picture) : Status(picture.error());
+        return picture ? write_png(set / set_image_name(i), *picture) : Status(picture.error());
     };
     return for_each_photo(folder, kReadBytesPerPixel, "writing the pictures", progress, write);
 }
 
 }  // namespace
 
-Result<ImportReport> write_import_set(const fs::path& set, const PhotoFolder& folder, const CutTurn& turn,
-                                      const CutPictures& cuts, ImportReport report, Progress* progress) {
+Result<ImportReport> write_import_set(const fs::path& set, const PhotoFolder& folder, const SegmentedTurn& turn,
+                                      const CutoutCache& cuts, ImportReport report, Progress* progress) {
     report.views = static_cast<int>(report.folder.photos.size() - report.left_out.size());
     Rig rig;
     if (const auto& calibration = report.calibration.calibration) {
@@ -73,12 +74,12 @@ Result<ImportReport> write_import_set(const fs::path& set, const PhotoFolder& fo
             plan_upright_frame(calibration->model, boxes_put_back(turn.boxes, *calibration));
         if (!frame) return frame.error();
         report.frame = *frame;
-        const Result<TurnOutline::Box> visible = write_rectified(set, folder, cuts, report, progress);
+        const Result<TurnSilhouette::Box> visible = write_rectified(set, folder, cuts, report, progress);
         if (!visible) return visible.error();
         rig = calibrated_import_rig(report, *visible);
     } else {
         if (Status status = write_as_they_are(set, folder, cuts, progress); !status) return status.error();
-        rig = nominal_import_rig(report, turn.outline.visible());
+        rig = nominal_import_rig(report, turn.silhouette.visible());
     }
     report.fl_px = rig.views.front().camera.fl_x;
     report.distance = glm::length(rig.views.front().camera.centre());

@@ -88,8 +88,8 @@ void take_calibrated(FoundRig& rig, const PhotoFolder& folder) {
 
 }  // namespace
 
-Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, const CutTurn& turn,
-                          const CutPictures& cuts, Progress* progress) {
+Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, const SegmentedTurn& turn,
+                          const CutoutCache& cuts, Progress* progress) {
     const RigRequest request = in_picture_px(given, folder);
     FoundRig rig;
     rig.nominal = find_nominal_turn(request, folder, turn);

@@ -1,6 +1,6 @@
 #pragma once
 // The fourth stage of an import: lens, axis and angles of a turn whose photographs are cut out, calibrated by the
-// surest means that works (photo_calibration.hpp), else nominal (nominal_rig.hpp). Stands between cut_turn and
+// surest means that works (photo_calibration.hpp), else nominal (nominal_rig.hpp). Stands between segment_turn and
 // import_set.
 
 #include "capture/calibration/known/known_files.hpp"
@@ -32,9 +32,9 @@ struct FoundRig {
     std::vector<std::string> notes;     // one line each: what the user should know
 };
 
-// `cuts` and `turn` are cut_turn()'s of `folder`. What is `given` in px is of the photographs as they are shown, what
-// is found of the folder's pictures. Errors: those of known_of_photographs() and calibrate_photos().
-Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, const CutTurn& turn,
-                          const CutPictures& cuts, Progress* progress);
+// `cuts` and `turn` are segment_turn()'s of `folder`. What is `given` in px is of the photographs as they are shown,
+// what is found of the folder's pictures. Errors: those of known_of_photographs() and calibrate_photos().
+Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, const SegmentedTurn& turn,
+                          const CutoutCache& cuts, Progress* progress);
 
 }  // namespace rs::capture

@@ -18,7 +18,7 @@ double distance_for_unit_radius(double extent_px, double fl_px) {
     return std::hypot(extent_px, fl_px) / extent_px;
 }
 
-Rig make_nominal_rig(const NominalRigOptions& options, const TurnOutline::Box& visible) {
+Rig make_nominal_rig(const NominalRigOptions& options, const TurnSilhouette::Box& visible) {
     RS_CHECK(options.views > 0 && options.width > 0 && options.height > 0 && !visible.empty());
     const double fov_rad = radians(options.fov_deg);
     const double fl_px = options.width / (2 * std::tan(fov_rad / 2));
@@ -44,7 +44,7 @@ namespace {
 
 constexpr double kDoubtfulSpread = 0.01;  // of the picture's width
 
-void find_axis(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn, bool closed,
+void find_axis(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn, bool closed,
                NominalTurn& found) {
     found.axis_x_px = folder.width / 2.0;
     found.axis_from = "picture middle";
@@ -53,7 +53,7 @@ void find_axis(const NominalTurnRequest& request, const PhotoFolder& folder, con
         found.axis_from = "given";
         return;
     }
-    const auto axis = turn.outline.axis();
+    const auto axis = turn.silhouette.axis();
     if (!closed || !axis) {
         found.notes.push_back(std::string("the axis cannot be found ") +
                               (closed ? "(the object reaches the picture's sides)" : "from less than a full turn") +
@@ -89,7 +89,7 @@ std::optional<double> stated_field_of_view_deg(const PhotoFolder& folder) {
 
 }  // namespace
 
-NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn) {
+NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn) {
     const auto views = static_cast<double>(folder.photos.size());
     NominalTurn found;
     const std::optional<double> stated = stated_field_of_view_deg(folder);
@@ -100,7 +100,8 @@ NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFold
     return found;
 }
 
-void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn, NominalTurn& found) {
+void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn,
+                NominalTurn& found) {
     found.turning_from = "assumed";
     if (request.turning) {
         found.turning = *request.turning;
@@ -108,7 +109,7 @@ void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, co
         return;
     }
     const double scale = static_cast<double>(turn.small.front().width()) / folder.width;
-    const TurnOutline::Box box = turn.outline.visible();
+    const TurnSilhouette::Box box = turn.silhouette.visible();
     const double extent_px = std::max(found.axis_x_px - box.left, box.right - found.axis_x_px);
     const TurningEvidence evidence = find_turning(turn.small, found.axis_x_px * scale, extent_px * scale,
                                                   radians(found.step_deg), is_closed(found, folder));

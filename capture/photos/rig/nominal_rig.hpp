@@ -13,8 +13,8 @@
 //     camera stands at d = r sqrt(w^2 + f^2) / w.
 
 #include "capture/photos/intake/photo_folder.hpp"
-#include "capture/photos/matte/cut_turn.hpp"
-#include "capture/photos/matte/outline.hpp"
+#include "capture/photos/segmentation/segment_turn.hpp"
+#include "capture/photos/segmentation/turn_silhouette.hpp"
 #include "rayspace/geometry/rig.hpp"
 
 #include <optional>
@@ -47,7 +47,7 @@ double distance_for_unit_radius(double extent_px, double fl_px);
 
 // Views without file names, object_radius 1. `visible` must not be empty and must reach to one side of the axis at
 // least.
-Rig make_nominal_rig(const NominalRigOptions& options, const TurnOutline::Box& visible);
+Rig make_nominal_rig(const NominalRigOptions& options, const TurnSilhouette::Box& visible);
 
 // What the cut-outs alone show of a turn that nobody calibrates: the axis' column and the sense of turning. The
 // nominal rig stands on it, and calibration begins with it.
@@ -72,9 +72,10 @@ struct NominalTurnRequest {
 };
 
 // All but the sense of turning and where that is from.
-NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn);
+NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn);
 
 // The sense of turning: `found` is of the same. What is given costs nothing; otherwise pictures are compared.
-void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const CutTurn& turn, NominalTurn& found);
+void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn,
+                NominalTurn& found);
 
 }  // namespace rs::capture

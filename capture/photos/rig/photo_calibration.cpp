@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr int kSilhouetteSide_px = 640;
 
 // Cut-outs, so that nothing of the backdrop is followed.
-Result<TurnPictures> read_turn(const PhotoFolder& folder, const CutPictures& cuts, Progress* progress) {
+Result<TurnPictures> read_turn(const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {
     TurnPictures turn;
     turn.width = folder.width;
     turn.height = folder.height;
@@ -149,7 +149,7 @@ std::optional<Calibration> given(const CalibrationRequest& request, std::size_t 
 
 }  // namespace
 
-Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const CutPictures& cuts,
+Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const CutoutCache& cuts,
                                           const CalibrationRequest& request, Progress* progress) {
     PhotoCalibration result;
     const CalibrationChoice choice = request.choice;

@@ -1,13 +1,13 @@
 #pragma once
 // Calibration of cut-out photographs by the surest means that works: a board, points of the object, silhouettes; where
-// none does, nothing, and the rig stays nominal (nominal_rig.hpp). Stands between cut_turn and rectification.
+// none does, nothing, and the rig stays nominal (nominal_rig.hpp). Stands between segment_turn and rectification.
 
 #include "capture/calibration/board/board_calibration.hpp"
 #include "capture/calibration/board/charuco_board.hpp"
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/tracks/track_calibration.hpp"
 #include "capture/photos/intake/photo_folder.hpp"
-#include "capture/photos/matte/cut_turn.hpp"
+#include "capture/photos/segmentation/segment_turn.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 
@@ -41,9 +41,9 @@ struct CalibrationRequest {
     std::function<TurntableModel()> nominal;
 };
 
-// `cuts` are cut_turn()'s pictures of `folder`. Fails where a picture cannot be read, and where the choice was
+// `cuts` are segment_turn()'s pictures of `folder`. Fails where a picture cannot be read, and where the choice was
 // not kAuto and does not work.
-Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const CutPictures& cuts,
+Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const CutoutCache& cuts,
                                           const CalibrationRequest& request, Progress* progress);
 
 }  // namespace rs::capture

@@ -1,7 +1,7 @@
 #include "capture/photos/rig/rectification.hpp"
 
-#include "capture/photos/matte/cut_out.hpp"
 #include "capture/photos/rig/nominal_rig.hpp"
+#include "capture/photos/segmentation/cutout.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/premultiplied_sampling.hpp"
 
@@ -52,7 +52,7 @@ std::optional<Stretch> stretch_at(const TurntableModel& model, const glm::dvec2&
     return Stretch{std::sqrt(std::max(0.0, (sum - root) / 2)), std::sqrt((sum + root) / 2)};
 }
 
-std::vector<glm::dvec2> outline_points(const TurnOutline::Box& box) {
+std::vector<glm::dvec2> outline_points(const TurnSilhouette::Box& box) {
     std::vector<glm::dvec2> points;
     for (int i = 0; i < kPointsPerEdge; ++i) {
         const double t = static_cast<double>(i) / (kPointsPerEdge - 1);
@@ -95,11 +95,12 @@ std::string at(const glm::dvec2& p) {
 
 }  // namespace
 
-Result<UprightFrame> plan_upright_frame(const TurntableModel& model, std::span<const TurnOutline::Box> object_boxes) {
+Result<UprightFrame> plan_upright_frame(const TurntableModel& model,
+                                        std::span<const TurnSilhouette::Box> object_boxes) {
     Bounds seen;    // upright picture at f = 1
     Bounds source;  // photograph
     std::vector<glm::dvec2> points;
-    for (const TurnOutline::Box& box : object_boxes) {
+    for (const TurnSilhouette::Box& box : object_boxes) {
         if (box.empty() || box.top >= box.bottom) continue;
         const auto outline = outline_points(box);
         points.insert(points.end(), outline.begin(), outline.end());
@@ -171,7 +172,7 @@ Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, C
     return upright;
 }
 
-Rig make_rig(const TurntableModel& model, const UprightFrame& frame, const TurnOutline::Box& visible,
+Rig make_rig(const TurntableModel& model, const UprightFrame& frame, const TurnSilhouette::Box& visible,
              std::optional<double> ground_height) {
     RS_CHECK(!visible.empty() && visible.top < visible.bottom);
     const double extent_px = std::max(frame.lens.cx - visible.left, visible.right - frame.lens.cx);

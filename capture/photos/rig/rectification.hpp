@@ -9,7 +9,7 @@
 
 #include "capture/calibration/model/picture_place.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
-#include "capture/photos/matte/outline.hpp"
+#include "capture/photos/segmentation/turn_silhouette.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image/image.hpp"
@@ -32,7 +32,7 @@ inline constexpr int kUprightMargin_px = 8;
 // the object's middle is enlarged more than 1.5 times, and never lower than what keeps the scale there. Only where the
 // frame would be larger than kMaxPictureSide_px it is lowered, down to half the scale. Errors: no box, the camera looks
 // so steeply down that an upright one cannot see a box within that, the distortion cannot be undone within a box.
-Result<UprightFrame> plan_upright_frame(const TurntableModel& model, std::span<const TurnOutline::Box> object_boxes);
+Result<UprightFrame> plan_upright_frame(const TurntableModel& model, std::span<const TurnSilhouette::Box> object_boxes);
 
 // A photograph's cut-out (sRGB, straight alpha, of model.lens' size) as the upright camera sees it: sampled once by
 // sample_premultiplied(), transparent where the photograph does not reach; then the object's colours are continued
@@ -43,10 +43,10 @@ Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, C
 
 // One camera per view of the model, without file names, all upright, in object radii: object_radius is 1, the radius
 // about the axis that holds everything within `visible`, whose outermost column is tangent to it; Y = 0 where the
-// middle row of `visible` meets the axis. `visible` is in px of the rectified pictures (TurnOutline::visible() of
+// middle row of `visible` meets the axis. `visible` is in px of the rectified pictures (TurnSilhouette::visible() of
 // them), not empty, and reaches to one side of the axis at least. `ground_height` is where the object stands, if known,
 // in the table frame (turntable_model.hpp); it becomes the rig's foot_height.
-Rig make_rig(const TurntableModel& model, const UprightFrame& frame, const TurnOutline::Box& visible,
+Rig make_rig(const TurntableModel& model, const UprightFrame& frame, const TurnSilhouette::Box& visible,
              std::optional<double> ground_height = std::nullopt);
 
 }  // namespace rs::capture

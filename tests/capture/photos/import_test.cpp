@@ -21,6 +21,7 @@
 namespace rs::capture {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 // photos/1.png .. N.png, drawn over white; no rig is looked for: a disc that always looks the same has none.
@@ -58,7 +59,7 @@ TEST_F(ImportTest, MakesACaptureSet) {
     ASSERT_TRUE(report.ok()) << report.error().message;
     EXPECT_EQ(report->views, 12);
     EXPECT_EQ(report->method, CalibrationMethod::kNominal);
-    EXPECT_EQ(report->backdrop, BackdropKind::kWhite);
+    EXPECT_EQ(report->backdrop, BackgroundKind::kWhite);
     EXPECT_EQ(report->nominal.axis_from, "silhouettes");
     EXPECT_NEAR(report->nominal.axis_x_px, turn_.axis_x_px, 0.6);
     EXPECT_EQ(report->step_deg, 30);
@@ -124,7 +125,7 @@ TEST_F(ImportTest, RefusesMasksThatMayBeOfOtherPixels) {
         test::add_exif(jpeg, 3);
         std::filesystem::remove(photo(i + 1));
     }
-    options_.masks = folder_ / "photos";
+    options_.segmentation.masks = folder_ / "photos";
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_FALSE(report.ok());
     EXPECT_THAT(report.error().message, HasSubstr("EXIF orientation is 3"));
@@ -138,7 +139,7 @@ TEST_F(ImportTest, RefusesMasksThatMayBeOfOtherPixels) {
     const Result<ImportReport> mixed = import_photos(options_, nullptr);
     ASSERT_FALSE(mixed.ok());
     EXPECT_THAT(mixed.error().message, HasSubstr("several EXIF orientations"));
-    options_.masks.clear();
+    options_.segmentation.masks.clear();
     const Result<ImportReport> without = import_photos(options_, nullptr);
     ASSERT_TRUE(without.ok()) << without.error().message;
     EXPECT_EQ(without->nominal.fov_from, "assumed");
@@ -163,9 +164,9 @@ TEST_F(ImportTest, LargePhotographsAreWorkedOnSmaller) {
 }
 
 // A piece of furniture that masks hold, too, and a flag at the border that changes.
-TEST_F(ImportTest, SaysSoWhereWhatReachesTheBorderNeverChanges) {
+TEST_F(ImportTest, RefusesStaticBackgroundAtTheBorderUnlessForced) {
     std::filesystem::create_directory(folder_ / "masks");
-    options_.masks = folder_ / "masks";
+    options_.segmentation.masks = folder_ / "masks";
     for (const bool changes : {true, false}) {
         for (int i = 0; i < turn_.views; ++i) {
             test::DrawnView view = test::draw_view(turn_, i);
@@ -179,17 +180,24 @@ TEST_F(ImportTest, SaysSoWhereWhatReachesTheBorderNeverChanges) {
                 }
             }
             write(i + 1, view.photo);
-            ASSERT_TRUE(write_png(options_.masks / (std::to_string(i + 1) + ".png"), mask).ok());
+            ASSERT_TRUE(write_png(options_.segmentation.masks / (std::to_string(i + 1) + ".png"), mask).ok());
         }
-        const Result<ImportReport> report = import_photos(options_, nullptr);
-        ASSERT_TRUE(report.ok()) << report.error().message;
         const auto never_changes = testing::Contains(HasSubstr("never changes"));
-        EXPECT_THAT(report->notes, testing::Contains(HasSubstr("reaches the picture's border in 12 of 12")));
+        const auto at_border = testing::Contains(HasSubstr("reaches the image border in 12 of 12"));
+        Result<ImportReport> report = import_photos(options_, nullptr);
         if (changes) {
-            EXPECT_THAT(report->notes, testing::Not(never_changes));
-        } else {
-            EXPECT_THAT(report->notes, never_changes);
+            ASSERT_TRUE(report.ok()) << report.error().message;
+            EXPECT_THAT(report->notes, AllOf(at_border, testing::Not(never_changes)));
+            std::filesystem::remove_all(options_.output);
+            continue;
         }
+        ASSERT_FALSE(report.ok());
+        EXPECT_THAT(report.error().message, AllOf(HasSubstr("never changes"), HasSubstr("--force")));
+        EXPECT_FALSE(std::filesystem::exists(options_.output));
+        options_.force = true;
+        report = import_photos(options_, nullptr);
+        ASSERT_TRUE(report.ok()) << report.error().message;
+        EXPECT_THAT(report->notes, AllOf(at_border, never_changes));
     }
 }
 
@@ -206,10 +214,10 @@ TEST_F(ImportTest, TakesWhatIsGiven) {
     options_.axis_x_px = 77.25;
     options_.degrees_per_view = 5;
     options_.turning = Turning::kCounterClockwise;
-    options_.backdrop = *parse_backdrop("255,255,255");
+    options_.segmentation.background = *parse_background("255,255,255");
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_TRUE(report.ok()) << report.error().message;
-    EXPECT_EQ(report->backdrop, BackdropKind::kColour);
+    EXPECT_EQ(report->backdrop, BackgroundKind::kColour);
     const Rig rig = *read_rig(options_.output);
     EXPECT_EQ(rig.views[0].camera.cx, 77.25);
     const glm::dvec3 second = rig.views[1].camera.centre();
@@ -245,7 +253,7 @@ TEST_F(ImportTest, AViewThatIsAllObjectLeavesNothing) {
     write(5, Image<Rgba8>(turn_.width, turn_.height, Rgba8{190, 60, 40, 255}));
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_FALSE(report.ok());
-    EXPECT_THAT(report.error().message, HasSubstr("5.png: the object fills the whole picture"));
+    EXPECT_THAT(report.error().message, HasSubstr("5.png: the object covers the whole image"));
     EXPECT_TRUE(output_is_clean());
 }
 
@@ -281,14 +289,14 @@ TEST_F(ImportTest, StopsAtTheFirstFailureOfEitherPass) {
     write(1, Image<Rgba8>(turn_.width, turn_.height, turn_.backdrop));
     Counts cutting;
     ASSERT_FALSE(one_thread.execute([&] { return import_photos(options_, &cutting); }).ok());
-    EXPECT_EQ(cutting.last_label, "cutting the object out");
+    EXPECT_EQ(cutting.last_label, "segmenting");
     EXPECT_EQ(cutting.last_total, turn_.views);
     EXPECT_EQ(cutting.done, 0);
 
     std::filesystem::resize_file(photo(1), std::filesystem::file_size(photo(1)) / 2);
     Counts looking;
     ASSERT_FALSE(one_thread.execute([&] { return import_photos(options_, &looking); }).ok());
-    EXPECT_EQ(looking.last_label, "looking at the pictures");
+    EXPECT_EQ(looking.last_label, "surveying photos");
     EXPECT_EQ(looking.done, 0);
 }
 

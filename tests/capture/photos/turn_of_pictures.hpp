@@ -1,6 +1,6 @@
 #pragma once
-// A drawn turn: what the camera of a turntable would see of a coloured, textured ball on a stick's end, over a
-// backdrop, with the true alpha known. Everything is exact in linear light.
+// Synthetic turn: a textured disc that orbits the axis in front of a background, with ground-truth alpha. Composited in
+// linear light.
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/image.hpp"
@@ -13,9 +13,9 @@
 namespace rs::test {
 
 struct DrawnView {
-    Image<Rgba8> photo;       // composited over the backdrop, opaque
-    Image<float> alpha;       // the truth
-    Image<Rgba8> foreground;  // the truth: the disc's own colour, everywhere
+    Image<Rgba8> photo;       // composited over the background, opaque
+    Image<float> alpha;       // ground truth, 0..1
+    Image<Rgba8> foreground;  // ground truth: the disc's own colour, at every pixel
 };
 
 struct DrawnTurn {
@@ -23,10 +23,10 @@ struct DrawnTurn {
     int height = 120;
     int views = 12;
     double axis_x_px = 83;
-    double orbit_px = 38;  // how far the disc's centre swings to either side
+    double orbit_px = 38;  // amplitude of the disc's centre
     double radius_px = 20;
     Rgba8 backdrop{255, 255, 255, 255};
-    double shadow = 0;  // how much light a soft shadow below the disc takes away
+    double shadow = 0;  // share of the light that a soft shadow below the disc takes, 0..1
 };
 
 inline Rgba8 mixed(const Rgba8& f, const Rgba8& b, double alpha) {
@@ -36,7 +36,7 @@ inline Rgba8 mixed(const Rgba8& f, const Rgba8& b, double alpha) {
     return {mix(f.r, b.r), mix(f.g, b.g), mix(f.b, b.b), 255};
 }
 
-// View i of the turn: the disc stands at azimuth 360 i / views.
+// View i of the turn: the disc is at azimuth 360 i / views degrees.
 inline DrawnView draw_view(const DrawnTurn& turn, int i) {
     DrawnView view{Image<Rgba8>(turn.width, turn.height), Image<float>(turn.width, turn.height),
                    Image<Rgba8>(turn.width, turn.height)};
@@ -46,7 +46,7 @@ inline DrawnView draw_view(const DrawnTurn& turn, int i) {
         for (int x = 0; x < turn.width; ++x) {
             const double dx = x + 0.5 - centre_x;
             const double dy = y + 0.5 - centre_y;
-            // A pixel's coverage by a disc much larger than it: half a pixel on either side of the circle.
+            // Coverage of the pixel by the disc: a linear ramp over one pixel across the circle.
             const double alpha = std::clamp(turn.radius_px - std::hypot(dx, dy) + 0.5, 0.0, 1.0);
             const double stripe = std::sin(0.5 * dx + i) * std::sin(0.4 * dy);
             const Rgba8 own{static_cast<std::uint8_t>(190 + 12 * stripe), static_cast<std::uint8_t>(90 - 8 * stripe),

@@ -8,11 +8,12 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kSide = 120;
+constexpr int kSwept_side = 120;
 constexpr Rgba8 kWall{90, 100, 130, 255};
 constexpr Rgba8 kBody{220, 220, 210, 255};
+constexpr BackgroundParameters::SweptRegion kSweptRegionParameters{};
 
-// A still body of revolution, x in 45..75 and y in 30..90, of which only two painted bands move.
+// A static body of revolution, x in 45..75 and y in 30..90, of which only two painted bands change.
 bool in_body(int x, int y) {
     return x >= 45 && x < 75 && y >= 30 && y < 90;
 }
@@ -22,19 +23,19 @@ bool in_bands(int x, int y) {
 
 template <class Condition>
 Image<std::uint8_t> mask_where(Condition condition) {
-    Image<std::uint8_t> mask(kSide, kSide);
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) mask(x, y) = condition(x, y) ? 255 : 0;
+    Image<std::uint8_t> mask(kSwept_side, kSwept_side);
+    for (int y = 0; y < kSwept_side; ++y) {
+        for (int x = 0; x < kSwept_side; ++x) mask(x, y) = condition(x, y) ? 255 : 0;
     }
     return mask;
 }
 
-TEST(SweptRegion, IsWhatMovesWhereTheBackdropIsEven) {
-    const Image<Rgba8> still(kSide, kSide, kWall);
+TEST(SweptRegion, EqualsMotionBeforeAUniformBackground) {
+    const Image<Rgba8> colour(kSwept_side, kSwept_side, kWall);
     const auto disc = [](int x, int y) { return std::hypot(x - 60, y - 60) < 25; };
-    const Image<std::uint8_t> region = swept_region(still, mask_where(disc)).mask;
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
+    const Image<std::uint8_t> region = swept_region(colour, mask_where(disc), kSweptRegionParameters);
+    for (int y = 0; y < kSwept_side; ++y) {
+        for (int x = 0; x < kSwept_side; ++x) {
             const double from_axis = std::hypot(x - 60, y - 60);
             if (from_axis < 24) {
                 ASSERT_EQ(region(x, y), 255) << x << "," << y;
@@ -45,14 +46,14 @@ TEST(SweptRegion, IsWhatMovesWhereTheBackdropIsEven) {
     }
 }
 
-TEST(SweptRegion, HoldsTheStillPartsOfTheObject) {
-    Image<Rgba8> still(kSide, kSide, kWall);
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
-            if (in_body(x, y)) still(x, y) = kBody;
+TEST(SweptRegion, ContainsStaticPartsOfTheObject) {
+    Image<Rgba8> colour(kSwept_side, kSwept_side, kWall);
+    for (int y = 0; y < kSwept_side; ++y) {
+        for (int x = 0; x < kSwept_side; ++x) {
+            if (in_body(x, y)) colour(x, y) = kBody;
         }
     }
-    const Image<std::uint8_t> region = swept_region(still, mask_where(in_bands)).mask;
+    const Image<std::uint8_t> region = swept_region(colour, mask_where(in_bands), kSweptRegionParameters);
     EXPECT_EQ(region(60, 60), 255) << "between the bands";
     EXPECT_EQ(region(48, 60), 255);
     EXPECT_EQ(region(60, 34), 255) << "the lip above them";
@@ -61,39 +62,39 @@ TEST(SweptRegion, HoldsTheStillPartsOfTheObject) {
     EXPECT_EQ(region(60, 105), 0);
 }
 
-TEST(SweptRegion, HoldsALipNearThePicturesBorder) {
+TEST(SweptRegion, ContainsALipNearTheImageBorder) {
     constexpr int kUp = 29;  // the body's top at y = 1
-    Image<Rgba8> still(kSide, kSide, kWall);
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
-            if (in_body(x, y + kUp)) still(x, y) = kBody;
+    Image<Rgba8> colour(kSwept_side, kSwept_side, kWall);
+    for (int y = 0; y < kSwept_side; ++y) {
+        for (int x = 0; x < kSwept_side; ++x) {
+            if (in_body(x, y + kUp)) colour(x, y) = kBody;
         }
     }
     const Image<std::uint8_t> region =
-        swept_region(still, mask_where([](int x, int y) { return in_bands(x, y + kUp); })).mask;
+        swept_region(colour, mask_where([](int x, int y) { return in_bands(x, y + kUp); }), kSweptRegionParameters);
     EXPECT_EQ(region(60, 2), 255);
     EXPECT_EQ(region(60, 8), 255);
     EXPECT_EQ(region(30, 3), 0);
 }
 
-TEST(SweptRegion, HoldsTheFootOfWhatIsNarrowBelow) {
+TEST(SweptRegion, ContainsTheFootOfANarrowingBody) {
     const auto moves = [](int x, int y) { return y >= 30 && y < 86 && std::abs(x - 60) < (y < 70 ? 20 : 6); };
-    Image<Rgba8> still(kSide, kSide, kWall);
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
-            if (moves(x, y) || (y >= 86 && y < 92 && std::abs(x - 60) < 6)) still(x, y) = kBody;
+    Image<Rgba8> colour(kSwept_side, kSwept_side, kWall);
+    for (int y = 0; y < kSwept_side; ++y) {
+        for (int x = 0; x < kSwept_side; ++x) {
+            if (moves(x, y) || (y >= 86 && y < 92 && std::abs(x - 60) < 6)) colour(x, y) = kBody;
         }
     }
-    const Image<std::uint8_t> region = swept_region(still, mask_where(moves)).mask;
+    const Image<std::uint8_t> region = swept_region(colour, mask_where(moves), kSweptRegionParameters);
     EXPECT_EQ(region(60, 86), 255);
     EXPECT_EQ(region(70, 86), 0);
     EXPECT_EQ(region(60, 100), 0);
 }
 
-TEST(SweptRegion, IsEmptyWhereNothingMoves) {
-    const Image<std::uint8_t> region =
-        swept_region(Image<Rgba8>(kSide, kSide, kWall), mask_where([](int, int) { return false; })).mask;
-    EXPECT_EQ(std::count(region.pixels().begin(), region.pixels().end(), 0), kSide * kSide);
+TEST(SweptRegion, IsEmptyWithoutMotion) {
+    const Image<std::uint8_t> region = swept_region(Image<Rgba8>(kSwept_side, kSwept_side, kWall),
+                                                    mask_where([](int, int) { return false; }), kSweptRegionParameters);
+    EXPECT_EQ(std::count(region.pixels().begin(), region.pixels().end(), 0), kSwept_side * kSwept_side);
 }
 
 }  // namespace

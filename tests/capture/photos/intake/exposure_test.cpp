@@ -1,6 +1,6 @@
 #include "capture/photos/intake/exposure.hpp"
 
-#include "capture/photos/background/evened_samples.hpp"
+#include "capture/photos/background/exposure_normalized_frames.hpp"
 #include "rayspace/image/linear_light.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kExposedWidth = 90;
 constexpr int kExposedHeight = 60;
-constexpr int kObject_px = 30;  // the columns before this show something else
+constexpr int kObject_px = 30;  // columns before this show the object
 
 Image<Rgba8> photo_of(const std::array<float, 3>& gain, std::uint8_t object) {
     Image<Rgba8> photo(kExposedWidth, kExposedHeight);
@@ -49,7 +49,7 @@ Image<LinearRgb> light_of(const Image<Rgba8>& photo) {
     return light;
 }
 
-TEST(ExposureGain, IsFoundPerChannelWhereNothingMoves) {
+TEST(ExposureGain, IsMeasuredPerChannelOnStaticPixels) {
     const LinearRgb gain =
         exposure_gain(photo_of({1.2F, 1, 0.8F}, 200), light_of(photo_of({1, 1, 1}, 60)), still_part());
     EXPECT_NEAR(gain.r, 1.2, 0.02);
@@ -57,7 +57,7 @@ TEST(ExposureGain, IsFoundPerChannelWhereNothingMoves) {
     EXPECT_NEAR(gain.b, 0.8, 0.02);
 }
 
-TEST(ExposureGain, IsKeptWithinItsBoundsAndIsOneWhereNothingCanBeMeasured) {
+TEST(ExposureGain, IsClampedAndIsOneIfNothingCanBeMeasured) {
     EXPECT_FLOAT_EQ(exposure_gain(photo_of({2.6F, 1, 1}, 0), light_of(photo_of({1, 1, 1}, 0)), still_part()).r, 2);
     const Image<Rgba8> clipped(kExposedWidth, kExposedHeight, Rgba8{255, 255, 20, 255});
     const LinearRgb gain = exposure_gain(clipped, light_of(photo_of({1, 1, 1}, 0)), still_part());
@@ -65,15 +65,15 @@ TEST(ExposureGain, IsKeptWithinItsBoundsAndIsOneWhereNothingCanBeMeasured) {
     EXPECT_FLOAT_EQ(gain.b, 1);
 }
 
-TEST(EvenedSamples, LookExposedAlikeAndKeepClippedValues) {
+TEST(ExposureNormalizedFrames, HaveOneExposureAndKeepClippedValues) {
     std::vector<Image<Rgba8>> photos;
     for (const float gain : {0.85F, 1.0F, 1.15F}) photos.push_back(photo_of({gain, gain, gain}, 255));
-    EvenedSamples samples(photos);
+    ExposureNormalizedFrames samples(photos);
     EXPECT_GT(std::abs(samples(0, 60, 30).g - samples(2, 60, 30).g), 10);
-    EXPECT_FALSE(samples.even_out(photo_of({1, 1, 1}, 255), still_part(), 2)) << "they hardly differ";
+    EXPECT_FALSE(samples.normalize(photo_of({1, 1, 1}, 255), still_part(), 2)) << "the exposures hardly differ";
     EXPECT_EQ(samples(0, 60, 30), photos[0](60, 30));
-    EXPECT_TRUE(samples.even_out(photo_of({1, 1, 1}, 255), still_part()));
-    EXPECT_FALSE(samples.even_out(photo_of({1, 1, 1}, 255), still_part())) << "they are even already";
+    EXPECT_TRUE(samples.normalize(photo_of({1, 1, 1}, 255), still_part()));
+    EXPECT_FALSE(samples.normalize(photo_of({1, 1, 1}, 255), still_part())) << "already normalized";
     for (int x = kObject_px; x < kExposedWidth; ++x) {
         for (std::size_t i = 0; i < samples.count(); ++i) {
             ASSERT_NEAR(samples(i, x, 30).g, photos[1](x, 30).g, 2) << i << " at " << x;
@@ -82,18 +82,18 @@ TEST(EvenedSamples, LookExposedAlikeAndKeepClippedValues) {
     EXPECT_EQ(samples(2, 5, 5), (Rgba8{255, 255, 255, 255}));
 }
 
-TEST(EvenedSamples, SmoothAveragesThreeByThreePixels) {
+TEST(ExposureNormalizedFrames, SmoothAveragesThreeByThreePixels) {
     std::vector<Image<Rgba8>> photos(1, Image<Rgba8>(9, 9, Rgba8{100, 100, 100, 255}));
     photos[0](4, 4) = {164, 100, 100, 255};
-    const EvenedSamples samples(photos);
+    const ExposureNormalizedFrames samples(photos);
     EXPECT_EQ(samples.smooth(0, 4, 4), (Rgba8{116, 100, 100, 255}));
     EXPECT_EQ(samples.smooth(0, 5, 5), (Rgba8{104, 100, 100, 255}));
     EXPECT_EQ(samples.smooth(0, 6, 4), (Rgba8{100, 100, 100, 255}));
     EXPECT_EQ(samples(0, 4, 4), photos[0](4, 4));
 }
 
-// As its definition has it, at the picture's border and wherever rows are smoothed together.
-TEST(EvenedSamples, SmoothIsTheSameMeanEverywhere) {
+// Equals its definition at the image border and at block boundaries.
+TEST(ExposureNormalizedFrames, SmoothEqualsItsDefinitionEverywhere) {
     std::minstd_rand random(3);
     std::uniform_int_distribution<int> code(0, 255);
     std::vector<Image<Rgba8>> photos;
@@ -103,7 +103,7 @@ TEST(EvenedSamples, SmoothIsTheSameMeanEverywhere) {
             const auto any = [&] { return static_cast<std::uint8_t>(code(random)); };
             for (Rgba8& p : photo.pixels()) p = {any(), any(), any(), 255};
         }
-        const EvenedSamples samples(photos);
+        const ExposureNormalizedFrames samples(photos);
         for (std::size_t i = 0; i < photos.size(); ++i) {
             for (int y = 0; y < height; ++y) {
                 for (int x = 0; x < width; ++x) {

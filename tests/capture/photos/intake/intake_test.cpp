@@ -11,7 +11,7 @@
 namespace rs::capture {
 namespace {
 
-TEST(Intake, SaysWhatIsLeftAside) {
+TEST(Intake, ReportsIgnoredFiles) {
     const test::TemporaryFolder folder;
     for (int i = 1; i <= 5; ++i) {
         const auto code = static_cast<std::uint8_t>(40 * i);

@@ -13,20 +13,20 @@
 namespace rs::capture {
 namespace {
 
-// Letters as pixels, a string for each row.
-Image<Rgba8> picture_of(const std::vector<std::string>& rows) {
-    Image<Rgba8> picture(static_cast<int>(rows[0].size()), static_cast<int>(rows.size()));
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
+// One pixel per letter, one string per row.
+Image<Rgba8> image_of(const std::vector<std::string>& rows) {
+    Image<Rgba8> image(static_cast<int>(rows[0].size()), static_cast<int>(rows.size()));
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
             const char letter = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
-            picture(x, y) = {static_cast<std::uint8_t>(letter), 0, 0, 255};
+            image(x, y) = {static_cast<std::uint8_t>(letter), 0, 0, 255};
         }
     }
-    return picture;
+    return image;
 }
 
-TEST(ShownUpright, IsWhatExifStates) {
-    const Image<Rgba8> stored = picture_of({"abc", "def"});
+TEST(ApplyOrientation, FollowsExif) {
+    const Image<Rgba8> stored = image_of({"abc", "def"});
     const std::vector<std::vector<std::string>> shown = {
         {"abc", "def"},      // 1: as stored
         {"cba", "fed"},      // 2: the first column is at the right
@@ -38,12 +38,12 @@ TEST(ShownUpright, IsWhatExifStates) {
         {"cf", "be", "ad"},  // 8: the first row is at the left, the first column at the bottom
     };
     for (int orientation = 1; orientation <= 8; ++orientation) {
-        EXPECT_EQ(shown_upright(stored, orientation), picture_of(shown[static_cast<std::size_t>(orientation - 1)]))
+        EXPECT_EQ(apply_orientation(stored, orientation), image_of(shown[static_cast<std::size_t>(orientation - 1)]))
             << orientation;
     }
 }
 
-TEST(ReadPhotograph, IsUprightAndOfTheSizeAskedFor) {
+TEST(ReadPhotograph, IsUprightAndHasTheRequestedSize) {
     const test::TemporaryFolder folder;
     Image<Rgba8> stored(320, 192, Rgba8{20, 20, 20, 255});
     for (int y = 0; y < 96; ++y) {
@@ -60,9 +60,9 @@ TEST(ReadPhotograph, IsUprightAndOfTheSizeAskedFor) {
     EXPECT_NEAR((*photograph)(10, 40).r, 200, 3) << "the first row is at the left";
     EXPECT_NEAR((*photograph)(37, 40).r, 20, 3);
 
-    ASSERT_TRUE(write_jpeg(folder / "1.jpg", stored, 95).ok());  // not turned any more
+    ASSERT_TRUE(write_jpeg(folder / "1.jpg", stored, 95).ok());  // without an orientation
     const Result<Image<Rgba8>> other = read_photograph(*found, 0);
-    ASSERT_TRUE(other.ok()) << "what it states was read before";
+    ASSERT_TRUE(other.ok()) << "the orientation was read before";
     ASSERT_TRUE(write_jpeg(folder / "1.jpg", Image<Rgba8>(320, 200), 95).ok());
     const Result<Image<Rgba8>> changed = read_photograph(*found, 0);
     ASSERT_FALSE(changed.ok());

@@ -11,13 +11,13 @@
 namespace rs::capture {
 namespace {
 
-TEST(Reduced, IsACopyWhereThePictureIsSmall) {
-    Image<Rgba8> picture(7, 5, Rgba8{1, 2, 3, 0});
-    picture(3, 2) = {9, 8, 7, 6};
-    EXPECT_EQ(reduced(picture, 7), picture);
+TEST(Reduced, CopiesSmallImages) {
+    Image<Rgba8> image(7, 5, Rgba8{1, 2, 3, 0});
+    image(3, 2) = {9, 8, 7, 6};
+    EXPECT_EQ(reduced(image, 7), image);
 }
 
-TEST(Reduced, AveragesWhatEachPixelCovers) {
+TEST(Reduced, AveragesByCoveredArea) {
     // 3 pixels over 2: the middle one is shared. Weights 2/3 and 1/3.
     Image<Rgba8> row(3, 1, Rgba8{0, 0, 0, 255});
     row(0, 0).r = 90;
@@ -38,43 +38,43 @@ TEST(Reduced, AveragesWhatEachPixelCovers) {
 }
 
 TEST(Reduced, WeighsColoursByAlpha) {
-    Image<Rgba8> picture(4, 4, Rgba8{255, 255, 255, 0});
-    for (int y = 0; y < 4; ++y) picture(0, y) = {200, 100, 50, 255};
-    const Image<Rgba8> small = reduced(picture, 2);
+    Image<Rgba8> image(4, 4, Rgba8{255, 255, 255, 0});
+    for (int y = 0; y < 4; ++y) image(0, y) = {200, 100, 50, 255};
+    const Image<Rgba8> small = reduced(image, 2);
     EXPECT_EQ(small(0, 0), (Rgba8{200, 100, 50, 128}));
     EXPECT_EQ(small(1, 1), (Rgba8{0, 0, 0, 0}));
 }
 
-TEST(Reduced, KeepsAnEvenPictureEvenAtAnyRatio) {
-    const Rgba8 even{17, 130, 254, 255};
+TEST(Reduced, KeepsUniformImagesUniform) {
+    const Rgba8 uniform{17, 130, 254, 255};
     for (const int side : {1, 2, 37, 99, 160}) {
-        const Image<Rgba8> small = reduced(Image<Rgba8>(161, 103, even), side);
+        const Image<Rgba8> small = reduced(Image<Rgba8>(161, 103, uniform), side);
         EXPECT_EQ(small.width(), side);
-        for (const Rgba8& p : small.pixels()) ASSERT_EQ(p, even) << side;
+        for (const Rgba8& p : small.pixels()) ASSERT_EQ(p, uniform) << side;
     }
 }
 
-TEST(AveragedLight, IsLightAndNotCodes) {
+TEST(ReducedInLinearLight, AveragesLightRatherThanCodes) {
     Image<Rgba8> squares(8, 6, Rgba8{0, 0, 0, 255});
     for (int y = 0; y < 6; ++y) {
         for (int x = y % 2; x < 8; x += 2) squares(x, y) = {255, 255, 255, 255};
     }
     const Rgba8 half = {188, 188, 188, 255};  // half the light of 255
     ASSERT_EQ(srgb8_from_linear(0.5F), half.r);
-    const Image<Rgba8> grey = averaged_light(squares, 4, 3, 2);
+    const Image<Rgba8> grey = reduced_in_linear_light(squares, 4, 3, 2);
     for (const Rgba8& p : grey.pixels()) EXPECT_EQ(p, half);
     EXPECT_EQ(reduced(squares, 4)(0, 0).r, 128);
 }
 
-TEST(AveragedLight, ShowsTheMiddle) {
-    // Of seven pixels the inner five, two and a half for each.
+TEST(ReducedInLinearLight, IsCentred) {
+    // The inner five of seven pixels, two and a half for each result pixel.
     Image<Rgba8> rows(7, 3, Rgba8{0, 0, 0, 255});
     for (int y = 0; y < 3; ++y) {
         rows(0, y).r = rows(6, y).r = 255;
         rows(1, y).g = 255;
         rows(3, y).b = 255;
     }
-    const Image<Rgba8> two = averaged_light(rows, 2, 1, 2.5);
+    const Image<Rgba8> two = reduced_in_linear_light(rows, 2, 1, 2.5);
     EXPECT_EQ(two(0, 0).r, 0);
     EXPECT_EQ(two(1, 0).r, 0);
     EXPECT_EQ(two(0, 0).g, srgb8_from_linear(1 / 2.5F));
@@ -82,37 +82,37 @@ TEST(AveragedLight, ShowsTheMiddle) {
     EXPECT_EQ(two(1, 0).b, srgb8_from_linear(0.5F / 2.5F));
 }
 
-TEST(AveragedLight, WeighsColoursByAlpha) {
-    Image<Rgba8> picture(4, 4, Rgba8{255, 255, 255, 0});
-    for (int y = 0; y < 4; ++y) picture(0, y) = {200, 100, 50, 255};
-    const Image<Rgba8> small = averaged_light(picture, 2, 2, 2);
+TEST(ReducedInLinearLight, WeighsColoursByAlpha) {
+    Image<Rgba8> image(4, 4, Rgba8{255, 255, 255, 0});
+    for (int y = 0; y < 4; ++y) image(0, y) = {200, 100, 50, 255};
+    const Image<Rgba8> small = reduced_in_linear_light(image, 2, 2, 2);
     EXPECT_EQ(small(0, 0), (Rgba8{200, 100, 50, 128}));
     EXPECT_EQ(small(1, 1).a, 0);
 }
 
-TEST(AveragedLight, KeepsAnEvenPictureEvenAtAnyRatio) {
-    const Rgba8 even{17, 130, 254, 255};
+TEST(ReducedInLinearLight, KeepsUniformImagesUniform) {
+    const Rgba8 uniform{17, 130, 254, 255};
     for (const double step : {1.0, 1.3, 2.0, 2.93, 16.1}) {
         const int width = static_cast<int>(161 / step), height = static_cast<int>(103 / step);
-        const Image<Rgba8> small = averaged_light(Image<Rgba8>(161, 103, even), width, height, step);
+        const Image<Rgba8> small = reduced_in_linear_light(Image<Rgba8>(161, 103, uniform), width, height, step);
         EXPECT_EQ(small.width(), width);
-        for (const Rgba8& p : small.pixels()) ASSERT_EQ(p, even) << step;
+        for (const Rgba8& p : small.pixels()) ASSERT_EQ(p, uniform) << step;
     }
 }
 
-// A disc's centre of gravity moves as pixel coordinates say, to a hundredth of a pixel.
-TEST(AveragedLight, KeepsPlaces) {
+// The centroid of a disc is preserved within a hundredth of a pixel.
+TEST(ReducedInLinearLight, PreservesPositions) {
     const double cx = 61.37, cy = 40.81, step = 2.6;
-    Image<Rgba8> picture(131, 97, Rgba8{0, 0, 0, 255});
+    Image<Rgba8> image(131, 97, Rgba8{0, 0, 0, 255});
     for (int y = 0; y < 97; ++y) {
         for (int x = 0; x < 131; ++x) {
             const double inside = 20.5 - std::hypot(x + 0.5 - cx, y + 0.5 - cy);
             const std::uint8_t code = srgb8_from_linear(static_cast<float>(std::clamp(inside, 0.0, 1.0)));
-            picture(x, y) = {code, code, code, 255};
+            image(x, y) = {code, code, code, 255};
         }
     }
     const int width = static_cast<int>(131 / step), height = static_cast<int>(97 / step);
-    const Image<Rgba8> small = averaged_light(picture, width, height, step);
+    const Image<Rgba8> small = reduced_in_linear_light(image, width, height, step);
     double sum = 0, sum_x = 0, sum_y = 0;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {

@@ -10,10 +10,10 @@ namespace rs::capture {
 namespace {
 
 // Camera noise, different for every shot.
-Image<Rgba8> noisy(const Image<Rgba8>& picture, unsigned seed) {
+Image<Rgba8> noisy(const Image<Rgba8>& photo, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> noise(-3, 3);
-    Image<Rgba8> result = picture;
+    Image<Rgba8> result = photo;
     for (Rgba8& p : result.pixels()) {
         p.r = static_cast<std::uint8_t>(std::clamp(p.r + noise(random), 0, 255));
         p.g = static_cast<std::uint8_t>(std::clamp(p.g + noise(random), 0, 255));
@@ -28,34 +28,34 @@ std::vector<Image<Rgba8>> noisy_turn(const test::DrawnTurn& turn) {
     return photos;
 }
 
-TEST(Repeat, SeesASecondShotOfTheFirstView) {
+TEST(Repeat, DetectsASecondShotOfTheFirstView) {
     std::vector<Image<Rgba8>> photos = noisy_turn({});
     photos.push_back(noisy(test::draw_view({}, 0).photo, 99));
-    EXPECT_TRUE(test_repeat(photos).last_repeats_first);
+    EXPECT_TRUE(detect_repeat(photos).last_repeats_first);
 }
 
-TEST(Repeat, LeavesAClosedTurnAlone) {
-    EXPECT_FALSE(test_repeat(noisy_turn({})).last_repeats_first);
+TEST(Repeat, AcceptsAClosedTurn) {
+    EXPECT_FALSE(detect_repeat(noisy_turn({})).last_repeats_first);
     test::DrawnTurn dense;
     dense.views = 72;
-    EXPECT_FALSE(test_repeat(noisy_turn(dense)).last_repeats_first);
+    EXPECT_FALSE(detect_repeat(noisy_turn(dense)).last_repeats_first);
 }
 
-TEST(Repeat, NeverCallsAnUnchangingObjectARepeat) {
+TEST(Repeat, IgnoresUnchangingObjects) {
     std::vector<Image<Rgba8>> vase;
     for (unsigned i = 0; i < 8; ++i) vase.push_back(noisy(test::draw_view({}, 0).photo, i));
-    EXPECT_FALSE(test_repeat(vase).last_repeats_first);
+    EXPECT_FALSE(detect_repeat(vase).last_repeats_first);
 }
 
-TEST(Repeat, NeedsFourPictures) {
+TEST(Repeat, RequiresFourPhotos) {
     const Image<Rgba8> same = test::draw_view({}, 0).photo;
     const std::vector<Image<Rgba8>> three = {same, test::draw_view({}, 3).photo, same};
-    EXPECT_FALSE(test_repeat(three).last_repeats_first);
+    EXPECT_FALSE(detect_repeat(three).last_repeats_first);
     const std::vector<Image<Rgba8>> four = {same, test::draw_view({}, 3).photo, test::draw_view({}, 8).photo, same};
-    EXPECT_TRUE(test_repeat(four).last_repeats_first);
+    EXPECT_TRUE(detect_repeat(four).last_repeats_first);
 }
 
-TEST(Repeat, DifferenceCountsAlphaAndIgnoresColourUnderIt) {
+TEST(Repeat, DifferenceIncludesAlphaAndIgnoresHiddenColour) {
     const Image<Rgba8> clear(2, 1, Rgba8{200, 100, 50, 0});
     const Image<Rgba8> black(2, 1, Rgba8{0, 0, 0, 0});
     const Image<Rgba8> solid(2, 1, Rgba8{0, 0, 0, 255});

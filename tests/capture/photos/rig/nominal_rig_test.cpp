@@ -25,12 +25,12 @@ Image<Rgba8> silhouette(const Camera& camera, const glm::dvec3& centre, double r
 }
 
 // Also where the camera looks down: the axis stands upright in the picture all the same.
-TEST(TurnOutline, FindsTheAxisOfATurnInPerspective) {
+TEST(TurnSilhouette, FindsTheAxisOfATurnInPerspective) {
     for (const double elevation_deg : {0.0, 20.0}) {
         Camera camera = look_at_camera({0, 6 * std::tan(radians(elevation_deg)), 6}, {0, 0, 0}, radians(30), 320, 240);
         camera.cx = 171.5;  // the axis' column
-        TurnOutline outline(320, 240);
-        TurnOutline second(320, 240);
+        TurnSilhouette outline(320, 240);
+        TurnSilhouette second(320, 240);
         for (int i = 0; i < 36; ++i) {
             const double angle = 2 * kPi * i / 36 + 0.05;
             const glm::dvec3 centre(0.6 * std::sin(angle), 0.1, 0.6 * std::cos(angle));
@@ -44,8 +44,8 @@ TEST(TurnOutline, FindsTheAxisOfATurnInPerspective) {
     }
 }
 
-TEST(TurnOutline, GivesNoAxisWhereItCannot) {
-    TurnOutline outline(50, 40);
+TEST(TurnSilhouette, GivesNoAxisWhereItCannot) {
+    TurnSilhouette outline(50, 40);
     EXPECT_FALSE(outline.axis().has_value());
     EXPECT_TRUE(outline.visible().empty());
     outline.add(Image<Rgba8>(50, 40, Rgba8{1, 1, 1, 255}));  // every row reaches both sides
@@ -69,7 +69,7 @@ TEST(NominalRig, SeesTheObjectWhereThePicturesShowIt) {
     options.views = 24;
     options.step_deg = 15;
     options.axis_x_px = 333;
-    TurnOutline::Box visible;
+    TurnSilhouette::Box visible;
     visible.left = 100;
     visible.right = 500;
     visible.top = 60;
@@ -97,7 +97,7 @@ TEST(NominalRig, TurnsAsMakeRingDoesUnlessCounterClockwise) {
     options.views = 8;
     options.step_deg = 45;
     options.axis_x_px = 32;
-    const TurnOutline::Box visible{10, 54, 10, 54};
+    const TurnSilhouette::Box visible{10, 54, 10, 54};
     const Rig clockwise = make_nominal_rig(options, visible);
     options.turning = Turning::kCounterClockwise;
     const Rig counter = make_nominal_rig(options, visible);

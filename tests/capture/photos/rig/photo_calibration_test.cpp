@@ -192,11 +192,11 @@ TEST_F(PhotoCalibrationTest, OutlinesMayBeOfAnyShape) {
 TEST_F(PhotoCalibrationTest, ABoardIsTakenBeforeAllElse) {
     const test::BoardPhotos photos;
     std::filesystem::create_directory(folder_ / "photos" / "masks");
-    options_.masks = folder_ / "photos" / "masks";
+    options_.segmentation.masks = folder_ / "photos" / "masks";
     for (std::size_t i = 0; i < photos.model.angles_rad.size(); ++i) {
         const test::BoardPhotos::Photo photo = photos.taken(i);
         write(i, photo.picture);
-        ASSERT_TRUE(write_png(options_.masks / test::file_name(i), photo.mask).ok());
+        ASSERT_TRUE(write_png(options_.segmentation.masks / test::file_name(i), photo.mask).ok());
     }
     options_.known = {};
     options_.turning.reset();
@@ -238,18 +238,18 @@ TEST_F(PhotoCalibrationTest, MasksTellTheObject) {
         write(i, photo);
         ASSERT_TRUE(write_png(folder_ / "masks" / test::file_name(i), mask).ok());
     }
-    options_.masks = folder_ / "masks";
+    options_.segmentation.masks = folder_ / "masks";
     options_.calibration = CalibrationChoice::kTracks;
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_TRUE(report.ok()) << report.error().message;
-    EXPECT_TRUE(report->masks_given);
+    EXPECT_EQ(report->segmenter, SegmenterKind::kMasks);
     EXPECT_NEAR(degrees(report->calibration.calibration->model.pose.tilt_rad), 20, 0.5);
     EXPECT_EQ(read_rig(options_.output)->extras["photo_import"]["backdrop"], "masks");
 
     std::filesystem::remove_all(options_.output);
     std::filesystem::rename(folder_ / "masks", folder_ / "photos" / "masks");
-    options_.masks = folder_ / "photos" / "masks";
-    std::filesystem::remove(options_.masks / "05.png");
+    options_.segmentation.masks = folder_ / "photos" / "masks";
+    std::filesystem::remove(options_.segmentation.masks / "05.png");
     expect_error(HasSubstr("05.png"));
 }
 

@@ -45,8 +45,8 @@ Image<Rgba8> drawn(const Lens& lens, const CameraPose& pose) {
     return picture;
 }
 
-TurnOutline::Box visible_box(const Image<Rgba8>& picture) {
-    TurnOutline outline(picture.width(), picture.height());
+TurnSilhouette::Box visible_box(const Image<Rgba8>& picture) {
+    TurnSilhouette outline(picture.width(), picture.height());
     outline.add(picture);
     return outline.visible();
 }
@@ -119,12 +119,12 @@ TEST(Rectification, AnAxisThatLiesSidewaysIsTurnedUpright) {
 
 TEST(Rectification, TheFrameIsSmallAndHoldsTheBoxesOfAllViews) {
     const TurntableModel model = crooked_model();
-    const std::array<TurnOutline::Box, 3> boxes = {{{100, 220, 60, 190}, {}, {180, 330, 120, 300}}};
+    const std::array<TurnSilhouette::Box, 3> boxes = {{{100, 220, 60, 190}, {}, {180, 330, 120, 300}}};
     const auto frame = plan_upright_frame(model, boxes);
     ASSERT_TRUE(frame.ok()) << frame.error().message;
     glm::dvec2 low(1e9);
     glm::dvec2 high(-1e9);
-    for (const TurnOutline::Box& box : boxes) {
+    for (const TurnSilhouette::Box& box : boxes) {
         for (int y = box.top; y <= box.bottom && !box.empty(); ++y) {
             for (int x = box.left; x <= box.right; ++x) {
                 const auto ray = table_ray(model.lens, model.pose, {x, y});
@@ -149,7 +149,7 @@ TEST(Rectification, KeepsTheObjectsScale) {
     for (const double tilt_deg : {0.0, 18.0, 45.0}) {
         TurntableModel model = crooked_model();
         model.pose.tilt_rad = radians(tilt_deg);
-        const TurnOutline::Box box{160, 320, 100, 260};
+        const TurnSilhouette::Box box{160, 320, 100, 260};
         const auto frame = plan_upright_frame(model, std::array{box});
         ASSERT_TRUE(frame.ok()) << frame.error().message;
         const auto upright = [&](const glm::dvec2& p) {
@@ -173,11 +173,11 @@ TEST(Rectification, KeepsTheObjectsScale) {
 TEST(Rectification, RefusesWhatAnUprightCameraCannotSee) {
     TurntableModel model = crooked_model();
     model.pose.tilt_rad = radians(80);
-    const TurnOutline::Box box{160, 320, 100, 260};
+    const TurnSilhouette::Box box{160, 320, 100, 260};
     const auto steep = plan_upright_frame(model, std::array{box});
     ASSERT_FALSE(steep.ok());
     EXPECT_NE(steep.error().message.find("steeply"), std::string::npos);
-    const auto nothing = plan_upright_frame(crooked_model(), std::array{TurnOutline::Box{}});
+    const auto nothing = plan_upright_frame(crooked_model(), std::array{TurnSilhouette::Box{}});
     ASSERT_FALSE(nothing.ok());
     EXPECT_NE(nothing.error().message.find("no view shows the object"), std::string::npos);
 }
@@ -227,9 +227,9 @@ glm::dvec2 centroid(const Image<Rgba8>& picture) {
 
 TEST(Rectification, TheRigSeesPointsWhereTheRectifiedPicturesShowThem) {
     const TurntableModel model = crooked_model();
-    const auto frame = plan_upright_frame(model, std::array{TurnOutline::Box{90, 390, 40, 320}});
+    const auto frame = plan_upright_frame(model, std::array{TurnSilhouette::Box{90, 390, 40, 320}});
     ASSERT_TRUE(frame.ok());
-    const TurnOutline::Box visible{20, frame->lens.width - 30, 12, frame->lens.height - 40};
+    const TurnSilhouette::Box visible{20, frame->lens.width - 30, 12, frame->lens.height - 40};
     const Rig rig = make_rig(model, *frame, visible);
     ASSERT_EQ(rig.views.size(), model.angles_rad.size());
     EXPECT_EQ(rig.object_radius, 1);
@@ -256,9 +256,9 @@ TEST(Rectification, TheRigSeesPointsWhereTheRectifiedPicturesShowThem) {
 
 TEST(Rectification, TheRigKnowsTheGround) {
     const TurntableModel model = crooked_model();
-    const auto frame = plan_upright_frame(model, std::array{TurnOutline::Box{90, 390, 40, 320}});
+    const auto frame = plan_upright_frame(model, std::array{TurnSilhouette::Box{90, 390, 40, 320}});
     ASSERT_TRUE(frame.ok());
-    const TurnOutline::Box visible{60, 300, 30, 250};
+    const TurnSilhouette::Box visible{60, 300, 30, 250};
     EXPECT_EQ(make_rig(model, *frame, visible).foot_height, std::nullopt);
     const Rig rig = make_rig(model, *frame, visible, -0.37);
     // Where the axis meets the ground, in the photograph's camera and in the rig's.
@@ -271,9 +271,9 @@ TEST(Rectification, TheRigKnowsTheGround) {
 
 TEST(Rectification, TheRigsUnitIsTheRadiusThatHoldsWhatIsSeen) {
     const TurntableModel model = crooked_model();
-    const auto frame = plan_upright_frame(model, std::array{TurnOutline::Box{90, 390, 40, 320}});
+    const auto frame = plan_upright_frame(model, std::array{TurnSilhouette::Box{90, 390, 40, 320}});
     ASSERT_TRUE(frame.ok());
-    const TurnOutline::Box visible{60, 300, 30, 250};
+    const TurnSilhouette::Box visible{60, 300, 30, 250};
     const Rig rig = make_rig(model, *frame, visible);
     const Camera& camera = rig.views[3].camera;
     const double column = frame->lens.cx - visible.left > visible.right - frame->lens.cx ? visible.left : visible.right;

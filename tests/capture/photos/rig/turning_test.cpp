@@ -9,8 +9,8 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kViews = 36;
-constexpr double kStep_rad = 2 * kPi / kViews;
+constexpr int kTurning_views = 36;
+constexpr double kStep_rad = 2 * kPi / kTurning_views;
 constexpr double kDiscRadius_px = 90;
 constexpr double kHeight_px = 130;
 constexpr double kAxis_px = 120;
@@ -40,7 +40,7 @@ Image<Rgba8> cylinder(double turned_rad, double elevation_deg, double contrast) 
 // `sense` +1: the texture moves to the right on the front.
 std::vector<Image<Rgba8>> turn(double sense, double elevation_deg, double contrast = 120, double step_rad = kStep_rad) {
     std::vector<Image<Rgba8>> views;
-    for (int i = 0; i < kViews; ++i) views.push_back(cylinder(sense * step_rad * i, elevation_deg, contrast));
+    for (int i = 0; i < kTurning_views; ++i) views.push_back(cylinder(sense * step_rad * i, elevation_deg, contrast));
     return views;
 }
 
@@ -56,7 +56,7 @@ TEST(FindTurning, ReadsBothSensesFromAboveAndFromTheSide) {
 TEST(FindTurning, WhatComesNearerSinks) {
     const TurningEvidence evidence = find_turning(turn(-1, 12), kAxis_px, kDiscRadius_px, kStep_rad, true);
     // A point at x goes towards the camera by x times the step, and sin(12 degrees) of that is seen as sinking.
-    EXPECT_NEAR(evidence.sink_slope, radians(360.0 / kViews) * std::sin(radians(12)), 0.01);
+    EXPECT_NEAR(evidence.sink_slope, radians(360.0 / kTurning_views) * std::sin(radians(12)), 0.01);
     EXPECT_GT(evidence.sink_slope, 8 * evidence.sink_slope_error);
 }
 
