@@ -1,7 +1,8 @@
 #pragma once
-// The whole import: a folder of photographs of one turn -> a capture set (RGBA pictures and transforms.json). Five
+// The whole import: a folder of photographs of one turn -> a capture set (RGBA pictures and transforms.json). Six
 // stages in a row:
 //
+//   open_photos()      folder or film -> photographs                     intake/photo_source.hpp
 //   take_in()          photographs -> those of the turn, small copies    intake/intake.hpp
 //   find_backdrop()    small copies -> backdrop                          background/backdrop.hpp
 //   cut_turn()         photographs, backdrop -> cut-outs                 matte/cut_turn.hpp
@@ -16,11 +17,12 @@
 #include "rayspace/pictures/photograph_size.hpp"
 
 #include <filesystem>
+#include <optional>
 
 namespace rs::capture {
 
 struct ImportOptions : RigRequest {
-    std::filesystem::path photos;  // folder
+    std::filesystem::path photos;  // folder, or a film (intake/photo_source.hpp)
     std::filesystem::path output;  // folder; see StagedFolder for what may stand there already, which is replaced whole
     BackdropRequest backdrop;
     // Folder with one picture per photograph, of its name or that name with another picture ending: white where the
@@ -28,6 +30,9 @@ struct ImportOptions : RigRequest {
     std::filesystem::path masks;
     // Larger photographs are made smaller first (open_photo_folder()); kMinSide_px .. kMaxPictureSide_px.
     int max_side_px = kDefaultMaxSide_px;
+    // How many frames of a film, or photos of a folder that has more, are taken: kFewestFrames .. kMostFrames
+    // (intake/film/frame_selection.hpp). Empty: see intake/photo_source.hpp.
+    std::optional<int> frames;
 };
 
 // Nothing is left at `output` when it fails. Besides the errors of its stages (and photo_folder.hpp's): options out of

@@ -1,7 +1,9 @@
 #include "capture/tools/commands.hpp"
 
 #include "capture/photos/import.hpp"
+#include "capture/photos/intake/film/frame_selection.hpp"
 #include "capture/photos/intake/photo_folder.hpp"
+#include "capture/photos/intake/photo_source.hpp"
 #include "capture/photos/report/import_page.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
@@ -156,8 +158,23 @@ void print_summary(const std::string& output, const ImportReport& report) {
         found.deviations.axis_position_px);
 }
 
+// Options that describe photos one by one, beside frames that are chosen during the import.
+Status check_frames_usage(const ImportCommandLine& given) {
+    const bool is_of_film = is_film(given.import.photos);
+    if (!is_of_film && !given.import.frames) return {};
+    const std::string remedy =
+        is_of_film ? "is for photos, and this is a film; write its frames out first (ffmpeg -i FILM photos/%03d.png)"
+                   : "describes all photos of the folder; leave out --frames";
+    if (!given.known.empty()) return Error{"--known " + given.known + ": " + remedy};
+    if (!given.import.masks.empty()) return Error{"--masks " + given.import.masks.string() + ": " + remedy};
+    if (given.equal_steps) return Error{"--equal-steps: " + remedy};
+    if (given.import.degrees_per_view) return Error{"--degrees-per-view: " + remedy};
+    return {};
+}
+
 Status run_import(const ImportCommandLine& given) {
     ImportOptions options = given.import;
+    if (Status status = check_frames_usage(given); !status) return status;
     const Result<BackdropRequest> backdrop = parse_backdrop(given.backdrop);
     if (!backdrop) return backdrop.error();
     options.backdrop = *backdrop;
@@ -213,9 +230,10 @@ Status run_import(const ImportCommandLine& given) {
 void add_import_command(CLI::App& app, std::function<Status()>& run) {
     auto given = std::make_shared<ImportCommandLine>();
     CLI::App* command =
-        app.add_subcommand("import", "Cuts the object out of turntable photographs and makes a capture set");
+        app.add_subcommand("import", "Cuts the object out of turntable photos, or a film, and makes a capture set");
     command
-        ->add_option("photos", given->import.photos, "Folder of pictures of one turn, in natural order of their names")
+        ->add_option("photos", given->import.photos,
+                     "Folder of photos of one turn, in natural order of their names, or a film of the turning object")
         ->required();
     command->add_option("-o,--output", given->import.output, "Folder to write: transforms.json and images/")
         ->required();
@@ -235,6 +253,12 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
                      "options count the photographs' own pixels")
         ->capture_default_str()
         ->check(CLI::Range(kMinSide_px, kMaxPictureSide_px));
+    command
+        ->add_option(
+            "--frames", given->import.frames,
+            "How many frames of a film, or photos of a folder that holds more, are taken: sharp ones, evenly by "
+            "angle (default: 72 of a film, 120 of a folder of more than 150 photos, else all)")
+        ->check(CLI::Range(kFewestFrames, kMostFrames));
     command
         ->add_option(
             "--masks", given->import.masks,
@@ -292,7 +316,10 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
         ->check(ends_in({".html", ".htm"}));
     command->add_flag("--json", given->json, "Print the summary as JSON");
     command->add_flag("-q,--quiet", given->quiet, "No progress bar, no notes");
-    command->footer("Example: rs-capture import photos/ -o shoe.set --report shoe.html");
+    command->footer(
+        "Examples:\n"
+        "  rs-capture import photos/ -o shoe.set --report shoe.html\n"
+        "  rs-capture import turn.mp4 -o shoe.set        a film of one turn or more (docs/film.md)");
     command->callback([given, &run] { run = [given] { return run_import(*given); }; });
 }
 

@@ -26,6 +26,15 @@ public:
     virtual Status finish() = 0;
 };
 
+// Decodes a file frame by frame; see VideoReader in picture_io.hpp for what it promises.
+class VideoDecoder {
+public:
+    virtual ~VideoDecoder() = default;
+    [[nodiscard]] virtual const VideoInfo& info() const = 0;
+    virtual Result<bool> read(Image<Rgba8>& frame) = 0;
+    [[nodiscard]] virtual int damaged_frames() const = 0;
+};
+
 struct VideoOptions {
     int width = 0;
     int height = 0;
@@ -47,10 +56,11 @@ struct Backend {
                                                          const std::string& shown) = nullptr;
     Result<std::unique_ptr<VideoEncoder>> (*open_video)(const std::string& path, const std::string& shown,
                                                         const VideoOptions& options) = nullptr;
+    Result<std::unique_ptr<VideoDecoder>> (*read_video)(const std::string& path) = nullptr;
 };
 
 // Grows with every change of the declarations above.
-inline constexpr std::uint32_t kBackendVersion = 4;
+inline constexpr std::uint32_t kBackendVersion = 5;
 inline constexpr const char* kBackendFileName = "librayspace_pictures.so";
 inline constexpr const char* kBackendSymbol = "rayspace_pictures_backend";
 using BackendFunction = const Backend* (*)();
@@ -58,5 +68,8 @@ using BackendFunction = const Backend* (*)();
 // Module-internal: video_backend.cpp.
 Result<std::unique_ptr<VideoEncoder>> open_video(const std::string& path, const std::string& shown,
                                                  const VideoOptions& options);
+
+// Module-internal: video_decoder.cpp.
+Result<std::unique_ptr<VideoDecoder>> read_video(const std::string& path);
 
 }  // namespace rs::pictures

@@ -4,11 +4,13 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/file/file_output.hpp"
 
 #include <glm/glm.hpp>
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,8 +44,11 @@ struct PhotoFolder {
     double reduction = 1;  // shown pixels per pixel of the pictures that read_photograph() gives, of ...
     int width = 0;         // ... so many pixels, the middle of what is shown
     int height = 0;
-    bool has_alpha = false;  // of every picture
-    int focal_35mm = 0;      // EXIF, mm; 0 where it is not one for all, or unknown
+    bool has_alpha = false;                    // of every picture
+    int focal_35mm = 0;                        // EXIF, mm; 0 where it is not one for all, or unknown
+    std::vector<std::string> selection_notes;  // how the photos were chosen (photo_source.hpp); usually none
+    // Holds the photos where they are frames of a film; removed with the last copy of this.
+    std::shared_ptr<const StagedFolder> temporary;
 
     [[nodiscard]] int orientation_of(std::size_t photograph) const {
         return own_orientations.empty() ? orientation : own_orientations[photograph];
