@@ -8,6 +8,7 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/pictures/video_reader.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +27,7 @@ public:
     virtual Status finish() = 0;
 };
 
-// Decodes a file frame by frame; see VideoReader in picture_io.hpp for what it promises.
+// Decodes a file frame by frame; see VideoReader for what it promises.
 class VideoDecoder {
 public:
     virtual ~VideoDecoder() = default;

@@ -4,6 +4,7 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/pictures/picture_backend.hpp"
+#include "rayspace/pictures/video_reader.hpp"
 
 #include <dlfcn.h>
 

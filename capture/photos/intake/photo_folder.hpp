@@ -4,7 +4,6 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/result.hpp"
-#include "rayspace/file/file_output.hpp"
 
 #include <glm/glm.hpp>
 
@@ -14,6 +13,10 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace rs {
+class StagedFolder;
+}
 
 namespace rs::capture {
 

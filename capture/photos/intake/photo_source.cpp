@@ -4,6 +4,7 @@
 #include "capture/photos/intake/film/film_frames.hpp"
 #include "capture/photos/intake/film/frame_selection.hpp"
 #include "capture/photos/intake/photograph.hpp"
+#include "rayspace/file/file_output.hpp"
 
 #include <algorithm>
 #include <memory>

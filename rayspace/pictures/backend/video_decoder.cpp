@@ -1,4 +1,4 @@
-// Decoding of video files in librayspace_pictures.so, with FFmpeg's libraries. See VideoReader in picture_io.hpp for
+// Decoding of video files in librayspace_pictures.so, with FFmpeg's libraries. See video_reader.hpp for
 // what it promises.
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/pictures/picture_backend.hpp"

@@ -5,6 +5,7 @@
 #include "capture/photos/intake/reduction.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/pictures/video_reader.hpp"
 
 #include <algorithm>
 #include <array>
