@@ -10,8 +10,10 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kUnevenCost = 0.6;  // of a step twice or half as large as wanted
-constexpr double kBlurCost = 20;     // times the square of the share of sharpness that a frame lacks
+constexpr double kUnevenCost = 0.6;   // of a step twice or half as large as wanted
+constexpr double kBlurCost = 20;      // times the square of the share of sharpness that a frame lacks, ...
+constexpr double kLessSharpCost = 4;  // ... and times the share itself
+constexpr double kMostStep = 2.6;     // where blurred frames are skipped
 
 // A frame of the turn.
 struct Candidate {
@@ -70,6 +72,11 @@ double uneven_cost(double step) {
     return kUnevenCost * octaves * octaves;
 }
 
+double blur_cost(double sharpness) {
+    const double lack = 1 - sharpness;
+    return kBlurCost * lack * lack + kLessSharpCost * lack;
+}
+
 // Chooses at most one candidate of each step with the least sum of costs (dynamic programming over the candidates).
 std::vector<std::size_t> choose(const std::vector<Candidate>& candidates, int steps, bool is_closed,
                                 bool may_skip_blurred) {
@@ -89,13 +96,14 @@ std::vector<std::size_t> choose(const std::vector<Candidate>& candidates, int st
         if (step >= steps) break;
         const bool may_skip = may_skip_blurred && step - previous_step == 1;
         for (std::size_t i = begin; i < end; ++i) {
-            const double lack = 1 - candidates[i].sharpness;
-            const double own = kBlurCost * lack * lack;
+            const double own = blur_cost(candidates[i].sharpness);
             if (previous_end == 0 || (is_closed && may_skip && older_begin == previous_begin)) {
                 best[i] = {own, i, candidates[i].angle};
             }
-            for (std::size_t j = may_skip ? older_begin : previous_begin; j < previous_end; ++j) {
-                const double cost = best[j].cost + own + uneven_cost(candidates[i].angle - candidates[j].angle);
+            for (std::size_t j = previous_end; j-- > 0;) {
+                const double gap = candidates[i].angle - candidates[j].angle;
+                if (j < previous_begin && !(may_skip_blurred && gap < kMostStep)) break;
+                const double cost = best[j].cost + own + uneven_cost(gap);
                 if (cost < best[i].cost) best[i] = {cost, j, best[j].first_angle};
             }
         }

@@ -18,7 +18,7 @@ inline constexpr int kDefaultFrames = 72;
 
 struct FrameRequest {
     int count = kDefaultFrames;
-    /// Blurred frames are left out as long as no two neighbours are missing, so that fewer than `count` may be chosen.
+    /// Blurred frames are left out where the step stays below 2.6 steps, so that fewer than `count` may be chosen.
     bool may_skip_blurred = true;
 };
 
