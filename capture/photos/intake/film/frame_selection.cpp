@@ -10,10 +10,10 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kUnevenCost = 0.6;   // of a step twice or half as large as wanted
-constexpr double kBlurCost = 20;      // times the square of the share of sharpness that a frame lacks, ...
-constexpr double kLessSharpCost = 4;  // ... and times the share itself
-constexpr double kMostStep = 2.6;     // where blurred frames are skipped
+constexpr double kUnevenCost = 0.6;     // of a step twice or half as large as wanted
+constexpr double kBlurCost = 20;        // times the square of the share of sharpness that a frame lacks, ...
+constexpr double kLessSharpCost = 1.5;  // ... and times the share itself
+constexpr double kMostStep = 2.6;       // where blurred frames are skipped
 
 // A frame of the turn.
 struct Candidate {
