@@ -10,10 +10,9 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kUnevenCost = 0.6;     // of a step twice or half as large as wanted
-constexpr double kBlurCost = 20;        // times the square of the share of sharpness that a frame lacks, ...
-constexpr double kLessSharpCost = 1.5;  // ... and times the share itself
-constexpr double kMostStep = 2.6;       // where blurred frames are skipped
+constexpr double kUnevenCost = 0.6;  // of a step that is off by a whole step
+constexpr double kBlurCost = 20;     // of a frame without any sharpness
+constexpr double kMaxStep = 2.6;     // where blurred frames are skipped
 
 // A frame of the turn.
 struct Candidate {
@@ -68,13 +67,11 @@ void rate_sharpness(std::vector<Candidate>& candidates, const std::vector<FrameC
 }
 
 double uneven_cost(double step) {
-    const double octaves = std::log2(std::max(step, 1e-3));
-    return kUnevenCost * octaves * octaves;
+    return kUnevenCost * (step - 1) * (step - 1);
 }
 
 double blur_cost(double sharpness) {
-    const double lack = 1 - sharpness;
-    return kBlurCost * lack * lack + kLessSharpCost * lack;
+    return kBlurCost * (1 - sharpness) * (1 - sharpness);
 }
 
 // Chooses at most one candidate of each step with the least sum of costs (dynamic programming over the candidates).
@@ -102,7 +99,7 @@ std::vector<std::size_t> choose(const std::vector<Candidate>& candidates, int st
             }
             for (std::size_t j = previous_end; j-- > 0;) {
                 const double gap = candidates[i].angle - candidates[j].angle;
-                if (j < previous_begin && !(may_skip_blurred && gap < kMostStep)) break;
+                if (j < previous_begin && !(may_skip_blurred && gap < kMaxStep)) break;
                 const double cost = best[j].cost + own + uneven_cost(gap);
                 if (cost < best[i].cost) best[i] = {cost, j, best[j].first_angle};
             }
