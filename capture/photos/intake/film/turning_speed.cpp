@@ -1,11 +1,12 @@
 #include "capture/photos/intake/film/turning_speed.hpp"
 
-#include "capture/photos/intake/film/point_flow.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel.hpp"
 
 #include <glm/glm.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,49 @@ constexpr std::size_t kFewestPoints = 12;
 constexpr double kStillShare = 0.12;         // of the motion of the faster frames: less is no turning
 constexpr double kSmoothedShare = 1 / 16.0;  // of the film: standard deviation of the smoothing, some 22 degrees
 constexpr double kMostRelativeError = 0.15;
+
+// Motion of a point from one image to another.
+struct PointFlow {
+    glm::dvec2 at_px{};  // in the first image
+    glm::dvec2 flow_px{};
+};
+
+// Tracks corners of the moving region (pyramidal Lucas-Kanade) with a forward-backward check. Points that do not move
+// are left out: they show the background.
+std::vector<PointFlow> track_corners(const Image<std::uint8_t>& from, const Image<std::uint8_t>& to,
+                                     const Image<std::uint8_t>& region) {
+    constexpr int kMaxCorners = 1000;
+    constexpr double kMinQuality = 0.01;  // relative to the best corner
+    constexpr double kMinDistance_px = 3;
+    constexpr int kWindow_px = 9;
+    constexpr int kMaxLevel = 2;
+    constexpr float kMaxDifference_codes = 12;  // mean absolute difference of the windows
+    constexpr float kMaxReturnError_px = 0.5F;
+    constexpr float kMinFlow_px = 0.15F;
+    const auto mat = [](const Image<std::uint8_t>& image) {
+        return cv::Mat1b(image.height(), image.width(), const_cast<std::uint8_t*>(image.data()));
+    };
+    std::vector<cv::Point2f> corners, tracked, returned;
+    cv::goodFeaturesToTrack(mat(from), corners, kMaxCorners, kMinQuality, kMinDistance_px, mat(region));
+    if (corners.empty()) return {};
+    const auto track = [&](const auto& first, const auto& second, const auto& points, auto& moved, auto& status,
+                           auto& difference) {
+        cv::calcOpticalFlowPyrLK(mat(first), mat(second), points, moved, status, difference, {kWindow_px, kWindow_px},
+                                 kMaxLevel);
+    };
+    std::vector<std::uint8_t> is_tracked, is_returned;
+    std::vector<float> difference, difference_back;
+    track(from, to, corners, tracked, is_tracked, difference);
+    track(to, from, tracked, returned, is_returned, difference_back);
+    std::vector<PointFlow> flows;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (is_tracked[i] == 0 || is_returned[i] == 0 || difference[i] > kMaxDifference_codes) continue;
+        const cv::Point2f flow = tracked[i] - corners[i];
+        if (cv::norm(returned[i] - corners[i]) > kMaxReturnError_px || cv::norm(flow) < kMinFlow_px) continue;
+        flows.push_back({{corners[i].x, corners[i].y}, {flow.x, flow.y}});
+    }
+    return flows;
+}
 
 // Motion from one frame to another, `baseline` frames later.
 struct PairMotion {
@@ -90,7 +134,7 @@ void fit_vertical_motion(const std::vector<PointFlow>& flows, double width, doub
 PairMotion motion_between(const FrameCopy& from, const FrameCopy& to, const Image<std::uint8_t>& region) {
     PairMotion motion;
     motion.change_codes = change_between(from.luma, to.luma, region);
-    const std::vector<PointFlow> flows = point_flow(from.luma, to.luma, region);
+    const std::vector<PointFlow> flows = track_corners(from.luma, to.luma, region);
     if (flows.size() < kFewestPoints) return motion;
     motion.amount_px = median_length(flows);
     fit_vertical_motion(flows, region.width(), region.height(), motion);

@@ -4,8 +4,8 @@
 // A point at (x, y, z) of an object that turns by w per frame about the vertical axis moves by w z in image x and, for
 // a camera that looks down by the angle e, by w x sin(e) in image y. So vertical motion grows linearly from the axis to
 // both sides, whatever the shape of the object, and its slope is the speed up to a factor; horizontal motion depends on
-// the shape. Each pair of frames gives the slope by a robust linear regression over the motion of points
-// (point_flow.hpp).
+// the shape. Each pair of frames gives the slope by a robust linear regression over the motion of corners
+// (pyramidal Lucas-Kanade).
 //
 // A camera at the height of the object shows no such motion. Then only the trend of the amount of motion over the film
 // is used: a speed that changes exponentially.
