@@ -35,9 +35,9 @@ Status check(const ImportOptions& options) {
         return Error{"--max-side " + std::to_string(options.max_side_px) + ": give " + std::to_string(kMinSide_px) +
                      " to " + std::to_string(kMaxPictureSide_px) + " px"};
     }
-    if (options.frames && (*options.frames < kFewestFrames || *options.frames > kMostFrames)) {
-        return Error{"--frames " + std::to_string(*options.frames) + ": give " + std::to_string(kFewestFrames) +
-                     " to " + std::to_string(kMostFrames)};
+    if (options.frames && (*options.frames < kMinSelectedFrames || *options.frames > kMaxSelectedFrames)) {
+        return Error{"--frames " + std::to_string(*options.frames) + ": give " + std::to_string(kMinSelectedFrames) +
+                     " to " + std::to_string(kMaxSelectedFrames)};
     }
     return {};
 }

@@ -30,7 +30,7 @@ struct ImportOptions : RigRequest {
     std::filesystem::path masks;
     // Larger photographs are made smaller first (open_photo_folder()); kMinSide_px .. kMaxPictureSide_px.
     int max_side_px = kDefaultMaxSide_px;
-    // How many frames of a film, or photos of a folder that has more, are taken: kFewestFrames .. kMostFrames
+    // Number of frames of a film, or of photos of a larger folder, to select: kMinSelectedFrames .. kMaxSelectedFrames
     // (intake/film/frame_selection.hpp). Empty: see intake/photo_source.hpp.
     std::optional<int> frames;
 };

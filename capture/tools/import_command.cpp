@@ -158,13 +158,13 @@ void print_summary(const std::string& output, const ImportReport& report) {
         found.deviations.axis_position_px);
 }
 
-// Options that describe photos one by one, beside frames that are chosen during the import.
+// Rejects options for single photos if frames are selected during the import.
 Status check_frames_usage(const ImportCommandLine& given) {
-    const bool is_of_film = is_film(given.import.photos);
-    if (!is_of_film && !given.import.frames) return {};
+    const bool has_film = is_film(given.import.photos);
+    if (!has_film && !given.import.frames) return {};
     const std::string remedy =
-        is_of_film ? "is for photos, and this is a film; write its frames out first (ffmpeg -i FILM photos/%03d.png)"
-                   : "describes all photos of the folder; leave out --frames";
+        has_film ? "cannot be used with a film; extract its frames first (ffmpeg -i FILM photos/%03d.png)"
+                 : "needs all photos of the folder; leave out --frames";
     if (!given.known.empty()) return Error{"--known " + given.known + ": " + remedy};
     if (!given.import.masks.empty()) return Error{"--masks " + given.import.masks.string() + ": " + remedy};
     if (given.equal_steps) return Error{"--equal-steps: " + remedy};
@@ -256,9 +256,9 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
     command
         ->add_option(
             "--frames", given->import.frames,
-            "How many frames of a film, or photos of a folder that holds more, are taken: sharp ones, evenly by "
-            "angle (default: 72 of a film, 120 of a folder of more than 150 photos, else all)")
-        ->check(CLI::Range(kFewestFrames, kMostFrames));
+            "Number of frames of a film, or of photos of a larger folder, to select: sharp ones, evenly spaced by "
+            "angle (default: 72 for a film, 120 for a folder of more than 150 photos, otherwise all)")
+        ->check(CLI::Range(kMinSelectedFrames, kMaxSelectedFrames));
     command
         ->add_option(
             "--masks", given->import.masks,

@@ -27,7 +27,7 @@ public:
     virtual Status finish() = 0;
 };
 
-// Decodes a file frame by frame; see VideoReader for what it promises.
+// Interface behind VideoReader (video_reader.hpp).
 class VideoDecoder {
 public:
     virtual ~VideoDecoder() = default;

@@ -1,4 +1,4 @@
-// `rs-capture import` of a film, as a user calls it.
+// `rs-capture import` of a film, from the command line.
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -26,7 +26,7 @@ using testing::HasSubstr;
 
 class ImportFilm : public testing::Test {
 protected:
-    // A turn of the drum in `frames` frames, and a tenth more.
+    // Writes a turn of the drum in `frames` frames, and a tenth of a turn more.
     void write_drum(int frames) const {
         const capture::TurntableModel model = test::drum_turn(frames + frames / 10, 2 * kPi / frames);
         const auto view = [&](int i) { return test::drawn_drum({}, model, static_cast<std::size_t>(i)); };
@@ -64,7 +64,7 @@ TEST_F(ImportFilm, MakesASetOfAFilm) {
     const Result<Rig> rig = read_rig(folder_ / "set" / kRigFileName);
     ASSERT_TRUE(rig.ok()) << rig.error().message;
     EXPECT_EQ(rig->views.size(), 36U);
-    // Nothing else is left behind.
+    // No temporary files remain.
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder_.path())) names.insert(entry.path().filename().string());
     EXPECT_EQ(names, (std::set<std::string>{"turn.mp4", "set", "page.html", "stdout.txt", "stderr.txt"}));

@@ -49,8 +49,8 @@ struct PhotoFolder {
     int height = 0;
     bool has_alpha = false;                    // of every picture
     int focal_35mm = 0;                        // EXIF, mm; 0 where it is not one for all, or unknown
-    std::vector<std::string> selection_notes;  // how the photos were chosen (photo_source.hpp); usually none
-    // Holds the photos where they are frames of a film; removed with the last copy of this.
+    std::vector<std::string> selection_notes;  // on the selection of photos (photo_source.hpp)
+    // Folder of extracted film frames; deleted with the last copy of this object. Null for photos.
     std::shared_ptr<const StagedFolder> temporary;
 
     [[nodiscard]] int orientation_of(std::size_t photograph) const {

@@ -24,7 +24,7 @@ Result<PhotoFolder> open_film(const PhotoRequest& request, Progress* progress) {
     if (!staged) return staged.error();
     const auto frames = std::make_shared<const StagedFolder>(std::move(*staged));
     Result<FilmFrames> film = write_film_frames(request.photos, frames->temporary_path(),
-                                                frame_request(request.frames, kDefaultFrames), progress);
+                                                frame_request(request.frames, kDefaultSelectedFrames), progress);
     if (!film) return film.error();
     Result<PhotoFolder> folder = open_photo_folder(frames->temporary_path(), request.max_side_px);
     if (!folder) return folder;
@@ -69,23 +69,23 @@ bool is_film(const std::filesystem::path& photos) {
 }
 
 Result<PhotoFolder> open_photos(const PhotoRequest& request, Progress* progress) {
-    if (request.are_photos_described && (is_film(request.photos) || request.frames)) {
+    if (request.has_per_photo_options && (is_film(request.photos) || request.frames)) {
         return Error{request.photos.string() +
-                     ": masks, angles and steps are of photos, and frames are chosen by the import; take the photos "
-                     "out of the film (ffmpeg -i FILM photos/%03d.png), or leave out --frames"};
+                     ": masks, angles and steps cannot be combined with a selection of frames; extract the photos "
+                     "from the film (ffmpeg -i FILM photos/%03d.png), or leave out --frames"};
     }
     if (is_film(request.photos)) return open_film(request, progress);
     Result<PhotoFolder> folder = open_photo_folder(request.photos, request.max_side_px);
     if (!folder) return folder;
     const std::size_t count = folder->photos.size();
-    const bool is_large = count > kMostUnselectedPhotos && !request.are_photos_described;
-    const bool is_smaller_asked = request.frames && count > static_cast<std::size_t>(*request.frames);
-    if (request.frames && !is_smaller_asked) {
+    const bool is_large = count > kMaxPhotosWithoutSelection && !request.has_per_photo_options;
+    const bool is_fewer_requested = request.frames && count > static_cast<std::size_t>(*request.frames);
+    if (request.frames && !is_fewer_requested) {
         folder->selection_notes.push_back(request.photos.string() + ": holds " + std::to_string(count) +
-                                          " photos, not more than --frames asks for; all are taken");
+                                          " photos, no more than --frames; all are taken");
     }
-    if (is_smaller_asked || (is_large && !request.frames)) {
-        const FrameRequest frames = frame_request(request.frames, kMostFrames);
+    if (is_fewer_requested || (is_large && !request.frames)) {
+        const FrameRequest frames = frame_request(request.frames, kMaxSelectedFrames);
         if (Status status = select_photos(*folder, request.photos.string(), frames, progress); !status) {
             return status.error();
         }

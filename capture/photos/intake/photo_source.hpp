@@ -1,5 +1,5 @@
 #pragma once
-// What an import is given: a folder of photos of one turn, a folder with more photos than needed, or a film.
+// Input of an import: a folder of photos of one turn, a folder with more photos than needed, or a film.
 
 #include "capture/photos/intake/photo_folder.hpp"
 #include "rayspace/base/progress.hpp"
@@ -11,25 +11,25 @@
 
 namespace rs::capture {
 
-/// Folders with more photos than this go through select_frames() (film/frame_selection.hpp) unasked.
-inline constexpr std::size_t kMostUnselectedPhotos = 150;
+/// Larger folders are reduced by select_frames() (film/frame_selection.hpp) by default.
+inline constexpr std::size_t kMaxPhotosWithoutSelection = 150;
 
 struct PhotoRequest {
-    std::filesystem::path photos;  // folder, or film
-    std::filesystem::path output;  // beside which frames of a film are kept while they are needed
+    std::filesystem::path photos;  // folder or film
+    std::filesystem::path output;  // extracted frames of a film are stored beside it during the import
     int max_side_px = kMaxPictureSide_px;
-    std::optional<int> frames;  // how many to choose
-    // Options that describe each photo (masks, angles, steps) forbid a selection.
-    bool are_photos_described = false;
+    std::optional<int> frames;  // number of photos or frames to select
+    // True if options describe single photos (masks, angles, steps), so that none may be left out.
+    bool has_per_photo_options = false;
 };
 
-/// Whether `photos` is a file, and therefore taken as a film.
+/// Returns true if `photos` is a regular file, which is read as a film.
 bool is_film(const std::filesystem::path& photos);
 
-/// The photos to import: all of a folder of up to kMostUnselectedPhotos, else those that select_frames() chooses.
-/// Notes on a selection are in PhotoFolder::selection_notes.
-/// Errors: those of open_photo_folder() and write_film_frames(); a film, or a count of frames, with photos that are
-/// described.
+/// Opens the photos to import: all photos of a folder of up to kMaxPhotosWithoutSelection, otherwise those selected by
+/// select_frames(). Notes on the selection are in PhotoFolder::selection_notes.
+/// Errors: those of open_photo_folder() and write_film_frames(); a film or a frame count together with per-photo
+/// options.
 Result<PhotoFolder> open_photos(const PhotoRequest& request, Progress* progress);
 
 }  // namespace rs::capture

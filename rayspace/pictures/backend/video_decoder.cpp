@@ -1,5 +1,4 @@
-// Decoding of video files in librayspace_pictures.so, with FFmpeg's libraries. See video_reader.hpp for
-// what it promises.
+// Implementation of VideoReader (video_reader.hpp) with FFmpeg, part of librayspace_pictures.so.
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/pictures/picture_backend.hpp"
 
@@ -26,7 +25,7 @@ namespace {
 // Containers that hold their own data. Playlists (HLS, DASH, concat) and image sequences would open other files.
 constexpr const char* kContainers =
     "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,mpegvideo,ogg,flv,asf,mxf,h264,hevc,m4v";
-constexpr int kThreads = 4;  // each decodes a frame of its own and holds the memory of one
+constexpr int kThreads = 4;  // frame threads; each needs the memory of one frame
 constexpr int kProbeBytes = 8 << 20;
 
 struct DecoderDeleter {
@@ -40,15 +39,15 @@ struct DecoderDeleter {
 template <class T>
 using DecoderOwned = std::unique_ptr<T, DecoderDeleter>;
 
-std::string reason_of(int failure) {
+std::string error_text(int failure) {
     char text[AV_ERROR_MAX_STRING_SIZE];
     av_make_error_string(text, sizeof text, failure);
     return text;
 }
 
-// The value of PictureInfo::orientation for a display matrix (libavutil/display.h): where the stored x and y axes point
-// in the image as it is shown. 1 for matrices that are not a turn by right angles.
-int orientation_of(const std::int32_t* matrix) {
+// Converts a display matrix (libavutil/display.h) to PictureInfo::orientation; 1 if it is no rotation by a multiple of
+// 90 degrees.
+int orientation_from(const std::int32_t* matrix) {
     const auto sign = [](std::int32_t value) { return (value > 0 ? 1 : 0) - (value < 0 ? 1 : 0); };
     // Shown x = a x + c y, shown y = b x + d y.
     const int a = sign(matrix[0]), b = sign(matrix[1]), c = sign(matrix[3]), d = sign(matrix[4]);
@@ -59,7 +58,7 @@ int orientation_of(const std::int32_t* matrix) {
     return 1;
 }
 
-AVColorSpace matrix_of(const AVFrame& frame) {
+AVColorSpace color_matrix(const AVFrame& frame) {
     if (frame.colorspace != AVCOL_SPC_UNSPECIFIED && frame.colorspace != AVCOL_SPC_RGB) return frame.colorspace;
     constexpr int kFirstHdHeight = 720;
     return frame.height >= kFirstHdHeight ? AVCOL_SPC_BT709 : AVCOL_SPC_SMPTE170M;
@@ -73,13 +72,13 @@ public:
         if (Status status = open_container(); !status) return status;
         const AVCodec* codec = nullptr;
         const int index = av_find_best_stream(format_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
-        if (index == AVERROR_DECODER_NOT_FOUND) return Error{path_ + no_decoder()};
+        if (index == AVERROR_DECODER_NOT_FOUND) return Error{path_ + missing_decoder_message()};
         if (index < 0) return Error{path_ + ": has no video; give a film of the turning object, or a folder of photos"};
         stream_ = format_->streams[index];
         for (unsigned i = 0; i < format_->nb_streams; ++i) {
             if (static_cast<int>(i) != index) format_->streams[i]->discard = AVDISCARD_ALL;
         }
-        if (Status status = describe(); !status) return status;
+        if (Status status = read_stream_info(); !status) return status;
         return open_codec(*codec);
     }
 
@@ -90,7 +89,7 @@ public:
         while (!is_finished_) {
             const int got = avcodec_receive_frame(codec_.get(), frame_.get());
             if (got == 0) {
-                if (!is_sound()) {
+                if (!is_intact()) {
                     ++damaged_;
                     continue;
                 }
@@ -104,8 +103,8 @@ public:
                 if (Status status = check_end(); !status) return status.error();
             } else if (got != AVERROR(EAGAIN)) {
                 ++damaged_;
-                if (damaged_ > kMostFailures) return Error{path_ + damaged()};
-            } else if (Status status = feed(); !status) {
+                if (damaged_ > kMaxFailures) return Error{path_ + damage_message()};
+            } else if (Status status = send_packet(); !status) {
                 return status.error();
             }
         }
@@ -113,9 +112,9 @@ public:
     }
 
 private:
-    static constexpr int kMostFailures = 10000;  // a decoder may fail without consuming anything
+    static constexpr int kMaxFailures = 10000;  // a decoder may fail without consuming input
 
-    [[nodiscard]] std::string no_decoder() const {
+    [[nodiscard]] std::string missing_decoder_message() const {
         std::string codec = "its codec";
         for (unsigned i = 0; i < format_->nb_streams; ++i) {
             const AVCodecParameters& parameters = *format_->streams[i]->codecpar;
@@ -123,7 +122,7 @@ private:
         }
         return ": the installed FFmpeg has no decoder for " + codec + "; convert the film to H.264";
     }
-    [[nodiscard]] std::string damaged() const {
+    [[nodiscard]] std::string damage_message() const {
         return ": is damaged (" + std::to_string(damaged_) + " frames cannot be decoded); copy the film again";
     }
 
@@ -136,17 +135,17 @@ private:
         // Frees the context on failure.
         const int failure = avformat_open_input(&format, ("file:" + path_).c_str(), nullptr, nullptr);
         if (failure < 0) {
-            return Error{path_ + ": cannot be read as a film (" + reason_of(failure) +
+            return Error{path_ + ": cannot be read as a film (" + error_text(failure) +
                          "); give a video file that is complete, or a folder of photos"};
         }
         format_.reset(format);
         if (const int found = avformat_find_stream_info(format, nullptr); found < 0) {
-            return Error{path_ + ": is damaged or cut short (" + reason_of(found) + "); copy the film again"};
+            return Error{path_ + ": is damaged or cut short (" + error_text(found) + "); copy the film again"};
         }
         return {};
     }
 
-    Status describe() {
+    Status read_stream_info() {
         const AVCodecParameters& stored = *stream_->codecpar;
         const AVRational aspect = av_guess_sample_aspect_ratio(format_.get(), stream_, nullptr);
         info_.height = stored.height;
@@ -166,7 +165,7 @@ private:
         if (matrix != nullptr && bytes >= 9 * sizeof(std::int32_t)) {
             std::int32_t values[9];
             std::memcpy(values, matrix, sizeof values);
-            info_.orientation = orientation_of(values);
+            info_.orientation = orientation_from(values);
         }
         if (stream_->avg_frame_rate.num > 0 && stream_->avg_frame_rate.den > 0) {
             info_.frames_per_second = av_q2d(stream_->avg_frame_rate);
@@ -186,19 +185,19 @@ private:
         packet_.reset(av_packet_alloc());
         if (!codec_ || !frame_ || !packet_) return Error{path_ + ": not enough memory to decode a film"};
         if (const int failure = avcodec_parameters_to_context(codec_.get(), stream_->codecpar); failure < 0) {
-            return Error{path_ + ": cannot be decoded (" + reason_of(failure) + ")"};
+            return Error{path_ + ": cannot be decoded (" + error_text(failure) + ")"};
         }
         codec_->thread_count = kThreads;
         codec_->max_pixels = std::int64_t{kMaxPictureSide_px} * kMaxPictureSide_px;
         codec_->pkt_timebase = stream_->time_base;
         if (const int failure = avcodec_open2(codec_.get(), &codec, nullptr); failure < 0) {
-            return Error{path_ + ": cannot be decoded (" + reason_of(failure) + "); convert the film to H.264"};
+            return Error{path_ + ": cannot be decoded (" + error_text(failure) + "); convert the film to H.264"};
         }
         return {};
     }
 
-    // Gives the decoder the next packet of the stream, or the end of the file.
-    Status feed() {
+    // Sends the next packet of the stream, or the end of the file, to the decoder.
+    Status send_packet() {
         if (is_drained_) return {};
         const int got = av_read_frame(format_.get(), packet_.get());
         if (got < 0) {
@@ -212,11 +211,11 @@ private:
             if (sent < 0 && sent != AVERROR(EAGAIN)) ++damaged_;
         }
         av_packet_unref(packet_.get());
-        if (damaged_ > kMostFailures) return Error{path_ + damaged()};
+        if (damaged_ > kMaxFailures) return Error{path_ + damage_message()};
         return {};
     }
 
-    [[nodiscard]] bool is_sound() const {
+    [[nodiscard]] bool is_intact() const {
         return (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0 && frame_->decode_error_flags == 0;
     }
 
@@ -232,7 +231,7 @@ private:
             return Error{path_ + ": no frame of it can be decoded; copy the film again, or convert it to H.264"};
         }
         constexpr int kTolerated = 3;
-        if (damaged_ > std::max<std::int64_t>(kTolerated, decoded_ / 20)) return Error{path_ + damaged()};
+        if (damaged_ > std::max<std::int64_t>(kTolerated, decoded_ / 20)) return Error{path_ + damage_message()};
         const double duration_s = header_duration_s();
         if (last_pts_ == std::numeric_limits<std::int64_t>::min() || duration_s <= 0) return {};
         const std::int64_t start = stream_->start_time != AV_NOPTS_VALUE ? stream_->start_time : 0;
@@ -259,9 +258,9 @@ private:
         }
         constexpr int kOne = 1 << 16;
         const bool is_full_range = frame_->color_range == AVCOL_RANGE_JPEG;
-        sws_setColorspaceDetails(scaler_.get(), sws_getCoefficients(matrix_of(*frame_)), is_full_range ? 1 : 0,
+        sws_setColorspaceDetails(scaler_.get(), sws_getCoefficients(color_matrix(*frame_)), is_full_range ? 1 : 0,
                                  sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, kOne, kOne);
-        // Rows that swscale may write to beyond their end.
+        // swscale may write beyond the end of a row.
         constexpr int kAlign = 64;
         const int stride = (4 * info_.width + 2 * kAlign - 1) / kAlign * kAlign;
         if (!rgba_) {
@@ -289,7 +288,7 @@ private:
     DecoderOwned<AVPacket> packet_;
     DecoderOwned<SwsContext> scaler_;
     DecoderOwned<std::uint8_t> rgba_;
-    AVStream* stream_ = nullptr;  // the format's
+    AVStream* stream_ = nullptr;  // owned by format_
     std::int64_t decoded_ = 0;
     std::int64_t last_pts_ = std::numeric_limits<std::int64_t>::min();
     int damaged_ = 0;
@@ -300,7 +299,7 @@ private:
 }  // namespace
 
 Result<std::unique_ptr<VideoDecoder>> read_video(const std::string& path) {
-    // Errors are reported once, by us: FFmpeg shall not write to stderr on its own.
+    // Errors are returned; FFmpeg must not write them to stderr as well.
     av_log_set_level(AV_LOG_QUIET);
     auto decoder = std::make_unique<LibavDecoder>(path);
     if (Status status = decoder->open(); !status) return status.error();

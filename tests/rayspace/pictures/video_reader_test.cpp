@@ -1,8 +1,8 @@
-// Video files read back: what VideoWriter wrote, files of other encoders (tests/fuzz/corpus/film), and damaged ones.
+// VideoReader on files from VideoWriter, files from other encoders (tests/fuzz/corpus/film), and damaged files.
 
+#include "rayspace/pictures/video_reader.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/pictures/picture_io.hpp"
-#include "rayspace/pictures/video_reader.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -44,7 +44,7 @@ fs::path write_film(const test::TemporaryFolder& folder) {
 struct Reading {
     std::vector<Image<Rgba8>> frames;
     VideoInfo info;
-    std::string error;  // empty where all was read
+    std::string error;  // empty on success
 };
 
 Reading read_all(const fs::path& path) {
@@ -79,7 +79,7 @@ void write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
     ASSERT_TRUE(write_file(path, bytes).ok());
 }
 
-TEST(VideoReader, ReadsWhatVideoWriterWrote) {
+TEST(VideoReader, ReadsFilesFromVideoWriter) {
     const test::TemporaryFolder folder;
     const Reading reading = read_all(write_film(folder));
     EXPECT_EQ(reading.error, "");
@@ -97,7 +97,7 @@ TEST(VideoReader, ReadsWhatVideoWriterWrote) {
     }
 }
 
-// Colours of the corpus: 0x2050D0 to the left of column 16, 0xC06030 to the right.
+// Colours of the corpus files: 0x2050D0 to the left of column 16, 0xC06030 to the right.
 TEST(VideoReader, ConvertsDepthsRangesAndMatrices) {
     const fs::path corpus = fs::path(RAYSPACE_SOURCE_DIR) / "tests" / "fuzz" / "corpus" / "film";
     for (const char* name : {"ten-bit.mp4", "full-range.mkv", "no-matrix.avi", "wide-pixels.ts", "on-its-side.mp4"}) {
@@ -119,7 +119,7 @@ TEST(VideoReader, MakesPixelsSquareAndStatesTheOrientation) {
     EXPECT_EQ(read_all(corpus / "on-its-side.mp4").info.orientation, 8);  // turned by 90 degrees counter-clockwise
 }
 
-TEST(VideoReader, RefusesWhatIsNoFilm) {
+TEST(VideoReader, RejectsFilesThatAreNoVideo) {
     const test::TemporaryFolder folder;
     EXPECT_THAT(read_all(folder / "none.mp4").error, HasSubstr("none.mp4"));
     write_bytes(folder / "text.mp4", std::as_bytes(std::span("this is no film at all", 22)));
@@ -133,7 +133,7 @@ TEST(VideoReader, RefusesWhatIsNoFilm) {
     EXPECT_THAT(read_all(folder / "list.m3u8").error, HasSubstr("cannot be read as a film"));
 }
 
-TEST(VideoReader, NamesAFilmThatIsCutShort) {
+TEST(VideoReader, ReportsTruncatedFiles) {
     const test::TemporaryFolder folder;
     const std::vector<std::byte> whole = bytes_of(write_film(folder));
     for (const double share : {0.1, 0.5, 0.9}) {

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Mean light of small copies of the film.
+// Mean of downscaled frames in linear light.
 class MeanFrame {
 public:
     void add(ConstImageView<Rgba8> frame) {
@@ -62,12 +62,12 @@ Result<FilmCopies> copy_frames(const fs::path& film, Progress* progress) {
         const Result<bool> has_frame = reader->read(frame);
         if (!has_frame) return has_frame.error();
         if (!*has_frame) break;
-        if (result.copies.size() == static_cast<std::size_t>(kMostFilmFrames)) {
-            return Error{film.string() + ": has more than " + std::to_string(kMostFilmFrames) +
+        if (result.copies.size() == static_cast<std::size_t>(kMaxFilmFrames)) {
+            return Error{film.string() + ": has more than " + std::to_string(kMaxFilmFrames) +
                          " frames; cut it to one or two turns, e.g. with ffmpeg -ss START -t SECONDS"};
         }
-        constexpr std::size_t kMeanOf = 8;  // every eighth frame
-        if (result.copies.size() % kMeanOf == 0) mean.add(frame);
+        constexpr std::size_t kMeanStride = 8;
+        if (result.copies.size() % kMeanStride == 0) mean.add(frame);
         result.copies.push_back(make_frame_copy(frame));
         if (progress != nullptr) progress->advance();
     }
@@ -77,24 +77,24 @@ Result<FilmCopies> copy_frames(const fs::path& film, Progress* progress) {
     return result;
 }
 
-// Evens out the exposure of a frame by what its static pixels show.
-class ExposureEvener {
+// Matches the exposure of a frame to the mean of the film, estimated on static pixels.
+class ExposureNormalizer {
 public:
-    ExposureEvener(const Image<LinearRgb>& mean, const Image<std::uint8_t>& moving)
-        : mean_(mean), still_(moving.width(), moving.height()) {
-        std::size_t still = 0;
+    ExposureNormalizer(const Image<LinearRgb>& mean, const Image<std::uint8_t>& moving)
+        : mean_(mean), static_mask_(moving.width(), moving.height()) {
+        std::size_t static_count = 0;
         for (std::size_t i = 0; i < moving.pixels().size(); ++i) {
-            still_.pixels()[i] = moving.pixels()[i] == 0 ? 255 : 0;
-            still += moving.pixels()[i] == 0 ? 1U : 0U;
+            static_mask_.pixels()[i] = moving.pixels()[i] == 0 ? 255 : 0;
+            static_count += moving.pixels()[i] == 0 ? 1U : 0U;
         }
-        constexpr std::size_t kFewestShare = 20;  // a twentieth of the frame
-        is_possible_ = still * kFewestShare >= moving.pixels().size();
+        constexpr std::size_t kMinFraction = 20;  // one in 20 pixels
+        is_possible_ = static_count * kMinFraction >= moving.pixels().size();
     }
 
     void apply(Image<Rgba8>& frame) {
         if (!is_possible_) return;
         constexpr float kNegligible = 0.01F;
-        const LinearRgb gain = exposure_gain(reduced(frame, kCopySide_px), mean_, still_);
+        const LinearRgb gain = exposure_gain(reduced(frame, kCopySide_px), mean_, static_mask_);
         const float change = std::max({std::abs(gain.r - 1), std::abs(gain.g - 1), std::abs(gain.b - 1)});
         largest_change_ = std::max(largest_change_, change);
         if (change < kNegligible) return;
@@ -111,12 +111,12 @@ private:
         for (std::size_t code = 0; code < codes.size(); ++code) {
             codes[code] = srgb8_from_linear(linear_from_srgb8(static_cast<std::uint8_t>(code)) / gain);
         }
-        codes[255] = 255;  // clipped: how bright it was is unknown
+        codes[255] = 255;  // clipped: the true value is unknown
         return codes;
     }
 
     const Image<LinearRgb>& mean_;
-    Image<std::uint8_t> still_;
+    Image<std::uint8_t> static_mask_;
     float largest_change_ = 0;
     bool is_possible_ = false;
 };
@@ -127,19 +127,19 @@ std::string frame_name(std::size_t frame) {
     return name;
 }
 
-Status write_chosen(const fs::path& film, const fs::path& folder, const std::vector<std::size_t>& chosen,
-                    ExposureEvener& evener, Progress* progress) {
+Status write_selected(const fs::path& film, const fs::path& folder, const std::vector<std::size_t>& selected,
+                      ExposureNormalizer& normalizer, Progress* progress) {
     Result<VideoReader> reader = VideoReader::open(film);
     if (!reader) return reader.error();
-    if (progress != nullptr) progress->start("taking frames of the film", static_cast<std::int64_t>(chosen.size()));
+    if (progress != nullptr) progress->start("extracting frames", static_cast<std::int64_t>(selected.size()));
     Image<Rgba8> frame;
     std::size_t next = 0;
-    for (std::size_t i = 0; next < chosen.size(); ++i) {
+    for (std::size_t i = 0; next < selected.size(); ++i) {
         const Result<bool> has_frame = reader->read(frame);
         if (!has_frame) return has_frame.error();
         if (!*has_frame) return Error{film.string() + ": changed while it was imported; import again"};
-        if (i != chosen[next]) continue;
-        evener.apply(frame);
+        if (i != selected[next]) continue;
+        normalizer.apply(frame);
         const Image<Rgba8> upright = shown_upright(std::move(frame), reader->info().orientation);
         if (Status status = write_png(folder / frame_name(i), upright); !status) return status.error();
         frame = {};
@@ -150,7 +150,7 @@ Status write_chosen(const fs::path& film, const fs::path& folder, const std::vec
     return {};
 }
 
-std::vector<std::string> notes_on(const std::string& name, const FilmCopies& film, float largest_change) {
+std::vector<std::string> make_notes(const std::string& name, const FilmCopies& film, float largest_change) {
     std::vector<std::string> notes;
     if (film.damaged > 0) {
         notes.push_back(name + ": " + std::to_string(film.damaged) + " damaged frames were skipped");
@@ -158,9 +158,9 @@ std::vector<std::string> notes_on(const std::string& name, const FilmCopies& fil
     if (film.info.is_hdr) {
         notes.push_back(name + " is HDR, whose colours are not converted; film in SDR for true colours");
     }
-    constexpr float kNotable = 0.02F;
-    if (largest_change > kNotable) {
-        notes.push_back(name + ": the exposure of frames was evened out by up to " +
+    constexpr float kMinReportedChange = 0.02F;
+    if (largest_change > kMinReportedChange) {
+        notes.push_back(name + ": the exposure of frames was corrected by up to " +
                         std::to_string(std::lround(100 * largest_change)) + " %; lock it when filming");
     }
     return notes;
@@ -179,12 +179,12 @@ Result<FilmFrames> write_film_frames(const fs::path& film, const fs::path& folde
     if (std::ranges::count(result.selection.moving.pixels(), 0) == std::ssize(result.selection.moving.pixels())) {
         return Error{film.string() + ": nothing moves in it; give a film of an object that turns"};
     }
-    ExposureEvener evener(copies->mean, result.selection.moving);
-    if (Status status = write_chosen(film, folder, result.selection.frames, evener, progress); !status) {
+    ExposureNormalizer normalizer(copies->mean, result.selection.moving);
+    if (Status status = write_selected(film, folder, result.selection.frames, normalizer, progress); !status) {
         return status.error();
     }
     const std::string name = film.filename().string();
-    result.notes = notes_on(name, *copies, evener.largest_change());
+    result.notes = make_notes(name, *copies, normalizer.largest_change());
     result.notes.insert(result.notes.begin(), selection_note(name, "frames", frame_count, result.selection));
     return result;
 }

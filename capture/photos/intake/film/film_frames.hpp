@@ -1,5 +1,5 @@
 #pragma once
-// Chosen frames of a film of a turntable as a folder of photos, which the rest of an import reads like any other.
+// Writes selected frames of a turntable film to a folder of photos, the input of the other import stages.
 
 #include "capture/photos/intake/film/frame_selection.hpp"
 #include "rayspace/base/progress.hpp"
@@ -11,22 +11,22 @@
 
 namespace rs::capture {
 
-/// Frames in a film at most; FrameCopy takes 25 to 45 KB for each.
-inline constexpr int kMostFilmFrames = 6000;
+/// Limit on the frames of a film; each takes 25 to 45 KB (FrameCopy).
+inline constexpr int kMaxFilmFrames = 6000;
 
 struct FilmFrames {
     FrameSelection selection;
-    std::vector<std::string> notes;  // one line each: what was chosen, and what the user should know
+    std::vector<std::string> notes;  // for the user, one line each
 };
 
-/// Decodes the film twice (VideoReader): once to choose frames, once to write them to `folder` as frame-NNNNN.png,
-/// upright, NNNNN counting the film's frames from 1.
+/// Decodes the film twice (VideoReader): once to select frames, once to write them to `folder` as frame-NNNNN.png,
+/// upright; NNNNN is the frame number in the film, from 1.
 ///
-/// Where the background is visible and static, the exposure of written frames is evened out: each channel is divided by
-/// its median ratio to the mean of the film (exposure_gain()), in linear light.
+/// If static background is visible, the exposure of written frames is normalised: each channel is divided by its median
+/// ratio to the mean of the film (exposure_gain()), in linear light.
 ///
-/// Memory: 45 KB per frame of the film, and what VideoReader takes. Errors: those of VideoReader and write_png(), more
-/// than kMostFilmFrames frames, a film in which nothing moves.
+/// Memory: 45 KB per frame of the film, plus that of VideoReader. Errors: those of VideoReader and write_png(), more
+/// than kMaxFilmFrames frames, a film without motion.
 Result<FilmFrames> write_film_frames(const std::filesystem::path& film, const std::filesystem::path& folder,
                                      const FrameRequest& request, Progress* progress);
 

@@ -13,9 +13,9 @@
 namespace rs::capture {
 namespace {
 
-constexpr std::size_t kTimeSamples = 48;  // frames that stand for the whole film where every pixel is sorted over time
+constexpr std::size_t kTimeSamples = 48;  // frames sampled for statistics per pixel over time
 
-Image<std::uint8_t> luma_of(ConstImageView<Rgba8> frame) {
+Image<std::uint8_t> compute_luma(ConstImageView<Rgba8> frame) {
     Image<std::uint8_t> luma(frame.width(), frame.height());
     for (int y = 0; y < frame.height(); ++y) {
         const Rgba8* const from = frame.row(y);
@@ -50,7 +50,7 @@ void add_laplacians(const Image<std::uint8_t>& luma, int y, double columns_per_c
     }
 }
 
-Image<float> detail_of(const Image<std::uint8_t>& luma, int copy_width, int copy_height) {
+Image<float> compute_detail(const Image<std::uint8_t>& luma, int copy_width, int copy_height) {
     const int width = std::max(1, copy_width / kDetailCell_px), height = std::max(1, copy_height / kDetailCell_px);
     Image<float> detail(width, height);
     if (luma.width() < 3 || luma.height() < 3) return detail;
@@ -67,12 +67,12 @@ Image<float> detail_of(const Image<std::uint8_t>& luma, int copy_width, int copy
 
 std::vector<std::size_t> sample_frames(std::size_t count) {
     std::vector<std::size_t> samples;
-    const std::size_t most = std::min(count, kTimeSamples);
-    for (std::size_t s = 0; s < most; ++s) samples.push_back(s * count / most);
+    const std::size_t sample_count = std::min(count, kTimeSamples);
+    for (std::size_t s = 0; s < sample_count; ++s) samples.push_back(s * count / sample_count);
     return samples;
 }
 
-// Calls use(x, y, codes) with the codes of the samples at every pixel.
+// Calls use(x, y, codes) for every pixel with its codes in the sampled frames.
 template <class Use>
 void for_each_pixel_over_time(const std::vector<FrameCopy>& copies, const Use& use) {
     const std::vector<std::size_t> samples = sample_frames(copies.size());
@@ -86,17 +86,17 @@ void for_each_pixel_over_time(const std::vector<FrameCopy>& copies, const Use& u
     }
 }
 
-float gain_to(const Image<std::uint8_t>& luma, const Image<std::uint8_t>& reference) {
+float estimate_gain(const Image<std::uint8_t>& luma, const Image<std::uint8_t>& reference) {
     constexpr int kDarkLuma_code = 24;
     constexpr int kClippedLuma_code = 248;
-    constexpr std::size_t kFewestShare = 50;  // a fiftieth of the pixels
+    constexpr std::size_t kMinPixelFraction = 50;  // one in 50 pixels
     std::vector<float> ratios;
     for (std::size_t i = 0; i < luma.pixels().size(); ++i) {
         const int here = luma.pixels()[i], there = reference.pixels()[i];
         if (std::min(here, there) < kDarkLuma_code || std::max(here, there) > kClippedLuma_code) continue;
         ratios.push_back(static_cast<float>(there) / static_cast<float>(here));
     }
-    if (ratios.size() < luma.pixels().size() / kFewestShare + 1) return 1;
+    if (ratios.size() < luma.pixels().size() / kMinPixelFraction + 1) return 1;
     return std::clamp(median_of(std::span(ratios)), 0.5F, 2.0F);
 }
 
@@ -104,11 +104,11 @@ float gain_to(const Image<std::uint8_t>& luma, const Image<std::uint8_t>& refere
 
 FrameCopy make_frame_copy(ConstImageView<Rgba8> frame) {
     RS_CHECK(!frame.empty());
-    const Image<std::uint8_t> luma = luma_of(frame);
+    const Image<std::uint8_t> luma = compute_luma(frame);
     const double scale = std::min(1.0, static_cast<double>(kCopySide_px) / std::max(frame.width(), frame.height()));
     const int width = std::max(1, static_cast<int>(std::lround(frame.width() * scale)));
     const int height = std::max(1, static_cast<int>(std::lround(frame.height() * scale)));
-    FrameCopy copy{Image<std::uint8_t>(width, height), detail_of(luma, width, height)};
+    FrameCopy copy{Image<std::uint8_t>(width, height), compute_detail(luma, width, height)};
     cv::Mat1b to(height, width, copy.luma.data());
     cv::resize(mat_of(luma), to, to.size(), 0, 0, cv::INTER_AREA);
     return copy;
@@ -121,7 +121,7 @@ void normalize_exposure(std::vector<FrameCopy>& copies) {
         copies, [&](int x, int y, std::vector<std::uint8_t>& codes) { reference(x, y) = median_of(std::span(codes)); });
     for (FrameCopy& copy : copies) {
         constexpr float kNegligible = 0.004F;  // a code of 255
-        const float gain = gain_to(copy.luma, reference);
+        const float gain = estimate_gain(copy.luma, reference);
         if (std::abs(gain - 1) < kNegligible) continue;
         std::array<std::uint8_t, 256> codes{};
         for (std::size_t code = 0; code < codes.size(); ++code) {
@@ -134,14 +134,14 @@ void normalize_exposure(std::vector<FrameCopy>& copies) {
 
 Image<std::uint8_t> moving_region(const std::vector<FrameCopy>& copies) {
     RS_CHECK(!copies.empty());
-    constexpr int kLeastRange_codes = 14;
+    constexpr int kMinRange_codes = 14;
     Image<std::uint8_t> moving(copies.front().luma.width(), copies.front().luma.height());
     for_each_pixel_over_time(copies, [&](int x, int y, std::vector<std::uint8_t>& codes) {
         std::sort(codes.begin(), codes.end());
         const std::size_t edge = codes.size() / 20;
-        moving(x, y) = codes[codes.size() - 1 - edge] - codes[edge] >= kLeastRange_codes ? 255 : 0;
+        moving(x, y) = codes[codes.size() - 1 - edge] - codes[edge] >= kMinRange_codes ? 255 : 0;
     });
-    // Single pixels are noise.
+    // Removes single pixels, which are noise.
     cv::Mat1b mask = mat_of(moving);
     cv::medianBlur(mask, mask, 3);
     return moving;

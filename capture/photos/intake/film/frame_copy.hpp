@@ -1,6 +1,6 @@
 #pragma once
-// Small grey copies of the frames of a film. A selection of frames (frame_selection.hpp) keeps one per frame and
-// nothing else, so that its memory does not depend on the size of the frames.
+// Small greyscale copies of video frames. Frame selection (frame_selection.hpp) keeps only these, so that its memory
+// does not depend on the frame size.
 
 #include "rayspace/image/image.hpp"
 
@@ -22,14 +22,14 @@ struct FrameCopy {
 /// \param frame  Any size; alpha is ignored. Cost: one pass over the frame.
 FrameCopy make_frame_copy(ConstImageView<Rgba8> frame);
 
-/// Removes differences of exposure: multiplies the codes of every copy by the median ratio of the temporal median image
-/// to it, limited to 0.5..2. Pixels that are dark or clipped in either are ignored; a copy with few others is
-/// unchanged. \param copies  All of one size.
+/// Removes exposure differences: multiplies each copy by the median ratio of the temporal median image to the copy,
+/// limited to 0.5..2. Ignores pixels that are dark or clipped in either; a copy with too few other pixels is unchanged.
+/// \param copies  All of one size.
 void normalize_exposure(std::vector<FrameCopy>& copies);
 
-/// Pixels that the turning object covers or uncovers, or on which it changes (255), and static ones (0): by the range
-/// of the luma over the film between its 5th and its 95th percentile. \param copies  At least one, all of one size,
-/// normalize_exposure() applied.
+/// Mask of pixels whose luma changes during the film (255) and static ones (0), from the range between the 5th and the
+/// 95th percentile of luma over time.
+/// \param copies  At least one, all of one size, normalize_exposure() applied.
 Image<std::uint8_t> moving_region(const std::vector<FrameCopy>& copies);
 
 }  // namespace rs::capture

@@ -16,12 +16,12 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kWantedFlow_px = 3;
-constexpr std::size_t kMostPairs = 400;
-constexpr std::size_t kFewestPoints = 12;
-constexpr double kStillShare = 0.12;         // of the motion of the faster frames: less is no turning
-constexpr double kSmoothedShare = 1 / 16.0;  // of the film: standard deviation of the smoothing, some 22 degrees
-constexpr double kMostRelativeError = 0.15;
+constexpr double kTargetFlow_px = 3;  // between the frames of a pair
+constexpr std::size_t kMaxPairs = 400;
+constexpr std::size_t kMinPoints = 12;
+constexpr double kStillFraction = 0.12;  // of the change between frames that turn: below it, the object stands still
+constexpr double kSmoothingFraction = 1 / 16.0;  // Gaussian sigma in turning frames, about 22 degrees
+constexpr double kMaxRelativeError = 0.15;
 
 // Motion of a point from one image to another.
 struct PointFlow {
@@ -66,13 +66,13 @@ std::vector<PointFlow> track_corners(const Image<std::uint8_t>& from, const Imag
     return flows;
 }
 
-// Motion from one frame to another, `baseline` frames later.
+// Motion between two frames that are `baseline` frames apart.
 struct PairMotion {
-    double frame = 0;         // midway
-    double amount_px = 0;     // median length of the points' motion; 0 where too few move
+    double frame = 0;         // midpoint
+    double amount_px = 0;     // median length of the corners' motion; 0 if too few move
     double change_codes = 0;  // mean absolute difference over the moving region
-    double slope = 0;         // of vertical motion over U, px
-    double variance = 1e12;   // of `slope`; so large where too few points move
+    double slope = 0;         // of vertical motion over U, px (fit_vertical_motion())
+    double variance = 1e12;   // of `slope`; huge if too few corners move
 };
 
 double median_length(const std::vector<PointFlow>& flows) {
@@ -81,8 +81,8 @@ double median_length(const std::vector<PointFlow>& flows) {
     return median_of(std::span(lengths));
 }
 
-double change_between(const Image<std::uint8_t>& from, const Image<std::uint8_t>& to,
-                      const Image<std::uint8_t>& region) {
+double mean_abs_difference(const Image<std::uint8_t>& from, const Image<std::uint8_t>& to,
+                           const Image<std::uint8_t>& region) {
     std::int64_t sum = 0, count = 0;
     for (std::size_t i = 0; i < region.pixels().size(); ++i) {
         if (region.pixels()[i] == 0) continue;
@@ -101,19 +101,19 @@ void fit_vertical_motion(const std::vector<PointFlow>& flows, double width, doub
         rows.emplace_back(1, v, u, u * v);
     }
     std::vector<double> weights(rows.size(), 1), residuals(rows.size());
-    constexpr int kTukeyRounds = 6;
+    constexpr int kIterations = 6;
     constexpr double kNoise_px = 0.05;
-    for (int round = 0; round < kTukeyRounds; ++round) {
+    for (int iteration = 0; iteration < kIterations; ++iteration) {
         glm::dmat4 normal(1e-9);
-        glm::dvec4 right(0);
+        glm::dvec4 right_side(0);
         double weight = 0;
         for (std::size_t i = 0; i < rows.size(); ++i) {
             normal += weights[i] * glm::outerProduct(rows[i], rows[i]);
-            right += weights[i] * flows[i].flow_px.y * rows[i];
+            right_side += weights[i] * flows[i].flow_px.y * rows[i];
             weight += weights[i];
         }
         const glm::dmat4 inverse = glm::inverse(normal);
-        const glm::dvec4 solution = inverse * right;
+        const glm::dvec4 solution = inverse * right_side;
         if (!std::isfinite(glm::dot(solution, solution))) return;
         double squares = 0;
         for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -131,18 +131,18 @@ void fit_vertical_motion(const std::vector<PointFlow>& flows, double width, doub
     }
 }
 
-PairMotion motion_between(const FrameCopy& from, const FrameCopy& to, const Image<std::uint8_t>& region) {
+PairMotion measure_motion(const FrameCopy& from, const FrameCopy& to, const Image<std::uint8_t>& region) {
     PairMotion motion;
-    motion.change_codes = change_between(from.luma, to.luma, region);
+    motion.change_codes = mean_abs_difference(from.luma, to.luma, region);
     const std::vector<PointFlow> flows = track_corners(from.luma, to.luma, region);
-    if (flows.size() < kFewestPoints) return motion;
+    if (flows.size() < kMinPoints) return motion;
     motion.amount_px = median_length(flows);
     fit_vertical_motion(flows, region.width(), region.height(), motion);
     return motion;
 }
 
-// The 80th percentile: what it is while the object turns even if it stands still for more than half of the film.
-double while_turning(const std::vector<PairMotion>& motions, double PairMotion::*value) {
+// 80th percentile: a typical value while the object turns, even if it stands still for more than half of the film.
+double percentile_80(const std::vector<PairMotion>& motions, double PairMotion::*value) {
     std::vector<double> values;
     for (const PairMotion& motion : motions) values.push_back(motion.*value);
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 4 / 5);
@@ -150,50 +150,49 @@ double while_turning(const std::vector<PairMotion>& motions, double PairMotion::
     return *at;
 }
 
-std::vector<PairMotion> motions_at(const std::vector<FrameCopy>& copies, const Image<std::uint8_t>& region,
-                                   std::size_t baseline, std::size_t stride, Progress* progress) {
+std::vector<PairMotion> measure_motions(const std::vector<FrameCopy>& copies, const Image<std::uint8_t>& region,
+                                        std::size_t baseline, std::size_t stride, Progress* progress) {
     std::vector<PairMotion> motions((copies.size() - baseline - 1) / stride + 1);
-    // No call fails.
+    // The callback never fails.
     (void)for_each_in_parallel(static_cast<int>(motions.size()), "measuring the turn", progress, [&](int i) -> Status {
         const std::size_t from = static_cast<std::size_t>(i) * stride;
         PairMotion& motion = motions[static_cast<std::size_t>(i)];
-        motion = motion_between(copies[from], copies[from + baseline], region);
+        motion = measure_motion(copies[from], copies[from + baseline], region);
         motion.frame = static_cast<double>(from) + 0.5 * static_cast<double>(baseline);
         return {};
     });
     return motions;
 }
 
-// Frames between those of a pair, so that points move by about kWantedFlow_px.
+// Chooses the distance of the frames of a pair, so that corners move by about kTargetFlow_px.
 std::size_t choose_baseline(const std::vector<FrameCopy>& copies, const Image<std::uint8_t>& region) {
-    constexpr std::size_t kTried = 16;
+    constexpr std::size_t kPairs = 16;
     std::size_t baseline = 1;
     for (; baseline * 2 <= copies.size() / 8; baseline *= 2) {
-        const std::size_t stride = std::max<std::size_t>(1, (copies.size() - baseline) / kTried);
-        const std::vector<PairMotion> motions = motions_at(copies, region, baseline, stride, nullptr);
-        if (while_turning(motions, &PairMotion::amount_px) > kWantedFlow_px / 1.5) break;
+        const std::size_t stride = std::max<std::size_t>(1, (copies.size() - baseline) / kPairs);
+        const std::vector<PairMotion> motions = measure_motions(copies, region, baseline, stride, nullptr);
+        if (percentile_80(motions, &PairMotion::amount_px) > kTargetFlow_px / 1.5) break;
     }
     return baseline;
 }
 
-// A speed at one moment, from those around it.
 struct SmoothedSpeed {
     double speed = 0;
     double error = 0;  // standard deviation
 };
 
-// A straight line through the speeds around pair `i`, weighted by a Gaussian in time: a mean would draw the first and
-// the last towards the middle.
+// Fits a line to the speeds around pair `i` with Gaussian weights in time. A weighted mean would be biased at both ends
+// of the film.
 SmoothedSpeed smooth_at(std::size_t i, const std::vector<PairMotion>& motions, const std::vector<bool>& is_still,
                         double deviation_frames) {
-    const auto for_each_near = [&](const auto& use) {
+    const auto for_each_neighbour = [&](const auto& use) {
         for (std::size_t j = 0; j < motions.size(); ++j) {
             const double t = (motions[j].frame - motions[i].frame) / deviation_frames;
             if (!is_still[j] && std::abs(t) < 3) use(t, std::exp(-0.5 * t * t) / motions[j].variance, motions[j].slope);
         }
     };
     double w0 = 0, w1 = 0, w2 = 0, s0 = 0, s1 = 0, squares = 0;
-    for_each_near([&](double t, double w, double speed) {
+    for_each_neighbour([&](double t, double w, double speed) {
         w0 += w;
         w1 += w * t;
         w2 += w * t * t;
@@ -206,19 +205,19 @@ SmoothedSpeed smooth_at(std::size_t i, const std::vector<PairMotion>& motions, c
     const double at = is_line ? (w2 * s0 - w1 * s1) / determinant : s0 / w0;
     const double slope = is_line ? (w0 * s1 - w1 * s0) / determinant : 0;
     double spread = 0;
-    for_each_near([&](double t, double w, double speed) {
+    for_each_neighbour([&](double t, double w, double speed) {
         const double off = speed - at - slope * t;
         spread += w * off * off;
     });
-    const double effective = std::max(1.0, 0.5 * w0 * w0 / squares);  // pairs overlap by a half
+    const double effective = std::max(1.0, 0.5 * w0 * w0 / squares);  // pairs overlap by half
     return {at, std::sqrt(spread / w0 / effective)};
 }
 
-// Speeds from vertical motion; empty where they are not sure enough.
+// Speeds from vertical motion; empty if their error is too large.
 std::vector<double> measured_speeds(const std::vector<PairMotion>& motions, const std::vector<bool>& is_still,
                                     double amount_px, double deviation_frames) {
-    // Vertical motion at the image's left and right end over the points' motion, which is horizontal for the most part.
-    constexpr double kLeastVertical = 0.15;
+    // Of vertical motion at the left and right image edges to the corners' motion, which is mostly horizontal.
+    constexpr double kMinVerticalRatio = 0.15;
     std::vector<double> smoothed(motions.size(), 0), turning, errors;
     for (std::size_t i = 0; i < motions.size(); ++i) {
         if (is_still[i]) continue;
@@ -228,16 +227,16 @@ std::vector<double> measured_speeds(const std::vector<PairMotion>& motions, cons
         errors.push_back(here.error);
     }
     const double typical = std::abs(median(turning));
-    if (!(typical > kLeastVertical * amount_px && median(errors) < kMostRelativeError * typical)) return {};
-    const double sign = median(turning) < 0 ? -1 : 1;  // which way the object turns
+    if (!(typical > kMinVerticalRatio * amount_px && median(errors) < kMaxRelativeError * typical)) return {};
+    const double sign = median(turning) < 0 ? -1 : 1;  // direction of rotation
     for (std::size_t i = 0; i < smoothed.size(); ++i) {
         if (!is_still[i]) smoothed[i] = std::clamp(sign * smoothed[i], 0.1 * typical, 10 * typical);
     }
     return smoothed;
 }
 
-// exp(p + q t) fitted to the amounts of motion: Theil-Sen.
-std::vector<double> trend_of(const std::vector<PairMotion>& motions, const std::vector<bool>& is_still) {
+// Fits exp(p + q t) to the magnitude of motion (Theil-Sen estimator).
+std::vector<double> fit_trend(const std::vector<PairMotion>& motions, const std::vector<bool>& is_still) {
     std::vector<double> trend(motions.size(), 0), slopes, offsets;
     const auto is_turning = [&](std::size_t i) { return !is_still[i] && motions[i].amount_px > 0; };
     const auto log_amount = [&](std::size_t i) { return std::log(motions[i].amount_px); };
@@ -258,8 +257,8 @@ std::vector<double> trend_of(const std::vector<PairMotion>& motions, const std::
     return trend;
 }
 
-std::vector<double> per_frame(const std::vector<PairMotion>& motions, const std::vector<double>& speeds,
-                              std::size_t frames) {
+std::vector<double> interpolate_per_frame(const std::vector<PairMotion>& motions, const std::vector<double>& speeds,
+                                          std::size_t frames) {
     std::vector<double> result(frames, 0);
     std::size_t next = 0;
     for (std::size_t frame = 0; frame < frames; ++frame) {
@@ -281,23 +280,23 @@ std::vector<double> per_frame(const std::vector<PairMotion>& motions, const std:
 TurningSpeed turning_speed(const std::vector<FrameCopy>& copies, const Image<std::uint8_t>& region,
                            Progress* progress) {
     RS_CHECK(!copies.empty());
-    constexpr std::size_t kFewestCopies = 8;
+    constexpr std::size_t kMinCopies = 8;
     TurningSpeed result{std::vector<double>(copies.size(), 1.0), false};
-    if (copies.size() < kFewestCopies) return result;
+    if (copies.size() < kMinCopies) return result;
     const std::size_t baseline = choose_baseline(copies, region);
-    const std::size_t stride = std::max({std::size_t{1}, baseline / 2, copies.size() / kMostPairs});
-    const std::vector<PairMotion> motions = motions_at(copies, region, baseline, stride, progress);
-    const double amount_px = while_turning(motions, &PairMotion::amount_px);
-    const double change_codes = while_turning(motions, &PairMotion::change_codes);
+    const std::size_t stride = std::max({std::size_t{1}, baseline / 2, copies.size() / kMaxPairs});
+    const std::vector<PairMotion> motions = measure_motions(copies, region, baseline, stride, progress);
+    const double amount_px = percentile_80(motions, &PairMotion::amount_px);
+    const double change_codes = percentile_80(motions, &PairMotion::change_codes);
     if (!(amount_px > 0)) return result;
     std::vector<bool> is_still;
-    for (const PairMotion& motion : motions) is_still.push_back(motion.change_codes < kStillShare * change_codes);
+    for (const PairMotion& motion : motions) is_still.push_back(motion.change_codes < kStillFraction * change_codes);
     const std::ptrdiff_t turning_frames = std::ranges::count(is_still, false) * static_cast<std::ptrdiff_t>(stride);
-    const double deviation_frames = std::max(1.0, kSmoothedShare * static_cast<double>(turning_frames));
+    const double deviation_frames = std::max(1.0, kSmoothingFraction * static_cast<double>(turning_frames));
     std::vector<double> speeds = measured_speeds(motions, is_still, amount_px, deviation_frames);
     result.is_measured = !speeds.empty();
-    if (!result.is_measured) speeds = trend_of(motions, is_still);
-    result.per_frame = per_frame(motions, speeds, copies.size());
+    if (!result.is_measured) speeds = fit_trend(motions, is_still);
+    result.per_frame = interpolate_per_frame(motions, speeds, copies.size());
     return result;
 }
 

@@ -1,4 +1,4 @@
-// Frames chosen from films whose angles are known.
+// Frame selection on synthetic films with known angles.
 
 #include "capture/photos/intake/film/frame_selection.hpp"
 
@@ -14,13 +14,13 @@
 namespace rs::capture {
 namespace {
 
-// A film, and the angle of each of its frames in degrees.
+// Synthetic film with the angle of each frame.
 struct Film {
     std::vector<double> angles_deg;
     std::vector<FrameCopy> copies;
 };
 
-Film film_of(
+Film make_film(
     std::size_t frames, const std::function<double(std::size_t)>& angle_deg,
     const std::function<test::TurningEllipsoid(std::size_t)>& look = [](std::size_t) {
         return test::TurningEllipsoid();
@@ -58,8 +58,8 @@ double turn_deg(const Film& film, const TurnRange& turn) {
     return film.angles_deg[turn.end] - film.angles_deg[turn.begin];
 }
 
-TEST(FrameSelection, TakesOneTurnEvenly) {
-    Film film = film_of(300, [](std::size_t i) { return 1.5 * static_cast<double>(i); });
+TEST(FrameSelection, SelectsOneTurnEvenly) {
+    Film film = make_film(300, [](std::size_t i) { return 1.5 * static_cast<double>(i); });
     const FrameSelection selection = select_frames(film.copies, {}, nullptr);
     ASSERT_TRUE(selection.turn.is_closed);
     EXPECT_TRUE(selection.is_speed_measured);
@@ -69,16 +69,16 @@ TEST(FrameSelection, TakesOneTurnEvenly) {
     EXPECT_LT(relative_deviation(gaps_deg(film, selection)), 0.25);
 }
 
-TEST(FrameSelection, TakesAsManyAsAskedFor) {
-    Film film = film_of(320, [](std::size_t i) { return 1.25 * static_cast<double>(i); });
+TEST(FrameSelection, SelectsTheRequestedCount) {
+    Film film = make_film(320, [](std::size_t i) { return 1.25 * static_cast<double>(i); });
     const FrameSelection selection = select_frames(film.copies, {48, false}, nullptr);
     EXPECT_EQ(selection.frames.size(), 48U);
     EXPECT_LT(relative_deviation(gaps_deg(film, selection)), 0.2);
 }
 
 TEST(FrameSelection, FollowsATurntableThatSpeedsUp) {
-    // Three times as fast in the end.
-    Film film = film_of(400, [](std::size_t i) {
+    // Three times as fast at the end.
+    Film film = make_film(400, [](std::size_t i) {
         const double t = static_cast<double>(i) / 399;
         return 400 * (t + t * t) / 2;
     });
@@ -99,7 +99,7 @@ TEST(FrameSelection, FollowsTheTrendWhereTheCameraIsLevel) {
         level.radii = {40, 40, 40};
         return level;
     };
-    Film film = film_of(
+    Film film = make_film(
         300,
         [](std::size_t i) {
             const double t = static_cast<double>(i) / 299;
@@ -114,10 +114,10 @@ TEST(FrameSelection, FollowsTheTrendWhereTheCameraIsLevel) {
     EXPECT_NEAR(mean(last) / mean(first), 1, 0.25);
 }
 
-TEST(FrameSelection, CutsOffWhereNothingTurns) {
+TEST(FrameSelection, RemovesFramesWithoutRotation) {
     // Stands still for 60 frames, turns by 420 degrees in 280, and stands still again.
-    Film film =
-        film_of(400, [](std::size_t i) { return 1.5 * static_cast<double>(std::clamp<std::size_t>(i, 60, 340) - 60); });
+    Film film = make_film(
+        400, [](std::size_t i) { return 1.5 * static_cast<double>(std::clamp<std::size_t>(i, 60, 340) - 60); });
     const FrameSelection selection = select_frames(film.copies, {}, nullptr);
     ASSERT_TRUE(selection.turn.is_closed);
     EXPECT_GE(selection.turn.begin, 57U);
@@ -125,14 +125,14 @@ TEST(FrameSelection, CutsOffWhereNothingTurns) {
 }
 
 TEST(FrameSelection, KeepsOneOfTwoTurns) {
-    Film film = film_of(500, [](std::size_t i) { return 10 + 1.6 * static_cast<double>(i); });
+    Film film = make_film(500, [](std::size_t i) { return 10 + 1.6 * static_cast<double>(i); });
     const FrameSelection selection = select_frames(film.copies, {}, nullptr);
     ASSERT_TRUE(selection.turn.is_closed);
     EXPECT_NEAR(turn_deg(film, selection.turn), 360, 1.6);
 }
 
-TEST(FrameSelection, TakesAllOfLessThanATurn) {
-    Film film = film_of(250, [](std::size_t i) { return 1.2 * static_cast<double>(i); });
+TEST(FrameSelection, SelectsAllOfAPartialTurn) {
+    Film film = make_film(250, [](std::size_t i) { return 1.2 * static_cast<double>(i); });
     const FrameSelection selection = select_frames(film.copies, {60, false}, nullptr);
     EXPECT_FALSE(selection.turn.is_closed);
     EXPECT_LE(selection.turn.begin, 4U);
@@ -143,7 +143,7 @@ TEST(FrameSelection, TakesAllOfLessThanATurn) {
 
 TEST(FrameSelection, PrefersSharpFrames) {
     const auto is_sharp = [](std::size_t i) { return i % 3 == 1; };
-    Film film = film_of(
+    Film film = make_film(
         280, [](std::size_t i) { return 1.5 * static_cast<double>(i); },
         [&](std::size_t i) {
             test::TurningEllipsoid look;
@@ -156,28 +156,28 @@ TEST(FrameSelection, PrefersSharpFrames) {
     EXPECT_GE(selection.frames.size(), 36U);
 }
 
-TEST(FrameSelection, LeavesOutWhatIsOnlyBlurredUnlessAsked) {
-    // Sharp every 10 degrees alone.
+TEST(FrameSelection, SkipsStepsWithBlurredFramesUnlessACountIsGiven) {
+    // Sharp only every 10 degrees.
     const auto look = [](std::size_t i) {
         test::TurningEllipsoid film;
         film.blur_rad = i % 10 == 0 ? 0 : radians(6);
         return film;
     };
     const auto angle = [](std::size_t i) { return static_cast<double>(i); };
-    Film film = film_of(380, angle, look);
+    Film film = make_film(380, angle, look);
     const FrameSelection free = select_frames(film.copies, {}, nullptr);
     EXPECT_NEAR(static_cast<double>(free.frames.size()), 36, 3);
     const FrameSelection exact = select_frames(film.copies, {72, false}, nullptr);
     EXPECT_EQ(exact.frames.size(), 72U);
 }
 
-TEST(FrameSelection, IsNotMisledByTheExposure) {
+TEST(FrameSelection, IgnoresExposureChanges) {
     const auto look = [](std::size_t i) {
         test::TurningEllipsoid film;
         film.exposure = 1 + 0.2 * std::sin(0.05 * static_cast<double>(i));
         return film;
     };
-    Film film = film_of(
+    Film film = make_film(
         300, [](std::size_t i) { return 1.4 * static_cast<double>(i); }, look);
     const FrameSelection selection = select_frames(film.copies, {}, nullptr);
     ASSERT_TRUE(selection.turn.is_closed);
@@ -185,9 +185,9 @@ TEST(FrameSelection, IsNotMisledByTheExposure) {
     EXPECT_LT(relative_deviation(gaps_deg(film, selection)), 0.25);
 }
 
-TEST(FrameSelection, TakesAFewFramesAsTheyAre) {
+TEST(FrameSelection, AcceptsFewFrames) {
     for (const std::size_t count : {1U, 2U, 3U, 7U, 12U}) {
-        Film film = film_of(count, [](std::size_t i) { return 20 * static_cast<double>(i); });
+        Film film = make_film(count, [](std::size_t i) { return 20 * static_cast<double>(i); });
         const FrameSelection selection = select_frames(film.copies, {}, nullptr);
         EXPECT_LE(selection.frames.size(), count);
         EXPECT_GE(selection.frames.size(), (count + 1) / 2);
@@ -195,14 +195,14 @@ TEST(FrameSelection, TakesAFewFramesAsTheyAre) {
     }
 }
 
-TEST(FrameSelection, SurvivesAFilmInWhichNothingMoves) {
-    Film film = film_of(40, [](std::size_t) { return 0.0; });
+TEST(FrameSelection, AcceptsAFilmWithoutMotion) {
+    Film film = make_film(40, [](std::size_t) { return 0.0; });
     const FrameSelection selection = select_frames(film.copies, {}, nullptr);
     EXPECT_FALSE(selection.turn.is_closed);
     EXPECT_EQ(std::ranges::count(selection.moving.pixels(), 0), std::ssize(selection.moving.pixels()));
 }
 
-TEST(FrameSelection, NoteStatesWhatWasChosen) {
+TEST(FrameSelection, NoteStatesTheSelection) {
     FrameSelection selection;
     selection.frames = {11, 20, 30};
     selection.turn = {11, 287, true};

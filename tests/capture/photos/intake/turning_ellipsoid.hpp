@@ -1,6 +1,5 @@
 #pragma once
-// Frames of a film of a textured ellipsoid of three different axes that turns before a plain backdrop, seen in parallel
-// projection.
+// Renders a textured ellipsoid with three different axes that turns in front of a plain background (orthographic).
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/image.hpp"
@@ -19,11 +18,11 @@ struct TurningEllipsoid {
     int height = 120;
     glm::dvec3 radii{50, 34, 28};  // px; y is the axis
     double elevation_rad = radians(20);
-    double exposure = 1;  // times the codes
-    double blur_rad = 0;  // turn during the exposure of a frame
+    double exposure = 1;  // factor on the codes
+    double blur_rad = 0;  // rotation during the exposure of a frame
 };
 
-// In 0..1, smooth within cells of one unit.
+// Value noise in 0..1 with cells of one unit.
 inline double value_noise(const glm::dvec3& p) {
     const auto lattice = [](int x, int y, int z) {
         std::uint32_t h = static_cast<std::uint32_t>(x) * 374761393U + static_cast<std::uint32_t>(y) * 668265263U +
@@ -68,7 +67,7 @@ inline Image<Rgba8> sharp_frame(const TurningEllipsoid& film, double angle_rad) 
     return frame;
 }
 
-// The mean of eight sharp frames where it is blurred.
+// Averages eight sharp frames if motion blur is enabled.
 inline Image<Rgba8> film_frame(const TurningEllipsoid& film, double angle_rad) {
     if (film.blur_rad == 0) return sharp_frame(film, angle_rad);
     constexpr int kParts = 8;
