@@ -2,7 +2,7 @@
 # The main job, from nothing to a walk around: installs what is missing, builds the tools, and
 #
 #   ./demo.sh                   traces two objects on a turntable,
-#   ./demo.sh FOLDER_OF_PHOTOS  or takes your turntable photographs,
+#   ./demo.sh FOLDER_OF_PHOTOS  or takes your turntable photographs, or a film of a turn,
 #
 # encodes them, checks the files and the renderer bit for bit, renders an orbit video and a contact sheet, and shows
 # them: our objects in a shop and a museum that we walk through (the other objects are traced small), yours on a floor.
@@ -36,7 +36,7 @@ if [ $# -gt 0 ]; then
     *) PHOTOS=$FROM/$1 ;;
   esac
   shift
-  [ -d "$PHOTOS" ] || fail "$PHOTOS: there is no such folder; give a folder of turntable photographs"
+  [ -e "$PHOTOS" ] || fail "$PHOTOS: there is no such folder or film; give turntable photographs or a film of a turn"
 fi
 
 install_packages "${BUILD_PACKAGES[@]}"
@@ -137,6 +137,7 @@ if [ -n "$PHOTOS" ]; then
   OUT=$OUT/photographs
   mkdir -p "$OUT"
   NAME=$(basename "$(realpath "$PHOTOS")")
+  [ -d "$PHOTOS" ] || NAME=${NAME%.*}
   step "$NAME: import photographs" "$OUT/$NAME-set" "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/$NAME-set" "$@"
   from_set "$NAME"
   step "on a floor" "$OUT/$NAME-floor.png" "$BIN/rs-view" --object "$OUT/$NAME.rso" -o "$OUT/$NAME-floor.png"

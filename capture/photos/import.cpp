@@ -1,6 +1,8 @@
 #include "capture/photos/import.hpp"
 
+#include "capture/photos/intake/film/frame_selection.hpp"
 #include "capture/photos/intake/intake.hpp"
+#include "capture/photos/intake/photo_source.hpp"
 #include "capture/photos/report/import_set.hpp"
 #include "capture/photos/segmentation/segment_turn.hpp"
 #include "capture/photos/segmentation/segmentation_checks.hpp"
@@ -38,7 +40,18 @@ Status check(const ImportOptions& options) {
         return Error{"--max-side " + std::to_string(options.max_side_px) + ": give " + std::to_string(kMinSide_px) +
                      " to " + std::to_string(kMaxPictureSide_px) + " px"};
     }
+    if (options.frames && (*options.frames < kMinSelectedFrames || *options.frames > kMaxSelectedFrames)) {
+        return Error{"--frames " + std::to_string(*options.frames) + ": give " + std::to_string(kMinSelectedFrames) +
+                     " to " + std::to_string(kMaxSelectedFrames)};
+    }
     return {};
+}
+
+PhotoRequest photo_request(const ImportOptions& options) {
+    const KnownInputs& known = options.known.known;
+    const bool are_described = !options.segmentation.masks.empty() || !options.known.pictures.empty() ||
+                               known.angles_rad || known.step_rad || known.equal_steps || options.degrees_per_view;
+    return {options.photos, options.output, options.max_side_px, options.frames, are_described};
 }
 
 // A set that stands at `output` already is replaced whole: photographs inside it would be lost.
@@ -51,7 +64,7 @@ Status check_places(const ImportOptions& options) {
     const auto [rest, inner] = std::mismatch(output.begin(), output.end(), photos.begin(), photos.end());
     if (rest != output.end()) return {};
     return Error{options.output.string() + ": " + (photos == output ? "is" : "contains") +
-                 " the folder of photographs " + options.photos.string() +
+                 (is_film(options.photos) ? " the film " : " the folder of photographs ") + options.photos.string() +
                  ", which would be replaced; give another place with -o"};
 }
 
@@ -126,13 +139,13 @@ Status check_count(const PhotoFolder& folder, const ImportOptions& options) {
 }
 
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
-    Result<PhotoFolder> folder = open_photo_folder(options.photos, options.max_side_px);
+    if (Status status = check_places(options); !status) return status.error();
+    Result<PhotoFolder> folder = open_photos(photo_request(options), progress);
     if (!folder) return folder.error();
     if (!options.segmentation.masks.empty() && folder->turns_unnoticed()) {
         return turned_beside(*folder, "--masks " + options.segmentation.masks.string());
     }
     if (Status status = check_count(*folder, options); !status) return status.error();
-    if (Status status = check_places(options); !status) return status.error();
     Result<StagedFolder> staged = StagedFolder::create(options.output, "imported photographs");
     if (!staged) return staged.error();
     const fs::path set = staged->temporary_path();

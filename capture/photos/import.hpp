@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// The whole import: a folder of photos of one turn -> a capture set (RGBA images and transforms.json). Six stages:
+/// The whole import: photos or a film of one turn -> a capture set (RGBA images and transforms.json). Seven stages:
 ///
+///   open_photos()        folder or film -> photos                        intake/photo_source.hpp
 ///   take_in()            photos -> those of the turn, small copies        intake/intake.hpp
 ///   choose_segmenter()   small copies -> segmenter                        segmentation/segmenter_choice.hpp
 ///   segment_turn()       photos, segmenter -> cut-outs                    segmentation/segment_turn.hpp
@@ -17,17 +18,21 @@
 #include "rayspace/pictures/photograph_size.hpp"
 
 #include <filesystem>
+#include <optional>
 
 namespace rs::capture {
 
 struct ImportOptions : RigRequest {
-    std::filesystem::path photos;  ///< folder
+    std::filesystem::path photos;  ///< folder, or a film (intake/photo_source.hpp)
     std::filesystem::path
         output;  ///< folder; see StagedFolder for what may stand there already, which is replaced whole
     SegmenterRequest segmentation;
     bool force = false;  ///< write a set whose checks failed; their findings become notes
     /// Larger photos are reduced first (open_photo_folder()); kMinSide_px .. kMaxPictureSide_px.
     int max_side_px = kDefaultMaxSide_px;
+    // Number of frames of a film, or of photos of a larger folder, to select: kMinSelectedFrames .. kMaxSelectedFrames
+    // (intake/film/frame_selection.hpp). Empty: see intake/photo_source.hpp.
+    std::optional<int> frames;
 };
 
 /// Imports a folder of photos. Nothing is left at `output` if it fails. Errors, besides those of the stages: options

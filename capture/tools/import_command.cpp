@@ -1,7 +1,9 @@
 #include "capture/tools/commands.hpp"
 
 #include "capture/photos/import.hpp"
+#include "capture/photos/intake/film/frame_selection.hpp"
 #include "capture/photos/intake/photo_folder.hpp"
+#include "capture/photos/intake/photo_source.hpp"
 #include "capture/photos/report/import_page.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
@@ -176,8 +178,24 @@ void print_summary(const std::string& output, const ImportReport& report) {
         found.deviations.axis_position_px);
 }
 
+// Rejects options for single photos if frames are selected during the import.
+Status check_frames_usage(const ImportCommandLine& given) {
+    const bool has_film = is_film(given.import.photos);
+    if (!has_film && !given.import.frames) return {};
+    const std::string remedy =
+        has_film ? "cannot be used with a film; extract its frames first (ffmpeg -i FILM photos/%03d.png)"
+                 : "needs all photos of the folder; leave out --frames";
+    if (!given.known.empty()) return Error{"--known " + given.known + ": " + remedy};
+    if (!given.import.segmentation.masks.empty())
+        return Error{"--masks " + given.import.segmentation.masks.string() + ": " + remedy};
+    if (given.equal_steps) return Error{"--equal-steps: " + remedy};
+    if (given.import.degrees_per_view) return Error{"--degrees-per-view: " + remedy};
+    return {};
+}
+
 Status run_import(const ImportCommandLine& given) {
     ImportOptions options = given.import;
+    if (Status status = check_frames_usage(given); !status) return status;
     const Result<BackgroundRequest> backdrop = parse_background(given.backdrop);
     if (!backdrop) return backdrop.error();
     options.segmentation.background = *backdrop;
@@ -244,9 +262,10 @@ Status run_import(const ImportCommandLine& given) {
 void add_import_command(CLI::App& app, std::function<Status()>& run) {
     auto given = std::make_shared<ImportCommandLine>();
     CLI::App* command =
-        app.add_subcommand("import", "Cuts the object out of turntable photographs and makes a capture set");
+        app.add_subcommand("import", "Cuts the object out of turntable photos, or a film, and makes a capture set");
     command
-        ->add_option("photos", given->import.photos, "Folder of pictures of one turn, in natural order of their names")
+        ->add_option("photos", given->import.photos,
+                     "Folder of photos of one turn, in natural order of their names, or a film of the turning object")
         ->required();
     command->add_option("-o,--output", given->import.output, "Folder to write: transforms.json and images/")
         ->required();
@@ -266,6 +285,12 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
                      "options count the photographs' own pixels")
         ->capture_default_str()
         ->check(CLI::Range(kMinSide_px, kMaxPictureSide_px));
+    command
+        ->add_option(
+            "--frames", given->import.frames,
+            "Number of frames of a film, or of photos of a larger folder, to select: sharp ones, evenly spaced by "
+            "angle (default: 72 for a film, 120 for a folder of more than 150 photos, otherwise all)")
+        ->check(CLI::Range(kMinSelectedFrames, kMaxSelectedFrames));
     command
         ->add_option("--segmenter", given->segmenter,
                      "What separates the object from the background: auto, alpha (the photos' own), masks, model (a "
@@ -349,7 +374,8 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
     command->footer(R"(Examples:
   rs-capture import photos/ -o shoe.set --report shoe.html
   rs-capture import photos/ -o shoe.set --segmentation-model isnet.onnx
-  rs-capture import photos/ -o shoe.set --masks masks/)");
+  rs-capture import photos/ -o shoe.set --masks masks/
+  rs-capture import turn.mp4 -o shoe.set        a film of one turn or more (docs/film.md))");
     command->callback([given, &run] { run = [given] { return run_import(*given); }; });
 }
 

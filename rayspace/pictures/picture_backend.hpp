@@ -8,6 +8,7 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/pictures/video_reader.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,15 @@ public:
     virtual Status add(ConstImageView<Rgba8> frame) = 0;
     // Closes the file; all of it is on the disk then.
     virtual Status finish() = 0;
+};
+
+// Interface behind VideoReader (video_reader.hpp).
+class VideoDecoder {
+public:
+    virtual ~VideoDecoder() = default;
+    [[nodiscard]] virtual const VideoInfo& info() const = 0;
+    virtual Result<bool> read(Image<Rgba8>& frame) = 0;
+    [[nodiscard]] virtual int damaged_frames() const = 0;
 };
 
 struct VideoOptions {
@@ -47,10 +57,11 @@ struct Backend {
                                                          const std::string& shown) = nullptr;
     Result<std::unique_ptr<VideoEncoder>> (*open_video)(const std::string& path, const std::string& shown,
                                                         const VideoOptions& options) = nullptr;
+    Result<std::unique_ptr<VideoDecoder>> (*read_video)(const std::string& path) = nullptr;
 };
 
 // Grows with every change of the declarations above.
-inline constexpr std::uint32_t kBackendVersion = 4;
+inline constexpr std::uint32_t kBackendVersion = 5;
 inline constexpr const char* kBackendFileName = "librayspace_pictures.so";
 inline constexpr const char* kBackendSymbol = "rayspace_pictures_backend";
 using BackendFunction = const Backend* (*)();
@@ -58,5 +69,8 @@ using BackendFunction = const Backend* (*)();
 // Module-internal: video_backend.cpp.
 Result<std::unique_ptr<VideoEncoder>> open_video(const std::string& path, const std::string& shown,
                                                  const VideoOptions& options);
+
+// Module-internal: video_decoder.cpp.
+Result<std::unique_ptr<VideoDecoder>> read_video(const std::string& path);
 
 }  // namespace rs::pictures

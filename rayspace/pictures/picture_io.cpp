@@ -4,6 +4,7 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/pictures/picture_backend.hpp"
+#include "rayspace/pictures/video_reader.hpp"
 
 #include <dlfcn.h>
 
@@ -207,6 +208,32 @@ Status VideoWriter::finish() {
     if (Status status = backend_->encoder->finish(); !status) return status;
     backend_->encoder.reset();
     return backend_->file.commit();
+}
+
+VideoReader::VideoReader(std::unique_ptr<pictures::VideoDecoder> decoder) : decoder_(std::move(decoder)) {}
+VideoReader::VideoReader(VideoReader&&) noexcept = default;
+VideoReader& VideoReader::operator=(VideoReader&&) noexcept = default;
+VideoReader::~VideoReader() = default;
+
+Result<VideoReader> VideoReader::open(const fs::path& path) {
+    if (Status regular = check_input(path); !regular) return regular.error();
+    const auto backend = backend_for(path);
+    if (!backend) return backend.error();
+    auto decoder = (*backend)->read_video(path.string());
+    if (!decoder) return decoder.error();
+    return VideoReader(std::move(decoder).value());
+}
+
+const VideoInfo& VideoReader::info() const {
+    return decoder_->info();
+}
+
+Result<bool> VideoReader::read(Image<Rgba8>& frame) {
+    return decoder_->read(frame);
+}
+
+int VideoReader::damaged_frames() const {
+    return decoder_->damaged_frames();
 }
 
 }  // namespace rs

@@ -3,6 +3,7 @@
 #include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/pictures/video_reader.hpp"
 #include "tests/fuzz/entries.hpp"
 #include "tests/fuzz/scene_checks.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -90,6 +91,24 @@ int fuzz_picture(const std::uint8_t* data, std::size_t size) {
     const auto picture = read_picture(path);
     const bool known = accepted(info);
     if (accepted(picture)) RS_CHECK(known && picture->width() == info->width && picture->height() == info->height);
+    return 0;
+}
+
+int fuzz_film(const std::uint8_t* data, std::size_t size) {
+    const fs::path path = put("film.mp4", text(data, size));
+    Result<VideoReader> reader = VideoReader::open(path);
+    if (!accepted(reader)) return 0;
+    const VideoInfo info = reader->info();
+    RS_CHECK(info.width >= 1 && info.width <= kMaxPictureSide_px && info.height >= 1);
+    RS_CHECK(info.height <= kMaxPictureSide_px && info.orientation >= 1 && info.orientation <= 8);
+    constexpr std::int64_t kMostPixels = 1 << 20;  // keeps an input below a second and 100 MB
+    if (std::int64_t{info.width} * info.height > kMostPixels) return 0;
+    Image<Rgba8> frame;
+    for (int i = 0; i < 16; ++i) {
+        const Result<bool> has_frame = reader->read(frame);
+        if (!accepted(has_frame) || !*has_frame) break;
+        RS_CHECK(frame.width() == info.width && frame.height() == info.height);
+    }
     return 0;
 }
 

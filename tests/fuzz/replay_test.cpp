@@ -133,6 +133,9 @@ TEST(FuzzReplay, Ply) {
 TEST(FuzzReplay, Picture) {
     replay("picture", fuzz::fuzz_picture);
 }
+TEST(FuzzReplay, Film) {
+    replay("film", fuzz::fuzz_film);
+}
 
 TEST(FuzzReplay, FaultyWorldsAreReadOrRefused) {
     std::vector<std::string> worlds;

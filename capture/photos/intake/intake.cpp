@@ -20,6 +20,7 @@ Result<Intake> take_in(PhotoFolder folder, Progress* progress) {
     if (!survey) return survey.error();
     Intake taken{std::move(folder), std::move(*survey), {}, {}};
     const PhotoFolder& of = taken.folder;
+    taken.notes = of.selection_notes;
     note_aside(of.ignored, "not a picture", taken.notes);
     note_aside(of.in_other_formats, "there in another format, too", taken.notes);
     const bool is_mixed = !of.own_orientations.empty();

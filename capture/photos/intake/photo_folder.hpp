@@ -9,9 +9,14 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace rs {
+class StagedFolder;
+}
 
 namespace rs::capture {
 
@@ -42,8 +47,11 @@ struct PhotoFolder {
     double reduction = 1;  // shown pixels per pixel of the pictures that read_photograph() gives, of ...
     int width = 0;         // ... so many pixels, the middle of what is shown
     int height = 0;
-    bool has_alpha = false;  // of every picture
-    int focal_35mm = 0;      // EXIF, mm; 0 where it is not one for all, or unknown
+    bool has_alpha = false;                    // of every picture
+    int focal_35mm = 0;                        // EXIF, mm; 0 where it is not one for all, or unknown
+    std::vector<std::string> selection_notes;  // on the selection of photos (photo_source.hpp)
+    // Folder of extracted film frames; deleted with the last copy of this object. Null for photos.
+    std::shared_ptr<const StagedFolder> temporary;
 
     [[nodiscard]] int orientation_of(std::size_t photograph) const {
         return own_orientations.empty() ? orientation : own_orientations[photograph];

@@ -327,6 +327,7 @@ const Backend& table() {
         made.encode_exr = encode_exr;
         made.encode_exr_channel = encode_exr_channel;
         made.open_video = open_video;
+        made.read_video = read_video;
         return made;
     }();
     return backend;
