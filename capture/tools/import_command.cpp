@@ -206,6 +206,12 @@ Status run_import(const ImportCommandLine& given) {
         if (!parameters) return parameters.error();
         options.segmentation.parameters = *parameters;
     }
+    const bool takes_network =
+        options.segmentation.kind == SegmenterKind::kAuto || options.segmentation.kind == SegmenterKind::kModel;
+    if (!options.segmentation.network.empty() && (!takes_network || !options.segmentation.masks.empty())) {
+        return Error{"--segmentation-model: has no effect with " +
+                     (takes_network ? "--masks" : "--segmenter " + given.segmenter) + "; leave one of them away"};
+    }
     if (const char* const file = std::getenv("RAYSPACE_SEGMENTATION_MODEL");
         options.segmentation.network.empty() && file != nullptr) {
         options.segmentation.network = file;

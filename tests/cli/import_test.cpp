@@ -227,7 +227,10 @@ TEST_F(ImportTool, SegmentersAreChosenReportedAndRefused) {
          {Refused{{"--segmenter", "model"}, "--segmentation-model"}, Refused{{"--masks-alpha"}, "--masks-alpha"},
           Refused{{"--segmenter", "masks"}, "--masks"}, Refused{{"--segmenter", "alpha"}, "no transparent pixels"},
           Refused{{"--masks", in("masks"), "--shadow", "keep"}, "--shadow keep"},
-          Refused{{"--masks", in("masks"), "--segmenter", "chroma"}, "--masks"}}) {
+          Refused{{"--masks", in("masks"), "--segmenter", "chroma"}, "--masks"},
+          Refused{{"--masks", in("masks"), "--backdrop", "white"}, "--backdrop"},
+          Refused{{"--segmentation-model", in("photos/") + file_name(0), "--segmenter", "background"},
+                  "--segmentation-model: has no effect"}}) {
         const test::ToolRun run = import(refused.arguments);
         expect_nothing_written(run);
         EXPECT_NE(run.err.find(refused.named), std::string::npos) << run.err;

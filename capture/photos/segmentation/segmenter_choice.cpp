@@ -31,6 +31,9 @@ Status check(const SegmenterRequest& request) {
             "--segmenter model: needs a network; give it by --segmentation-model FILE.onnx or "
             "RAYSPACE_SEGMENTATION_MODEL"};
     }
+    if (!request.masks.empty() && request.background.kind) {
+        return Error{"--backdrop: has no effect with --masks; leave one of them away"};
+    }
     if (kind == SegmenterKind::kAlpha && request.background.kind && request.background.kind != BackgroundKind::kAlpha) {
         return Error{"--backdrop: has no effect with --segmenter alpha; leave one of them away"};
     }
