@@ -54,7 +54,7 @@ public:
     /// Appends a few evenly spaced depth maps to `samples`.
     Status enforce_consistency(Progress* progress, std::vector<FoundDepth>& samples);
 
-    /// Whether any photo has soft coverage.
+    /// True if any photo has soft coverage.
     [[nodiscard]] bool has_soft_pixels() const;
 
     [[nodiscard]] SurfaceLayer surfaces() const {

@@ -25,7 +25,7 @@ int count_around(const WorkView& view, const glm::dvec2& place, double y, const 
     return count;
 }
 
-// Whether a pixel without depth in this layer covers the point or one of the pixels around it.
+// True if a pixel without depth in this layer covers the point or one of the pixels around it.
 bool is_covered_by_foreground(const DepthView& photo, const glm::dvec2& place, double y) {
     const auto is_foreground = [&](int column, int row) {
         return std::isnan(photo.depth(row, column)) && photo.view.at(column, row).a >= kFaintest;

@@ -79,7 +79,7 @@ std::optional<Rgba8> flat_grey_of(const Survey& survey) {
     return grey;
 }
 
-// Whether more than a small share of the known plate is not `light_at(x, y)` under some illumination.
+// True if more than a small share of the known plate is not `light_at(x, y)` under some illumination.
 template <class LightAt>
 bool deviates_from(const Image<Rgba8>& plate, const Image<std::uint8_t>& known, const BackgroundParameters& parameters,
                    LightAt light_at) {

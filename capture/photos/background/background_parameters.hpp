@@ -60,7 +60,7 @@ struct BackgroundParameters {
         double min_frame_share = 0.25;  ///< of the frames must show a shadow in the row; leaks are rarer
         double fade_share = 0.02;       ///< of the image height above the highest such row, where a shadow fades out
         int edge_dilation_px = 4;       ///< radius that closes gaps of edges up to twice as wide
-        /// Of the known plate that is neither one colour nor gradient, shaded or not.
+        /// Share of the known plate that is neither one colour nor gradient, shaded or not.
         double max_deviating_share = 0.02;
     };
 
@@ -73,7 +73,7 @@ struct BackgroundParameters {
         float uniform_cost = 20;            ///< added through a uniform surface
         float edge_delta_e = 3.5F;          ///< scale of the contrast between cells, by which that falls to 0
         float same_surface_delta_e = 4;     ///< between neighbouring cells of one surface
-        /// Of the image height: static bands up to this between moving ones are closed.
+        /// Share of the image height: static bands up to this between moving ones are closed.
         double max_band_share = 1.0 / 16;
         int max_rim_cells = 4;        ///< width of a static rim beside moving cells
         double max_foot_share = 0.5;  ///< of the body's width: wider lower ends get no foot
@@ -125,7 +125,7 @@ struct BackgroundParameters {
         double max_slope_residual = 0.5;  ///< of a sloped horizon, relative to that of a level one
         float visible_delta_e = 2.5F;     ///< pixels that differ by more from the gradient are marks or another surface
         double min_swept_share = 0.01;    ///< of the image: a part with more swept pixels is connected to the object
-        /// Of the image: unshaded pixels of parts connected to the object above which there is no gradient. Measured:
+        /// Share of the image: unshaded pixels of parts connected to the object above which there is no gradient. Measured:
         /// studios 0, with steep shadows up to 0.0015; turntables 0.0012 to 0.02.
         double max_share_at_object = 0.002;
         double max_share_elsewhere = 0.05;  ///< the same for marks that stand alone

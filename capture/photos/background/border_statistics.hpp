@@ -34,7 +34,7 @@ void for_border(int width, int height, Visit visit) {
 std::vector<Rgba8> border_colours(const BackgroundEstimate& background, bool only_static,
                                   const BackgroundParameters::Border& parameters);
 
-/// Whether no channel is above Border::max_black_code.
+/// True if no channel is above Border::max_black_code.
 bool is_black(const Rgba8& colour, const BackgroundParameters::Border& parameters);
 
 /// Shares of the border's pixels, 0..1.

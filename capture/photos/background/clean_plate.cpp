@@ -94,7 +94,7 @@ public:
                   }
               }
           })) {}
-    // Of the part that contains (x, y).
+    // Statistics of the part that contains (x, y).
     [[nodiscard]] const Count& at(int x, int y) const { return counts_[parts_.label(x, y)]; }
 
 private:

@@ -138,7 +138,7 @@ public:
         }
     }
     [[nodiscard]] bool is_on_disc(int x, int y) const { return circle_of_(x, y) < circles_; }
-    // Whether the object leaves most of the pixel's circle visible.
+    // True if the object leaves most of the pixel's circle visible.
     [[nodiscard]] bool is_mostly_visible(int x, int y) const {
         const auto i = static_cast<std::size_t>(circle_of_(x, y));
         return known_[i] >= min_visible_share_ * all_[i];

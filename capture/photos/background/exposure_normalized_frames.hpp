@@ -45,7 +45,7 @@ private:
 
     static Rgba8 mapped(const CodeMap& map, const Rgba8& p) { return {map[0][p.r], map[1][p.g], map[2][p.b], 255}; }
 
-    // Of the pixel's first frame in smooth_.
+    // Index of the pixel's first frame in smooth_.
     [[nodiscard]] std::size_t index_of(int x, int y) const {
         return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x)) *
                count();

@@ -107,7 +107,7 @@ private:
         return std::popcount(support);
     }
 
-    // Whether enough plate pixels around (u, v) have the same colour and are seen by the same frames. Growth advances
+    // True if enough plate pixels around (u, v) have the same colour and are seen by the same frames. Growth advances
     // on a broad front: through a single pixel in which the object happens to match the background it would spread over
     // the whole object.
     [[nodiscard]] bool has_front(int u, int v, std::uint64_t support, const Rgba8& colour) const {

@@ -22,7 +22,7 @@ struct PropagatedPlate {
     Image<std::uint64_t> support;  ///< [pixel] bit i: frame i shows the background; 0: not part of the plate
 };
 
-/// Whether growth follows the support alone, or only to colours near the guess: seeds that are themselves guesses
+/// Selects whether growth follows the support alone or only to colours near the guess: seeds that are themselves guesses
 /// must not lead away from it.
 enum class Growth { kFree, kNearGuess };
 

@@ -132,7 +132,7 @@ public:
         return distance_px;
     }
 
-    // Whether the camera can see the whole circle.
+    // True if the camera can see the whole circle.
     [[nodiscard]] static bool is_in_front(const TurntableDisc& disc, const DiscPlane& plane) {
         if (!(disc.radius > 0) || !std::isfinite(disc.centre_x) || !std::isfinite(disc.centre_y)) return false;
         return plane.is_below_horizon({disc.centre_x, disc.centre_y}) && plane.is_in_front(disc.radius);

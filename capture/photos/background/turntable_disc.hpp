@@ -44,7 +44,7 @@ public:
     }
     /// Width of a pixel on the plane at the disc's centre.
     [[nodiscard]] double unit_per_px() const { return unit_per_px_; }
-    /// Whether the pixel's ray meets the plane.
+    /// True if the pixel's ray meets the plane.
     [[nodiscard]] bool is_below_horizon(glm::dvec2 px) const { return glm::dot(up_, ray(px)) < -1e-3; }
     /// Point of the plane that a pixel shows, relative to the axis: to the right, and away from the camera. Only below
     /// the horizon.
@@ -61,7 +61,7 @@ public:
         const glm::dvec3 p = centre_ + radius * (direction.x * right_ + direction.y * away_);
         return {cx_ + f_px_ * p.x / p.z, cy_ + f_px_ * p.y / p.z};
     }
-    /// Whether all of a circle about the axis is in front of the camera, at no less than 1/5 of the centre's depth.
+    /// True if all of a circle about the axis is in front of the camera, at no less than 1/5 of the centre's depth.
     [[nodiscard]] bool is_in_front(double radius) const { return centre_.z - radius > 0.2 * centre_.z; }
 
 private:

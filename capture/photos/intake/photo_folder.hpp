@@ -62,7 +62,7 @@ struct PhotoFolder {
         return 0.5 * picture + (shown_px - 0.5 * shown) / reduction;
     }
     [[nodiscard]] bool states_several() const { return otherwise_turned > 0 || !own_orientations.empty(); }
-    // Whether nobody can tell by its size if a mask or a camera is of the files' pixels or of what is shown.
+    // True if nobody can tell by its size if a mask or a camera is of the files' pixels or of what is shown.
     [[nodiscard]] bool turns_unnoticed() const {
         return states_several() || (orientation != 1 && (orientation < 5 || shown_width == shown_height));
     }

@@ -18,7 +18,7 @@ namespace rs::capture {
 namespace {
 
 constexpr int kObjectFrom = 128;  // least code that counts as object
-// Of the photo's sides.
+// Tolerances, as shares of the photo's sides.
 constexpr double kMinMaskScale = 1.0 / 16;
 constexpr double kMaxMaskScale = 2;
 

@@ -47,7 +47,7 @@ Result<MaskNames> MaskNames::list(const std::filesystem::path& folder) {
         if (file.filename().string().front() == '.' || rank == kMaskExtensions.size() || entry->is_directory(ignored)) {
             continue;
         }
-        // Of names that differ in the case of the extension alone, the first in byte order, whatever the disk's order.
+        // If names differ in the case of the extension only, takes the first in byte order, whatever the disk's order.
         std::filesystem::path& known = names.files_[with_lower_case_marker(file.stem().string())][rank];
         if (known.empty() || file < known) known = file;
     }

@@ -12,7 +12,7 @@
 
 namespace rs::capture {
 
-/// What the output of a network is, per pixel.
+/// Meaning of a network's output, per pixel.
 enum class NetworkOutput {
     kProbability,  ///< of foreground, 0..1
     kLogits,       ///< any number; the probability is 1 / (1 + exp(-x))

@@ -1,5 +1,5 @@
 #pragma once
-// What an ONNX file states about itself: inputs, outputs, the types of its weights. Read before cv::dnn loads the file,
+// Summary of an ONNX file: inputs, outputs, the types of its weights. Read before cv::dnn loads the file,
 // for two reasons: errors can name the cause (half precision, quantization, several inputs), and OpenCV 4.6 does not
 // check that the data of a tensor has the length that its shape requires.
 //

@@ -70,7 +70,7 @@ void find_axis(const NominalTurnRequest& request, const PhotoFolder& folder, con
     }
 }
 
-// Whether the last picture stands a step before the first.
+// True if the last picture stands a step before the first.
 bool is_closed(const NominalTurn& found, const PhotoFolder& folder) {
     const auto views = static_cast<double>(folder.photos.size());
     return std::abs(found.step_deg * views - 360) < 1.5 * found.step_deg && views >= 4;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// All thresholds of segmentation in one place, with an override by a JSON file for experiments.
+/// Collects all thresholds of segmentation, with an override by a JSON file for experiments.
 ///
 /// The defaults are what the import uses. A file states what differs, by the names of the fields:
 /// {"foreground": {"score": {"background_delta_e": 3}}, "checks": {"max_coverage": 0.7}}.

@@ -26,7 +26,7 @@ enum class SegmenterKind { kAuto, kAlpha, kMasks, kChromaKey, kBackground, kMode
 /// "auto", "alpha", "masks", "chroma", "background", "model", as `--segmenter` takes them.
 std::string to_string(SegmenterKind kind);
 
-/// What to do with the object's shadow on the floor.
+/// Handling of the object's shadow on the floor.
 enum class ShadowHandling { kRemove, kKeep };
 
 struct SegmenterRequest {

@@ -41,7 +41,7 @@ public:
     /// since a few wrong depths would leave specks.
     void paint_from(const Painter& from);
 
-    /// Whether all, or at least half, of the part is painted.
+    /// True if all, or at least half, of the part is painted.
     [[nodiscard]] bool done() const { return left_.empty(); }
     [[nodiscard]] bool half_done() const { return 2 * left_.size() <= all_; }
     /// The photo; unpainted pixels are unchanged.

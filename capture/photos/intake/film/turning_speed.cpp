@@ -216,7 +216,7 @@ SmoothedSpeed smooth_at(std::size_t i, const std::vector<PairMotion>& motions, c
 // Speeds from vertical motion; empty if their error is too large.
 std::vector<double> measured_speeds(const std::vector<PairMotion>& motions, const std::vector<bool>& is_still,
                                     double amount_px, double deviation_frames) {
-    // Of vertical motion at the left and right image edges to the corners' motion, which is mostly horizontal.
+    // Ratio of vertical motion at the left and right image edges to the corners' motion, which is mostly horizontal.
     constexpr double kMinVerticalRatio = 0.15;
     std::vector<double> smoothed(motions.size(), 0), turning, errors;
     for (std::size_t i = 0; i < motions.size(); ++i) {

@@ -81,7 +81,7 @@ TEST(ShadowFreeRows, AreUnknownWithoutASoftShadow) {
     EXPECT_TRUE(shadow_free_in(frames_of(Shadow::kHard)).empty());
 }
 
-// Where the contour of the object has no contrast in a frame, a side of the object looks like a shadow.
+// If the contour of the object has no contrast in a frame, a side of the object looks like a shadow.
 TEST(ShadowFreeRows, IgnoreShadowsInFewFrames) {
     std::vector<Image<Rgba8>> frames = frames_of(Shadow::kSoft);
     const int ground = first_row(shadow_free_in(frames));

@@ -52,7 +52,7 @@ TEST(OnnxSummary, NotesWhatOpenCvDoesNotLoad) {
 
 TEST(OnnxSummary, RefusesEveryPrefix) {
     const std::vector<std::byte> whole = tiny_file("plain");
-    // What follows the graph is the opset, which nothing is read from.
+    // The opset follows the graph; it is not read.
     std::size_t refused = 0;
     for (std::size_t size = 0; size < whole.size(); ++size) {
         refused += read_onnx_summary(std::span(whole).first(size), "x.onnx").ok() ? 0 : 1;

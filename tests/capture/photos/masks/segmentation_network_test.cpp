@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-// What make_tiny_models.py wrote.
+// Written by make_tiny_models.py.
 fs::path tiny_model(const std::string& name) {
     return fs::path(RAYSPACE_SOURCE_DIR) / "tests/capture/photos/masks/models" / (name + ".onnx");
 }
@@ -45,7 +45,7 @@ Image<Rgba8> red_and_blue(int width, int height) {
     return photo;
 }
 
-// What the tiny models answer where all pixels around are alike.
+// Output of the tiny models in uniform regions.
 float tiny_probability(int red, int blue, float scale = 1.0F / 256) {
     return 1 / (1 + std::exp(-16 * scale * static_cast<float>(red - blue)));
 }
