@@ -30,7 +30,7 @@ struct MaskStatistics {
     std::uint64_t coloured = 0;  ///< opaque pixels whose channels differ by more than 48
 };
 
-/// Histogram of a mask without its alpha channel: the largest of red, green and blue, over black.
+/// Grey value of a mask pixel: the largest of red, green and blue, composited over black.
 inline std::uint8_t mask_grey(const Rgba8& pixel) {
     const int brightest =
         pixel.r > pixel.g ? (pixel.r > pixel.b ? pixel.r : pixel.b) : (pixel.g > pixel.b ? pixel.g : pixel.b);
