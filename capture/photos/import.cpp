@@ -54,7 +54,8 @@ PhotoRequest photo_request(const ImportOptions& options) {
     return {options.photos, options.output, options.max_side_px, options.frames, are_described};
 }
 
-// A set that stands at `output` already is replaced whole: photographs inside it would be lost.
+// Rejects an output folder that is or contains the photos: an existing set at `output` is replaced completely, so
+// photos inside it would be lost.
 Status check_places(const ImportOptions& options) {
     std::error_code failure;
     const fs::path photos = fs::weakly_canonical(options.photos, failure);
@@ -75,7 +76,7 @@ Status make_folder(const fs::path& folder, const fs::path& output) {
     return {};
 }
 
-// Joins what the stages found, before the set is written.
+// Collects the results of the stages before the set is written.
 ImportReport report_of(const ImportOptions& options, const Intake& intake, const ChosenSegmenter& chosen,
                        SegmentedTurn& turn, FoundRig rig) {
     ImportReport report{std::move(rig)};
@@ -96,10 +97,10 @@ ImportReport report_of(const ImportOptions& options, const Intake& intake, const
     return report;
 }
 
-// Deviations beyond what an orbit around the object tolerates.
+// Findings on a calibration whose deviations are too large for an orbit around the object.
 std::vector<std::string> calibration_problems(const FoundRig& rig) {
     constexpr double kMaxResidual_px = 5;
-    constexpr double kMaxFocalDeviation = 0.5;  // of the focal length
+    constexpr double kMaxFocalDeviation = 0.5;  // fraction of the focal length
     std::vector<std::string> problems;
     if (!rig.calibration.calibration) return problems;
     const Calibration& found = *rig.calibration.calibration;
@@ -114,7 +115,7 @@ std::vector<std::string> calibration_problems(const FoundRig& rig) {
     return problems;
 }
 
-// Problems are an error, or with --force notes.
+// Reports problems as an error, or as notes with --force.
 Status settle(const ImportOptions& options, const std::vector<std::string>& problems, std::vector<std::string>& notes) {
     if (problems.empty()) return {};
     if (options.force) {
@@ -126,7 +127,7 @@ Status settle(const ImportOptions& options, const std::vector<std::string>& prob
     return Error{text + "nothing was written; --force writes the set all the same"};
 }
 
-// So few show no turn that could be told from the pictures.
+// Rejects a turn with too few photos to estimate its rotation, unless the rig is nominal or known.
 Status check_count(const PhotoFolder& folder, const ImportOptions& options) {
     constexpr std::size_t kFewest = 3;
     const std::size_t count = folder.photos.size();
@@ -159,7 +160,7 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
 
     Result<ChosenSegmenter> chosen = choose_segmenter(options.segmentation, *intake, options.photos.string(), progress);
     if (!chosen) return chosen.error();
-    intake->survey = Survey{};  // large, and not needed any more
+    intake->survey = Survey{};  // frees memory; the survey is not needed any more
 
     const CutoutCache cutouts(cut, intake->folder.width, intake->folder.height);
     Result<SegmentedTurn> turn =
@@ -189,13 +190,13 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
 
 Result<ImportReport> import_photos(const ImportOptions& options, Progress* progress) {
     if (Status status = check(options); !status) return status.error();
-    // Many pictures are worked on at a time; OpenCV's own threads would only wait for each other on the same cores.
+    // Many photos are processed in parallel; OpenCV's own threads would only compete for the same cores.
     cv::setNumThreads(1);
     try {
         return import_checked(options, progress);
     } catch (const std::bad_alloc&) {
         throw;
-    } catch (const std::exception& escaped) {  // OpenCV
+    } catch (const std::exception& escaped) {  // thrown by OpenCV
         return Error{options.photos.string() + ": the pictures cannot be processed (" + escaped.what() + ")"};
     }
 }

@@ -64,7 +64,7 @@ std::string backdrop_text(const ImportReport& report) {
     return std::to_string(c.r) + "," + std::to_string(c.g) + "," + std::to_string(c.b);
 }
 
-// " before white"; empty if no background was estimated.
+// Text of the background, such as " before white"; empty if none was estimated.
 std::string background_text(const ImportReport& report) {
     return report.backdrop == BackgroundKind::kAlpha ? std::string() : " before " + backdrop_text(report);
 }
@@ -219,7 +219,7 @@ Status run_import(const ImportCommandLine& given) {
     options.calibration = kCalibrations.at(given.calibration);
     if (given.clockwise) options.turning = Turning::kClockwise;
     if (given.counter_clockwise) options.turning = Turning::kCounterClockwise;
-    std::optional<StagedFile> page;  // made before the work, so that a bad place for it is reported at once
+    std::optional<StagedFile> page;  // created before the import, so that an unusable path is reported at once
     if (!given.report.empty()) {
         Result<StagedFile> created = StagedFile::create(given.report);
         if (!created) return created.error();

@@ -20,21 +20,22 @@ constexpr char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-// JPEG first: where as many pictures of another format have the same names they may be masks or cut-outs.
+// In order of preference. JPEG is first: equally many files of another format with the same names may be masks or
+// cut-outs.
 constexpr std::array<std::string_view, 14> kExtensions = {".jpg",  ".jpeg", ".png", ".tif", ".tiff", ".webp", ".heic",
                                                           ".heif", ".avif", ".bmp", ".exr", ".hdr",  ".tga",  ".ppm"};
 
-// Which of kExtensions the name has; their number where it has none.
+// Index in kExtensions of the name's extension; kExtensions.size() if it has another one.
 std::size_t extension_of(const std::filesystem::path& name) {
     std::string extension = name.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), lower);
     return static_cast<std::size_t>(std::ranges::find(kExtensions, extension) - kExtensions.begin());
 }
 
-// Of files that differ in their extension alone keeps the one in the format that most pictures have: a phone's HEIC
-// and the JPEG made of it are one photograph.
+// Keeps one of the files that differ only in their extension, the one in the most frequent format: a phone's HEIC and
+// the JPEG converted from it are the same photo.
 void take_one_format(PhotoFolder& found) {
-    std::array<int, kExtensions.size()> having{};  // [extension]: how many pictures
+    std::array<int, kExtensions.size()> having{};  // [extension]: number of image files
     std::map<std::string, std::filesystem::path> by_stem;
     for (const std::filesystem::path& photo : found.photos) ++having[extension_of(photo)];
     const auto is_better = [&](const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -52,7 +53,7 @@ void take_one_format(PhotoFolder& found) {
     });
 }
 
-// The run of digits that starts at `at`, its leading zeros left out; moves `at` behind it.
+// Returns the run of digits at `at` without its leading zeros, and advances `at` past it.
 std::string_view take_number(std::string_view text, std::size_t& at) {
     while (at < text.size() && text[at] == '0') ++at;
     const std::size_t begin = at;
@@ -64,23 +65,23 @@ bool on_its_side(int orientation) {
     return orientation >= 5;
 }
 
-// Of what is shown of such a file where it is turned so.
+// Size of a file's image as displayed with the given EXIF orientation.
 std::pair<int, int> shown_size(const PictureInfo& info, int orientation) {
     return on_its_side(orientation) ? std::pair(info.height, info.width) : std::pair(info.width, info.height);
 }
 
-// [orientation]: how many files state it.
+// [orientation]: number of files with this EXIF orientation.
 using Statements = std::array<int, 9>;
 
 int what_most_state(const Statements& stated) {
     return static_cast<int>(std::ranges::max_element(stated) - stated.begin());
 }
 
-// Files that are stored in one size are all turned as most of them are: the camera stood still. Where some lie on their
-// side and some were turned upright since, that holds of each kind.
+// Assigns the most frequent orientation to all files that are stored in the same size, because the camera is fixed. If
+// some are stored on their side and others were rotated upright later, each of the two groups has its own.
 Status choose_orientations(PhotoFolder& found, const std::vector<PictureInfo>& infos) {
     Statements of_all{};
-    std::map<std::pair<int, int>, Statements> of_size;  // as stored
+    std::map<std::pair<int, int>, Statements> of_size;  // key: size as stored
     for (const PictureInfo& info : infos) {
         ++of_all[static_cast<std::size_t>(info.orientation)];
         ++of_size[{info.width, info.height}][static_cast<std::size_t>(info.orientation)];
@@ -125,7 +126,7 @@ void set_reduction(PhotoFolder& found, int max_side_px) {
     found.height = found.shown_height;
     found.reduction = photograph_reduction(found.width, found.height, max_side_px);
     if (found.reduction == 1) return;
-    // A thin one is made smaller as far as a pixel of it is left.
+    // The reduction of a thin photo is limited so that each side keeps at least one pixel.
     found.reduction = std::min(found.reduction, static_cast<double>(std::min(found.width, found.height)));
     const auto whole = [&](int side) { return static_cast<int>(side / found.reduction + 1e-9); };
     found.width = whole(found.width);

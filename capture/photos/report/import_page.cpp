@@ -16,23 +16,23 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kShift = 4;  // OpenCV draws with 4 fractional bits here
+constexpr int kShift = 4;  // fractional bits of the coordinates for OpenCV's drawing functions
 
 cv::Point fixed(const glm::dvec2& p, double scale) {
-    // OpenCV's pixel centres are at integers.
+    // OpenCV has pixel centres at integer coordinates.
     const auto coordinate = [&](double value) {
         return static_cast<int>(std::lround(std::clamp((value * scale - 0.5), -1e4, 1e4) * (1 << kShift)));
     };
     return {coordinate(p.x), coordinate(p.y)};
 }
 
-// Green to red over 0.5 .. 2 px.
+// Colour scale from green to red over 0.5 .. 2 px.
 cv::Scalar residual_colour(double residual_px) {
     const double t = std::clamp((residual_px - 0.5) / 1.5, 0.0, 1.0);
     return {60 + 195 * t, 230 - 200 * t, 60, 255};
 }
 
-// Of the point that a still camera would have seen at `p`, in view `view` as it is.
+// Maps a point `p` in the image of the fixed camera to the photo of view `view`, which may be shifted and scaled.
 glm::dvec2 in_photo(const Calibration& calibration, int view, const glm::dvec2& p) {
     if (calibration.places.empty()) return p;
     const Lens& lens = calibration.model.lens;
@@ -45,7 +45,7 @@ void draw_axis(cv::Mat& picture, const ImportReport& report, int view, double sc
     if (report.calibration.calibration) {
         const Calibration& calibration = *report.calibration.calibration;
         const TurntableModel& model = calibration.model;
-        // Piece by piece, for a lens with distortion bends it.
+        // The axis is a polyline, because lens distortion bends it.
         for (int i = -200; i <= 200; ++i) {
             if (const auto p = project(model.lens, model.pose, {0, 0.01 * i, 0})) {
                 line.push_back(in_photo(calibration, view, *p));
@@ -175,7 +175,8 @@ void add_plots(HtmlPage& page, const Calibration& found) {
     const std::vector<double>& angles = found.model.angles_rad;
     if (angles.size() < 2) return;
     const auto last = static_cast<double>(angles.size() - 1);
-    // Against the straight line through the middle of all angles, so that one bad step shows as a step.
+    // Deviations are relative to equal steps with the mean offset of all angles, so that a single wrong step appears as
+    // a step in the plot.
     double mean = 0;
     for (std::size_t i = 0; i < angles.size(); ++i) {
         mean += degrees(angles[i] - static_cast<double>(i) * found.step_rad) / (last + 1);

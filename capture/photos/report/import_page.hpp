@@ -1,6 +1,7 @@
 #pragma once
-// One self-contained page about an import, for people who would rather look than read: what was found and how sure it
-// is, the points that were followed, the axis drawn on photographs, the mattes on magenta.
+/// \file
+/// Self-contained HTML page about an import, mostly of figures: estimates and their uncertainty, tracked points, the
+/// axis drawn on photos, alpha mattes before magenta.
 
 #include "capture/photos/report/import_report.hpp"
 #include "rayspace/base/result.hpp"
@@ -11,14 +12,15 @@
 
 namespace rs::capture {
 
+/// Longer side of an annotated photo.
 inline constexpr int kAnnotatedSide_px = 560;
 
-// A photograph made small (its longer side at most kAnnotatedSide_px), with the turntable's axis and the followed
-// points drawn on it. `view` counts the photographs of the report.
+/// Reduced photo (its longer side at most kAnnotatedSide_px) with the turntable's axis and the tracked points drawn on
+/// it. `view` is an index into the photos of the report.
 Image<Rgba8> annotated_photo(ConstImageView<Rgba8> photo, const ImportReport& report, int view);
 
-// Reads some of the report's photographs again to draw on them; fails where one cannot be read. `photos` names them all
-// in the title.
+/// Makes the page, in HTML. Reads some of the report's photos again to annotate them. `photos` is the name of the turn
+/// in the title. Errors: an unreadable photo.
 Result<std::string> import_page(const std::filesystem::path& photos, const ImportReport& report);
 
 }  // namespace rs::capture

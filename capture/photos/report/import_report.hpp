@@ -1,5 +1,6 @@
 #pragma once
-// What an import found and wrote, for messages, the page and the rig's own record.
+/// \file
+/// Results of an import, for messages, the HTML page and the record in the rig file.
 
 #include "capture/photos/rig/found_rig.hpp"
 #include "capture/photos/rig/rectification.hpp"
@@ -12,34 +13,36 @@
 
 namespace rs::capture {
 
-// With the notes of all stages.
+/// Results of all stages. `notes` holds the notes of all of them.
 struct ImportReport : FoundRig {
-    PhotoFolder folder{};  // the photographs that took part in calibration
+    PhotoFolder folder{};  ///< the photos used in calibration
     SegmenterKind segmenter = SegmenterKind::kAlpha;
     std::string segmenter_reason{};
-    double background_share = 0;  // share of the image in which the background model decided
+    double background_share = 0;  ///< fraction of the image decided by the background model
     BackgroundKind backdrop = BackgroundKind::kAlpha;
     Rgba8 backdrop_colour{};
     bool backdrop_given = false;
-    std::string dropped_repeat{};  // name of the last photograph where it repeated the first; empty otherwise
-    double min_coverage = 0;       // share of a photograph's pixels with alpha of 128 and more: smallest of all, ...
-    double max_coverage = 0;       // ... largest
-    std::vector<Image<Rgba8>> small_cut_outs{};  // [photograph], the longer side at most 512 px
+    std::string dropped_repeat{};  ///< name of the last photo if it repeated the first; else empty
+    /// Coverage of a photo: fraction of its pixels with an alpha of 128 or more, 0..1. Minimum over all photos.
+    double min_coverage = 0;
+    double max_coverage = 0;                     ///< maximum over all photos
+    std::vector<Image<Rgba8>> small_cut_outs{};  ///< [photo], the longer side at most 512 px
 
-    // Of the set written.
-    int views = 0;
-    UprightFrame frame{};  // of its pictures, where they were rectified
-    double fl_px = 0;
-    double distance = 0;  // object radii
+    int views = 0;         ///< of the capture set
+    UprightFrame frame{};  ///< of the images in the capture set, if they were rectified
+    double fl_px = 0;      ///< focal length of the capture set
+    double distance = 0;   ///< from the rig's origin to its first camera, object radii
 };
 
-// "4000x3810 photographs taken as 2048x1950".
+/// Text about the sizes of the photos: "4000x3810 photographs taken as 2048x1950".
 std::string sizes_text(const PhotoFolder& folder);
 
+/// File name of a photo, without the folder.
 inline std::string source_name(const ImportReport& report, std::size_t photo) {
     return report.folder.photos[photo].filename().string();
 }
 
+/// True if the photo is not part of the capture set, see FoundRig::left_out.
 inline bool is_left_out(const ImportReport& report, std::size_t photo) {
     return std::find(report.left_out.begin(), report.left_out.end(), source_name(report, photo)) !=
            report.left_out.end();

@@ -7,12 +7,12 @@
 namespace rs::capture {
 namespace {
 
-// JSON takes UTF-8 only; file names may hold any bytes.
+// Replaces invalid UTF-8, which JSON does not allow but file names may contain.
 std::string utf8(const std::string& name) {
     return nlohmann::json::parse(nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-// Infinity has no place in JSON: what nothing is known about becomes null.
+// JSON has no infinity: an unknown value (not finite) becomes null.
 nlohmann::json finite(double value) {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
@@ -43,7 +43,7 @@ void name_views(const ImportReport& report, Rig& rig) {
     }
 }
 
-// In the table frame, where a board on the turntable shows it.
+// Height of the turntable's surface in the table frame, from a board on it. Nullopt without a level board.
 std::optional<double> ground_height(const PhotoCalibration& calibration) {
     constexpr double kLevel = 0.9;
     if (!calibration.board || calibration.board->plane_normal.y < kLevel) return std::nullopt;
@@ -96,7 +96,7 @@ Rig calibrated_import_rig(const ImportReport& report, const TurnSilhouette::Box&
     describe(report, made);
     made["rms_px"] = calibration.rms_px;
     if (calibration.held_out_rms_px) made["held_out_rms_px"] = *calibration.held_out_rms_px;
-    // The photographs' own camera, in the convention of capture/calibration/model/turntable_model.hpp.
+    // Camera of the original photos, in the convention of capture/calibration/model/turntable_model.hpp.
     const ModelDeviations& off = calibration.deviations;
     nlohmann::json& camera = made["photograph_camera"];
     camera["f_px"] = model.lens.f_px;

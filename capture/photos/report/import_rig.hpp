@@ -1,15 +1,17 @@
 #pragma once
-// The rig of an imported set, with where its numbers come from.
+/// \file
+/// Rig of an imported capture set, with the provenance of its numbers.
 
 #include "capture/photos/report/import_report.hpp"
 #include "rayspace/geometry/rig.hpp"
 
 namespace rs::capture {
 
-// Equal steps, a level camera: the pictures stay as they are. `visible` is in px of the photographs.
+/// Makes the nominal rig: equal steps, a level camera, images that are not resampled. `visible` is in px of the photos
+/// in working size.
 Rig nominal_import_rig(const ImportReport& report, const TurnSilhouette::Box& visible);
 
-// As calibrated; `visible` is in px of the rectified pictures. Views whose photographs are left out are not there.
+/// Makes the calibrated rig, without the views of photos that are left out. `visible` is in px of the rectified images.
 Rig calibrated_import_rig(const ImportReport& report, const TurnSilhouette::Box& visible);
 
 }  // namespace rs::capture

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `boxes` of the photographs, as the still camera would have seen them.
+// Maps `boxes` from the photos to the images of the fixed camera.
 std::vector<TurnSilhouette::Box> boxes_put_back(std::vector<TurnSilhouette::Box> boxes,
                                                 const Calibration& calibration) {
     const Lens& lens = calibration.model.lens;
@@ -27,10 +27,10 @@ std::vector<TurnSilhouette::Box> boxes_put_back(std::vector<TurnSilhouette::Box>
     return boxes;
 }
 
-// Writes the upright pictures of all views that are not left out; what they cover together.
+// Writes the rectified images of all views that are not left out. Returns the box of the object over all of them.
 Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFolder& folder, const CutoutCache& cuts,
                                             const ImportReport& report, Progress* progress) {
-    std::vector<std::size_t> number(folder.photos.size(), 0);  // in the set
+    std::vector<std::size_t> number(folder.photos.size(), 0);  // index in the set
     for (std::size_t i = 0, next = 0; i < folder.photos.size(); ++i) number[i] = is_left_out(report, i) ? 0 : next++;
     const Calibration& calibration = *report.calibration.calibration;
     TurnSilhouette outline(report.frame.lens.width, report.frame.lens.height);

@@ -1,6 +1,7 @@
 #pragma once
-// The last stage of an import: the capture set of a turn whose rig was found. A calibrated turn's pictures are
-// rectified, a nominal one's stay as they were cut out.
+/// \file
+/// Last stage of an import: writes the capture set of a turn with a known rig. The images of a calibrated turn are
+/// rectified; those of a nominal one are the cut-outs, unchanged.
 
 #include "capture/photos/intake/photo_folder.hpp"
 #include "capture/photos/report/import_report.hpp"
@@ -12,8 +13,9 @@
 
 namespace rs::capture {
 
-// Writes pictures into `set`/images, which exists, and transforms.json into `set`. Gives back `report`, of all that was
-// found before, with the numbers of the set. Errors: those of plan_upright_frame(), the disk.
+/// Writes the images into `set`/images, which must exist, and transforms.json into `set`. `report` holds the results of
+/// the previous stages; returns it with the numbers of the set added. Errors: those of plan_upright_frame(), unreadable
+/// cut-outs, failures of the disk.
 Result<ImportReport> write_import_set(const std::filesystem::path& set, const PhotoFolder& folder,
                                       const SegmentedTurn& turn, const CutoutCache& cuts, ImportReport report,
                                       Progress* progress);

@@ -15,7 +15,7 @@ double sense(const NominalTurn& nominal) {
     return nominal.turning == Turning::kCounterClockwise ? 1 : -1;
 }
 
-// Of the pictures that are worked with, for what is given is of the photographs.
+// Converts the pixel values of the request from the photos as displayed to the working size of the folder.
 RigRequest in_picture_px(RigRequest given, const PhotoFolder& folder) {
     KnownInputs& known = given.known.known;
     if (known.f_px) *known.f_px /= folder.reduction;
@@ -53,7 +53,8 @@ void add_notes(FoundRig& rig, const std::vector<std::string>& notes) {
     rig.notes.insert(rig.notes.end(), notes.begin(), notes.end());
 }
 
-// What stands where another photograph does adds nothing but a place where two pictures disagree.
+// Excludes photos taken at the angle of another photo. They add no new view, only an angle at which two images
+// disagree.
 void leave_out_repeats(FoundRig& rig, const PhotoFolder& folder) {
     const std::vector<std::string> names = file_names(folder);
     for (const int view : repeated_views(rig.calibration.calibration->model.angles_rad)) {
@@ -93,7 +94,7 @@ Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, co
     const RigRequest request = in_picture_px(given, folder);
     FoundRig rig;
     rig.nominal = find_nominal_turn(request, folder, turn);
-    // Points of the object and boards tell the sense of turning themselves.
+    // Evaluated on demand: calibration by object points or a board yields the sense of rotation itself.
     const auto nominal = [&]() -> const NominalTurn& {
         if (rig.nominal.turning_from.empty()) find_sense(request, folder, turn, rig.nominal);
         return rig.nominal;

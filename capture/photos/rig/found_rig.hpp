@@ -1,7 +1,8 @@
 #pragma once
-// The fourth stage of an import: lens, axis and angles of a turn whose photographs are cut out, calibrated by the
-// surest means that works (photo_calibration.hpp), else nominal (nominal_rig.hpp). Stands between segment_turn and
-// import_set.
+/// \file
+/// Fourth stage of an import: estimates lens, axis and angles of a turn from its cut-outs. Takes the most reliable
+/// calibration method that succeeds (photo_calibration.hpp), otherwise a nominal rig (nominal_rig.hpp). Runs between
+/// segment_turn() and write_import_set().
 
 #include "capture/calibration/known/known_files.hpp"
 #include "capture/photos/rig/nominal_rig.hpp"
@@ -15,25 +16,27 @@
 
 namespace rs::capture {
 
-// Calibration holds what is given here but the axis' column, which is for a nominal rig.
+/// Known values of the user. Calibration keeps them fixed, except for the axis column, which only a nominal rig uses.
 struct RigRequest : NominalTurnRequest {
     CalibrationChoice calibration = CalibrationChoice::kAuto;
-    KnownFile known;                   // held by calibration, with the above
-    std::optional<BoardDesign> board;  // of the board that lies on the turntable
+    KnownFile known;                   ///< kept fixed by calibration, like the fields of the base
+    std::optional<BoardDesign> board;  ///< calibration board on the turntable, if any
 };
 
+/// Rig of a turn, calibrated or nominal.
 struct FoundRig {
     NominalTurn nominal;
     PhotoCalibration calibration;
     CalibrationMethod method = CalibrationMethod::kNominal;
-    double step_deg = 0;
+    double step_deg = 0;  ///< between neighbouring views, positive
     Turning turning = Turning::kClockwise;
-    std::vector<std::string> left_out;  // names of photographs that stand where another one does
-    std::vector<std::string> notes;     // one line each: what the user should know
+    std::vector<std::string> left_out;  ///< names of photos taken at the angle of another photo
+    std::vector<std::string> notes;     ///< warnings and remarks for the user, one line each
 };
 
-// `cuts` and `turn` are segment_turn()'s of `folder`. What is `given` in px is of the photographs as they are shown,
-// what is found of the folder's pictures. Errors: those of known_of_photographs() and calibrate_photos().
+/// Calibrates the turn, or makes a nominal rig. `cuts` and `turn` are the results of segment_turn() for `folder`. Pixel
+/// values of `given` refer to the photos as displayed (shown_width x shown_height), those of the result to the images
+/// of the folder in working size (width x height). Errors: those of known_of_photographs() and calibrate_photos().
 Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, const SegmentedTurn& turn,
                           const CutoutCache& cuts, Progress* progress);
 

@@ -42,7 +42,7 @@ Rig make_nominal_rig(const NominalRigOptions& options, const TurnSilhouette::Box
 
 namespace {
 
-constexpr double kDoubtfulSpread = 0.01;  // of the picture's width
+constexpr double kDoubtfulSpread = 0.01;  // fraction of the image width
 
 void find_axis(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn, bool closed,
                NominalTurn& found) {
@@ -70,14 +70,14 @@ void find_axis(const NominalTurnRequest& request, const PhotoFolder& folder, con
     }
 }
 
-// True if the last picture stands a step before the first.
+// True if the last view is one step before the first.
 bool is_closed(const NominalTurn& found, const PhotoFolder& folder) {
     const auto views = static_cast<double>(folder.photos.size());
     return std::abs(found.step_deg * views - 360) < 1.5 * found.step_deg && views >= 4;
 }
 
-// The lens as the camera states it, where that is 1..120 degrees; horizontal. A photograph that was cropped shows less
-// than that, so calibration takes nothing from it.
+// Horizontal field of view by the EXIF focal length, nullopt outside 1..120 degrees. A cropped photo has a smaller one,
+// so calibration does not use it.
 std::optional<double> stated_field_of_view_deg(const PhotoFolder& folder) {
     constexpr double kFilmDiagonal_mm = 43.27;
     if (folder.focal_35mm == 0) return std::nullopt;

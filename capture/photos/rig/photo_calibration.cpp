@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr int kSilhouetteSide_px = 640;
 
-// Cut-outs, so that nothing of the backdrop is followed.
+// Reads the cut-outs, not the photos, so that no point of the background is tracked.
 Result<TurnPictures> read_turn(const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {
     TurnPictures turn;
     turn.width = folder.width;
@@ -49,10 +49,10 @@ Result<BoardCalibration> from_board(const PhotoFolder& folder, const Calibration
     return calibrate_with_board(*views, *request.board, folder.width, folder.height, request.known, names);
 }
 
-// The outlines, at most kSilhouetteSide_px for the longer side.
+// Silhouettes with a longer side of at most kSilhouetteSide_px.
 struct Silhouettes {
     std::vector<Image<std::uint8_t>> masks;
-    int reduction = 1;  // of the photographs' sides; what is left over at the right and below is cut off
+    int reduction = 1;  // of the photos' sides; a remainder at the right and at the bottom is cropped
 };
 
 Silhouettes silhouettes(const TurnPictures& turn) {
@@ -78,11 +78,11 @@ Silhouettes silhouettes(const TurnPictures& turn) {
     return result;
 }
 
-// How many times the object has stepped on before each view, for views whose outline is that of the view before did
-// not: a picture that was taken or copied twice.
+// Number of steps of the turntable before each view. There is no step before a view that has the silhouette of the
+// previous view: a photo that was taken or copied twice.
 std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
-    constexpr double kRepeatRatio = 0.2;  // of what the outlines change before and behind
-    std::vector<double> change;           // [view], to the next
+    constexpr double kRepeatRatio = 0.2;  // of the change of the silhouettes before and after
+    std::vector<double> change;           // [view], to the next view
     for (std::size_t i = 0; i + 1 < masks.size(); ++i) {
         change.push_back(cv::norm(mat_over(masks[i]), mat_over(masks[i + 1]), cv::NORM_L1));
     }
@@ -98,11 +98,11 @@ std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
     return steps;
 }
 
-// Where nobody knows the sense of turning it was guessed, and outlines may refute it: they agree with the other one
-// only, or else only with a camera that looks up from below the turntable.
+// Calibrates with silhouettes. An unknown sense of rotation is guessed first. The silhouettes refute the guess if they
+// fit only the other sense, or fit the guess only with a camera that looks up from below the turntable.
 Result<Calibration> from_silhouettes(const TurnPictures& turn, const CalibrationRequest& request) {
     const Silhouettes outlines = silhouettes(turn);
-    // The part of the photographs that the outlines show, for their sides must be the outlines' times a whole number.
+    // Size of the part of the photos that the silhouettes cover: its sides must be integer multiples of theirs.
     TurntableModel start = request.nominal();
     start.lens.width = outlines.reduction * outlines.masks.front().width();
     start.lens.height = outlines.reduction * outlines.masks.front().height();
@@ -112,7 +112,7 @@ Result<Calibration> from_silhouettes(const TurnPictures& turn, const Calibration
         const double whole_rad = start.angles_rad[1] * static_cast<double>(steps.size());
         for (std::size_t i = 0; i < steps.size(); ++i) start.angles_rad[i] = whole_rad * steps[i] / (steps.back() + 1);
     }
-    // A turn may lack its last picture, so the step that closes it is a guess.
+    // The last photo of a turn may be missing, so the step that closes the turn is a guess.
     Result<Calibration> found = calibrate_with_silhouettes(outlines.masks, start, known);
     const bool is_guessed = !known.counter_clockwise && !known.step_rad && !known.angles_rad;
     if (is_guessed && (!found || seems_to_look_up(*found))) {
@@ -131,7 +131,7 @@ Result<Calibration> from_silhouettes(const TurnPictures& turn, const Calibration
     return found;
 }
 
-// Everything is known: nothing is estimated, so there are no deviations either.
+// Calibration from known values alone, nullopt if one is missing. Nothing is estimated, so all deviations are 0.
 std::optional<Calibration> given(const CalibrationRequest& request, std::size_t views) {
     const KnownInputs& known = request.known;
     if (!known.f_px || !known.pose || !(known.angles_rad || known.step_rad)) return std::nullopt;

@@ -1,6 +1,8 @@
 #pragma once
-// Calibration of cut-out photographs by the surest means that works: a board, points of the object, silhouettes; where
-// none does, nothing, and the rig stays nominal (nominal_rig.hpp). Stands between segment_turn and rectification.
+/// \file
+/// Calibration of a turn from its cut-outs by the most reliable method that succeeds: a board, points of the object,
+/// silhouettes. If none succeeds there is no calibration and the rig stays nominal (nominal_rig.hpp). Runs between
+/// segment_turn() and rectification.
 
 #include "capture/calibration/board/board_calibration.hpp"
 #include "capture/calibration/board/charuco_board.hpp"
@@ -19,30 +21,33 @@
 
 namespace rs::capture {
 
-// kAuto begins with the board where one is described and goes down the list; any other takes that one or fails.
+/// Calibration method. kAuto tries the board if one is described, then the following methods in order. Any other value
+/// selects a single method, whose failure is an error.
 enum class CalibrationChoice { kAuto, kBoard, kTracks, kSilhouettes, kNominal };
 
-// Photographs are looked at with their longer side reduced to at most this, by a whole factor.
+/// Maximum length of a photo's longer side during calibration. Larger photos are reduced by an integer factor.
 inline constexpr int kCalibrationSide_px = 1800;
 
+/// Result of calibrate_photos().
 struct PhotoCalibration {
-    std::optional<Calibration> calibration;  // nothing: nominal
-    std::optional<TrackCalibration> tracks;  // where points were followed to the end
-    std::optional<BoardCalibration> board;   // where a board was found
-    std::vector<std::string> notes;          // what did not work and why, one line each
+    std::optional<Calibration> calibration;  ///< nullopt: the rig stays nominal
+    std::optional<TrackCalibration> tracks;  ///< set if point tracks calibrated the turn
+    std::optional<BoardCalibration> board;   ///< set if a board calibrated the turn
+    std::vector<std::string> notes;          ///< methods that failed and their reasons, one line each
 };
 
+/// Input of calibrate_photos(). Pixel values refer to the working size of the folder.
 struct CalibrationRequest {
     CalibrationChoice choice = CalibrationChoice::kAuto;
     KnownInputs known;
     std::optional<BoardDesign> board;
-    // What is assumed where nothing is found: the start for silhouettes. Called where that is needed, for to find the
-    // sense of turning takes its time.
+    /// Returns the assumed model, the start of the calibration from silhouettes. Called only on demand, since the
+    /// estimate of the sense of rotation is slow.
     std::function<TurntableModel()> nominal;
 };
 
-// `cuts` are segment_turn()'s pictures of `folder`. Fails where a picture cannot be read, and where the choice was
-// not kAuto and does not work.
+/// Calibrates the turn. `cuts` holds the cut-outs of `folder` from segment_turn(). Errors: an unreadable image, known
+/// angles for another number of photos, the failure of a method other than kAuto.
 Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const CutoutCache& cuts,
                                           const CalibrationRequest& request, Progress* progress);
 

@@ -19,11 +19,11 @@ namespace {
 
 constexpr double kMaxEnlargement = 1.5;
 constexpr double kMinScale = 0.5;
-// Rays below this forward part are more than 84 degrees off the horizon.
+// Rays with a smaller forward component are more than 84 degrees off the horizon.
 constexpr double kMinForward = 0.1;
 constexpr int kPointsPerEdge = 65;
 
-// What the pixel at `p` of the photograph shows, in the upright picture at f = 1: x to the right, y down.
+// Maps the pixel `p` of the photo to the upright image at f = 1: x to the right, y down.
 std::optional<glm::dvec2> upright_slopes(const TurntableModel& model, const glm::dvec2& p) {
     const auto ray = table_ray(model.lens, model.pose, p);
     if (!ray || -ray->z < kMinForward) return std::nullopt;
@@ -35,7 +35,7 @@ struct Stretch {
     double most = 0;
 };
 
-// Singular values of the upright picture's change (at f = 1) per px of the photograph at `p`.
+// Singular values of the Jacobian of upright_slopes() at `p`: change in the upright image at f = 1 per px of the photo.
 std::optional<Stretch> stretch_at(const TurntableModel& model, const glm::dvec2& p) {
     constexpr double kStep_px = 0.5;
     std::array<glm::dvec2, 2> change;
@@ -72,9 +72,9 @@ struct Bounds {
     }
 };
 
-// The radius (at -Z = 1) beyond which the distortion folds the picture back over itself.
+// Radius (at -Z = 1) beyond which the distortion is not monotonic and folds the image over itself.
 double fold_radius(const Lens& lens) {
-    // 1 + 3 k1 q + 5 k2 q^2 = 0 for q = r^2, the lowest root above 0.
+    // Smallest positive root of 1 + 3 k1 q + 5 k2 q^2 = 0, q = r^2.
     const double a = 5 * lens.k2;
     const double b = 3 * lens.k1;
     double lowest = std::numeric_limits<double>::infinity();
@@ -97,8 +97,8 @@ std::string at(const glm::dvec2& p) {
 
 Result<UprightFrame> plan_upright_frame(const TurntableModel& model,
                                         std::span<const TurnSilhouette::Box> object_boxes) {
-    Bounds seen;    // upright picture at f = 1
-    Bounds source;  // photograph
+    Bounds seen;    // upright image at f = 1
+    Bounds source;  // photo
     std::vector<glm::dvec2> points;
     for (const TurnSilhouette::Box& box : object_boxes) {
         if (box.empty() || box.top >= box.bottom) continue;

@@ -1,11 +1,12 @@
 #pragma once
-// From photographs of a calibrated turn to what an upright camera at the same place would have taken: no lens
-// distortion, no tilt, pan or roll, so that every picture column is a vertical plane of rays and the encoder need not
-// resample again.
-//
-// The camera stands still, so one frame and one mapping serve all views. The upright camera stands in the table frame
-// of turntable_model.hpp at (0, 0, 1) and looks along -Z, straight at the axis: its pose is zero, its lens a pinhole,
-// and the axis appears in the column cx. Its horizon, cy, may lie outside of the frame.
+/// \file
+/// Rectification: resamples the photos of a calibrated turn to the images of an upright camera at the same position,
+/// without lens distortion, tilt, pan or roll. Each image column is then a vertical plane of rays, and the encoder does
+/// not have to resample again.
+///
+/// The camera is fixed, so one frame and one mapping apply to all views. The upright camera is at (0, 0, 1) in the
+/// table frame of turntable_model.hpp and looks along -Z, straight at the axis: its pose is zero, its lens a pinhole,
+/// and the axis is in the column cx. Its horizon, cy, may be outside the frame.
 
 #include "capture/calibration/model/picture_place.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
@@ -19,33 +20,36 @@
 
 namespace rs::capture {
 
+/// Image frame of the upright camera.
 struct UprightFrame {
-    Lens lens;         // width, height, f_px, cx, cy; no distortion
-    double scale = 1;  // px per px of the photograph at the object's middle, along the direction in which it is lower
+    Lens lens;         ///< width, height, f_px, cx, cy; no distortion
+    double scale = 1;  ///< px per px of the photo at the object's middle, along the direction of the lower scale
 };
 
-// Room around the object, px: for what the boxes' corners do not show of curved edges, and for filters.
+/// Margin around the object: for curved edges beyond the corners of the boxes, and for the support of filters.
 inline constexpr int kUprightMargin_px = 8;
 
-// `object_boxes` hold the object's pixels of one or several views each, in px of the photographs (model.lens); empty
-// ones do not count. The focal length is the least at which no pixel of a box loses detail, as long as no direction at
-// the object's middle is enlarged more than 1.5 times, and never lower than what keeps the scale there. Only where the
-// frame would be larger than kMaxPictureSide_px it is lowered, down to half the scale. Errors: no box, the camera looks
-// so steeply down that an upright one cannot see a box within that, the distortion cannot be undone within a box.
+/// Chooses the frame that contains the boxes. `object_boxes` bound the object's pixels, each in one or several views,
+/// in px of the photos (model.lens); empty boxes are ignored. The focal length is the smallest at which no pixel of a
+/// box loses detail, limited to an enlargement of 1.5 in any direction at the object's middle, and at least the one
+/// that keeps the scale there. It is lowered, down to half the scale, only if the frame would exceed
+/// kMaxPictureSide_px. Errors: no box; a camera that looks down so steeply that an upright one cannot see a box within
+/// these limits; distortion that cannot be inverted within a box.
 Result<UprightFrame> plan_upright_frame(const TurntableModel& model, std::span<const TurnSilhouette::Box> object_boxes);
 
-// A photograph's cut-out (sRGB, straight alpha, of model.lens' size) as the upright camera sees it: sampled once by
-// sample_premultiplied(), transparent where the photograph does not reach; then the object's colours are continued
-// under alpha 0 by bleed_colours(). `place` states how the photograph was moved from
-// where the still camera of the model took it. About 0.2 s per megapixel of the frame. Thread-safe.
+/// Rectifies a photo's cut-out (sRGB, straight alpha, of the size of model.lens). Samples it once by
+/// sample_premultiplied(); the result is transparent outside the photo. bleed_colours() then extends the object's
+/// colours under alpha 0. `place` is the displacement of the photo from the image of the model's fixed camera. About
+/// 0.2 s per megapixel of the frame. Thread-safe.
 Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, ConstImageView<Rgba8> cut_out,
                        const PicturePlace& place = {});
 
-// One camera per view of the model, without file names, all upright, in object radii: object_radius is 1, the radius
-// about the axis that holds everything within `visible`, whose outermost column is tangent to it; Y = 0 where the
-// middle row of `visible` meets the axis. `visible` is in px of the rectified pictures (TurnSilhouette::visible() of
-// them), not empty, and reaches to one side of the axis at least. `ground_height` is where the object stands, if known,
-// in the table frame (turntable_model.hpp); it becomes the rig's foot_height.
+/// Makes the rig of the rectified images: one upright camera per view of the model, without file names. The unit of
+/// length is the object radius: object_radius is 1, the radius of the circle about the axis that contains all of
+/// `visible` and to which its outermost column is tangent. Y = 0 where the middle row of `visible` meets the axis.
+/// `visible` is in px of the rectified images (their TurnSilhouette::visible()), not empty, and extends to at least one
+/// side of the axis. `ground_height` is the height of the surface below the object, if known, in the table frame
+/// (turntable_model.hpp); it becomes the rig's foot_height.
 Rig make_rig(const TurntableModel& model, const UprightFrame& frame, const TurnSilhouette::Box& visible,
              std::optional<double> ground_height = std::nullopt);
 

@@ -16,14 +16,14 @@ constexpr int kGrid_px = 12;
 constexpr std::size_t kMaxPairs = 24;
 constexpr float kMinMatch = 0.85F;     // normalised correlation
 constexpr double kMinContrast = 10;    // standard deviation of a patch, grey codes
-constexpr int kMaxReturnError_px = 1;  // a patch must find its way back
-constexpr double kNearAxis = 0.5;      // of the widest extent
+constexpr int kMaxReturnError_px = 1;  // of a patch that is matched forth and back
+constexpr double kNearAxis = 0.5;      // fraction of the widest extent
 constexpr int kMinPatches = 30;
 constexpr double kFrontMajority = 0.75;
-constexpr double kClearSlope = 8;  // standard errors; patches of one part of the object err together
+constexpr double kClearSlope = 8;  // standard errors; errors of patches on one part of the object are correlated
 
 struct Motion {
-    double x_px, y_px;  // where the patch was, from the axis and from the top
+    double x_px, y_px;  // midpoint of the patch's motion, from the axis and from the top
     double dx_px, dy_px;
 };
 
@@ -38,7 +38,7 @@ cv::Mat1b grey(ConstImageView<Rgba8> picture) {
     return result;
 }
 
-// True where the patch shows nothing but the object.
+// True if all pixels of the patch belong to the object.
 bool is_solid(ConstImageView<Rgba8> picture, int left, int top) {
     for (int y = top; y < top + kCompared_px; ++y) {
         for (int x = left; x < left + kCompared_px; ++x) {
@@ -48,8 +48,8 @@ bool is_solid(ConstImageView<Rgba8> picture, int left, int top) {
     return true;
 }
 
-// Where the patch of `from` at `at` is in `to`, searched up to `reach` away; no value where nothing is like it, or
-// where the best place lies on the edge of the search.
+// Finds the patch of `from` at `at` in `to`, in a window of +-`reach` px. Nullopt if no position is similar enough, or
+// if the best one is on the border of the window.
 std::optional<cv::Point> find_patch(const cv::Mat1b& from, const cv::Mat1b& to, cv::Point at, cv::Size reach) {
     const cv::Rect everywhere(0, 0, to.cols, to.rows);
     const cv::Rect window = everywhere & cv::Rect(at.x - reach.width, at.y - reach.height,
@@ -91,7 +91,7 @@ std::vector<Motion> motions_between(ConstImageView<Rgba8> first, ConstImageView<
     return motions;
 }
 
-// Least squares of dy over x, through a free offset.
+// Fits dy = slope * x + offset by least squares.
 void fit_sinking(const std::vector<Motion>& low, TurningEvidence& evidence) {
     if (low.size() < kMinPatches) return;
     const auto n = static_cast<double>(low.size());
@@ -125,7 +125,8 @@ TurningEvidence find_turning(std::span<const Image<Rgba8>> turn, double axis_x_p
     if (count < 3) return evidence;
     const std::size_t neighbours = closed ? count : count - 1;
     const std::size_t pairs = std::min(neighbours, kMaxPairs);
-    // The fastest point goes extent * step; sideways a little more than that, up and down a part of it.
+    // The fastest point moves by extent * step. The window allows slightly more sideways and a fraction of it
+    // vertically.
     const double fastest_px = half_width_px * step_rad;
     const cv::Size reach(static_cast<int>(std::lround(1.3 * fastest_px)) + 4,
                          static_cast<int>(std::lround(0.4 * fastest_px)) + 3);
@@ -157,7 +158,7 @@ TurningEvidence find_turning(std::span<const Image<Rgba8>> turn, double axis_x_p
     }
     fit_sinking(low, evidence);
 
-    // Where the front goes left, patches right of the axis come nearer and sink: the slope is positive.
+    // If the front moves to the left, patches right of the axis approach and move down: the slope is positive.
     std::optional<Turning> by_slope;
     if (evidence.sink_slope_error > 0 && std::abs(evidence.sink_slope) > kClearSlope * evidence.sink_slope_error) {
         by_slope = evidence.sink_slope > 0 ? Turning::kClockwise : Turning::kCounterClockwise;
