@@ -125,8 +125,8 @@ struct BackgroundParameters {
         double max_slope_residual = 0.5;  ///< of a sloped horizon, relative to that of a level one
         float visible_delta_e = 2.5F;     ///< pixels that differ by more from the gradient are marks or another surface
         double min_swept_share = 0.01;    ///< of the image: a part with more swept pixels is connected to the object
-        /// Share of the image: unshaded pixels of parts connected to the object above which there is no gradient. Measured:
-        /// studios 0, with steep shadows up to 0.0015; turntables 0.0012 to 0.02.
+        /// Share of the image: unshaded pixels of parts connected to the object above which there is no gradient.
+        /// Measured: studios 0, with steep shadows up to 0.0015; turntables 0.0012 to 0.02.
         double max_share_at_object = 0.002;
         double max_share_elsewhere = 0.05;  ///< the same for marks that stand alone
         int swept_margin_px = 4;            ///< the swept region ends at cell boundaries; ignored around it

@@ -22,8 +22,8 @@ struct PropagatedPlate {
     Image<std::uint64_t> support;  ///< [pixel] bit i: frame i shows the background; 0: not part of the plate
 };
 
-/// Selects whether growth follows the support alone or only to colours near the guess: seeds that are themselves guesses
-/// must not lead away from it.
+/// Selects whether growth follows the support alone or only to colours near the guess: seeds that are themselves
+/// guesses must not lead away from it.
 enum class Growth { kFree, kNearGuess };
 
 /// Adds the pixels where `seeds` is not 0 and the frames show about the colour `guess` to `plate`, which is empty or
