@@ -75,7 +75,8 @@ std::optional<CleanPlateView> BackgroundModelSegmenter::exposed_like(ConstImageV
 
 Image<LinearRgb> BackgroundModelSegmenter::background_of(ConstImageView<Rgba8> photo) const {
     std::optional<CleanPlateView> exposed = exposed_like(photo);
-    return exposed ? std::move(exposed->background.light) : plate_.background.light;
+    if (exposed) return std::move(exposed->background.light);
+    return plate_.background.light;
 }
 
 Image<std::uint8_t> BackgroundModelSegmenter::mask_of(ConstImageView<Rgba8> photo) const {

@@ -85,7 +85,7 @@ std::string first_unknown(const nlohmann::json& given, const nlohmann::json& kno
         if (!known.contains(name)) return own + " is no parameter";
         const nlohmann::json& expected = known.at(name);
         if (expected.is_object()) {
-            const std::string found = first_unknown(value, expected, own);
+            std::string found = first_unknown(value, expected, own);
             if (!found.empty()) return found;
             continue;
         }
