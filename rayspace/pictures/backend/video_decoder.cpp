@@ -58,8 +58,19 @@ int orientation_from(const std::int32_t* matrix) {
     return 1;
 }
 
-AVColorSpace color_matrix(const AVFrame& frame) {
-    if (frame.colorspace != AVCOL_SPC_UNSPECIFIED && frame.colorspace != AVCOL_SPC_RGB) return frame.colorspace;
+// Files may state codes that the enumeration does not have, which must not be read as one.
+template <class Enumeration>
+int code_of(const Enumeration& value) {
+    static_assert(sizeof(Enumeration) == sizeof(int));
+    int code = 0;
+    std::memcpy(&code, &value, sizeof code);
+    return code;
+}
+
+int color_matrix(const AVFrame& frame) {
+    const int code = code_of(frame.colorspace);
+    const bool is_known = code >= 0 && code < AVCOL_SPC_NB;
+    if (is_known && code != AVCOL_SPC_UNSPECIFIED && code != AVCOL_SPC_RGB) return code;
     constexpr int kFirstHdHeight = 720;
     return frame.height >= kFirstHdHeight ? AVCOL_SPC_BT709 : AVCOL_SPC_SMPTE170M;
 }
@@ -175,7 +186,8 @@ private:
             const double estimate = header_duration_s() * info_.frames_per_second;
             info_.frame_estimate = estimate < 1e9 ? std::llround(estimate) : 0;
         }
-        info_.is_hdr = stored.color_trc == AVCOL_TRC_SMPTE2084 || stored.color_trc == AVCOL_TRC_ARIB_STD_B67;
+        info_.is_hdr =
+            code_of(stored.color_trc) == AVCOL_TRC_SMPTE2084 || code_of(stored.color_trc) == AVCOL_TRC_ARIB_STD_B67;
         return {};
     }
 
@@ -257,7 +269,7 @@ private:
                          " cannot be converted; convert the film to H.264"};
         }
         constexpr int kOne = 1 << 16;
-        const bool is_full_range = frame_->color_range == AVCOL_RANGE_JPEG;
+        const bool is_full_range = code_of(frame_->color_range) == AVCOL_RANGE_JPEG;
         sws_setColorspaceDetails(scaler_.get(), sws_getCoefficients(color_matrix(*frame_)), is_full_range ? 1 : 0,
                                  sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, kOne, kOne);
         // swscale may write beyond the end of a row.
