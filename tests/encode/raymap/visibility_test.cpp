@@ -19,7 +19,7 @@ constexpr double kPlateZ = 0.3;
 constexpr double kPlateHalfWidth = 0.12;
 constexpr double kPlateHalfHeight = 0.3;
 
-// Where a pixel's ray meets the plane of this z: its depth, and x and y there.
+// Intersection of a pixel's ray with the plane of this z: its depth, and x and y there.
 struct PlaneHit {
     double depth = 0, x = 0, y = 0;
 };
