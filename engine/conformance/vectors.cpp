@@ -35,8 +35,10 @@ json json_of(const ViewRegisters& r) {
                           {"n", json_of(plane.along_normal)},
                           {"t", json_of(plane.along_tangent)}});
     }
-    return {{"width", r.width}, {"height", r.height},   {"ring", r.ring},
-            {"b", r.b_q20},     {"s", json_of(r.rise)}, {"planes", std::move(planes)}};
+    json registers = {{"width", r.width}, {"height", r.height},   {"ring", r.ring},
+                      {"b", r.b_q20},     {"s", json_of(r.rise)}, {"planes", std::move(planes)}};
+    if (r.filter != TexelFilter::kBilinear) registers["filter"] = static_cast<int>(r.filter);
+    return registers;
 }
 
 ViewRegisters registers_from(const json& from) {
@@ -44,6 +46,7 @@ ViewRegisters registers_from(const json& from) {
     r.width = from.at("width").get<int>();
     r.height = from.at("height").get<int>();
     r.ring = from.at("ring").get<int>();
+    r.filter = static_cast<TexelFilter>(from.value("filter", std::uint8_t{0}));
     r.b_q20 = from.at("b").get<std::int32_t>();
     r.rise = form_from(from.at("s"));
     for (const json& plane : from.at("planes")) {

@@ -172,7 +172,9 @@ Result<CycleHandle> DataModule::submit(const std::vector<ViewRequest>& views) {
         const auto found = state_->objects.find(view.object.number);
         if (found == state_->objects.end()) return not_loaded(view.object);
         const RaySpaceObject& object = found->second.renderer->object();
-        Result<ViewRegisters> registers = prepare_view(object, view.camera);
+        const bool is_filtered = !found->second.on_board || board->device().traits().filters;
+        Result<ViewRegisters> registers =
+            prepare_view(object, view.camera, is_filtered ? std::nullopt : std::optional(TexelFilter::kBilinear));
         if (!registers) return Error{object.name + ": " + registers.error().message};
         const bool board_draws = found->second.on_board && (!view.depth || board->device().traits().depth) &&
                                  board->device().draws(*registers).ok();

@@ -14,6 +14,7 @@ public:
         : traits_{.name = "board:" + config.name,
                   .depth = false,
                   .tilted = false,
+                  .filters = false,
                   .views_per_cycle = config.limits.views_per_cycle},
           limits_(config.limits),
           board_(config),

@@ -17,7 +17,9 @@
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,7 @@ struct RenderArguments {
     double frames_per_second = 30;
     int level = kProgressiveLevels - 1;
     bool depth = false;
+    std::optional<TexelFilter> filter;  // else by the size of the views
     bool quiet = false;
 };
 
@@ -84,8 +87,9 @@ private:
     std::atomic<int> empty_{0};
 };
 
-Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camera, EmptyViews& empty) {
-    const Result<ViewRegisters> registers = prepare_view(renderer.object(), camera);
+Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camera, std::optional<TexelFilter> filter,
+                                   EmptyViews& empty) {
+    const Result<ViewRegisters> registers = prepare_view(renderer.object(), camera, filter);
     if (!registers) return registers.error();
     Image<Rgba8> picture(camera.width, camera.height);
     renderer.render(*registers, picture);
@@ -99,9 +103,9 @@ std::filesystem::path depth_name(std::filesystem::path picture) {
 }
 
 // The view as PNG and, beside it, its depth.
-Status write_view_with_depth(const Renderer& renderer, const Camera& camera, const std::filesystem::path& path,
-                             EmptyViews& empty) {
-    const Result<ViewRegisters> registers = prepare_view(renderer.object(), camera);
+Status write_view_with_depth(const Renderer& renderer, const Camera& camera, std::optional<TexelFilter> filter,
+                             const std::filesystem::path& path, EmptyViews& empty) {
+    const Result<ViewRegisters> registers = prepare_view(renderer.object(), camera, filter);
     if (!registers) return registers.error();
     Image<Rgba8> picture(camera.width, camera.height);
     Image<std::int32_t> lambda_q20(camera.width, camera.height);
@@ -124,8 +128,8 @@ Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras
     Status written = for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
         const std::filesystem::path path = staged->temporary_path() / rig.views[n].file_path;
-        if (arguments.depth) return write_view_with_depth(renderer, cameras[n], path, empty);
-        const Result<Image<Rgba8>> picture = render_camera(renderer, cameras[n], empty);
+        if (arguments.depth) return write_view_with_depth(renderer, cameras[n], arguments.filter, path, empty);
+        const Result<Image<Rgba8>> picture = render_camera(renderer, cameras[n], arguments.filter, empty);
         if (!picture) return picture.error();
         return write_png(path, *picture);
     });
@@ -175,10 +179,11 @@ Status check_one_picture(const std::vector<Camera>& cameras, const RenderArgumen
 Status write_picture(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
                      EmptyViews& empty) {
     if (Status status = check_one_picture(cameras, arguments); !status) return status;
-    if (arguments.depth) return write_view_with_depth(renderer, cameras.front(), arguments.output, empty);
+    if (arguments.depth)
+        return write_view_with_depth(renderer, cameras.front(), arguments.filter, arguments.output, empty);
     std::vector<Image<Rgba8>> pictures;
     for (const Camera& camera : cameras) {
-        Result<Image<Rgba8>> picture = render_camera(renderer, camera, empty);
+        Result<Image<Rgba8>> picture = render_camera(renderer, camera, arguments.filter, empty);
         if (!picture) return picture.error();
         pictures.push_back(std::move(*picture));
     }
@@ -196,7 +201,8 @@ Status write_views(OutputKind kind, const Renderer& renderer, const std::vector<
             progress.start("rendering", static_cast<std::int64_t>(cameras.size()));
             return write_view_video(
                 arguments.output, arguments.frames_per_second, cameras,
-                [&](const Camera& camera) { return render_camera(renderer, camera, empty); }, progress);
+                [&](const Camera& camera) { return render_camera(renderer, camera, arguments.filter, empty); },
+                progress);
         case OutputKind::folder:
             break;
     }
@@ -252,6 +258,19 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     command->add_flag("--depth", arguments->depth,
                       "also write NAME.depth.exr beside each picture: axial depth in the units of the object's rig, 0 "
                       "where nothing is shown");
+    static const std::map<std::string, std::optional<TexelFilter>> kFilters = {
+        {"auto", std::nullopt},
+        {"bilinear", TexelFilter::kBilinear},
+        {"sharp", TexelFilter::kSharp},
+        {"smooth", TexelFilter::kSmooth},
+    };
+    command
+        ->add_option_function<std::string>(
+            "--filter", [arguments](const std::string& name) { arguments->filter = kFilters.at(name); },
+            "how an object with a shape map samples its pictures: sharp, smooth (for views smaller than the pictures), "
+            "bilinear (as boards do), or auto: by the size of the views")
+        ->check(CLI::IsMember(kFilters))
+        ->default_str("auto");
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
     command->footer(
         "Examples:\n  rs-engine render vase.rso --orbit 120 -o vase.mp4\n"

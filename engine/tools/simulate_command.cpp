@@ -65,7 +65,7 @@ Result<std::vector<Drawing>> requested_drawings(const std::vector<RaySpaceObject
     for (std::size_t v = 0; v < cameras.front().size(); ++v) {
         for (std::size_t n = 0; n < objects.size(); ++n) {
             const Camera camera = arguments.upright ? stood_upright(cameras[n][v]) : cameras[n][v];
-            const Result<ViewRegisters> registers = prepare_view(objects[n], camera);
+            const Result<ViewRegisters> registers = prepare_view(objects[n], camera, TexelFilter::kBilinear);
             if (!registers) return registers.error();
             drawings.push_back({n, camera, *registers});
         }

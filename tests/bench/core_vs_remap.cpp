@@ -77,7 +77,8 @@ const RaySpaceObject& opaque_object_with_shape() {
     return kObject;
 }
 
-std::vector<engine::ViewRegisters> orbit(double distance = 3.5, int count = 61) {
+std::vector<engine::ViewRegisters> orbit(double distance = 3.5, int count = 61,
+                                         engine::TexelFilter filter = engine::TexelFilter::kBilinear) {
     std::vector<engine::ViewRegisters> views;
     const Rig rig = make_ring({.count = count,
                                .distance = distance,
@@ -85,14 +86,18 @@ std::vector<engine::ViewRegisters> orbit(double distance = 3.5, int count = 61) 
                                .width = kSide,
                                .height = kSide,
                                .first_rad = 0.01});
-    for (const RigView& view : rig.views) views.push_back(*engine::prepare_view(object(), view.camera));
+    for (const RigView& view : rig.views) {
+        views.push_back(*engine::prepare_view(object(), view.camera));
+        views.back().filter = filter;
+    }
     return views;
 }
 
-void render_orbit(benchmark::State& state, const RaySpaceObject& shown, double distance) {
+void render_orbit(benchmark::State& state, const RaySpaceObject& shown, double distance,
+                  engine::TexelFilter filter = engine::TexelFilter::kBilinear) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
     const engine::Renderer renderer = *engine::Renderer::create(shown);
-    const std::vector<engine::ViewRegisters> views = orbit(distance);
+    const std::vector<engine::ViewRegisters> views = orbit(distance, 61, filter);
     Image<Rgba8> out(kSide, kSide);
     std::size_t next = 0;
     for (auto _ : state) {
@@ -112,20 +117,40 @@ void core_shape(benchmark::State& state) {
 }
 BENCHMARK(core_shape)->UseRealTime()->MinTime(1);
 
+void core_shape_sharp(benchmark::State& state) {
+    render_orbit(state, object_with_shape(), 3.5, engine::TexelFilter::kSharp);
+}
+BENCHMARK(core_shape_sharp)->UseRealTime()->MinTime(1);
+
 void core_shape_near(benchmark::State& state) {
     render_orbit(state, object_with_shape(), 3);
 }
 BENCHMARK(core_shape_near)->UseRealTime()->MinTime(1);
+
+void core_shape_near_sharp(benchmark::State& state) {
+    render_orbit(state, object_with_shape(), 3, engine::TexelFilter::kSharp);
+}
+BENCHMARK(core_shape_near_sharp)->UseRealTime()->MinTime(1);
 
 void core_shape_opaque(benchmark::State& state) {
     render_orbit(state, opaque_object_with_shape(), 3.5);
 }
 BENCHMARK(core_shape_opaque)->UseRealTime()->MinTime(1);
 
+void core_shape_opaque_sharp(benchmark::State& state) {
+    render_orbit(state, opaque_object_with_shape(), 3.5, engine::TexelFilter::kSharp);
+}
+BENCHMARK(core_shape_opaque_sharp)->UseRealTime()->MinTime(1);
+
 void core_shape_opaque_near(benchmark::State& state) {
     render_orbit(state, opaque_object_with_shape(), 3);
 }
 BENCHMARK(core_shape_opaque_near)->UseRealTime()->MinTime(1);
+
+void core_shape_opaque_near_sharp(benchmark::State& state) {
+    render_orbit(state, opaque_object_with_shape(), 3, engine::TexelFilter::kSharp);
+}
+BENCHMARK(core_shape_opaque_near_sharp)->UseRealTime()->MinTime(1);
 
 const RaySpaceObject& coded_object(codec::Profile profile) {
     static std::map<codec::Profile, RaySpaceObject> objects;
@@ -143,7 +168,7 @@ const RaySpaceObject& coded_object(codec::Profile profile) {
     return objects.emplace(profile, std::move(coded)).first->second;
 }
 
-constexpr std::int64_t kDecodedPicture = std::int64_t{8} * 512 * 512;
+constexpr std::int64_t kDecodedPicture = std::int64_t{9} * 512 * 512;
 
 void coded_orbit(benchmark::State& state, const RaySpaceObject& shown, std::int64_t budget_bytes, bool warm) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);

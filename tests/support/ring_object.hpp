@@ -58,6 +58,17 @@ inline Image<Rgba8> noise_picture(const Camera& camera, std::mt19937_64& random)
     return picture;
 }
 
+// Makes the middle of every picture opaque: half of its columns and rows. Only opaque pixels have detail.
+inline void make_middle_opaque(RaySpaceObject& object) {
+    for (PlanarPicture& picture : object.pictures) {
+        for (int row = object.height / 4; row < object.height - object.height / 4; ++row) {
+            for (int column = object.width / 4; column < object.width - object.width / 4; ++column) {
+                picture.a(column, row) = 255;
+            }
+        }
+    }
+}
+
 inline RaySpaceObject ring_object(const RingObjectOptions& options) {
     const Rig rig = ring_rig(options);
     RaySpaceObject object;

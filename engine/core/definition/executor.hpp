@@ -21,8 +21,9 @@ namespace rs::engine {
 
 struct ExecutorTraits {
     std::string name;
-    bool depth = true;   // gives depth, too
-    bool tilted = true;  // draws views from cameras that are tilted
+    bool depth = true;    // gives depth, too
+    bool tilted = true;   // draws views from cameras that are tilted
+    bool filters = true;  // has all filters (TexelFilter); else only kBilinear
     int views_per_cycle = std::numeric_limits<int>::max();
 };
 

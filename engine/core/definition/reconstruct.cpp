@@ -8,6 +8,19 @@
 namespace rs::engine {
 namespace {
 
+// The texels of unpacked pictures, as shape_pixel() reads them.
+struct StoredTexels {
+    const RaySpaceObject& object;
+
+    [[nodiscard]] const PlanarPicture& picture(int view) const {
+        return object.pictures[static_cast<std::size_t>(view)];
+    }
+    [[nodiscard]] Rgba8 color(int view, int column, int row) const { return rgba_at(picture(view), column, row); }
+    [[nodiscard]] int detail(int view, int column, int row) const {
+        return texel_detail_at(picture(view), column, row);
+    }
+};
+
 ShapePixel plane_pixel(const RaySpaceObject& object, const ViewRegisters& registers, int i, int j) {
     const RaySetup ray = set_up_ray(object, registers, i, j);
     if (ray.picture < 0) return {};
@@ -20,10 +33,7 @@ ShapePixel plane_pixel(const RaySpaceObject& object, const ViewRegisters& regist
 ShapePixel pixel_with_height(const RaySpaceObject& object, const ViewRegisters& registers, int i, int j) {
     const ShapeSetup setup = set_up_shape(object, registers, i, j);
     if (!setup.has_ray) return {};
-    const auto texel = [&](int view, int column, int row) {
-        return rgba_at(object.pictures[static_cast<std::size_t>(view)], column, row);
-    };
-    return shape_pixel(object, registers, setup, registers.rise_q24(i, j), texel);
+    return shape_pixel(object, registers, setup, registers.rise_q24(i, j), StoredTexels{object});
 }
 
 }  // namespace

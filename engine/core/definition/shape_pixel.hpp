@@ -5,6 +5,7 @@
 #include "engine/core/definition/cell_march.hpp"
 #include "engine/core/definition/fixed_point.hpp"
 #include "engine/core/definition/shape_setup.hpp"
+#include "engine/core/definition/texel_detail.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
@@ -26,24 +27,33 @@ inline constexpr std::int32_t kNearest_q20 = 1 << 17;  // axial depth in a captu
 struct SampleSum {
     bool exists = false;  // the point lies in the picture's frame
     std::int32_t a = 0, r = 0, g = 0, b = 0;
+    std::int32_t detail = 0;  // to be added to r, g and b; 0 with the bilinear filter
 };
 
 inline SampleSum mix(const SampleSum& first, const SampleSum& second, int weight) {
     const auto of = [&](int a, int b) { return a * (256 - weight) + b * weight; };
-    return {true, of(first.a, second.a), of(first.r, second.r), of(first.g, second.g), of(first.b, second.b)};
+    return {true,
+            of(first.a, second.a),
+            of(first.r, second.r),
+            of(first.g, second.g),
+            of(first.b, second.b),
+            of(first.detail, second.detail)};
 }
 
 inline Rgba8 resolve(const SampleSum& sum) {
     const int alpha = (sum.a + (1 << 13)) >> 14;
     if (alpha == 0) return {};
-    const auto channel = [&](int c) { return static_cast<std::uint8_t>((c + sum.a / 2) / sum.a); };
+    const auto channel = [&](int c) {
+        return static_cast<std::uint8_t>((std::clamp(c + sum.detail, 0, 255 * sum.a) + sum.a / 2) / sum.a);
+    };
     return {channel(sum.r), channel(sum.g), channel(sum.b), static_cast<std::uint8_t>(alpha)};
 }
 
-// Section 7. `texel(view, column, row)` gives a stored pixel as Rgba8.
-template <class Texel>
+// Section 7. `texels.color(view, column, row)` gives a stored pixel as Rgba8, `texels.detail(view, column, row)` its
+// texel_detail_at().
+template <class Texels>
 SampleSum sample_picture(const RaySpaceObject& object, const ShapePicture& picture, int d_q3, std::int32_t y_q16,
-                         const Texel& texel) {
+                         TexelFilter filter, const Texels& texels) {
     const CapturedView& view = object.views[static_cast<std::size_t>(picture.view)];
     const std::int32_t l_q20 = picture.l0_q20 + ((d_q3 * picture.l1_q24) >> 7);
     if (l_q20 < kNearest_q20) return {};
@@ -63,7 +73,7 @@ SampleSum sample_picture(const RaySpaceObject& object, const ShapePicture& pictu
     const int bottom = std::min((y_q3 >> 3) + 1, object.height - 1);
     SampleSum sum{true};
     const auto add = [&](int column, int row, int weight) {
-        const Rgba8 t = texel(picture.view, column, row);
+        const Rgba8 t = texels.color(picture.view, column, row);
         sum.a += weight * t.a;
         sum.r += weight * t.a * t.r;
         sum.g += weight * t.a * t.g;
@@ -75,6 +85,12 @@ SampleSum sample_picture(const RaySpaceObject& object, const ShapePicture& pictu
     add(left, bottom, (8 - fx) * fy);
     add(right, top, fx * (8 - fy));
     add(right, bottom, fx * fy);
+    if (filter == TexelFilter::kBilinear) return sum;
+
+    const auto detail = [&](int column, int row) { return texels.detail(picture.view, column, row); };
+    const int detail_sum = (8 - fx) * (8 - fy) * detail(left, top) + (8 - fx) * fy * detail(left, bottom) +
+                           fx * (8 - fy) * detail(right, top) + fx * fy * detail(right, bottom);
+    sum.detail = sample_detail(filter, fx, fy, sum.a, detail_sum);
     return sum;
 }
 
@@ -91,15 +107,18 @@ struct ShownSurface {
     std::int32_t lambda_q20 = 0;
 };
 
-template <class Texel>
+template <class Texels>
 ShownSurface shown_surface(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
-                           std::int32_t d_q3, int lean, std::int32_t rise_q24, const Texel& texel) {
+                           std::int32_t d_q3, int lean, std::int32_t rise_q24, const Texels& texels) {
     ShownSurface shown;
     shown.lambda_q20 = setup.lambda0_q20 + ((d_q3 * setup.lambda1_q21) >> 4);
     if (shown.lambda_q20 <= 0) return {};
     const std::int32_t y_q16 = (registers.b_q20 >> 4) + multiply_shift(shown.lambda_q20, rise_q24, 28);
-    const SampleSum first = setup.weight < 256 ? sample_picture(object, setup.first, d_q3, y_q16, texel) : SampleSum{};
-    const SampleSum second = setup.weight > 0 ? sample_picture(object, setup.second, d_q3, y_q16, texel) : SampleSum{};
+    const auto sample = [&](const ShapePicture& picture) {
+        return sample_picture(object, picture, d_q3, y_q16, registers.filter, texels);
+    };
+    const SampleSum first = setup.weight < 256 ? sample(setup.first) : SampleSum{};
+    const SampleSum second = setup.weight > 0 ? sample(setup.second) : SampleSum{};
     // Every point of the object lies within every silhouette.
     if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) return {};
     if (first.exists && second.exists) shown.sum = mix(first, second, leaning_weight(setup.weight, lean));
@@ -121,11 +140,11 @@ inline ShapePixel laid_over(const ShapePixel& nearer, const ShapePixel& farther)
             n.a < 128 ? farther.lambda_q20 : nearer.lambda_q20};
 }
 
-template <class Texel>
+template <class Texels>
 ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
-                       std::int32_t rise_q24, const Texel& texel) {
+                       std::int32_t rise_q24, const Texels& texels) {
     const auto shown_at = [&](std::int32_t d_q3, int lean = kBothShow) {
-        return shown_surface(object, registers, setup, d_q3, lean, rise_q24, texel);
+        return shown_surface(object, registers, setup, d_q3, lean, rise_q24, texels);
     };
     const auto pixel = [](const ShownSurface& shown) { return ShapePixel{resolve(shown.sum), shown.lambda_q20}; };
     if (!setup.has_shape()) return pixel(shown_at(0));

@@ -16,6 +16,9 @@ constexpr double kFarthest = 200;  // object radii; farther viewpoints are broug
 // bits.
 constexpr double kLargestDirection = 8 - 1.0 / 1024;
 constexpr double kLargestRowStep = 2;  // bound of sy
+// Views of at least this magnification are sharpened; of at most that one, smoothed.
+constexpr double kSharpFrom = 0.95;
+constexpr double kSmoothUpTo = 0.75;
 
 std::int64_t fixed(double value, int fractional_bits) {
     return std::llround(std::ldexp(value, fractional_bits));
@@ -83,6 +86,20 @@ int nearest_ring(const RaySpaceObject& object, const glm::dvec3& viewpoint) {
     return static_cast<int>(best - object.rings.begin());
 }
 
+// The view's pixels per object radius at the axis, relative to the captured pictures'.
+double magnification(const RaySpaceObject& object, const Ring& ring, const Camera& camera) {
+    const CapturedView& captured = object.views[ring.views.front()];
+    const double distance = std::ldexp(std::hypot(captured.lines.front().l0_q20, captured.height_q20), -20);
+    const double captured_px = std::ldexp(captured.fl_y_q16, -16) / distance;
+    return camera.fl_y / glm::length(camera.centre()) / captured_px;
+}
+
+TexelFilter best_filter(const RaySpaceObject& object, const Ring& ring, const Camera& camera) {
+    const double scale = magnification(object, ring, camera);
+    if (scale >= kSharpFrom) return TexelFilter::kSharp;
+    return scale <= kSmoothUpTo ? TexelFilter::kSmooth : TexelFilter::kBilinear;
+}
+
 }  // namespace
 
 bool ViewRegisters::upright() const {
@@ -105,6 +122,9 @@ Status check_registers(const RaySpaceObject& object, const ViewRegisters& r) {
         return view_error("it is of ring " + std::to_string(r.ring) + ", and the object has " +
                           std::to_string(object.rings.size()));
     }
+    if (static_cast<int>(r.filter) > static_cast<int>(TexelFilter::kSmooth)) {
+        return view_error("its filter is none of bilinear (0), sharp (1) and smooth (2)");
+    }
     const auto planes = static_cast<std::size_t>(object.rings[static_cast<std::size_t>(r.ring)].planes);
     if (r.planes.size() != planes) {
         return view_error("it has registers for " + std::to_string(r.planes.size()) + " planes, and the ring has " +
@@ -126,7 +146,8 @@ Status check_registers(const RaySpaceObject& object, const ViewRegisters& r) {
     return {};
 }
 
-Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera_in_rig) {
+Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera_in_rig,
+                                   std::optional<TexelFilter> filter) {
     if (object.rings.empty()) return view_error("the object holds no ring of views");
     if (camera_in_rig.width < 1 || camera_in_rig.height < 1 || camera_in_rig.width > kMaxPictureSide_px ||
         camera_in_rig.height > kMaxPictureSide_px) {
@@ -149,6 +170,8 @@ Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& c
     registers.width = camera.width;
     registers.height = camera.height;
     registers.ring = nearest_ring(object, camera.centre());
+    const Ring& ring = object.rings[static_cast<std::size_t>(registers.ring)];
+    if (!ring.shape.empty()) registers.filter = filter.value_or(best_filter(object, ring, camera));
     registers.b_q20 = static_cast<std::int32_t>(fixed(camera.centre().y, 20));
 
     const std::string too_wide =

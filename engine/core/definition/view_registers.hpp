@@ -7,6 +7,7 @@
 #include "rayspace/object/ray_space_object.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace rs::engine {
@@ -26,12 +27,21 @@ struct PlaneRegisters {
     LinearForm along_tangent;  // direction . tangent
 };
 
+/// How a ring with a shape map samples its pictures (engine/RECONSTRUCTION.md, section 7). Rings without one fetch the
+/// nearest pixel.
+enum class TexelFilter : std::uint8_t {
+    kBilinear = 0,
+    kSharp = 1,   // bilinear plus luma detail: close to bicubic
+    kSmooth = 2,  // bilinear minus luma detail: a low-pass filter for views smaller than the pictures
+};
+
 struct ViewRegisters {
     int width = 0;   // px
     int height = 0;  // px
     int ring = 0;
-    std::int32_t b_q20 = 0;  // the viewpoint's height
-    LinearForm rise;         // direction . Y
+    TexelFilter filter = TexelFilter::kBilinear;  // ignored by rings without a shape map
+    std::int32_t b_q20 = 0;                       // the viewpoint's height
+    LinearForm rise;                              // direction . Y
     std::vector<PlaneRegisters> planes;
 
     // Of pixel (i, j), as rendering with height takes it.
@@ -41,11 +51,15 @@ struct ViewRegisters {
     [[nodiscard]] bool upright() const;
 };
 
-// `camera` is in the units of the object's rig (RaySpaceObject::units_per_radius). A viewpoint farther than 200 radii
-// is brought to 200 with the field of view narrowed so that the object's picture stays the same. Fails, naming the
-// quantity, where the camera leaves the ranges of RECONSTRUCTION.md: sizes of 1..8192 px, focal length above 0 and wide
-// enough, finite numbers. Pure; thread-safe.
-Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera);
+/// Computes the registers of a view. A viewpoint farther than 200 radii is moved to 200, with the field of view
+/// narrowed so that the object's image stays the same. Pure; thread-safe.
+/// \param camera  in the units of the object's rig (RaySpaceObject::units_per_radius)
+/// \param filter  the default depends on the object's size in the view relative to the captured pictures: sharp from
+///                0.95, smooth up to 0.75, else bilinear
+/// \return        an error that names the quantity where the camera leaves the ranges of RECONSTRUCTION.md: sizes of
+///                1..8192 px, focal length above 0 and wide enough, finite numbers
+Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera,
+                                   std::optional<TexelFilter> filter = {});
 
 // Whether registers from elsewhere are such as prepare_view makes for this object: sizes, ring, number of planes, and
 // the ranges of RECONSTRUCTION.md at every pixel. Renderers do not check again.

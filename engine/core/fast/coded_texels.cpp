@@ -1,5 +1,6 @@
 #include "engine/core/fast/coded_texels.hpp"
 
+#include "engine/core/definition/texel_detail.hpp"
 #include "rayspace/object/yuv.hpp"
 
 #include <algorithm>
@@ -9,10 +10,10 @@
 namespace rs::engine {
 namespace {
 
-// Texels that the pictures are apart.
+// Texels that the pictures are apart: whole pages of colours and of details.
 std::size_t texels_per_picture(const codec::CodedPictures& coded) {
     const std::int64_t texels = TexelLayout{coded.width, coded.height, {}}.picture_texels();
-    return ReservedMemory::whole_pages(static_cast<std::size_t>(texels) * sizeof(Rgba8)) / sizeof(Rgba8);
+    return ReservedMemory::whole_pages(static_cast<std::size_t>(texels));
 }
 
 }  // namespace
@@ -22,7 +23,7 @@ Result<std::unique_ptr<CodedTexels>> CodedTexels::create(std::shared_ptr<const c
     // Lanes without a ray read texel 0, which must be nobody's.
     TexelLayout layout{coded->width, coded->height, {}};
     const std::size_t per_picture = texels_per_picture(*coded);
-    std::size_t size = ReservedMemory::whole_pages(sizeof(Rgba8)) / sizeof(Rgba8);
+    std::size_t size = ReservedMemory::whole_pages(1);
     for (const codec::CodedPicture& picture : coded->pictures) {
         layout.picture_start.push_back(static_cast<std::int32_t>(size));
         if (picture.loaded()) size += per_picture;
@@ -30,17 +31,21 @@ Result<std::unique_ptr<CodedTexels>> CodedTexels::create(std::shared_ptr<const c
     }
     Result<ReservedMemory> memory = ReservedMemory::create(size * sizeof(Rgba8), name);
     if (!memory) return memory.error();
+    Result<ReservedMemory> details =
+        ReservedMemory::create(ReservedMemory::whole_pages(size + TexelLayout::kLeastColumn), name);
+    if (!details) return details.error();
     Result<std::unique_ptr<SampleStore>> samples = SampleStore::create(std::move(coded), name);
     if (!samples) return samples.error();
     return std::unique_ptr<CodedTexels>(
-        new CodedTexels(std::move(*samples), std::move(layout), std::move(*memory), budget_bytes));
+        new CodedTexels(std::move(*samples), std::move(layout), std::move(*memory), std::move(*details), budget_bytes));
 }
 
 CodedTexels::CodedTexels(std::unique_ptr<SampleStore> samples, TexelLayout layout, ReservedMemory memory,
-                         std::int64_t budget_bytes)
+                         ReservedMemory details, std::int64_t budget_bytes)
     : samples_(std::move(samples)),
       layout_(std::move(layout)),
       memory_(std::move(memory)),
+      details_(std::move(details)),
       budget_bytes_(budget_bytes),
       spans_(layout_.picture_start.size() * static_cast<std::size_t>(layout_.width)),
       tile_columns_(layout_.picture_start.size() * static_cast<std::size_t>(samples_->coded().tile_columns())),
@@ -55,18 +60,29 @@ void CodedTexels::ensure(int picture, int first, int last) {
     }
 }
 
+void CodedTexels::need_tile_column(int picture, int tile_column) {
+    const codec::CodedPictures& coded = samples_->coded();
+    if (tile_column < 0 || tile_column >= coded.tile_columns()) return;
+    const codec::CodedPicture& from = coded.pictures[static_cast<std::size_t>(picture)];
+    for (int row = 0; row < coded.tile_rows(); ++row) {
+        const int tile = row * coded.tile_columns() + tile_column;
+        if (from.tiles[static_cast<std::size_t>(tile)].present) samples_->need_tile(picture, tile);
+    }
+}
+
 // Tiles that are not present are left as they are: no texel of theirs was ever written, so they are transparent.
 void CodedTexels::fill_tile_column(int picture, int tile_column) {
     const codec::CodedPictures& coded = samples_->coded();
     const codec::CodedPicture& from = coded.pictures[static_cast<std::size_t>(picture)];
     const int first = tile_column << coded.tile_width_log2;
     const int last = std::min(first + coded.tile_width(), layout_.width) - 1;
+    // Details at the edges of the tile column depend on the pixels beside it.
+    for (const int needed : {tile_column - 1, tile_column, tile_column + 1}) need_tile_column(picture, needed);
     int top = layout_.height;
     int bottom = 0;
     for (int row = 0; row < coded.tile_rows(); ++row) {
         const int tile = row * coded.tile_columns() + tile_column;
         if (!from.tiles[static_cast<std::size_t>(tile)].present) continue;
-        samples_->need_tile(picture, tile);
         codec::TilePlace place = codec::place_of_tile(coded, static_cast<std::size_t>(tile));
         place.width = std::min(place.width, layout_.width - place.left);
         place.height = std::min(place.height, layout_.height - place.top);
@@ -80,9 +96,10 @@ void CodedTexels::fill_tile_column(int picture, int tile_column) {
         while (span.begin < span.end && texels[span.begin].a == 0) ++span.begin;
         while (span.begin < span.end && texels[span.end - 1].a == 0) --span.end;
         spans_[layout_.span_index(picture, column)] = span.begin < span.end ? span : RowSpan{};
+        find_details(picture, column, span.begin, span.end);
     }
     texel_bytes_[static_cast<std::size_t>(picture)].fetch_add(
-        static_cast<std::int64_t>(sizeof(Rgba8)) * (last - first + 1) * layout_.column_stride(),
+        static_cast<std::int64_t>(kTexelBytes) * (last - first + 1) * layout_.column_stride(),
         std::memory_order_relaxed);
 }
 
@@ -117,6 +134,17 @@ void CodedTexels::convert_tile(int picture, const codec::TilePlace& place) {
     };
     if (place.left == 0) repeat(0, -1);
     if (place.left + place.width == layout_.width) repeat(layout_.width - 1, layout_.width);
+}
+
+// Of the rows [top, bottom) of a column.
+void CodedTexels::find_details(int picture, int column, int top, int bottom) {
+    const codec::ConstPlaneViews planes = samples_->planes(picture);
+    const auto luma = [&](int x, int y) { return int{planes[0].row(y)[x]}; };
+    const auto alpha = [&](int x, int y) { return int{planes[3].row(y)[x]}; };
+    std::int8_t* const details = detail(layout_.column_start(picture, column));
+    for (int row = top; row < bottom; ++row) {
+        details[row] = texel_detail_at(layout_.width, layout_.height, column, row, luma, alpha);
+    }
 }
 
 void CodedTexels::begin_view() {
@@ -159,9 +187,10 @@ void CodedTexels::forget_over_budget() {
 
 void CodedTexels::forget(int picture) {
     samples_->forget(picture);
-    const std::size_t bytes = texels_per_picture(samples_->coded()) * sizeof(Rgba8);
+    const std::size_t texels = texels_per_picture(samples_->coded());
     const auto start = static_cast<std::size_t>(layout_.picture_start[static_cast<std::size_t>(picture)]);
-    memory_.release(start * sizeof(Rgba8), bytes);
+    memory_.release(start * sizeof(Rgba8), texels * sizeof(Rgba8));
+    details_.release(start, texels);
     texel_bytes_[static_cast<std::size_t>(picture)].store(0, std::memory_order_relaxed);
     const int columns = samples_->coded().tile_columns();
     for (int c = 0; c < columns; ++c) tile_columns_[static_cast<std::size_t>(picture * columns + c)].reset();

@@ -27,6 +27,9 @@ struct RowSpan {
     std::int32_t end = 0;
 };
 
+// A colour and a detail.
+inline constexpr std::size_t kTexelBytes = sizeof(Rgba8) + sizeof(std::int8_t);
+
 struct TexelLayout {
     // shape_walk.hpp reads as many texels of a column at once, whatever its height.
     static constexpr std::int32_t kLeastColumn = 17;
@@ -63,6 +66,7 @@ public:
     // Every picture in pages of its own, apart from what texel 0 needs (texel_store.hpp).
     [[nodiscard]] const TexelLayout& layout() const { return layout_; }
     [[nodiscard]] const Rgba8* texels() const { return texel(0); }
+    [[nodiscard]] const std::int8_t* details() const { return detail(0); }
     [[nodiscard]] RowSpan occupied(int picture, int column) const {
         return spans_[layout_.span_index(picture, column)];
     }
@@ -79,18 +83,24 @@ public:
     [[nodiscard]] std::int64_t decoded_bytes() const;
 
 private:
-    CodedTexels(std::unique_ptr<SampleStore> samples, TexelLayout layout, ReservedMemory memory,
+    CodedTexels(std::unique_ptr<SampleStore> samples, TexelLayout layout, ReservedMemory memory, ReservedMemory details,
                 std::int64_t budget_bytes);
     [[nodiscard]] Rgba8* texel(std::ptrdiff_t index) const { return reinterpret_cast<Rgba8*>(memory_.data()) + index; }
+    [[nodiscard]] std::int8_t* detail(std::ptrdiff_t index) const {
+        return reinterpret_cast<std::int8_t*>(details_.data()) + index;
+    }
     [[nodiscard]] std::int64_t decoded_bytes_of(int picture) const;
     void fill_tile_column(int picture, int tile_column);
+    void need_tile_column(int picture, int tile_column);
     void convert_tile(int picture, const codec::TilePlace& place);
+    void find_details(int picture, int column, int top, int bottom);
     void forget_over_budget();
     void forget(int picture);
 
     std::unique_ptr<SampleStore> samples_;
     TexelLayout layout_;
     ReservedMemory memory_;
+    ReservedMemory details_;
     std::int64_t budget_bytes_;
     std::vector<RowSpan> spans_;
     std::vector<DoneFlag> tile_columns_;                  // [picture][tile column]

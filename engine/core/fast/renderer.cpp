@@ -230,14 +230,23 @@ void Renderer::render_shape_upright(const ViewRegisters& registers, ImageView<Rg
 
 void Renderer::render_shape_pixels(const ViewRegisters& registers, ImageView<Rgba8> out,
                                    ImageView<std::int32_t> lambda) const {
-    const auto texel = [&](int view, int column, int row) {
-        texels_.ensure(view, column, column);
-        return texels_.texels()[texels_.column_start(view, column) + row];
+    struct Texels {
+        const TexelStore& store;
+        [[nodiscard]] std::int32_t index(int view, int column, int row) const {
+            store.ensure(view, column, column);
+            return store.column_start(view, column) + row;
+        }
+        [[nodiscard]] Rgba8 color(int view, int column, int row) const {
+            return store.texels()[index(view, column, row)];
+        }
+        [[nodiscard]] int detail(int view, int column, int row) const {
+            return store.details()[index(view, column, row)];
+        }
     };
     const auto pixel = [&](int i, int j) -> ShapePixel {
         const ShapeSetup setup = set_up_shape(object_, registers, i, j);
         if (!setup.has_ray) return {};
-        return shape_pixel(object_, registers, setup, registers.rise_q24(i, j), texel);
+        return shape_pixel(object_, registers, setup, registers.rise_q24(i, j), Texels{texels_});
     };
     render_pixels(pixel, out, lambda);
 }

@@ -22,7 +22,7 @@ namespace rs::engine {
 Status substitute_missing_pictures(RaySpaceObject& object);
 
 struct RendererOptions {
-    // Of an object whose pictures are coded: how much of them stays decoded between views, 8 bytes a pixel. A view
+    // Of an object whose pictures are coded: how much of them stays decoded between views, 9 bytes a pixel. A view
     // keeps what it needs, also beyond.
     std::int64_t decoded_budget_bytes = std::int64_t{256} << 20;
 };

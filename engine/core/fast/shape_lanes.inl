@@ -4,6 +4,7 @@
 // No include guard: cell_march_lanes.inl includes it once for each target.
 
 #include "engine/core/definition/fixed_point.hpp"
+#include "engine/core/definition/texel_detail.hpp"
 #include "engine/core/fast/shape_walk.hpp"
 
 #include <hwy/cache_control.h>
@@ -116,20 +117,29 @@ HWY_INLINE Vector look_up(const std::int32_t* table, Vector index) {
     return hn::GatherIndex(Lanes(), table, index);
 }
 
-// Texels of each lane, RGBA.
+// Texels of each lane, RGBA, and their details, left and right in 16 bits each.
 struct TexelQuads {
     Vector upper_left;
     Vector lower_left;
     Vector upper_right;
     Vector lower_right;
+    Vector upper_detail;
+    Vector lower_detail;
 };
 
 // Where the pictures' texels stand (texel_store.hpp).
 struct TexelGrid {
     const std::int32_t* texels;
+    const std::int8_t* details;  // null with the bilinear filter
     std::int32_t column_stride;
     std::int32_t height;
 };
+
+// The lower halves of two vectors' lanes in one.
+HWY_INLINE Vector left_and_right(Vector left, Vector right) {
+    return hn::BitCast(Lanes(),
+                       hn::OddEven(hn::BitCast(HalfBits(), hn::ShiftLeft<16>(right)), hn::BitCast(HalfBits(), left)));
+}
 
 // Those at places x, y from texel (0, 0) of a picture, whose index is `start`, in eighths of a texel; zero where not
 // `requested`. The rows of a view column go down the pictures: of few windows on a column, kLanes + 1 texels each, all
@@ -144,7 +154,7 @@ HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_
     hn::Store(in_rows, Lanes(), rows);
     const Vector index = hn::Add(in_columns, in_rows);
     const Vector zero = hn::Zero(Lanes());
-    TexelQuads quads{zero, zero, zero, zero};
+    TexelQuads quads{zero, zero, zero, zero, zero, zero};
     // The rows below these will look as far below, once all other columns have been walked. (In a lambda the compiler
     // leaves prefetches out.)
     constexpr int kBefore = 14;  // of 16 in a cache line
@@ -171,6 +181,18 @@ HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_
         take(left + 1, quads.lower_left);
         take(right, quads.upper_right);
         take(right + 1, quads.lower_right);
+        if (grid.details != nullptr) {
+            const hn::Rebind<std::int8_t, Lanes> bytes;
+            const std::int8_t* const left_details = grid.details + start + begin;
+            const std::int8_t* const right_details = left_details + grid.column_stride;
+            const auto take_details = [&](std::ptrdiff_t row, Vector& to) {
+                const Vector pairs = left_and_right(hn::PromoteTo(Lanes(), hn::LoadU(bytes, left_details + row)),
+                                                    hn::PromoteTo(Lanes(), hn::LoadU(bytes, right_details + row)));
+                to = hn::IfThenElse(inside, hn::TableLookupLanes(pairs, order), to);
+            };
+            take_details(0, quads.upper_detail);
+            take_details(1, quads.lower_detail);
+        }
         requested = hn::AndNot(inside, requested);
     }
     return quads;
@@ -214,6 +236,18 @@ struct Channels {
     Vector r, g, b, a;
 };
 
+// The detail at x, y eighths between the texels, in codes, q6: sample_detail() without alpha.
+HWY_INLINE Vector detail_codes(TexelFilter filter, const TexelQuads& quads, const TexelWeights& weights, Vector x,
+                               Vector y) {
+    const Vector eight = number(8);
+    const Vector strength = filter == TexelFilter::kSmooth
+                                ? number(-kSmoothing)
+                                : hn::Add(hn::Mul(x, hn::Sub(eight, x)), hn::Mul(y, hn::Sub(eight, y)));
+    const Vector sum =
+        hn::Add(multiply_pairs(quads.upper_detail, weights.upper), multiply_pairs(quads.lower_detail, weights.lower));
+    return hn::ShiftRight<6>(hn::Mul(strength, sum));
+}
+
 // Adds weight * (R, G, B).
 HWY_INLINE void add_texels(const TexelQuads& quads, const TexelWeights& weights, Channels& sum) {
     const auto add = [&](Vector left, Vector right, Vector weight) {
@@ -249,14 +283,16 @@ HWY_INLINE Vector packed(Vector r, Vector g, Vector b, Vector a) {
 }
 
 // resolve() of shape_pixel.hpp, as RGBA in memory order. The float quotient is at most one too small.
-HWY_INLINE Vector resolve_lanes(const Channels& sum) {
+HWY_INLINE Vector resolve_lanes(const Channels& sum, Vector detail) {
     const Floats floats;
     const Vector divisor = hn::Max(sum.a, number(1));
     const Vector half = hn::ShiftRight<1>(divisor);
     const Vector alpha = hn::ShiftRight<14>(hn::Add(sum.a, number(1 << 13)));
     const auto reciprocal = hn::Div(hn::Set(floats, 1.0F), hn::ConvertTo(floats, divisor));
+    const Vector most = hn::Sub(hn::ShiftLeft<8>(divisor), divisor);
     const auto channel = [&](Vector c) {
-        const Vector dividend = hn::Add(c, half);
+        const Vector filtered = hn::Min(hn::Max(hn::Add(c, detail), hn::Zero(Lanes())), most);
+        const Vector dividend = hn::Add(filtered, half);
         const auto quotient = hn::MulSub(hn::ConvertTo(floats, dividend), reciprocal, hn::Set(floats, 0x1p-9F));
         const Vector guess = hn::ConvertTo(Lanes(), quotient);
         const Vector rest = hn::Sub(dividend, hn::Mul(guess, divisor));

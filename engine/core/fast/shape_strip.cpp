@@ -134,6 +134,8 @@ ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, co
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
     ShapeWalk walk;
     walk.texels = texels.texels();
+    if (registers.filter != TexelFilter::kBilinear) walk.details = texels.details();
+    walk.filter = registers.filter;
     walk.column_stride = texels.column_stride();
     walk.width = object.width;
     walk.height = object.height;

@@ -69,7 +69,9 @@ struct ShapeStrip {
 
 // What all columns of a view share.
 struct ShapeWalk {
-    const Rgba8* texels = nullptr;  // TexelStore's
+    const Rgba8* texels = nullptr;         // TexelStore's
+    const std::int8_t* details = nullptr;  // TexelStore's; null with the bilinear filter
+    TexelFilter filter = TexelFilter::kBilinear;
     std::int32_t column_stride = 0;
     std::int32_t width = 0;  // of the captured pictures
     std::int32_t height = 0;

@@ -35,6 +35,7 @@ HWY_INLINE SamplePlace sample_place(const ShapeWalk& walk, const ShapePictureCol
 struct Sample {
     TexelWeights weights;
     TexelQuads texels;
+    Vector detail;  // codes, q6; 0 with the bilinear filter
 };
 
 // Where both pictures are looked at for a surface.
@@ -78,7 +79,7 @@ HWY_INLINE Vector weight_of_second(const ShapeColumn& column, Vector surface, La
 
 // Inside of the object: where every texel of both pictures is opaque, resolve(mix()) is a mean of eight texels whose
 // weights are 64 * 256 together.
-HWY_INLINE Vector opaque_colour(const Sample& first, const Sample& second, Vector weight) {
+HWY_INLINE Vector opaque_colour(const Sample& first, const Sample& second, Vector weight, bool has_detail) {
     const Vector half = number(1 << 13);
     Channels sum{half, half, half, half};
     const auto add = [&](const Sample& sample, Vector share) {  // of 256, in both halves of 32 bits
@@ -88,6 +89,17 @@ HWY_INLINE Vector opaque_colour(const Sample& first, const Sample& second, Vecto
     const Vector share = hn::Mul(weight, number(0x10001));
     add(first, hn::Sub(number(256 * 0x10001), share));
     add(second, share);
+    if (has_detail) {
+        // Sums are of 64 * 256 weights and details of 64.
+        const Vector detail =
+            hn::Add(hn::ShiftLeft<8>(first.detail), hn::Mul(hn::Sub(second.detail, first.detail), weight));
+        const auto add_detail = [&](Vector& c) {
+            c = hn::Min(hn::Max(hn::Add(c, detail), half), number((255 << 14) + (1 << 13)));
+        };
+        add_detail(sum.r);
+        add_detail(sum.g);
+        add_detail(sum.b);
+    }
     return packed(hn::ShiftRight<14>(sum.r), hn::ShiftRight<14>(sum.g), hn::ShiftRight<14>(sum.b), number(255));
 }
 
@@ -96,10 +108,15 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& colu
                                   Vector met, LaneMask requested) {
     const Vector zero = hn::Zero(Lanes());
     // The texels' border stands in for the clamps of section 7.
-    const TexelGrid grid{reinterpret_cast<const std::int32_t*>(walk.texels), walk.column_stride, walk.height};
+    const TexelGrid grid{reinterpret_cast<const std::int32_t*>(walk.texels), walk.details, walk.column_stride,
+                         walk.height};
+    const bool has_detail = walk.details != nullptr;
     const auto sample = [&](const SamplePlace& of, const ShapePictureColumn& picture) {
-        return Sample{texel_weights(hn::And(of.x_q3, number(7)), hn::And(of.y_q3, number(7))),
-                      fetch(grid, picture.start, of.x_q3, of.y_q3, of.exists)};
+        const Vector x = hn::And(of.x_q3, number(7));
+        const Vector y = hn::And(of.y_q3, number(7));
+        Sample taken{texel_weights(x, y), fetch(grid, picture.start, of.x_q3, of.y_q3, of.exists), zero};
+        if (has_detail) taken.detail = detail_codes(walk.filter, taken.texels, taken.weights, x, y);
+        return taken;
     };
     const LaneMask first_exists = place.first.exists;
     const LaneMask second_exists = place.second.exists;
@@ -110,7 +127,7 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& colu
     const Vector alphas = hn::Or(hn::And(all_bits(first.texels), all_bits(second.texels)), number(0x00FFFFFF));
     if (HWY_LIKELY(hn::AllTrue(Lanes(), hn::Or(hn::Not(requested), hn::And(both, hn::Eq(alphas, number(-1))))))) {
         surface.shown = both;
-        surface.colour = opaque_colour(first, second, weight_of_second(column, met, requested));
+        surface.colour = opaque_colour(first, second, weight_of_second(column, met, requested), has_detail);
         return surface;
     }
 
@@ -122,8 +139,12 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& colu
     const Vector weight =
         hn::IfThenElse(both, weight_of_second(column, met, requested), hn::IfThenZeroElse(first_exists, number(256)));
     const auto mixed = [&](Vector f, Vector s) { return hn::Add(hn::ShiftLeft<8>(f), hn::Mul(hn::Sub(s, f), weight)); };
+    const auto detail = [](const Channels& sum, const Sample& of) {
+        return hn::ShiftRight<6>(hn::Mul(sum.a, of.detail));
+    };
     surface.colour = resolve_lanes({mixed(first_sum.r, second_sum.r), mixed(first_sum.g, second_sum.g),
-                                    mixed(first_sum.b, second_sum.b), mixed(first_sum.a, second_sum.a)});
+                                    mixed(first_sum.b, second_sum.b), mixed(first_sum.a, second_sum.a)},
+                                   mixed(detail(first_sum, first), detail(second_sum, second)));
     return surface;
 }
 

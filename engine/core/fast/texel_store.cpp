@@ -1,5 +1,6 @@
 #include "engine/core/fast/texel_store.hpp"
 
+#include "engine/core/definition/texel_detail.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/object/yuv.hpp"
 
@@ -33,16 +34,20 @@ Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t
         if (size > std::numeric_limits<std::int32_t>::max()) return too_many_texels(object.name);
     }
     store.texels_.resize(static_cast<std::size_t>(size));
+    store.details_.resize(static_cast<std::size_t>(size) + TexelLayout::kLeastColumn);
     store.spans_.resize(object.pictures.size() * static_cast<std::size_t>(object.width));
 
     for_each_index(object.pictures.size(), [&](std::size_t p) {
         const PlanarPicture& picture = object.pictures[p];
         if (picture.empty()) return;
         for (int column = 0; column < object.width; ++column) {
-            Rgba8* texel = store.texels_.data() + store.column_start(static_cast<int>(p), column);
+            const std::int32_t start = store.column_start(static_cast<int>(p), column);
+            Rgba8* texel = store.texels_.data() + start;
+            std::int8_t* detail = store.details_.data() + start;
             RowSpan span;
             for (int row = 0; row < object.height; ++row) {
                 texel[row] = rgba_at(picture, column, row);
+                detail[row] = texel_detail_at(picture, column, row);
                 if (texel[row].a == 0) continue;
                 if (span.end == 0) span.begin = row;
                 span.end = row + 1;
@@ -64,13 +69,14 @@ Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t
 
 std::int64_t TexelStore::bytes_of_pictures(int width, int height, std::int64_t count) {
     const std::int64_t texels = TexelLayout{width, height, {}}.picture_texels();
-    const std::int64_t per_picture = texels * std::int64_t{sizeof(Rgba8)} + width * std::int64_t{sizeof(RowSpan)} +
-                                     std::int64_t{sizeof(std::int32_t)};
+    const std::int64_t per_picture =
+        texels * std::int64_t{kTexelBytes} + width * std::int64_t{sizeof(RowSpan)} + std::int64_t{sizeof(std::int32_t)};
     return count * per_picture;
 }
 
 std::int64_t TexelStore::memory_bytes() const {
-    const std::size_t fixed = texels_.capacity() * sizeof(Rgba8) + spans_.capacity() * sizeof(RowSpan) +
+    const std::size_t fixed = texels_.capacity() * sizeof(Rgba8) + details_.capacity() +
+                              spans_.capacity() * sizeof(RowSpan) +
                               layout_.picture_start.capacity() * sizeof(std::int32_t);
     return static_cast<std::int64_t>(fixed) + (coded_ != nullptr ? coded_->decoded_bytes() : 0);
 }

@@ -7,7 +7,8 @@
 // Layout: texel (column, row) of picture p stands at texels()[column_start(p, column) + row], and
 // column_start(p, column + 1) = column_start(p, column) + column_stride(). Every picture has a border one texel wide
 // that repeats its rim (column -1 and `width`, row -1 and `height`), so that bilinear reads need no clamps. texels()[0]
-// is transparent and belongs to no picture: the place that lanes without a ray read.
+// is transparent and belongs to no picture: the place that lanes without a ray read. details() holds each texel's
+// detail (definition/texel_detail.hpp) at the same index.
 //
 // Pictures that the object holds only coded are decoded as far as they are needed, and given back when there are too
 // many (coded_texels.hpp).
@@ -62,6 +63,7 @@ public:
     [[nodiscard]] bool is_coded() const { return coded_ != nullptr; }
 
     [[nodiscard]] const Rgba8* texels() const { return coded_ != nullptr ? coded_->texels() : texels_.data(); }
+    [[nodiscard]] const std::int8_t* details() const { return coded_ != nullptr ? coded_->details() : details_.data(); }
     [[nodiscard]] std::int32_t column_start(int picture, int column) const {
         return layout_.column_start(picture, column);
     }
@@ -74,6 +76,7 @@ private:
     TexelLayout layout_;
     std::vector<RowSpan> spans_;
     std::vector<Rgba8> texels_;
+    std::vector<std::int8_t> details_;
     std::unique_ptr<CodedTexels> coded_;
 };
 

@@ -91,7 +91,7 @@ Result<ConformanceReport> check_conformance(RaySpaceObject object, int views, st
         constexpr Pose kPoses[] = {Pose::upright, Pose::on_ring, Pose::upright, Pose::tilted};
         const Pose pose = kPoses[n % 4];
         const Camera camera = random_camera(object, random, pose);
-        const Result<ViewRegisters> registers = prepare_view(object, camera);
+        const Result<ViewRegisters> registers = prepare_view(object, camera, static_cast<TexelFilter>(n % 3));
         if (!registers) return registers.error();
         Image<Rgba8> defined(camera.width, camera.height);
         Image<Rgba8> rendered(camera.width, camera.height);

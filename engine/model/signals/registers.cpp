@@ -18,6 +18,11 @@ Result<BoardView> board_view(const engine::ViewRegisters& registers, int object)
             "view: the camera is tilted, and the board draws upright views only (every view column a vertical "
             "plane of rays); make the camera upright and move its principal point, or render it with rs-engine render"};
     }
+    if (registers.filter != engine::TexelFilter::kBilinear) {
+        return Error{
+            "view: it asks for the sharp or the smooth filter, and the board samples bilinearly; prepare it "
+            "with the bilinear filter, or render it with rs-engine render"};
+    }
     if (registers.planes.size() > static_cast<std::size_t>(kMostPlanes)) {
         return Error{"view: its object has " + std::to_string(registers.planes.size()) +
                      " reference planes, more than the board's " + std::to_string(kMostPlanes)};

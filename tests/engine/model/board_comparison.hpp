@@ -40,7 +40,8 @@ inline void compare_random_views(Board& board, const RaySpaceObject& object, con
     std::vector<engine::ViewRegisters> registers;
     std::vector<std::vector<BoardView>> cycles(2);
     for (int v = 0; v < 20; ++v) {
-        const Result<engine::ViewRegisters> prepared = prepare_view(object, random_upright(random, most_px));
+        const Result<engine::ViewRegisters> prepared =
+            prepare_view(object, random_upright(random, most_px), engine::TexelFilter::kBilinear);
         ASSERT_TRUE(prepared.ok()) << prepared.error().message;
         const Result<BoardView> view = board.view(*slot, *prepared);
         ASSERT_TRUE(view.ok()) << view.error().message;

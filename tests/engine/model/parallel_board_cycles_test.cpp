@@ -15,7 +15,8 @@ namespace {
 constexpr int kViews = 5;
 
 engine::ViewRegisters view_of(const RaySpaceObject& object, int v, int width, int height) {
-    return *prepare_view(object, test::upright_at(0.7 * v, 3.3, 0.1, 0.95, width, height));
+    return *prepare_view(object, test::upright_at(0.7 * v, 3.3, 0.1, 0.95, width, height),
+                         engine::TexelFilter::kBilinear);
 }
 
 Result<BoardRun> drawn_in_parallel(Board& board, const RaySpaceObject& object, int width, int height,
@@ -157,7 +158,8 @@ TEST(ParallelBoardCycles, OneHundredMpixelsASecondWithinItsMemory) {
     std::vector<std::vector<BoardView>> cycles(2);
     std::vector<engine::ViewRegisters> registers;
     for (int v = 0; v < 2; ++v) {
-        registers.push_back(*prepare_view(object, test::upright_at(0.35 + v, 3.5, 0, 0.75, 512, 512)));
+        registers.push_back(
+            *prepare_view(object, test::upright_at(0.35 + v, 3.5, 0, 0.75, 512, 512), engine::TexelFilter::kBilinear));
         cycles[static_cast<std::size_t>(v)].push_back(*board.view(*slot, registers.back()));
     }
     const Result<BoardRun> run = board.render(cycles);

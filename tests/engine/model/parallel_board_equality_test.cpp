@@ -76,7 +76,8 @@ TEST(ParallelBoardEquality, ManyObjectsInOneCycleFromTheDisk) {
     for (std::size_t v = 0; v < 26; ++v) {
         const std::size_t n = v * v % 6;
         const int side = v % 5 == 0 ? 200 : 17 + static_cast<int>(v);
-        registers.push_back(*prepare_view(objects[n], test::upright_at(0.3 * double(v), 3.5, 0.1, 0.9, side, 33)));
+        registers.push_back(*prepare_view(objects[n], test::upright_at(0.3 * double(v), 3.5, 0.1, 0.9, side, 33),
+                                          engine::TexelFilter::kBilinear));
         cycles[v / 13].push_back(*board.view(slots[n], registers.back()));
     }
     const Result<BoardRun> run = board.render(cycles);

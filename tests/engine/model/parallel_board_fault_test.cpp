@@ -11,7 +11,7 @@ RaySpaceObject small_for_pipes(std::uint64_t seed, bool coded = true) {
 }
 
 engine::ViewRegisters view_of(const RaySpaceObject& object, int side = 40) {
-    return *prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, side, side));
+    return *prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, side, side), engine::TexelFilter::kBilinear);
 }
 
 void expect_right_in_parallel(Board& board, int slot, const RaySpaceObject& object) {
@@ -49,7 +49,7 @@ TEST(ParallelBoardFaults, RefusesWhatItCannotDrawAndSaysWhy) {
     const RaySpaceObject object = small_for_pipes(1);
     Camera camera = test::upright_at(0.4, 3.5, 0, 0.9, 40, 40);
     camera = look_at_camera({1, 2, 3}, {0, 0, 0}, 0.7, 40, 40);
-    const Result<BoardView> tilted = board_view(*prepare_view(object, camera), 0);
+    const Result<BoardView> tilted = board_view(*prepare_view(object, camera, engine::TexelFilter::kBilinear), 0);
     ASSERT_FALSE(tilted.ok());
     EXPECT_NE(tilted.error().message.find("tilted"), std::string::npos);
 }

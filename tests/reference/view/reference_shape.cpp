@@ -7,19 +7,42 @@ namespace rs::reference {
 namespace {
 
 struct Sum {
-    Whole a = 0, r = 0, g = 0, b = 0;
+    Whole a = 0, r = 0, g = 0, b = 0, detail = 0;
 
     void add(const Sum& other, Whole weight) {
         a += weight * other.a;
         r += weight * other.r;
         g += weight * other.g;
         b += weight * other.b;
+        detail += weight * other.detail;
     }
 };
 
+// Section 7, "Detail".
+Whole detail_of(const PlanarPicture& picture, Whole W, Whole H, Whole i, Whole j, Branches& branches) {
+    if (i == 0 || i == W - 1 || j == 0 || j == H - 1) {
+        branches.take(Branch::no_detail_at_a_border);
+        return 0;
+    }
+    const auto column = static_cast<int>(i), row = static_cast<int>(j);
+    Whole laplacian = 4 * Whole{picture.y(column, row)};
+    bool is_opaque = picture.a(column, row) == 255;
+    for (const auto& [x, y] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+        laplacian -= picture.y(column + x, row + y);
+        is_opaque = is_opaque && picture.a(column + x, row + y) == 255;
+    }
+    if (!is_opaque) {
+        branches.take(Branch::no_detail_beside_transparency);
+        return 0;
+    }
+    const Whole D = (3 * laplacian + 4) >> 3;
+    branches.take(D < -128 || D > 127 ? Branch::detail_clamped : Branch::detail);
+    return clamp(D, -128, 127);
+}
+
 // Section 7; nothing: outside.
-std::optional<Sum> sample(const RaySpaceObject& object, const PictureOfRay& picture, Whole d, Whole y,
-                          Branches& branches) {
+std::optional<Sum> sample(const RaySpaceObject& object, const engine::ViewRegisters& view, const PictureOfRay& picture,
+                          Whole d, Whole y, Branches& branches) {
     const CapturedView& captured = object.views[picture.index];
     const Whole W = object.width, H = object.height;
     const double kPlace = std::log2(std::exp2(22) + std::exp2(29));
@@ -63,6 +86,18 @@ std::optional<Sum> sample(const RaySpaceObject& object, const PictureOfRay& pict
     within(sum.a, 0, 64 * 255, "a of a sample");
     for (const Whole c : {sum.r, sum.g, sum.b}) within(c, 0, 64 * 255 * 255, "r, g, b of a sample");
     branches.take(sum.a == 0 ? Branch::transparent : Branch::seen);
+    if (view.filter == engine::TexelFilter::kBilinear) {
+        branches.take(Branch::bilinear);
+        return sum;
+    }
+    const auto D = [&](Whole i, Whole j) { return detail_of(object.pictures[picture.index], W, H, i, j, branches); };
+    const Whole e = at_most((8 - fx) * (8 - fz) * D(left, top) + (8 - fx) * fz * D(left, bottom) +
+                                fx * (8 - fz) * D(right, top) + fx * fz * D(right, bottom),
+                            13, "e");
+    const bool is_sharp = view.filter == engine::TexelFilter::kSharp;
+    branches.take(is_sharp ? Branch::sharp : Branch::smooth);
+    const Whole g = within(is_sharp ? fx * (8 - fx) + fz * (8 - fz) : Whole{-21}, -21, 32, "g");
+    sum.detail = at_most((sum.a * (at_most(g * e, 18, "g * e") >> 6)) >> 6, 20, "detail of a sample");
     return sum;
 }
 
@@ -84,8 +119,8 @@ std::optional<Shown> shown_at(const RaySpaceObject& object, const engine::ViewRe
     below(y, std::log2(std::exp2(24) + std::exp2(28.3)), "y");
     const Whole weight = ray.weight;
     std::optional<Sum> s1, s2;
-    if (weight < 256) s1 = sample(object, ray.first, d, y, branches);
-    if (weight > 0) s2 = sample(object, ray.second, d, y, branches);
+    if (weight < 256) s1 = sample(object, view, ray.first, d, y, branches);
+    if (weight > 0) s2 = sample(object, view, ray.second, d, y, branches);
     if ((s1 && s1->a == 0) || (s2 && s2->a == 0)) {
         branches.take(Branch::transparent_hides);
         return {};
@@ -124,6 +159,9 @@ ReferencePixel output(const std::optional<Shown>& shown, Branches& branches) {
     branches.take(Branch::shown);
     const auto divided = [&](Whole c) {
         within(c, 0, power(14) * 255 * 255, "r, g, b of a sum");
+        const Whole sharp = below(c + at_most(sum.detail, 28, "detail of a sum"), 31, "c + detail");
+        if (sharp < 0 || sharp > 255 * sum.a) branches.take(Branch::detail_leaves_the_codes);
+        c = clamp(sharp, 0, 255 * sum.a);
         below(c + sum.a / 2, 30, "c + a / 2");
         return static_cast<std::uint8_t>(within(floor_div(c + floor_div(sum.a, 2), sum.a), 0, 255, "R, G, B"));
     };

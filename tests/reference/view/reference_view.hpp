@@ -72,6 +72,13 @@ enum class Branch {
     transparent,
     seen,
     at_a_border,
+    bilinear,
+    sharp,
+    smooth,
+    no_detail_at_a_border,
+    no_detail_beside_transparency,
+    detail,
+    detail_clamped,
     behind_the_viewer,  // 8
     transparent_hides,
     both_pictures,
@@ -90,6 +97,7 @@ enum class Branch {
     over_and_farther,
     none_shows_something,
     alpha_rounds_to_0,
+    detail_leaves_the_codes,
     shown,
     count
 };

@@ -87,6 +87,7 @@ Drawn draw(Random& random, bool with_shape) {
     drawn.fov_rad = 2 * std::atan(random.real(0.5, 1.3) / drawn.distance);
     if (random.whole(0, 4) == 0) enlarge_chroma(drawn.object, random);
     if (random.whole(0, 3) == 0) thin_out(drawn.object, random);
+    if (random.whole(0, 1) == 0) test::make_middle_opaque(drawn.object);
     const double empty_share = random.whole(0, 3) == 0 ? 0.9 : random.real(0, 0.5);
     for (std::size_t r = 0; with_shape && r < drawn.object.rings.size(); ++r) {
         drawn.object.rings[r].shape = test::random_shape(drawn.object, r, random.engine, empty_share);
@@ -158,7 +159,9 @@ bool equals_definition_from_everywhere(Compared& compared, bool with_shape, std:
         if (!valid) return false;
         for (const Pose pose : kPoses) {
             SCOPED_TRACE("pose " + std::to_string(static_cast<int>(pose)));
-            const Result<ViewRegisters> view = engine::prepare_view(drawn.object, camera_of(drawn, random, pose));
+            const auto filter = static_cast<engine::TexelFilter>(random.whole(0, 2));
+            const Result<ViewRegisters> view =
+                engine::prepare_view(drawn.object, camera_of(drawn, random, pose), filter);
             if (view && !equals_definition(drawn.object, *view, compared)) return false;
         }
     }

@@ -121,14 +121,14 @@ std::vector<Pose> extreme_poses() {
 }
 
 Result<ConformanceCase> make_case(const fs::path& folder, const std::string& name, const std::string& covers,
-                                  RaySpaceObject object, const std::vector<Pose>& poses) {
+                                  RaySpaceObject object, const std::vector<Pose>& poses, TexelFilter filter) {
     object.rig_json.clear();  // for other programs only
     ConformanceCase made{name, covers, name + ".rso", {}};
     if (Status status = write_object(folder / made.object, object); !status) return status.error();
     const Result<RaySpaceObject> read = read_object(folder / made.object);
     if (!read) return read.error();
     for (const Pose& pose : poses) {
-        const Result<ViewRegisters> registers = prepare_view(*read, camera_of(*read, pose));
+        const Result<ViewRegisters> registers = prepare_view(*read, camera_of(*read, pose), filter);
         if (!registers) return registers.error();
         Image<Rgba8> picture(registers->width, registers->height);
         Image<std::int32_t> depth(registers->width, registers->height);
@@ -206,6 +206,7 @@ struct Planned {
     const char* covers;
     RaySpaceObject object;
     std::vector<Pose> poses;
+    TexelFilter filter = TexelFilter::kBilinear;
 };
 
 std::vector<Planned> planned_cases() {
@@ -273,13 +274,20 @@ std::vector<Planned> planned_cases() {
                      with_shape(ring(shaped), 32, 0.2), ring_poses(12, 3.5, 8)});
     cases.push_back({"shape-board", "a shape map with board pictures", with_shape(board(shaped, {}), 33, 0.2),
                      random_poses(18, 6, true)});
+    RaySpaceObject middle = with_shape(ring(shaped), 34, 0.2);
+    test::make_middle_opaque(middle);
+    std::vector<Pose> around = random_poses(19, 6, true);
+    for (const Pose& tilted : random_poses(20, 3, false)) around.push_back(tilted);
+    cases.push_back({"shape-sharp", "the sharp filter, upright and tilted", middle, around, TexelFilter::kSharp});
+    cases.push_back({"shape-smooth", "the smooth filter, upright and tilted", middle, around, TexelFilter::kSmooth});
     return cases;
 }
 
 Status make_all(const fs::path& folder, const std::string& edition) {
     VectorSet set{folder, edition, {}};
     for (const Planned& planned : planned_cases()) {
-        Result<ConformanceCase> made = make_case(folder, planned.name, planned.covers, planned.object, planned.poses);
+        Result<ConformanceCase> made =
+            make_case(folder, planned.name, planned.covers, planned.object, planned.poses, planned.filter);
         if (!made) return Error{std::string(planned.name) + ": " + made.error().message};
         int shown = 0;
         int pixels = 0;

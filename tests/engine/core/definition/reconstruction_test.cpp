@@ -8,6 +8,7 @@
 #include "rayspace/geometry/ray_space.hpp"
 #include "tests/support/plane_ray.hpp"
 #include "tests/support/ring_object.hpp"
+#include "tests/support/sphere_object.hpp"
 
 #include <gtest/gtest.h>
 
@@ -149,6 +150,26 @@ TEST(PrepareView, RefusesWhatTheArithmeticCannotHold) {
     camera = good;
     camera.world_from_camera[0] *= 2;
     EXPECT_NE(message(camera).find("rotation"), std::string::npos);
+}
+
+TEST(PrepareView, ChoosesTheFilterByTheSizeOfTheView) {
+    const test::RingObjectOptions options;
+    RaySpaceObject object = test::ring_object(options);
+    const auto filter_at = [&](double scale) {
+        Camera camera = test::ring_rig(options).views[3].camera;
+        camera.fl_x *= scale;
+        camera.fl_y *= scale;
+        return prepare_view(object, camera)->filter;
+    };
+    EXPECT_EQ(filter_at(1), TexelFilter::kBilinear) << "there is no shape map";
+    object.rings[0].shape = test::empty_shape(test::ring_rig(options), object.rings[0], 2, 16, 16);
+    EXPECT_EQ(filter_at(3), TexelFilter::kSharp);
+    EXPECT_EQ(filter_at(0.96), TexelFilter::kSharp);
+    EXPECT_EQ(filter_at(0.94), TexelFilter::kBilinear);
+    EXPECT_EQ(filter_at(0.76), TexelFilter::kBilinear);
+    EXPECT_EQ(filter_at(0.74), TexelFilter::kSmooth);
+    EXPECT_EQ(prepare_view(object, test::ring_rig(options).views[3].camera, TexelFilter::kSmooth)->filter,
+              TexelFilter::kSmooth);
 }
 
 TEST(PrepareView, TakesTheRingNearestInElevation) {

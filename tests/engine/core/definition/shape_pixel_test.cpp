@@ -94,7 +94,8 @@ TEST(ShapeSample, FallsWhereFloatingPointProjectionSays) {
             const auto y_q16 = static_cast<std::int32_t>(std::lround(std::ldexp(point.y, 16)));
             for (const ShapePicture& picture : {setup.first, setup.second}) {
                 const glm::dvec3 pixel = rig.views[static_cast<std::size_t>(picture.view)].camera.project(point);
-                const SampleSum sum = sample_picture(object, picture, d_q3, y_q16, place);
+                const SampleSum sum =
+                    sample_picture(object, picture, d_q3, y_q16, TexelFilter::kBilinear, test::PlainTexels{place});
                 const bool inside = pixel.x > 1 && pixel.x < 119 && pixel.y > 1 && pixel.y < 119;
                 if (!inside) continue;
                 ASSERT_TRUE(sum.exists);

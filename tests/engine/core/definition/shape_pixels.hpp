@@ -12,6 +12,12 @@ namespace rs::test {
 
 using Texel = std::function<Rgba8(int view, int column, int row)>;
 
+// Texels without detail.
+struct PlainTexels {
+    const Texel& color;
+    int detail(int, int, int) const { return 0; }
+};
+
 inline engine::ViewRegisters registers_of(const RaySpaceObject& object, const Camera& camera) {
     const Result<engine::ViewRegisters> registers = engine::prepare_view(object, camera);
     EXPECT_TRUE(registers.ok());
@@ -27,7 +33,7 @@ inline engine::ShapePixel pixel_at(const RaySpaceObject& object, const Camera& c
     const engine::ViewRegisters registers = registers_of(object, camera);
     const engine::ShapeSetup setup = engine::set_up_shape(object, registers, i, j);
     if (!setup.has_ray) return {};
-    return engine::shape_pixel(object, registers, setup, rise_at(registers, i, j), texel);
+    return engine::shape_pixel(object, registers, setup, rise_at(registers, i, j), PlainTexels{texel});
 }
 
 }  // namespace rs::test

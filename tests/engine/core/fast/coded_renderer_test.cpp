@@ -188,6 +188,7 @@ TEST(CodedRenderer, RendersFromSeveralThreadsAtOnce) {
 }
 
 TEST(CodedTexels, AreThoseOfTheUnpackedPicturesWithTheirRims) {
+    bool has_details = false;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
@@ -211,12 +212,17 @@ TEST(CodedTexels, AreThoseOfTheUnpackedPicturesWithTheirRims) {
             for (int x = first; x <= last; ++x) {
                 const Rgba8* const a = coded->texels() + coded->column_start(p, x);
                 const Rgba8* const b = whole->texels() + whole->column_start(p, x);
+                const std::int8_t* const a_details = coded->details() + coded->column_start(p, x);
+                const std::int8_t* const b_details = whole->details() + whole->column_start(p, x);
                 for (int row = -1; row <= object.coded.height; ++row) {
                     ASSERT_EQ(a[row], b[row]) << p << ": " << x << ", " << row;
+                    ASSERT_EQ(a_details[row], b_details[row]) << p << ": " << x << ", " << row;
+                    has_details = has_details || a_details[row] != 0;
                 }
             }
         }
     }
+    EXPECT_TRUE(has_details);
 }
 
 TEST(CodedTexels, DecodeWhatIsAskedForAndKeepToTheBudget) {
@@ -270,13 +276,17 @@ void expect_columns_cover(const RaySpaceObject& object, const ViewRegisters& reg
         const ColumnRange range = columns_read(object, picture);
         return range.first <= column && column <= range.last;
     };
-    const auto texel = [&](int view, int column, int) {
+    const auto read = [&](int view, int column, int) {
         EXPECT_TRUE(covers(setup.first, view, column) || covers(setup.second, view, column))
             << "pixel " << i << ", " << j << " reads column " << column << " of " << view;
         ++counts.reads;
         return Rgba8{1, 2, 3, static_cast<std::uint8_t>(column % 2)};
     };
-    shape_pixel(object, registers, setup, registers.rise_q24(i, j), texel);
+    struct Texels {
+        decltype(read)& color;
+        int detail(int view, int column, int row) const { return color(view, column, row).r; }
+    };
+    shape_pixel(object, registers, setup, registers.rise_q24(i, j), Texels{read});
     const ColumnRange range = columns_read(object, setup.first);
     ++counts.ranges;
     counts.narrow_ranges += range.last - range.first + 1 < object.width / 3;

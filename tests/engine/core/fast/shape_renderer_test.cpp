@@ -45,6 +45,7 @@ test::RingObjectOptions random_options(Random& random) {
 
 RaySpaceObject random_object(Random& random, const test::RingObjectOptions& options) {
     RaySpaceObject object = test::ring_object(options);
+    if (random.whole(0, 1) == 0) test::make_middle_opaque(object);
     const double empty_share = random.whole(0, 3) == 0 ? 0.9 : random.real(0, 0.5);
     for (std::size_t r = 0; r < object.rings.size(); ++r) {
         object.rings[r].shape = test::random_shape(object, r, random.engine, empty_share);
@@ -115,7 +116,8 @@ Seen expect_equal(Pose pose, std::uint64_t first_seed, int objects, int views) {
         for (int v = 0; v < views; ++v) {
             SCOPED_TRACE(v);
             const Camera camera = shape_camera(random, options, pose);
-            const Result<ViewRegisters> registers = prepare_view(object, camera);
+            const auto filter = static_cast<TexelFilter>(v % 3);
+            const Result<ViewRegisters> registers = prepare_view(object, camera, filter);
             if (!registers) continue;
             EXPECT_EQ(registers->upright(), pose != Pose::tilted);
             const int border = random.whole(0, 3);

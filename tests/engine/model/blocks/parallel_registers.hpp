@@ -15,7 +15,8 @@ struct ViewsOfThreeObjects {
                 {.views = 6, .width = 80, .height = 70, .planes = 4, .x_cells = 16, .u_cells = 16, .seed = 3 + n},
                 {.coded = n != 1});
             slots[n] = *board.place(object);
-            views.push_back(*board.view(slots[n], *prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, 40, 20))));
+            views.push_back(*board.view(slots[n], *prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, 40, 20),
+                                                                engine::TexelFilter::kBilinear)));
         }
         file = board.top().registers;
         file.banks[0].views = {views[0], views[0], views[1], views[2]};

@@ -13,7 +13,8 @@ struct PixelRegisters {
         object.rings.front().shape = rs::test::small_shape(object, 0);
         slot = *board.place(object);
         file = board.top().registers;
-        file.banks[0].views = {*board.view(slot, *prepare_view(object, upright_at(0.4, 3.5, 0, 0.9, 40, 30)))};
+        file.banks[0].views = {*board.view(
+            slot, *prepare_view(object, upright_at(0.4, 3.5, 0, 0.9, 40, 30), engine::TexelFilter::kBilinear))};
     }
     RaySpaceObject object;
     Board board;

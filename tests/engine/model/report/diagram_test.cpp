@@ -86,7 +86,8 @@ struct SmallRun {
         : object(rs::test::ring_object({.views = 8, .planes = 4, .x_cells = 16, .u_cells = 16})),
           board(test::prototype()) {
         slot = *board.place(object);
-        view = *board.view(slot, *prepare_view(object, test::upright_at(0, 3.5, 0, 0.9, 20, 20)));
+        view = *board.view(
+            slot, *prepare_view(object, test::upright_at(0, 3.5, 0, 0.9, 20, 20), engine::TexelFilter::kBilinear));
     }
     RaySpaceObject object;
     Board board;

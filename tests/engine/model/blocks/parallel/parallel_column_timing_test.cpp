@@ -24,7 +24,8 @@ struct ColumnRegisters {
         if (shape) object.rings.front().shape = rs::test::small_shape(object, 0);
         slot = *board.place(object);
         file = board.top().registers;
-        file.banks[0].views = {*board.view(slot, *prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, width, 20)))};
+        file.banks[0].views = {*board.view(slot, *prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, width, 20),
+                                                               engine::TexelFilter::kBilinear))};
     }
     RaySpaceObject object;
     Board board;
