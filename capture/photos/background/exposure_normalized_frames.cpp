@@ -3,31 +3,16 @@
 #include "capture/opencv/opencv_image.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/parallel_loop.hpp"
-#include "rayspace/image/linear_light.hpp"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 
 namespace rs::capture {
-namespace {
-
-// sRGB codes of linear light divided by `gain`, by code.
-std::array<std::uint8_t, 256> division_table(float gain) {
-    std::array<std::uint8_t, 256> codes{};
-    for (std::size_t code = 0; code < codes.size(); ++code) {
-        codes[code] = srgb8_from_linear(linear_from_srgb8(static_cast<std::uint8_t>(code)) / gain);
-    }
-    codes[255] = 255;  // clipped: the true value is unknown
-    return codes;
-}
-
-}  // namespace
-
 ExposureNormalizedFrames::ExposureNormalizedFrames(std::span<const Image<Rgba8>> frames)
     : frames_(frames), code_maps_(frames.size()) {
     RS_CHECK(!frames.empty());
-    for (CodeMap& map : code_maps_) map.fill(division_table(1));
+    for (CodeMap& map : code_maps_) map.fill(exposure_division_table(1));
     smooth_.resize(index_of(0, height()));
     constexpr int kBand_px = 32;
     for_each_index((height() + kBand_px - 1) / kBand_px, [&](int band) {
@@ -62,7 +47,8 @@ bool ExposureNormalizedFrames::normalize(ConstImageView<Rgba8> background, Const
     if (std::max({change(&LinearRgb::r), change(&LinearRgb::g), change(&LinearRgb::b)}) < min_change) return false;
     const std::vector<CodeMap> before = code_maps_;
     for (std::size_t i = 0; i < frames_.size(); ++i) {
-        code_maps_[i] = {division_table(gains[i].r), division_table(gains[i].g), division_table(gains[i].b)};
+        code_maps_[i] = {exposure_division_table(gains[i].r), exposure_division_table(gains[i].g),
+                         exposure_division_table(gains[i].b)};
     }
     return code_maps_ != before;
 }

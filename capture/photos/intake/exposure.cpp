@@ -51,4 +51,13 @@ LinearRgb exposure_gain(ConstImageView<Rgba8> photo, ConstImageView<LinearRgb> p
     return {median_gain(r, sampled), median_gain(g, sampled), median_gain(b, sampled)};
 }
 
+std::array<std::uint8_t, 256> exposure_division_table(float gain) {
+    std::array<std::uint8_t, 256> codes{};
+    for (std::size_t code = 0; code < codes.size(); ++code) {
+        codes[code] = srgb8_from_linear(linear_from_srgb8(static_cast<std::uint8_t>(code)) / gain);
+    }
+    codes[255] = 255;
+    return codes;
+}
+
 }  // namespace rs::capture

@@ -53,7 +53,7 @@ Result<ChosenSegmenter> by_masks(const SegmenterRequest& request, const Intake& 
     if (!masks) return masks.error();
     ChosenSegmenter chosen;
     chosen.notes = masks->notes();
-    chosen.segmenter = std::make_unique<MaskFolderSegmenter>(std::move(*masks), intake.folder);
+    chosen.segmenter = std::make_shared<MaskFolderSegmenter>(std::move(*masks), intake.folder);
     chosen.kind = SegmenterKind::kMasks;
     chosen.reason = "--masks";
     chosen.background_share = 0;
@@ -63,7 +63,7 @@ Result<ChosenSegmenter> by_masks(const SegmenterRequest& request, const Intake& 
 Result<ChosenSegmenter> by_alpha(const SegmenterRequest& request) {
     if (Status status = refuse_shadow(request, SegmenterKind::kAlpha); !status) return status.error();
     ChosenSegmenter chosen;
-    chosen.segmenter = std::make_unique<AlphaSegmenter>();
+    chosen.segmenter = std::make_shared<AlphaSegmenter>();
     chosen.reason = "the photos have transparent pixels";
     chosen.background_share = 0;
     return chosen;
@@ -109,16 +109,16 @@ Result<ChosenSegmenter> by_network(const SegmenterRequest& request, const Intake
         if (keeps_shadow || !region.empty()) background = background_segmenter(*model, intake.folder, request);
     }
     if (region.empty()) {
-        chosen.segmenter = std::make_unique<NetworkSegmenter>(std::move(*masks));
+        chosen.segmenter = std::make_shared<NetworkSegmenter>(std::move(*masks));
     } else {
-        auto fused = std::make_unique<FusedSegmenter>(std::move(*masks), background, std::move(region));
+        auto fused = std::make_shared<FusedSegmenter>(std::move(*masks), background, std::move(region));
         chosen.background_share = fused->background_share();
         chosen.notes.push_back("the background model decides in " + percent(chosen.background_share) +
                                " of the image, where the network keeps static background; the network elsewhere");
         chosen.segmenter = std::move(fused);
     }
     if (keeps_shadow) {
-        chosen.segmenter = std::make_unique<ShadowKeepingSegmenter>(std::move(chosen.segmenter), background);
+        chosen.segmenter = std::make_shared<ShadowKeepingSegmenter>(std::move(chosen.segmenter), background);
     }
     return chosen;
 }
@@ -126,11 +126,11 @@ Result<ChosenSegmenter> by_network(const SegmenterRequest& request, const Intake
 Result<ChosenSegmenter> by_background(const SegmenterRequest& request, const Intake& intake,
                                       const BackgroundModel& model) {
     ChosenSegmenter chosen;
-    chosen.segmenter = std::make_unique<BackgroundModelSegmenter>(model, intake.folder.width, intake.folder.height,
-                                                                  request.parameters.foreground);
+    const std::shared_ptr<const BackgroundModelSegmenter> background =
+        background_segmenter(model, intake.folder, request);
+    chosen.segmenter = background;
     if (request.shadow == ShadowHandling::kKeep) {
-        chosen.segmenter = std::make_unique<ShadowKeepingSegmenter>(
-            std::move(chosen.segmenter), background_segmenter(model, intake.folder, request));
+        chosen.segmenter = std::make_shared<ShadowKeepingSegmenter>(background, background);
     }
     chosen.kind = SegmenterKind::kBackground;
     chosen.reason = request.kind == SegmenterKind::kBackground ? "--segmenter"
@@ -146,7 +146,7 @@ Result<ChosenSegmenter> by_chroma_key(const SegmenterRequest& request, const Bac
     ChosenSegmenter chosen;
     std::vector<Rgba8> keys = model.key_colours;
     if (request.background.colour || keys.empty()) keys.insert(keys.begin(), model.colour);
-    chosen.segmenter = std::make_unique<ChromaKeySegmenter>(std::move(keys), request.parameters.foreground);
+    chosen.segmenter = std::make_shared<ChromaKeySegmenter>(std::move(keys), request.parameters.foreground);
     chosen.kind = SegmenterKind::kChromaKey;
     chosen.reason = "--segmenter";
     chosen.background = model.kind;

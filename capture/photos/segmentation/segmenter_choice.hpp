@@ -40,7 +40,7 @@ struct SegmenterRequest {
 };
 
 struct ChosenSegmenter {
-    std::unique_ptr<Segmenter> segmenter;
+    std::shared_ptr<const Segmenter> segmenter;
     SegmenterKind kind = SegmenterKind::kAlpha;          ///< not kAuto
     std::string reason;                                  ///< why, for people: "the photos have transparent pixels"
     BackgroundKind background = BackgroundKind::kAlpha;  ///< as estimated; kAlpha if none was needed

@@ -65,7 +65,7 @@ Image<std::uint8_t> estimate_shadow(ConstImageView<Rgba8> photo, ConstImageView<
     return shadow;
 }
 
-ShadowKeepingSegmenter::ShadowKeepingSegmenter(std::unique_ptr<Segmenter> segmenter,
+ShadowKeepingSegmenter::ShadowKeepingSegmenter(std::shared_ptr<const Segmenter> segmenter,
                                                std::shared_ptr<const BackgroundModelSegmenter> background)
     : segmenter_(std::move(segmenter)), background_(std::move(background)) {
     RS_CHECK(segmenter_ != nullptr && background_ != nullptr);

@@ -18,13 +18,13 @@ Image<std::uint8_t> estimate_shadow(ConstImageView<Rgba8> photo, ConstImageView<
 /// Adds the shadow layer to what another segmenter finds.
 class ShadowKeepingSegmenter : public Segmenter {
 public:
-    ShadowKeepingSegmenter(std::unique_ptr<Segmenter> segmenter,
+    ShadowKeepingSegmenter(std::shared_ptr<const Segmenter> segmenter,
                            std::shared_ptr<const BackgroundModelSegmenter> background);
     [[nodiscard]] std::string name() const override { return segmenter_->name(); }
     [[nodiscard]] Result<Segmentation> segment(const TurnPhoto& photo) const override;
 
 private:
-    std::unique_ptr<Segmenter> segmenter_;
+    std::shared_ptr<const Segmenter> segmenter_;
     std::shared_ptr<const BackgroundModelSegmenter> background_;
 };
 

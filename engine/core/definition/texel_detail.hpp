@@ -4,8 +4,8 @@
 //
 // With f the fraction of a texel between two pixels, cubic interpolation is linear interpolation minus f (1 - f) / 2
 // times the interpolated second differences (Keys 1981, a = -1/2). The detail of a pixel is its negated second
-// difference, horizontal and vertical together, of luma alone, and 3/2 as strong: what blending two photos loses of
-// their sharpness is included. Subtracting a third of it is a low-pass filter: weights 1/2 and four times 1/8.
+// difference, horizontal and vertical together, of luma alone, and 5/4 as strong, since blending two photos blurs, too.
+// Subtracting 2/5 of it is a low-pass filter: weights 1/2 and four times 1/8.
 
 #include "engine/core/definition/view_registers.hpp"
 #include "rayspace/object/ray_space_object.hpp"
@@ -15,9 +15,9 @@
 
 namespace rs::engine {
 
-/// The detail of a pixel from its luma and its four neighbors' luma, each 0..255: 3/8 of the negated Laplacian.
+/// The detail of a pixel from its luma and its four neighbors' luma, each 0..255: 5/16 of the negated Laplacian.
 constexpr std::int8_t texel_detail(int luma, int left, int right, int above, int below) {
-    return static_cast<std::int8_t>(std::clamp((3 * (4 * luma - left - right - above - below) + 4) >> 3, -128, 127));
+    return static_cast<std::int8_t>(std::clamp((5 * (4 * luma - left - right - above - below) + 8) >> 4, -128, 127));
 }
 
 /// The detail of a stored pixel: 0 on the border of the image, and where the pixel or a neighbor is not opaque.
@@ -38,7 +38,7 @@ inline std::int8_t texel_detail_at(const PlanarPicture& picture, int column, int
 }
 
 /// Strength of the smooth filter, 1/64.
-inline constexpr int kSmoothing = 21;
+inline constexpr int kSmoothing = 26;
 
 /// What a filter adds to a bilinear sample at fx, fy eighths between four texels.
 /// \param alpha_sum   sum of weight * alpha over the four texels, 0 .. 64 * 255

@@ -35,7 +35,7 @@ Whole detail_of(const PlanarPicture& picture, Whole W, Whole H, Whole i, Whole j
         branches.take(Branch::no_detail_beside_transparency);
         return 0;
     }
-    const Whole D = (3 * laplacian + 4) >> 3;
+    const Whole D = (5 * laplacian + 8) >> 4;
     branches.take(D < -128 || D > 127 ? Branch::detail_clamped : Branch::detail);
     return clamp(D, -128, 127);
 }
@@ -96,7 +96,7 @@ std::optional<Sum> sample(const RaySpaceObject& object, const engine::ViewRegist
                             13, "e");
     const bool is_sharp = view.filter == engine::TexelFilter::kSharp;
     branches.take(is_sharp ? Branch::sharp : Branch::smooth);
-    const Whole g = within(is_sharp ? fx * (8 - fx) + fz * (8 - fz) : Whole{-21}, -21, 32, "g");
+    const Whole g = within(is_sharp ? fx * (8 - fx) + fz * (8 - fz) : Whole{-26}, -26, 32, "g");
     sum.detail = at_most((sum.a * (at_most(g * e, 18, "g * e") >> 6)) >> 6, 20, "detail of a sample");
     return sum;
 }

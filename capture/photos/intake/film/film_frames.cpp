@@ -98,23 +98,14 @@ public:
         const float change = std::max({std::abs(gain.r - 1), std::abs(gain.g - 1), std::abs(gain.b - 1)});
         largest_change_ = std::max(largest_change_, change);
         if (change < kNegligible) return;
-        const std::array<Codes, 3> codes{codes_of(gain.r), codes_of(gain.g), codes_of(gain.b)};
-        for (Rgba8& p : frame.pixels()) p = {codes[0][p.r], codes[1][p.g], codes[2][p.b], p.a};
+        const auto red = exposure_division_table(gain.r);
+        const auto green = exposure_division_table(gain.g);
+        const auto blue = exposure_division_table(gain.b);
+        for (Rgba8& p : frame.pixels()) p = {red[p.r], green[p.g], blue[p.b], p.a};
     }
     [[nodiscard]] float largest_change() const { return largest_change_; }
 
 private:
-    using Codes = std::array<std::uint8_t, 256>;
-
-    static Codes codes_of(float gain) {
-        Codes codes{};
-        for (std::size_t code = 0; code < codes.size(); ++code) {
-            codes[code] = srgb8_from_linear(linear_from_srgb8(static_cast<std::uint8_t>(code)) / gain);
-        }
-        codes[255] = 255;  // clipped: the true value is unknown
-        return codes;
-    }
-
     const Image<LinearRgb>& mean_;
     Image<std::uint8_t> static_mask_;
     float largest_change_ = 0;

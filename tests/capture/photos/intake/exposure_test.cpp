@@ -124,5 +124,15 @@ TEST(ExposureNormalizedFrames, SmoothEqualsItsDefinitionEverywhere) {
     }
 }
 
+TEST(ExposureDivisionTable, DividesLinearLightAndKeepsClippedCodes) {
+    const auto half = exposure_division_table(2);
+    EXPECT_EQ(half[0], 0);
+    EXPECT_EQ(half[188], 137);  // linear 0.503 and 0.251
+    EXPECT_EQ(half[255], 255);
+    const auto same = exposure_division_table(1);
+    for (std::size_t code = 0; code < same.size(); ++code) EXPECT_EQ(same[code], code);
+    EXPECT_EQ(exposure_division_table(0.25F)[200], 255);
+}
+
 }  // namespace
 }  // namespace rs::capture

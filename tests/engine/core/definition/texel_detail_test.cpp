@@ -15,10 +15,10 @@ PlanarPicture opaque_picture(int width, int height) {
     return picture;
 }
 
-TEST(TexelDetail, IsThreeEighthsOfTheNegatedLaplacianRoundedAndClamped) {
+TEST(TexelDetail, IsFiveSixteenthsOfTheNegatedLaplacianRoundedAndClamped) {
     EXPECT_EQ(texel_detail(100, 100, 100, 100, 100), 0);
-    EXPECT_EQ(texel_detail(108, 100, 100, 100, 100), 12);
-    EXPECT_EQ(texel_detail(100, 101, 100, 100, 100), 0);  // -3/8
+    EXPECT_EQ(texel_detail(108, 100, 100, 100, 100), 10);
+    EXPECT_EQ(texel_detail(100, 101, 100, 100, 100), 0);  // -5/16
     EXPECT_EQ(texel_detail(100, 102, 100, 100, 100), -1);
     EXPECT_EQ(texel_detail(255, 0, 0, 0, 0), 127);
     EXPECT_EQ(texel_detail(0, 255, 255, 255, 255), -128);
@@ -27,8 +27,8 @@ TEST(TexelDetail, IsThreeEighthsOfTheNegatedLaplacianRoundedAndClamped) {
 TEST(TexelDetail, IsZeroOnTheBorderAndBesideTransparency) {
     PlanarPicture picture = opaque_picture(5, 4);
     picture.y(2, 2) = 140;
-    EXPECT_EQ(texel_detail_at(picture, 2, 2), 60);
-    EXPECT_EQ(texel_detail_at(picture, 1, 2), -15);
+    EXPECT_EQ(texel_detail_at(picture, 2, 2), 50);
+    EXPECT_EQ(texel_detail_at(picture, 1, 2), -12);
     EXPECT_EQ(texel_detail_at(picture, 2, 3), 0);
     EXPECT_EQ(texel_detail_at(picture, 0, 2), 0);
     for (const auto& [column, row] : {std::pair{2, 2}, {1, 2}, {3, 2}, {2, 1}, {2, 3}}) {
@@ -37,20 +37,20 @@ TEST(TexelDetail, IsZeroOnTheBorderAndBesideTransparency) {
         EXPECT_EQ(texel_detail_at(soft, 2, 2), 0) << column << " " << row;
     }
     picture.a(1, 1) = 0;  // a diagonal neighbor
-    EXPECT_EQ(texel_detail_at(picture, 2, 2), 60);
+    EXPECT_EQ(texel_detail_at(picture, 2, 2), 50);
 }
 
 // Of luma that is quadratic in x, cubic interpolation is exact. Along one axis the sharp filter brings bilinear
-// interpolation three quarters of the way to it: 3/2 of the mean of both axes' parts, of which one is 0.
-TEST(SampleDetail, BringsALineThreeQuartersOfTheWayToCubicInterpolation) {
+// interpolation five eighths of the way to it: 5/4 of the mean of both axes' parts, of which one is 0.
+TEST(SampleDetail, BringsALineFiveEighthsOfTheWayToCubicInterpolation) {
     constexpr double kCurvature = 16;  // luma = kCurvature / 2 * x * x
-    constexpr int kDetail = -6;        // 3/8 of it, negated
+    constexpr int kDetail = -5;        // 5/16 of it, negated
     constexpr int kOpaque = 64 * 255;
     for (int fx = 0; fx < 8; ++fx) {
         const double x = fx / 8.0;
         const double missing = kCurvature / 2 * (x * x - x);  // exact - bilinear between 0 and 1
         const double added = sample_detail(TexelFilter::kSharp, fx, 0, kOpaque, 64 * kDetail) / double{kOpaque};
-        EXPECT_NEAR(added, 0.75 * missing, 1.0 / 64) << fx;
+        EXPECT_NEAR(added, 0.625 * missing, 1.0 / 64) << fx;
     }
 }
 
