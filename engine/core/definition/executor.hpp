@@ -1,6 +1,6 @@
 #pragma once
-// Who draws views of objects: the definition itself, the software core, a board, a graphics processor. All of them give
-// the definition's pictures bit for bit, of what as_drawn() returns. engine/executors/executor_table.hpp lists them.
+// Interface of everything that renders views of objects: the definition, the software core, a board. All give the
+// definition's images of as_drawn(object), bit for bit. engine/executors/executor_table.hpp lists them.
 //
 // traits(), takes(), draws() and as_drawn() may be called from any thread at any time; all else from one thread at a
 // time.
@@ -21,9 +21,9 @@ namespace rs::engine {
 
 struct ExecutorTraits {
     std::string name;
-    bool depth = true;    // gives depth, too
-    bool tilted = true;   // draws views from cameras that are tilted
-    bool filters = true;  // has all filters (TexelFilter); else only kBilinear
+    bool depth = true;    // renders depth
+    bool tilted = true;   // renders views of tilted cameras
+    bool filters = true;  // supports all of TexelFilter; else only kBilinear
     int views_per_cycle = std::numeric_limits<int>::max();
 };
 
@@ -49,18 +49,18 @@ public:
     virtual ~Executor() = default;
 
     [[nodiscard]] virtual const ExecutorTraits& traits() const = 0;
-    // Whether it could hold and draw such an object, if it had nothing else; the error is the reason.
+    // Whether it could load and render such an object if nothing else were loaded; the error is the reason.
     [[nodiscard]] virtual Status takes(const RaySpaceObject& /*object*/) const { return {}; }
-    // Whether it could draw such a view of an object that it takes.
+    // Whether it can render such a view of an object that it takes.
     [[nodiscard]] virtual Status draws(const ViewRegisters& /*registers*/) const { return {}; }
-    // The object that it really draws: boards may hold alpha in fewer bits.
+    // The object as it is rendered: boards may store alpha in fewer bits.
     [[nodiscard]] virtual RaySpaceObject as_drawn(RaySpaceObject object) const { return object; }
 
-    // The object's slot; nothing where there is no room now. Fails where loading failed, with nothing loaded.
+    // The object's slot; nullopt if there is no room now. On an error nothing is loaded.
     virtual Result<std::optional<int>> load(const RaySpaceObject& object) = 0;
-    // The slot is free again; no cycle uses it.
+    // Frees a slot that no cycle uses.
     virtual Status evict(int slot) = 0;
-    // A rendering cycle: one picture per view. Fails as a whole.
+    // A rendering cycle: one image per view. Fails as a whole.
     virtual Result<std::vector<ExecutedView>> render(const std::vector<SlotView>& views) = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Fills a texel store from coded pictures: a column of tiles when one of its columns is first needed. Between views
-// it gives back the pictures that were not used for the longest time, so that the decoded ones keep to a budget.
+// Fills a texel store from compressed pictures: a column of tiles when one of its columns is first needed. Between
+// views, the least recently used pictures are freed, so that the decoded ones stay within a budget.
 
 #include "engine/core/fast/done_flag.hpp"
 #include "engine/core/fast/reserved_memory.hpp"
@@ -19,7 +19,7 @@
 
 namespace rs::engine {
 
-// Where the fast core's texels stand (texel_store.hpp).
+// The layout of the fast core's texels (texel_store.hpp).
 
 // Rows [begin, end) of a column hold all of its texels with alpha above 0; begin == end for an empty column.
 struct RowSpan {
@@ -59,11 +59,11 @@ inline Error too_many_texels(const std::string& name) {
 
 class CodedTexels {
 public:
-    // `budget_bytes`: of samples and texels together. What the views under way need is kept whatever it is.
+    // `budget_bytes`: of samples and texels together. Pictures of views being rendered are kept even beyond it.
     static Result<std::unique_ptr<CodedTexels>> create(std::shared_ptr<const codec::CodedPictures> coded,
                                                        const std::string& name, std::int64_t budget_bytes);
 
-    // Every picture in pages of its own, apart from what texel 0 needs (texel_store.hpp).
+    // Pictures do not share memory pages, nor with texel 0 (texel_store.hpp).
     [[nodiscard]] const TexelLayout& layout() const { return layout_; }
     [[nodiscard]] const Rgba8* texels() const { return texel(0); }
     [[nodiscard]] const std::int8_t* details() const { return detail(0); }
@@ -71,12 +71,12 @@ public:
         return spans_[layout_.span_index(picture, column)];
     }
 
-    // Around every rendered view. ensure() and the reading of texels stand between them.
+    // Called before and after every rendered view; ensure() and reads of texels are allowed only in between.
     void begin_view();
     void end_view();
 
-    // Makes the texels of columns [first, last] of a loaded picture valid, with their rims, and their spans;
-    // 0 <= first <= last < width. May be called from several threads at once.
+    // Makes the texels and details of columns [first, last] of a loaded picture valid, with their borders and spans;
+    // 0 <= first <= last < width. Thread-safe.
     void ensure(int picture, int first, int last);
 
     // Of all pictures.

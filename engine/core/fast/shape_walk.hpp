@@ -1,9 +1,9 @@
 #pragma once
-// The inner loop of the fast core for objects with a shape map: every view column goes down its own line of cells and
-// its own two captured pictures, many rows at once. The fast twin of shape_pixel.hpp; what a lane computes is what
-// shape_pixel() computes, number by number.
+// The inner loop of the fast core for objects with a shape map: each view column follows its own line of cells and its
+// own two captured pictures, many rows at once. The SIMD twin of shape_pixel.hpp: each lane computes the same numbers
+// as shape_pixel().
 //
-// Only for upright views: there one set-up serves a column, and all pixels of a row have the same rise.
+// Upright views only: one set-up serves a column, and all pixels of a row have the same rise.
 
 #include "engine/core/definition/shape_setup.hpp"
 #include "engine/core/definition/view_registers.hpp"
@@ -23,7 +23,7 @@ inline constexpr int kBlockRows = 16;
 
 // ShapePicture and what it needs of CapturedView.
 struct ShapePictureColumn {
-    bool used = false;       // else the column does not look at it
+    bool used = false;       // else the column does not sample it
     std::int32_t start = 0;  // index of texel (0, 0)
     std::int32_t l0_q20 = 0;
     std::int32_t l1_q24 = 0;
@@ -37,12 +37,12 @@ struct ShapePictureColumn {
 
 // ShapeSetup of a view column. One without a ray has no rows.
 struct ShapeColumn {
-    std::int32_t first_row = 0;  // of the view: in no other does it show anything
+    std::int32_t first_row = 0;  // of the view; the column shows nothing outside of first_row .. end_row - 1
     std::int32_t end_row = 0;
     ShapePictureColumn first;
     ShapePictureColumn second;
     std::int32_t weight = 0;
-    bool alone = false;  // one picture answers alone
+    bool alone = false;  // one picture has all the weight
     // No ray of the column marches, and no number of its set-up saturates (engine/RECONSTRUCTION.md, section 6).
     bool level = false;
     // SurfaceColumn and its entries; first_middle: the middle of the first entry's band.
@@ -67,7 +67,7 @@ struct ShapeStrip {
     SurfaceEntries entries;
 };
 
-// What all columns of a view share.
+// Constants of a view.
 struct ShapeWalk {
     const Rgba8* texels = nullptr;         // TexelStore's
     const std::int8_t* details = nullptr;  // TexelStore's; null with the bilinear filter
@@ -89,12 +89,12 @@ struct ShapeWalk {
 
 ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers);
 
-// View columns first_column .. first_column + kStripColumns - 1, those that exist. Ensures the texels that they read.
-// What `strip` was before does not matter, but for its memory, which is used again.
+// Sets up the view columns first_column .. first_column + kStripColumns - 1 that exist, and ensures the texels that
+// they read. The memory of `strip` is reused; its contents are overwritten.
 void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
                         const ShapeWalk& walk, int first_column, ShapeStrip& strip);
 
-// Where the pixels go: row j of the strip to colour + j * colour_stride and, where it is needed, lambda_q20 + j *
+// Destination of the pixels: row j of the strip at colour + j * colour_stride and, unless null, at lambda_q20 + j *
 // lambda_stride.
 struct ShapeWalkOutput {
     Rgba8* colour = nullptr;
@@ -103,12 +103,12 @@ struct ShapeWalkOutput {
     std::ptrdiff_t lambda_stride = 0;
 };
 
-// False on a machine without vectors of 16 bytes; there is nothing to be gained over shape_pixel() then.
+// False on a machine without vectors of 16 bytes, where shape_pixel() is as fast.
 bool can_walk_shape();
 
-// can_walk_shape() must be true. Writes `columns` (1..kStripColumns) pixels of all rows of the view. rise_q24: their
-// rises, and some number each for what the last block of kBlockRows has more. The SIMD code for the machine at hand is
-// chosen at the first call; all choices give the same bytes.
+// Writes `columns` (1..kStripColumns) pixels of all rows of the view. can_walk_shape() must be true. `rise_q24`: the
+// rows' rises, padded to a multiple of kBlockRows. The SIMD target is chosen at the first call; all targets give the
+// same bytes.
 void walk_shape(const ShapeWalk& walk, const ShapeStrip& strip, const std::int32_t* rise_q24, int columns,
                 const ShapeWalkOutput& out);
 

@@ -1,17 +1,16 @@
 #pragma once
-// The captured pictures as the fast core reads them: RGBA, column by column.
+// The captured pictures in the fast core's layout: RGBA, column by column.
 //
-// Converting YUV to RGB is done once per stored pixel instead of once per rendered one. Fetching is nearest, so the two
-// commute and the bits stay the same. Columns are contiguous because the engine walks pictures downwards.
+// YUV is converted to RGB once per stored pixel instead of once per rendered one; the definition converts each texel
+// before it interpolates, so the bits are the same. Columns are contiguous because the engine walks pictures downwards.
 //
-// Layout: texel (column, row) of picture p stands at texels()[column_start(p, column) + row], and
+// Layout: texel (column, row) of picture p is texels()[column_start(p, column) + row], and
 // column_start(p, column + 1) = column_start(p, column) + column_stride(). Every picture has a border one texel wide
-// that repeats its rim (column -1 and `width`, row -1 and `height`), so that bilinear reads need no clamps. texels()[0]
-// is transparent and belongs to no picture: the place that lanes without a ray read. details() holds each texel's
+// that repeats its edge (column -1 and `width`, row -1 and `height`), so that bilinear reads need no clamps.
+// texels()[0] is transparent and belongs to no picture; lanes without a ray read it. details() holds each texel's
 // detail (definition/texel_detail.hpp) at the same index.
 //
-// Pictures that the object holds only coded are decoded as far as they are needed, and given back when there are too
-// many (coded_texels.hpp).
+// Pictures that the object holds only compressed are decoded on demand and freed beyond a budget (coded_texels.hpp).
 
 #include "engine/core/fast/coded_texels.hpp"
 #include "rayspace/base/result.hpp"
@@ -33,12 +32,12 @@ public:
     // or coded pictures cannot be decoded. Pictures that are not loaded take no room and must not be requested.
     static Result<TexelStore> create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes);
 
-    // What unpacked pictures of a size take.
+    // Memory of `count` unpacked pictures of a size.
     static std::int64_t bytes_of_pictures(int width, int height, std::int64_t count);
-    // What this store takes now.
+    // Memory of this store now.
     [[nodiscard]] std::int64_t memory_bytes() const;
 
-    // Texels are read while a Reading lives; several may, in any threads.
+    // Texels may be read only while a Reading exists; several may exist, in any threads.
     class Reading {
     public:
         explicit Reading(CodedTexels* coded) : coded_(coded) {
@@ -59,7 +58,7 @@ public:
     void ensure(int picture, int first, int last) const {
         if (coded_ != nullptr) coded_->ensure(picture, first, last);
     }
-    // True where ensure() may have to decode.
+    // True if ensure() may have to decode.
     [[nodiscard]] bool is_coded() const { return coded_ != nullptr; }
 
     [[nodiscard]] const Rgba8* texels() const { return coded_ != nullptr ? coded_->texels() : texels_.data(); }

@@ -102,6 +102,24 @@ TEST(SharedBoard, WhatTheBoardCannotDrawTheCoreDraws) {
     EXPECT_EQ(module.statistics().views_by_core, before.views_by_core + 2);
 }
 
+TEST(SharedBoard, ABoardWithoutFiltersRendersShapeMapsBilinearly) {
+    DataModule module({}, model::make_simulated_board(*model::read_board_config("parallel"), true));
+    RaySpaceObject shaped = object_of(6);
+    test::make_middle_opaque(shaped);
+    std::mt19937_64 random(7);
+    shaped.rings[0].shape = test::random_shape(shaped, 0, random, 0.1);
+    const auto handle = module.load(shaped);
+    ASSERT_TRUE(handle.ok());
+    const Camera camera = camera_at(1, 3, 40, 36);
+    const auto with = [&](TexelFilter filter) {
+        Image<Rgba8> picture(camera.width, camera.height);
+        reconstruct_scalar(shaped, *prepare_view(shaped, camera, filter), picture);
+        return picture;
+    };
+    EXPECT_TRUE(board_comes_in(module, {*handle, camera}, with(TexelFilter::kBilinear)));
+    EXPECT_NE(with(TexelFilter::kBilinear), with(TexelFilter::kSharp));
+}
+
 TEST(SharedBoard, ALoadThatFailsLeavesTheObjectToTheCore) {
     model::BoardConfig slow = config();
     slow.disk.stall_after_bytes = 1;
