@@ -72,6 +72,19 @@ TEST(WholeWay, AMeshBecomesAnObjectThatGivesItsPicturesBack) {
     const auto view = read_picture(folder / "view.png");
     ASSERT_TRUE(view.ok());
     EXPECT_EQ(view->width(), 80);
+    const auto view_with = [&](const std::string& filter) {
+        run("rs-engine", {"render", in("box.rso"), "--eye", "2,1.5,2", "--size", "80x60", "--filter", filter, "-o",
+                          in("filtered.png"), "-q"});
+        return read_picture(folder / "filtered.png").value();
+    };
+    EXPECT_EQ(view_with("sharp"), *view);  // auto: the view is larger than the pictures
+    EXPECT_EQ(view_with("auto"), *view);
+    EXPECT_NE(view_with("bilinear"), *view);
+    EXPECT_NE(view_with("smooth"), view_with("bilinear"));
+    EXPECT_EQ(test::run_tool(folder.path(), "rs-engine",
+                             {"render", in("box.rso"), "--orbit", "1", "--filter", "soft", "-o", in("x.png")})
+                  .exit_code,
+              2);
     const test::ToolRun above =
         run("rs-engine", {"render", in("box.rso"), "--eye", "0,5,0", "--size", "32x32", "-o", in("above.png"), "-q"});
     EXPECT_NE(above.err.find("the view shows nothing of the object"), std::string::npos) << above.err;
