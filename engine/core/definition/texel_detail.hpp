@@ -40,7 +40,7 @@ inline std::int8_t texel_detail_at(const PlanarPicture& picture, int column, int
 /// Strength of the smooth filter, 1/64.
 inline constexpr int kSmoothing = 26;
 
-/// What a filter adds to a bilinear sample at fx, fy eighths between four texels.
+/// The detail that a filter adds to a bilinear sample at fx, fy eighths between four texels.
 /// \param alpha_sum   sum of weight * alpha over the four texels, 0 .. 64 * 255
 /// \param detail_sum  sum of weight * detail, |.| <= 64 * 128
 /// \return            in the units of SampleSum::r; at most 2^20

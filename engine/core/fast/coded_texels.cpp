@@ -136,7 +136,7 @@ void CodedTexels::convert_tile(int picture, const codec::TilePlace& place) {
     if (place.left + place.width == layout_.width) repeat(layout_.width - 1, layout_.width);
 }
 
-// Of the rows [top, bottom) of a column.
+// Computes the details of the rows [top, bottom) of a column.
 void CodedTexels::find_details(int picture, int column, int top, int bottom) {
     const codec::ConstPlaneViews planes = samples_->planes(picture);
     const auto luma = [&](int x, int y) { return int{planes[0].row(y)[x]}; };
