@@ -49,9 +49,9 @@ public:
     virtual ~Executor() = default;
 
     [[nodiscard]] virtual const ExecutorTraits& traits() const = 0;
-    // Whether it could load and render such an object if nothing else were loaded; the error is the reason.
+    // Success if it could load and render such an object with nothing else loaded; else the reason.
     [[nodiscard]] virtual Status takes(const RaySpaceObject& /*object*/) const { return {}; }
-    // Whether it can render such a view of an object that it takes.
+    // Success if it can render such a view of an object that it takes; else the reason.
     [[nodiscard]] virtual Status draws(const ViewRegisters& /*registers*/) const { return {}; }
     // The object as it is rendered: boards may store alpha in fewer bits.
     [[nodiscard]] virtual RaySpaceObject as_drawn(RaySpaceObject object) const { return object; }

@@ -22,8 +22,8 @@ namespace rs::engine {
 Status substitute_missing_pictures(RaySpaceObject& object);
 
 struct RendererOptions {
-    // Of an object whose pictures are coded: how much of them stays decoded between views, 9 bytes a pixel. A view
-    // keeps what it needs, also beyond.
+    // Memory for decoded pictures that is kept between views, 9 bytes per pixel, of objects whose pictures are
+    // compressed. A view may exceed it while it is rendered.
     std::int64_t decoded_budget_bytes = std::int64_t{256} << 20;
 };
 

@@ -40,7 +40,7 @@ TEST(TexelDetail, IsZeroOnTheBorderAndBesideTransparency) {
     EXPECT_EQ(texel_detail_at(picture, 2, 2), 50);
 }
 
-// Of luma that is quadratic in x, cubic interpolation is exact. Along one axis the sharp filter brings bilinear
+// Cubic interpolation is exact for luma that is quadratic in x. Along one axis the sharp filter brings bilinear
 // interpolation five eighths of the way to it: 5/4 of the mean of both axes' parts, of which one is 0.
 TEST(SampleDetail, BringsALineFiveEighthsOfTheWayToCubicInterpolation) {
     constexpr double kCurvature = 16;  // luma = kCurvature / 2 * x * x
