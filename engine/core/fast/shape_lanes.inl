@@ -135,10 +135,14 @@ struct TexelGrid {
     std::int32_t height;
 };
 
+// The odd halves of one vector's lanes and the even ones of another's.
+HWY_INLINE Vector odd_and_even_halves(Vector odd, Vector even) {
+    return hn::BitCast(Lanes(), hn::OddEven(hn::BitCast(HalfBits(), odd), hn::BitCast(HalfBits(), even)));
+}
+
 // The lower halves of two vectors' lanes in one.
 HWY_INLINE Vector left_and_right(Vector left, Vector right) {
-    return hn::BitCast(Lanes(),
-                       hn::OddEven(hn::BitCast(HalfBits(), hn::ShiftLeft<16>(right)), hn::BitCast(HalfBits(), left)));
+    return odd_and_even_halves(hn::ShiftLeft<16>(right), left);
 }
 
 // Those at places x, y from texel (0, 0) of a picture, whose index is `start`, in eighths of a texel; zero where not
@@ -221,14 +225,11 @@ struct TexelPair {
 };
 
 HWY_INLINE TexelPair texel_pair(Vector left, Vector right) {
-    const auto halves = [](Vector odd, Vector even) {
-        return hn::BitCast(Lanes(), hn::OddEven(hn::BitCast(HalfBits(), odd), hn::BitCast(HalfBits(), even)));
-    };
     const auto first = [](Vector v) { return hn::And(v, number(0x00FF00FF)); };
     const auto second = [](Vector v) { return hn::BitCast(Lanes(), hn::ShiftRight<8>(hn::BitCast(HalfBits(), v))); };
-    const Vector red_green = halves(hn::ShiftLeft<16>(right), left);
-    const Vector blue_alpha =
-        halves(right, hn::BitCast(Lanes(), hn::ShiftRight<16>(hn::BitCast(hn::RebindToUnsigned<Lanes>(), left))));
+    const Vector red_green = left_and_right(left, right);
+    const Vector blue_alpha = odd_and_even_halves(
+        right, hn::BitCast(Lanes(), hn::ShiftRight<16>(hn::BitCast(hn::RebindToUnsigned<Lanes>(), left))));
     return {first(red_green), second(red_green), first(blue_alpha), second(blue_alpha)};
 }
 
